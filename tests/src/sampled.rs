@@ -1,9 +1,11 @@
 //! Samples in vectors against samples one by one.
 
 use eigentol::modes::Family;
+use eigentol::propagation::{Points, ResponseSpread, Sampler, sampled};
+use eigentol::response::{Response, Responses};
 use eigentol::scalar::Instructions;
 use eigentol::tolerance::Sample;
-use eigentol::{Mechanism, MonteCarlo, Study};
+use eigentol::{Error, Mechanism, MonteCarlo, Quantity, Study};
 
 /// How many samples were compared, and how many of them differ in their last bits: those that were solved in vectors.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,8 +42,37 @@ pub fn compare<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
             compared.samples += 1;
             compared.in_vectors += usize::from(own != alone);
         }
+        responses(&study, &format!("{name}, {family:?}"));
     }
     compared
+}
+
+/// Spreads of every quantity of the first mode, in vectors and one by one.
+fn responses<M: Mechanism + Copy>(study: &Study<M>, what: &str) {
+    let quantities = Quantity::ALL.map(|quantity| Response::Mode { mode: 0, quantity });
+    let solved = study.solve().expect("a nominal state");
+    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let (machine, wanted) = (study.mechanism(), quantities.to_vec());
+    let tolerances = study.tolerances().expect("tolerances");
+    let sampler = Sampler::new(Points::Sobol).samples(64).threads(1);
+    let run = |responses: Result<Responses<'_>, Error>| {
+        let samples = sampled(&responses?, &tolerances, &sampler)?;
+        samples.propagation()
+    };
+    let own = run(Responses::side_by_side(machine, at, modes, wanted.clone())).expect("samples");
+    let alone = run(Responses::new(machine, at, modes, wanted)).expect("samples");
+    assert_eq!(own.counts, alone.counts, "{what}");
+    for (own, alone) in own.spreads.iter().zip(&alone.spreads) {
+        assert_eq!(own.is_some(), alone.is_some(), "{what}");
+        let (Some(own), Some(alone)) = (own, alone) else {
+            continue;
+        };
+        let size = alone.mean.value.abs().max(1.0);
+        near(own.mean.value, alone.mean.value, size, what);
+        let sigma = |spread: &ResponseSpread| spread.sigma.map_or(0.0, |sigma| sigma.value);
+        near(sigma(own), sigma(alone), size, what);
+        assert_eq!(own.share, alone.share, "{what}");
+    }
 }
 
 fn near(a: f64, b: f64, scale: f64, what: &str) {

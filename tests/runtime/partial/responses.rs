@@ -1,8 +1,9 @@
-//! Frequencies of undamped modes as responses: sampled side by side where Monte Carlo does so.
+//! Quantities of modes as responses: sampled side by side where Monte Carlo does so.
 
 use eigentol::kernels::SummaryKernels;
 use eigentol::propagation::{Points, Sampler, Samples, sampled};
 use eigentol::response::{Response, Responses};
+use eigentol::sweep::Range;
 use eigentol::tolerance::Distribution;
 use eigentol::{Quantity, Study};
 use proptest::prelude::*;
@@ -78,7 +79,7 @@ fn side_by_side_as_one_by_one() {
             assert_eq!(a.share, b.share);
         }
     }
-    // Responses that are no frequencies, and mechanisms that are not solved side by side.
+    // Another quantity of the mode, a response that is none, and a mechanism that is not solved side by side.
     let growth = Response::Mode {
         mode: 0,
         quantity: Quantity::Growth,
@@ -86,6 +87,9 @@ fn side_by_side_as_one_by_one() {
     let sampler = Sampler::new(Points::Random).samples(64);
     let study = bar();
     let both = study.sample_responses(&[FREQUENCY, growth], &sampler);
+    assert_eq!(how(&both.unwrap()), "side by side");
+    let critical = Response::Critical(Range::new(Bar::omega.any(), 1.0, 6.0));
+    let both = study.sample_responses(&[FREQUENCY, critical], &sampler);
     assert_eq!(how(&both.unwrap()), "one by one");
     let plate = plate().sample_responses(&[FREQUENCY], &sampler);
     assert_eq!(how(&plate.unwrap()), "one by one");

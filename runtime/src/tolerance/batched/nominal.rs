@@ -1,8 +1,7 @@
 //! How the nominal state answers to the design, to first and second order.
 
-use super::statics::between;
 use crate::Equilibrium;
-use crate::algebra::{Lu, Matrix, Vector, all_finite, all_finite_matrix};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, all_finite, all_finite_matrix, form};
 use crate::batched::algebra::Row;
 use crate::kernels::Kernels;
 
@@ -18,20 +17,26 @@ const STRAIGHT: f64 = 0.007;
 pub(super) struct Nominal<'a> {
     pub(super) mechanism: &'a dyn Kernels,
     pub(super) state: &'a Equilibrium,
+    /// Forces have a potential, and there are no constraints.
+    pub(super) potential: bool,
 }
 
 impl Nominal<'_> {
-    /// `dq*/db = -Khat^-1 dg/db` of the varied variables at a state next to an equilibrium.
+    /// `dq*/db = -Khat^-1 dg/db` of the varied variables at a state next to an equilibrium; `None` where `Khat` is not positive
+    /// definite or regular.
     pub(super) fn slopes(&self, q: &[f64], b: &[f64], varied: &[usize]) -> Option<Vec<Vector>> {
         let inputs = &self.state.inputs;
         let (_, stiffness) = self.mechanism.residual_and_stiffness(q, inputs, b);
         let (_, by_design) = self.mechanism.residual_partials(q, inputs, b);
-        let factors = Lu::new(&stiffness)?;
-        let slope = |&j: &usize| {
-            let right = Vector::from_fn(q.len(), |i| -by_design[i][j]);
-            factors.solve(&right)
+        let right = |&j: &usize| Vector::from_fn(q.len(), |i| -by_design[i][j]);
+        let right = varied.iter().map(right);
+        let slopes: Vec<Vector> = if self.potential {
+            let factors = Cholesky::new(&stiffness).ok()?;
+            right.map(|right| factors.solve(&right)).collect()
+        } else {
+            let factors = Lu::new(&stiffness)?;
+            right.map(|right| factors.solve(&right)).collect()
         };
-        let slopes: Vec<Vector> = varied.iter().map(slope).collect();
         slopes
             .iter()
             .all(|slope| all_finite(slope))
@@ -124,4 +129,10 @@ impl Nominal<'_> {
         }
         Some(slopes)
     }
+}
+
+/// A symmetric matrix between the modes.
+pub(super) fn between(matrix: &Matrix, shapes: &Matrix) -> Matrix {
+    let n = shapes.row_count();
+    Matrix::from_fn(n, n, |r, s| form(&shapes[r], matrix, &shapes[s]))
 }

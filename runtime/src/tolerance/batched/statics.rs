@@ -1,9 +1,8 @@
 //! How the nominal equilibrium vouches for those near it.
 
-use super::nominal::Nominal;
-use crate::algebra::{Lu, Matrix, Vector, form};
+use super::nominal::{Nominal, between};
+use crate::algebra::{Lu, Matrix, Vector};
 use crate::batched::algebra::{Row, Square, small};
-use crate::constraints::Structure;
 use crate::eigenproblem::Reference;
 use crate::modes::{Family, free_pairs};
 use crate::{Equilibrium, Modes};
@@ -47,11 +46,8 @@ impl<const N: usize> Statics<N> {
         reach: &[f64],
     ) -> Option<Self> {
         let state = nominal.state;
-        let open = Structure::of(&state.description).open();
-        if let Some(reference) =
-            reference.filter(|_| !open || !state.description.symmetric_stiffness)
-        {
-            return Forces::new(state, &reference.units).map(Self::Forces);
+        if !nominal.potential {
+            return Some(Self::Forces(Forces::new(state, &reference?.units)?));
         }
         let (shapes, lambda) = match modes.family {
             Family::Undamped => (
@@ -124,10 +120,4 @@ fn quadratic_terms<const N: usize>((k, slope): (usize, &Matrix)) -> Square<f64, 
         row.iter_mut().for_each(|slope| *slope *= share);
     }
     terms
-}
-
-/// A symmetric matrix between the modes.
-pub(super) fn between(matrix: &Matrix, shapes: &Matrix) -> Matrix {
-    let n = shapes.row_count();
-    Matrix::from_fn(n, n, |r, s| form(&shapes[r], matrix, &shapes[s]))
 }

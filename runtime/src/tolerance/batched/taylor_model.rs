@@ -96,6 +96,7 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
         let answer = Nominal {
             mechanism: kernels,
             state: nominal,
+            potential: structure.open() && nominal.description.symmetric_stiffness,
         };
         let first = answer.slopes(&nominal.coordinates, &nominal.design, &varied)?;
         let deviations = &Vector::from_fn(p, |i| shifts[i].hypot(tolerances.sigmas()[i]));
