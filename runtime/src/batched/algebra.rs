@@ -29,16 +29,15 @@ pub(crate) fn for_size(n: usize, mut work: impl FnMut(usize)) {
 #[inline(always)]
 pub(crate) fn for_size_up_to<const N: usize>(n: usize, mut work: impl FnMut(usize)) {
     match n {
-        1 if N <= FEW => work(1),
-        2 if N <= FEW => work(2),
-        3 if N <= FEW => work(3),
-        FEW if N <= FEW => work(FEW),
+        1 if N == SMALLEST => work(1),
+        2 if N == SMALLEST => work(2),
+        3 if N == SMALLEST => work(3),
         n => work(n.min(N)),
     }
 }
 
-/// Up to so many unknowns code is compiled for each number.
-const FEW: usize = 4;
+/// The smallest room, in which code is compiled for each number of unknowns but the greatest.
+const SMALLEST: usize = 4;
 
 /// A matrix as one of a small size.
 pub(crate) fn small<const N: usize>(matrix: &Matrix) -> Square<f64, N> {

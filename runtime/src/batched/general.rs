@@ -452,7 +452,8 @@ fn scale<V: Lanes, const N: usize>(n: usize, x: &mut Vector<V, N>) {
     }
 }
 
-/// Keeps the flag where every eigenvalue is clear of all others and their conjugates, and either real or clear of being so.
+/// Keeps the flag where every eigenvalue is clear of all others, and either real or clear of being so: then it is clear of the
+/// conjugates too.
 #[inline(always)]
 fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V {
     let zero = V::constant(0.0);
@@ -468,9 +469,7 @@ fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V 
         for (j, other) in found.iter().enumerate() {
             if i != j {
                 let distance = (own.s - other.s).square();
-                let mirrored = (own.s - other.s.conjugate()).square();
                 flag = keep(flag, least.at_most(distance));
-                flag = keep(flag, least.at_most(mirrored));
             }
         }
     }

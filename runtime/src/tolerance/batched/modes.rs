@@ -46,9 +46,9 @@ pub(super) fn general<V: Lanes, const N: usize>(
     n: usize,
     (prepared, reference): (&TaylorModel<'_, N>, &Reference),
     batch: &mut Solved<'_>,
-    mut flag: V,
     at: usize,
-) -> V {
+) {
+    let mut flag = V::load(&batch.flags, at);
     let linear = &batch.linear;
     let description = &prepared.nominal.description;
     let damped = description.damping != DampingKind::Zero;
@@ -77,5 +77,5 @@ pub(super) fn general<V: Lanes, const N: usize>(
             s.re.store(rate, at);
         }
     }
-    flag
+    flag.store(&mut batch.flags, at);
 }

@@ -121,6 +121,13 @@ impl Solved<'_> {
         both.map(move |(re, im)| Complex::new(re.0[member], im.0[member]))
     }
 
+    /// Accepts the members that passed every check so far.
+    pub(super) fn accept(&mut self) {
+        let members = self.flags.0[..self.members].iter().enumerate();
+        let passed = members.map(|(k, flag)| u32::from(*flag >= 1.0) << k);
+        self.accepted = passed.sum();
+    }
+
     /// Whether all samples have come to rest.
     pub(super) fn rests(&self) -> bool {
         self.resting.0[..self.members]

@@ -4,6 +4,7 @@ use super::samples::Solved;
 use super::statics::Statics;
 use super::{TaylorModel, equilibrium, modes, stages};
 use crate::batched::algebra::for_size_up_to;
+use crate::eigenproblem::Reference;
 use crate::kernels::BatchPoint;
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
@@ -16,10 +17,17 @@ pub(in crate::tolerance) const TOGETHER: usize = 4;
 impl<const N: usize> TaylorModel<'_, N> {
     /// Solves the members of some batches from their random bits.
     pub(super) fn solve(&self, batches: &mut [Solved<'_>]) {
-        self.instructions.run(Work {
+        self.instructions.run(Equilibria {
             prepared: self,
             batches,
         });
+        if let Some(reference) = &self.reference {
+            self.instructions.run(GeneralModes {
+                prepared: self,
+                reference,
+                batches,
+            });
+        }
     }
 
     fn point<'b>(&'b self, coordinates: &'b [Batch], design: &'b [Batch]) -> BatchPoint<'b> {
@@ -31,12 +39,13 @@ impl<const N: usize> TaylorModel<'_, N> {
     }
 }
 
-struct Work<'a, 'b, const N: usize> {
+/// Equilibria, and undamped modes where no others are wanted.
+struct Equilibria<'a, 'b, const N: usize> {
     prepared: &'a TaylorModel<'a, N>,
     batches: &'a mut [Solved<'b>],
 }
 
-impl<const N: usize> Task for Work<'_, '_, N> {
+impl<const N: usize> Task for Equilibria<'_, '_, N> {
     type Output = ();
 
     #[inline(always)]
@@ -56,7 +65,6 @@ fn through<V: Lanes, const N: usize>(
     prepared: &TaylorModel<'_, N>,
     batches: &mut [Solved<'_>],
 ) {
-    let one = V::constant(1.0);
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {
             stages::draw::<V, N>(prepared, batch, at);
@@ -111,18 +119,37 @@ fn through<V: Lanes, const N: usize>(
         }
     }
     for batch in &mut *batches {
-        batch.accepted = 0;
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            let held = equilibrium::held::<V, N>(n, prepared, batch, at);
-            let flag = match (&prepared.reference, &prepared.statics) {
-                (Some(reference), _) => modes::general(n, (prepared, reference), batch, held, at),
-                (None, Statics::Potential(potential)) => {
-                    modes::undamped(n, potential, batch, held, at)
-                }
-                (None, Statics::Forces(_)) => V::constant(0.0),
-            };
-            batch.accepted |= V::bits(one.at_most(flag)) << at;
+            let mut flag = equilibrium::held::<V, N>(n, prepared, batch, at);
+            if let (None, Statics::Potential(potential)) = (&prepared.reference, &prepared.statics)
+            {
+                flag = modes::undamped::<V, N>(n, potential, batch, flag, at);
+            }
+            flag.store(&mut batch.flags, at);
         }
-        batch.accepted &= (1_u32 << batch.members) - 1;
+        batch.accept();
+    }
+}
+
+/// Modes by the nominal pairs, for any number of unknowns: there is too much arithmetic in them for the loops to matter.
+struct GeneralModes<'a, 'b, const N: usize> {
+    prepared: &'a TaylorModel<'a, N>,
+    reference: &'a Reference,
+    batches: &'a mut [Solved<'b>],
+}
+
+impl<const N: usize> Task for GeneralModes<'_, '_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let nominal = (self.prepared, self.reference);
+        let n = self.prepared.nominal.coordinates.len().min(N);
+        for batch in self.batches {
+            for at in (0..WIDTH).step_by(V::WIDTH) {
+                modes::general::<V, N>(n, nominal, batch, at);
+            }
+            batch.accept();
+        }
     }
 }
