@@ -141,3 +141,53 @@ fn modes_in_lanes_are_those_alone() {
 fn modes_in_lanes_are_those_alone_in_great_number() {
     compare(100_000);
 }
+
+/// Whether a pencil is accepted from another one, both diagonal.
+fn accepted(there: [[f64; 2]; 2], here: [[f64; 2]; 2]) -> bool {
+    let diagonal = |elements: [f64; 2]| {
+        algebra::Matrix::from_fn(2, 2, |i, j| if i == j { elements[i] } else { 0.0 })
+    };
+    let pencil = |[damping, stiffness]: [[f64; 2]; 2]| Linear {
+        mass: diagonal([1.0; 2]),
+        damping: diagonal(damping),
+        stiffness: diagonal(stiffness),
+    };
+    let there = pencil(there);
+    let known = roots_of(Eigenproblem::Quadratic(&there)).expect("two modes");
+    let reference = Reference::new(&there, 2, &near(&known)).expect("all modes");
+    let here = [(); WIDTH].map(|()| pencil(here));
+    let (_, flags) = solved(&reference, &here);
+    assert!(flags.iter().all(|flag| *flag == flags[0]));
+    flags[0]
+}
+
+#[test]
+fn modes_that_meet_are_refused() {
+    let damping = [0.02; 2];
+    let there = [damping, [1.0, 1.1]];
+    assert!(accepted(there, [damping, [1.02, 1.08]]));
+    assert!(!accepted(there, [damping, [1.05, 1.05]]));
+    assert!(!accepted(there, [damping, [1.05, 1.05 * (1.0 + 1e-5)]]));
+}
+
+#[test]
+fn modes_that_begin_or_cease_to_oscillate_are_refused() {
+    let there = [[1.96, 0.02], [1.0, 9.0]];
+    assert!(accepted(there, [[1.961, 0.02], [1.0, 9.0]]));
+    // Im s = 4e-5 at |s| = 1, and none at all.
+    assert!(!accepted(there, [[2.0 - 1.6e-9, 0.02], [1.0, 9.0]]));
+    assert!(!accepted(there, [[2.0, 0.02], [1.0, 9.0]]));
+    assert!(!accepted(there, [[2.001, 0.02], [1.0, 9.0]]));
+    // Two real eigenvalues move, and meet.
+    let there = [[2.05, 0.02], [1.0, 9.0]];
+    assert!(accepted(there, [[2.051, 0.02], [1.0, 9.0]]));
+    assert!(!accepted(there, [[2.0 + 1e-10, 0.02], [1.0, 9.0]]));
+    assert!(!accepted(there, [[1.99, 0.02], [1.0, 9.0]]));
+}
+
+#[test]
+fn modes_far_away_are_refused() {
+    let there = [[0.02; 2], [1.0, 9.0]];
+    assert!(accepted(there, [[0.02; 2], [1.1, 9.0]]));
+    assert!(!accepted(there, [[0.02; 2], [1.5, 9.0]]));
+}
