@@ -132,6 +132,39 @@ fn bicycle_interpreted() {
     ask(&study, &BICYCLE, WINDOWS, &everything());
 }
 
+/// A chain of sixteen bars with damped springs: the most unknowns whose samples are solved side by side.
+fn damped_chain() -> String {
+    let bar = |k: usize| {
+        let (above, place) = match k {
+            0 => ("ground".to_owned(), String::new()),
+            _ => (format!("bar{}", k - 1), format!(" at [0, 0, -l{}]", k - 1)),
+        };
+        format!(
+            "design l{k} = {} m +/- 1%; body bar{k}: rod(mass: 3 kg, length: l{k}, along: -z);\n\
+             joint turn{k}: revolute(y) from {above} to bar{k}{place};\n\
+             force spring{k}: spring(on: turn{k}, stiffness: 9000 N*m/rad);\n\
+             force damper{k}: damper(on: turn{k}, damping: 2 N*m*s/rad);\n",
+            1.0 - 0.03 * k as f64
+        )
+    };
+    let bars: String = (0..16).map(bar).collect();
+    format!("mechanism Chain {{ gravity 9.81 m/s^2 along -z; {bars} }}")
+}
+
+#[test]
+fn samples_side_by_side() {
+    let study = few(interpreted(&damped_chain())).samples(64);
+    let run = study.monte_carlo().expect("samples");
+    assert!(run.side_by_side && run.counts.stable == 64, "{run}");
+    let mut questions = at_one_state();
+    questions.extend(of_chance());
+    let sampling = ["monte_carlo", "controlled", "influence"];
+    questions.retain(|(name, _)| sampling.contains(name));
+    assert_eq!(questions.len(), sampling.len());
+    // On the thread that asks.
+    ask(&study.threads(1), &BARS, THREAD, &questions);
+}
+
 /// What the sources of `Study` and `Solved` let a user ask is asked, name by name.
 #[test]
 fn every_question_is_asked() {
