@@ -255,3 +255,61 @@ pub(super) fn finding(error: Measured) -> Finding {
         Finding::Open
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured(value: f64, standard_error: f64) -> Measured {
+        Measured {
+            value,
+            standard_error,
+        }
+    }
+
+    #[test]
+    fn an_error_decides_when_it_is_clear_or_fine() {
+        let decides = |first_order_error| {
+            decided(&Check {
+                quantity: Quantity::Frequency,
+                samples: 1024,
+                count: 1024,
+                mean: 1.0,
+                sigma: measured(0.1, 0.002),
+                first_order_error,
+                second_order_error: None,
+            })
+        };
+        assert!(decides(None));
+        for (value, error, decided) in [
+            (0.03, 0.0039, true),
+            (0.03, 0.0041, false),
+            (0.0, 0.0074, true),
+            (0.0, 0.0076, false),
+            (-0.07, 0.0099, true),
+            (-0.07, 0.0101, false),
+        ] {
+            assert_eq!(
+                decides(Some(measured(value, error))),
+                decided,
+                "{value} {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn findings_take_the_uncertainty_into_account() {
+        for (value, error, expected) in [
+            (0.0, 0.024, Finding::Right),
+            (0.0, 0.026, Finding::Open),
+            (-0.029, 0.01, Finding::Right),
+            (-0.029, 0.011, Finding::Open),
+            (0.031, 0.01, Finding::Wrong),
+            (0.031, 0.011, Finding::Open),
+            (-0.2, 0.09, Finding::Wrong),
+            (-0.2, 0.1, Finding::Open),
+        ] {
+            assert_eq!(finding(measured(value, error)), expected, "{value} {error}");
+        }
+    }
+}

@@ -73,6 +73,36 @@ fn a_linear_response_is_exact() {
     assert!(own.worth > 1e10 && own.mean.error.unwrap() < 1e-7);
 }
 
+/// `a b` with `a = 1 + x`, `b = 2 + 2 x`, of which only the slopes are known: the mean of `2 (1 + x)^2` is `2 + 2 s^2`, its variance
+/// `16 s^2 + 8 s^4`, and the model's mean is off by `2 s^2`.
+#[test]
+fn a_mean_that_the_model_misses() {
+    let s = 0.5;
+    let mut correlation = [[0.0; 5]; 5];
+    for (k, row) in correlation.iter_mut().enumerate() {
+        row[k] = 1.0;
+    }
+    (correlation[2][3], correlation[3][2]) = (1.0, 1.0);
+    let sigmas = [0.0, 0.0, s, 2.0 * s, 0.0];
+    let tolerances = Tolerances::new(sigmas, 1.0, Some(correlation.into())).unwrap();
+    let sampler = Sampler::new(Points::Random).samples(100_000);
+    let all = ask_sum(outputs(), |responses| {
+        controlled(&Sum, responses, &tolerances, &sampler).unwrap()
+    });
+    let own = all.spreads[1].unwrap();
+    assert_eq!(own.model, Method::FirstOrder);
+    let within = |found: eigentol::propagation::Estimated, exact: f64| {
+        let error = found.error.expect("an error");
+        assert!(
+            (found.value - exact).abs() < 4.0 * error,
+            "{found:?} {exact}"
+        );
+        assert!(error < 0.01 * exact, "{found:?}");
+    };
+    within(own.mean, 2.0 + 2.0 * s * s);
+    within(own.sigma, (16.0 * s * s + 8.0 * s.powi(4)).sqrt());
+}
+
 #[test]
 fn what_samples_do_not_have_is_not_controlled() {
     let (found, _) = of(&varied(Distribution::normal(1.0, 0.4).unwrap()), 500, 3);
