@@ -233,12 +233,12 @@ mechanism! {
 
 mechanism! {
     /// Forces without a potential: a disk on a shaft whose material damps, in a seal. It sags.
-    mechanism Rotor {
+    pub(crate) mechanism Rotor {
         input omega: rad/s;
         design mass = 12.0 kg +/- 1%;
         design k = 200.0 kN/m +/- 4%;
         design lag = 50 us +/- 20%;
-        design seal = 150.0 N*s/m +/- 20%;
+        design seal = 5.0 N*s/m +/- 20%;
         gravity 9.81 m/s^2 along -y;
         body line: massless;
         body across: massless;
@@ -249,7 +249,7 @@ mechanism! {
         point hub: line at [0, 0, 0];
         point rim: disk at [0, 0, 0];
         force shaft: bushing(from: hub, to: rim, stiffness: [k, k, 0], damping: [lag * k, lag * k, 0]);
-        force up: spring(on: y, stiffness: 90 kN/m);
+        force up: spring(on: y, stiffness: 10 kN/m);
         force seal_x: damper(on: x, damping: seal);
         force seal_y: damper(on: y, damping: seal);
     }
@@ -299,7 +299,7 @@ fn gyroscopic_modes() {
 #[test]
 fn forces_without_a_potential() {
     let mut unstable = 0;
-    for omega in [0.0, 60.0, 150.0, 180.0, 200.0, 260.0] {
+    for omega in [0.0, 150.0, 300.0, 450.0, 520.0, 540.0, 560.0, 700.0] {
         let state = equilibrium(
             &Rotor,
             &[omega],
@@ -314,10 +314,10 @@ fn forces_without_a_potential() {
         }
         let (counts, in_vectors) = compare(&Rotor, omega, &[0.0; 2], &declared(&Rotor));
         assert!(counts.stable > 300 && in_vectors, "{omega}: {counts:?}");
-        let wide = Tolerances::new([3.0, 6e4, 4e-5, 80.0], 3.0, None).expect("valid");
+        let wide = Tolerances::new([3.0, 6e4, 4e-5, 4.0], 3.0, None).expect("valid");
         compare(&Rotor, omega, &[0.0; 2], &wide);
     }
-    assert!(unstable < 5);
+    assert!((1..4).contains(&unstable), "{unstable}");
 }
 
 /// Wide tolerances: bodies that cannot exist, springs that push, equilibria on another branch.

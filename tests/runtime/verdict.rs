@@ -6,6 +6,7 @@ use eigentol::tolerance::{Distribution, Outcome};
 use eigentol::{Mechanism, Quantity, Study, mechanism};
 
 use crate::common::close;
+use crate::side_by_side::Rotor;
 
 mechanism! {
     mechanism Bar {
@@ -447,4 +448,32 @@ fn outcomes_have_chances_that_add_up() {
         ),
         "{doubts:?}"
     );
+}
+
+/// A seal that may push as well as damp: the frequencies of samples that flutter count for nothing.
+#[test]
+fn unstable_samples_have_no_part_in_checks() {
+    let summary = Study::new(Rotor)
+        .design(Rotor::lag, 1e-8)
+        .design(Rotor::seal, 1.0)
+        .tolerance(Rotor::seal, 3.0)
+        .tolerance(Rotor::k, 100.0)
+        .tolerance(Rotor::mass, 0.01)
+        .summary()
+        .expect("a summary");
+    let Sampling::Done(sampled) = &summary.sampling else {
+        panic!("a rotor is cheap to sample")
+    };
+    let of = |outcome| sampled.chance(outcome).expect("an outcome").count;
+    let (stable, flutter) = (of(Outcome::Stable), of(Outcome::Flutter));
+    assert!(flutter > sampled.samples / 10 && stable + flutter == sampled.samples);
+    let checks: Vec<_> = summary
+        .trust
+        .iter()
+        .flat_map(|trust| &trust.checks)
+        .collect();
+    assert!(!checks.is_empty());
+    for check in checks {
+        assert_eq!((check.samples, check.count), (sampled.samples, stable));
+    }
 }
