@@ -45,7 +45,7 @@ fn studies() -> Vec<PendulumStudy> {
 }
 
 /// Seconds of the fastest of some runs.
-fn fastest(runs: usize, mut run: impl FnMut()) -> f64 {
+pub(crate) fn fastest(runs: usize, mut run: impl FnMut()) -> f64 {
     let timed = (0..runs).map(|_| {
         let start = Instant::now();
         run();

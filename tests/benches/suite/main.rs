@@ -3,6 +3,7 @@
 mod arm;
 mod casadi;
 mod chains;
+mod corpus;
 mod counting;
 #[path = "../chain.rs"]
 mod declaration;
@@ -13,6 +14,7 @@ mod lanes;
 mod operations;
 mod pendulum;
 mod report;
+mod samples;
 mod timing;
 mod tools;
 mod work;
@@ -67,6 +69,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut singles = tools::setting();
     if wanted(facts::PENDULUM) {
         singles.extend(facts::pendulum());
+    }
+    if wanted(samples::SAMPLES) {
+        singles.extend(samples::samples());
     }
     if wanted(facts::LONG_CHAIN) {
         singles.extend(facts::long_chain());
