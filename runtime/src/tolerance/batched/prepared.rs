@@ -35,11 +35,11 @@ impl<'a> Prepared<'a> {
         }
         let state = (nominal, modes);
         match nominal.coordinates.len() {
-            ..=4 => {
+            0..=4 => {
                 let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
                 Some(Self::Four(Box::new(model)))
             }
-            ..=8 => {
+            5..=8 => {
                 let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
                 Some(Self::Eight(Box::new(model)))
             }
