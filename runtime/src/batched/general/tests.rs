@@ -139,7 +139,7 @@ fn modes_in_lanes_are_those_alone() {
 #[test]
 #[ignore = "takes minutes without optimisation"]
 fn modes_in_lanes_are_those_alone_in_great_number() {
-    compare(100_000);
+    compare(40_000);
 }
 
 /// Whether a pencil is accepted from another one, both diagonal.
