@@ -1,7 +1,7 @@
 //! Texts leave out noise, and say so.
 
 use eigentol::second_order::Band;
-use eigentol::{Coordinate, DesignVariable, InDeclaredUnit, Input, Study};
+use eigentol::{Coordinate, DesignVariable, InDeclaredUnit, Input, Study, mechanism};
 
 use crate::common::pendulum::Pendulum;
 
@@ -52,6 +52,39 @@ fn what_has_no_influence_is_named_and_not_listed() {
         "{spread}"
     );
     for text in [slopes, shift, spread, solved.equilibrium.to_string()] {
+        assert_quiet(&text);
+    }
+}
+
+mechanism! {
+    /// Two blocks on springs of their own, with a weak one between them.
+    mechanism Blocks {
+        design k1 = 100 N/m +/- 3%;
+        design k2 = 400 N/m +/- 3%;
+        design between = 0.2 N/m;
+        body first: point(mass: 1 kg);
+        body second: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to first;
+        joint y: prismatic(x) from ground to second;
+        force own: spring(on: x, stiffness: k1);
+        force other: spring(on: y, stiffness: k2);
+        point here: first at [0, 0, 0];
+        point there: second at [0, 0, 0];
+        force both: spring_damper(from: here, to: there, stiffness: between);
+    }
+}
+
+/// A spring moves its own mode, and the other one by a share of the variance that is small, or rounding.
+#[test]
+fn shares_that_do_not_matter_are_bounds() {
+    let spread = |between: f64| {
+        let study = Study::new(Blocks).design(Blocks::between, between);
+        study.first_order().expect("a spread").to_string()
+    };
+    for (between, bounds, zeros) in [(0.001, 0, 2), (20.0, 2, 0)] {
+        let text = spread(between);
+        assert_eq!(text.matches(" <0.1 %").count(), bounds, "{text}");
+        assert_eq!(text.matches(" 0.0 %").count(), zeros, "{text}");
         assert_quiet(&text);
     }
 }

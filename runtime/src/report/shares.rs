@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::numbers::percent;
-use super::relevance::{BELOW, COLUMNS, RELEVANT, names};
+use super::relevance::{BELOW, COLUMNS, RELEVANT, names, unless_rounding};
 use crate::Description;
 
 /// So many are named at most, and no more than make up this part of the variance.
@@ -58,7 +58,7 @@ impl<'a> Shares<'a> {
             return vec!["-".to_owned(); self.head().len()];
         };
         if self.side_by_side() {
-            return (self.columns.iter().map(|&k| percent(shares[k]))).collect();
+            return (self.columns.iter().map(|&k| share(shares[k]))).collect();
         }
         vec![mostly(self.description, shares)]
     }
@@ -70,6 +70,16 @@ impl<'a> Shares<'a> {
         }
         let names = names(&self.below, "variables");
         writeln!(f, "  Left out, {BELOW} of every variance: {names}")
+    }
+}
+
+/// A share in a column where another one matters.
+fn share(value: f64) -> String {
+    let value = unless_rounding(value, 1.0);
+    if value == 0.0 || value.abs() >= RELEVANT {
+        percent(value)
+    } else {
+        "<0.1 %".to_owned()
     }
 }
 

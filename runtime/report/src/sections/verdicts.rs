@@ -56,8 +56,12 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         .iter()
         .any(|own| summary.cluster_of(own.mode).is_some());
     if mixed {
-        for own in tables(&summary.clusters[..]) {
-            table(html, "Modes that tolerances mix", &own, &[])?;
+        let captions = [
+            "Modes that tolerances mix, and the mean of each group",
+            "The same modes by size: lowest, highest, and what lies between",
+        ];
+        for (own, caption) in tables(&summary.clusters[..]).iter().zip(captions) {
+            table(html, caption, own, &[])?;
         }
     }
     Ok(())
