@@ -16,6 +16,7 @@ use proptest::prelude::*;
 
 use crate::common::derived::Derived;
 use crate::common::models::Plate;
+use crate::side_by_side::Rotor;
 
 const SAMPLES: u64 = 3000;
 
@@ -106,6 +107,19 @@ proptest! {
         prop_assert!(result == whole);
         let alone = study.vectors(None);
         prop_assert!(merged(&alone, parts).result() == alone.monte_carlo().unwrap());
+    }
+}
+
+/// Of general modes, of which some are solved alone.
+#[test]
+fn damped_samples_of_any_split_have_the_same_bits() {
+    let rotor = |omega| Study::new(Rotor).input(Rotor::omega, omega);
+    for study in [rotor(300.0), rotor(520.0).tolerance(Rotor::lag, 3e-5)] {
+        let study = study.samples(SAMPLES as usize).keep_samples(true);
+        let whole = study.monte_carlo().unwrap();
+        assert!(whole.side_by_side);
+        let all = merged(&study, [2000..SAMPLES, 0..3, 3..257, 257..2000]);
+        assert!(all.result() == whole);
     }
 }
 
