@@ -17,10 +17,9 @@ use crate::scalar::Lanes;
 const NEAR: f64 = 0.1;
 /// Inverse iterations, each of which multiplies the errors of the vectors by the distance of the eigenvalue.
 const STEPS: usize = 4;
-/// Eigenvalues closer than this many errors, or than this share of their size, the solver for one state tells apart.
-const FAR: f64 = 8.0;
+/// Eigenvalues closer than this share of their size the solver for one state tells apart.
 const APART: f64 = 1e-4;
-/// Greatest accepted error of an eigenvalue, relative.
+/// Greatest accepted error of an eigenvalue, relative: much less than their distances.
 const ACCURATE: f64 = 1e-9;
 /// Stands in for a pivot that is nothing.
 const TINY: f64 = 1e-100;
@@ -458,9 +457,7 @@ fn scale<V: Lanes, const N: usize>(n: usize, x: &mut Vector<V, N>) {
 fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V {
     let zero = V::constant(0.0);
     for (i, own) in found.iter().enumerate() {
-        let apart = V::constant(FAR) * own.error;
-        let share = V::constant(APART) * own.s.square().sqrt();
-        let clear = V::choose(share.at_most(apart), apart, share);
+        let clear = V::constant(APART) * own.s.square().sqrt();
         let least = clear * clear;
         let real = keep(V::constant(1.0), own.s.im.abs().at_most(zero));
         let size = V::constant(0.5) * clear;
