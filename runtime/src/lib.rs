@@ -49,7 +49,7 @@
 //! | How does it vibrate, is it stable, which way does it whirl? | [`modes`](Study::modes), [`whirls`](Study::whirls) | [`modes::modes`], [`modes::whirls`] |
 //! | What does it look like, at rest and in its modes? | [`picture`](Study::picture), [`mode_pictures`](Study::mode_pictures) | [`picture::scene`], [`picture::mode_pictures`] |
 //! | What moves frequencies, damping, outputs, shapes? | [`sensitivities`](Study::sensitivities), [`outputs`](Study::outputs), [`shape_sensitivity`](Study::shape_sensitivity) | [`sensitivity::sensitivities`], [`sensitivity::output_sensitivities`], [`shapes::shape_sensitivity`] |
-//! | ... to second order? | [`mode_curvature`](Study::mode_curvature) | [`second_order::mode_curvature`] |
+//! | ... to second order? | [`mode_curvature`](Study::mode_curvature), [`output_curvature`](Study::output_curvature) | [`second_order::mode_curvature`], [`second_order::output_curvature`] |
 //! | How do equal frequencies split? | [`directional_derivatives`](Study::directional_derivatives) | [`clusters::directional_derivatives`] |
 //! | How far do tolerances spread them? | [`first_order`](Study::first_order), [`second_order`](Study::second_order), [`output_tolerances`](Study::output_tolerances) | [`tolerance::first_order`], [`second_order::second_order`], [`tolerance::output_tolerances`] |
 //! | Which of these sigmas can be trusted, which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
@@ -61,7 +61,7 @@
 //! | How probable is it that requirements are met, and what changes that? | [`chances`](Study::chances), [`reliability`](Study::reliability), [`rare_failure`](Study::rare_failure) | [`requirement::Requirements`] |
 //! | Which tolerances are the cheapest that meet them? | [`allocation`](Study::allocation) | [`allocation::allocate`] |
 //! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
-//! | Where is it critical, and how far do tolerances move that? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance) | [`sweep::critical_state`], [`sweep::critical_tolerance`] |
+//! | Where is it critical, and how far do tolerances move that? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance), [`critical_curvature`](Study::critical_curvature) | [`sweep::critical_state`], [`sweep::critical_tolerance`], [`second_order::critical_curvature`] |
 //! | Where does it resonate, where does it begin to flutter? | [`crossings`](Study::crossings), [`crossing_tolerances`](Study::crossing_tolerances), [`flutter_onsets`](Study::flutter_onsets), [`flutter_onset_tolerances`](Study::flutter_onset_tolerances) | [`sweep::crossings`], [`sweep::flutter_onsets`], [`sweep::crossing_tolerance`] |
 //!
 //! Values are SI, or in the unit of the declaration: [`InDeclaredUnit`]. Handles such as `RotatingPendulum::omega` are constants of the

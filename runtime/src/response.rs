@@ -4,7 +4,7 @@
 use crate::algebra::Vector;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
-use crate::sweep::{Range, critical_sensitivity, critical_state};
+use crate::sweep::{CriticalState, Range, critical_sensitivity, critical_state};
 use crate::tolerance::{Outcome, Solution};
 use crate::{Equilibrium, Error, Modes, Output, Watch};
 
@@ -250,15 +250,19 @@ impl<'a> Responses<'a> {
         range: Range,
         slopes: bool,
     ) -> (Option<f64>, Option<Vector>) {
-        let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
-        if self.mechanism.violation(inputs, design).is_some() {
-            return (None, None);
-        }
-        let Ok(state) = critical_state(self.mechanism, inputs, design, start, range) else {
+        let Some(state) = self.critical_state(design, range) else {
             return (None, None);
         };
         let gradient = || critical_sensitivity(self.mechanism, &state).ok();
         (Some(state.value), slopes.then(gradient).flatten())
+    }
+
+    pub(crate) fn critical_state(&self, design: &[f64], range: Range) -> Option<CriticalState> {
+        let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
+        if self.mechanism.violation(inputs, design).is_some() {
+            return None;
+        }
+        critical_state(self.mechanism, inputs, design, start, range).ok()
     }
 }
 

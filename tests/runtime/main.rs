@@ -8,6 +8,7 @@ mod branches;
 mod clusters;
 mod constrained_modes;
 mod constraints;
+mod critical_curvature;
 mod deviations;
 mod distributions;
 mod dual;

@@ -26,6 +26,7 @@ mechanism! {
         joint spin: revolute(z) from ground to shaft, driven at omega;
         joint theta: revolute(y) from shaft to bar;
         output length = 2 * l;
+        output angle = theta;
     }
 }
 
@@ -41,6 +42,7 @@ mechanism! {
         force hold: spring(on: x, stiffness: k);
         output sum = a + 2 * b - 3 * c;
         output product = a * b;
+        output fourth = a * a * a * a;
     }
 }
 

@@ -397,6 +397,22 @@ impl CurvatureKernels for Interpreted {
             &mut gradient_buffers(gradient),
         );
     }
+
+    fn output_partials_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        partials: [&mut Matrix; 3],
+    ) {
+        run_along(
+            &self.shared.tapes.output_partials,
+            &[q, u, b],
+            &direction,
+            &mut partials.map(Matrix::as_flattened_mut),
+        );
+    }
 }
 
 impl MotionKernels for Interpreted {

@@ -68,5 +68,8 @@ reasons! {
         Touch = "the two sides touch without crossing",
         IndependentOfInput = "the stiffness does not depend on the input",
         Imperfection = "a design variable pushes along the critical mode and destroys the bifurcation",
+        Cusp = "two limit points meet there",
+        Transcritical = "another branch goes on to both sides of it: second derivatives are known of limit points and pitchforks only",
+        NotSmooth = "it has a value there, but no derivative",
     }
 }

@@ -425,6 +425,24 @@ impl<M: Mechanism> CurvatureKernels for M {
         );
         copy_gradient::<M>(&found, gradient);
     }
+
+    fn output_partials_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        partials: [&mut Matrix; 3],
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [dq, du, db] = direction;
+        let (dq, du, db) = point::<M>(dq, du, db);
+        let [by_coordinate, by_input, by_design] = partials;
+        let found = Mechanism::output_partials_along(self, q, u, b, dq, du, db);
+        copy_matrix(&found.0, by_coordinate);
+        copy_matrix(&found.1, by_input);
+        copy_matrix(&found.2, by_design);
+    }
 }
 
 impl<M: Mechanism> MotionKernels for M {

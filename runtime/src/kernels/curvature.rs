@@ -1,9 +1,10 @@
-//! Derivatives of the gradients of modes along a direction: what the second derivatives of modes need. They are long, and few
+//! Derivatives of the gradients of modes and outputs along a direction: what their second derivatives need. They are long, and few
 //! questions ask for them: only what does compiles them.
 
-use super::{DirectionalKernels, Gradient};
+use super::{DirectionalKernels, Gradient, output_partials_zeros};
+use crate::algebra::Matrix;
 
-/// Gradients of modes in dual numbers.
+/// Gradients of modes and outputs in dual numbers.
 pub trait CurvatureKernels: DirectionalKernels {
     /// [`Mechanism::mode_gradient_along`](crate::Mechanism::mode_gradient_along); `direction` is `dq`, `du`, `db`, `dphi`.
     #[allow(clippy::too_many_arguments)]
@@ -31,6 +32,16 @@ pub trait CurvatureKernels: DirectionalKernels {
         direction: [&[f64]; 3],
         changes: [&[f64]; 4],
         gradient: &mut Gradient,
+    );
+
+    /// [`Mechanism::output_partials_along`](crate::Mechanism::output_partials_along); `direction` is `dq`, `du`, `db`.
+    fn output_partials_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        partials: [&mut Matrix; 3],
     );
 }
 
@@ -65,5 +76,17 @@ impl dyn CurvatureKernels + '_ {
         let mut gradient = Gradient::zeros(self.sizes());
         self.pencil_gradient_along_into(q, u, b, vectors, direction, changes, &mut gradient);
         gradient
+    }
+    /// Derivatives of [`Kernels::output_partials`](crate::Kernels::output_partials) along `dq`, `du`, `db`.
+    pub fn output_partials_along(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+    ) -> [Matrix; 3] {
+        let mut partials = output_partials_zeros(self.sizes());
+        self.output_partials_along_into(q, u, b, direction, partials.each_mut());
+        partials
     }
 }

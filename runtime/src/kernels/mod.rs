@@ -126,6 +126,12 @@ pub(crate) fn residual_partials_zeros<T: Copy + Default>(sizes: Sizes) -> Residu
     )
 }
 
+/// Zeros.
+fn output_partials_zeros(sizes: Sizes) -> [Matrix; 3] {
+    [sizes.coordinates, sizes.inputs, sizes.design]
+        .map(|columns| Matrix::zeros(sizes.outputs, columns))
+}
+
 /// The kernels that every question about one state needs.
 pub trait Kernels: Sync {
     /// Names, units, nominal values and what the compiler proved.
@@ -369,12 +375,8 @@ impl dyn Kernels + '_ {
 
     /// Explicit derivatives of the outputs by unknowns, inputs and design variables, a row for each output.
     pub fn output_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> [Matrix; 3] {
-        let sizes = self.sizes();
-        let [mut by_coordinate, mut by_input, mut by_design] =
-            [sizes.coordinates, sizes.inputs, sizes.design]
-                .map(|columns| Matrix::zeros(sizes.outputs, columns));
-        let partials = [&mut by_coordinate, &mut by_input, &mut by_design];
-        self.output_partials_into(q, u, b, partials);
-        [by_coordinate, by_input, by_design]
+        let mut partials = output_partials_zeros(self.sizes());
+        self.output_partials_into(q, u, b, partials.each_mut());
+        partials
     }
 }

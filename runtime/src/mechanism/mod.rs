@@ -435,6 +435,30 @@ pub trait Mechanism: Clone + Sync + Sized {
         Self::Outputs<Self::Design<T>>,
     );
 
+    /// Directional derivative of [`Mechanism::output_partials`] along (`dq`, `du`, `db`).
+    #[allow(clippy::type_complexity)]
+    fn output_partials_along<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        dq: &Self::Coordinates<T>,
+        du: &Self::Inputs<T>,
+        db: &Self::Design<T>,
+    ) -> (
+        Self::Outputs<Self::Coordinates<T>>,
+        Self::Outputs<Self::Inputs<T>>,
+        Self::Outputs<Self::Design<T>>,
+    ) {
+        let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
+        let found = self.output_partials::<Dual<T>>(&q, &u, &b);
+        (
+            Array::from_fn(|o| slopes(&found.0.as_ref()[o])),
+            Array::from_fn(|o| slopes(&found.1.as_ref()[o])),
+            Array::from_fn(|o| slopes(&found.2.as_ref()[o])),
+        )
+    }
+
     /// [`Mechanism::residual_and_stiffness`], and like the others below written where it is called: what vectors of the
     /// processor need. Generated code overrides it.
     #[doc(hidden)]

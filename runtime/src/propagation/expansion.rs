@@ -8,7 +8,7 @@ use crate::Error;
 use crate::algebra::{Matrix, Vector, dot, form};
 use crate::kernels::CurvatureKernels;
 use crate::response::{Response, Responses};
-use crate::second_order::{ModeCurvature, mode_curvature};
+use crate::second_order::{ModeCurvature, critical_curvature, mode_curvature, output_curvature};
 use crate::tolerance::Outcome;
 
 /// `f(b0 + x) = value + S x + x^T H x / 2`, SI.
@@ -33,8 +33,8 @@ impl Expansion {
     }
 }
 
-/// The responses about the nominal design; `None` for one without value or slopes there. Quantities of modes have second derivatives,
-/// unless modes are too close together.
+/// The responses about the nominal design; `None` for one without value or slopes there. They have second derivatives, but for
+/// modes that are too close together, outputs that are not smooth and transcritical branch points.
 pub(super) fn expansions(
     mechanism: &dyn CurvatureKernels,
     responses: &Responses<'_>,
@@ -52,11 +52,19 @@ pub(super) fn expansions(
         Some(Expansion {
             value: (*value)?,
             slopes: slopes?,
-            curvature: match response {
+            curvature: match *response {
                 Response::Mode { mode, quantity } => {
-                    of_mode(*mode).and_then(|all| Some(all.of(*quantity)?.by_design))
+                    of_mode(mode).and_then(|all| Some(all.of(quantity)?.by_design))
                 }
-                _ => None,
+                Response::Output(output) => {
+                    let found = output_curvature(mechanism, at, output);
+                    found.ok().map(|found| found.second.by_design)
+                }
+                Response::Critical(range) => {
+                    let state = responses.critical_state(&at.design, range);
+                    let found = state.map(|state| critical_curvature(mechanism, &state));
+                    found?.ok().map(|found| found.second)
+                }
             },
         })
     });

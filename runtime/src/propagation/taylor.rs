@@ -19,7 +19,7 @@ const SAMPLES: u64 = 1 << 15;
 
 /// First order, for any distribution: mean and standard deviation exact for the linear model, skewness too unless dependent variables are
 /// not normal; quantiles, and what else has no closed form, from samples of the model. Errors are the difference to second order,
-/// where second derivatives exist: of quantities of modes. To that of the standard deviation comes what third derivatives may add
+/// where second derivatives exist. To that of the standard deviation comes what third derivatives may add
 /// ([`second_order`]).
 ///
 /// ```
@@ -44,7 +44,7 @@ pub fn first_order(
 
 /// Second order, for any distribution: the mean is exact for the quadratic model, the standard deviation too unless dependent variables
 /// are not normal; skewness, quantiles and covariances come from samples of the model. Responses without second derivatives have
-/// no spread: outputs, critical values, quantities of modes that lie too close together.
+/// no spread: quantities of modes that lie too close together, outputs that are not smooth, transcritical branch points.
 ///
 /// Errors go on from the difference to first order as a series does: smaller by the ratio `r` of what curvature and slopes add to the
 /// standard deviation. That of the standard deviation itself is the whole difference and `r^2` of it, because third derivatives,

@@ -1,33 +1,18 @@
 //! Exact second total derivatives of a mode, by differentiating its adjoint gradient along the motion of the equilibrium,
 //! of the shapes and of the eigenvalue with each variable: as many gradient evaluations as there are variables.
 
-use crate::algebra::{Lu, Matrix, Vector, dot_complex, times_complex};
+use super::adjoint::Adjoint;
+use super::derivatives::{SecondDerivatives, symmetric};
+use crate::algebra::{Vector, dot_complex, times_complex};
 use crate::kernels::{CurvatureKernels, Gradient, Kernels, Linear};
 use crate::modes::{Family, pencil_slope_times};
 use crate::sensitivity::{
     ComplexGradient, Direction, Form, ModeSensitivity, Quantity, Slopes, directions,
     eigenvalue_curvature, eigenvalue_slope, form_gradient, form_gradient_along, normaliser,
-    outside_domain, subtract,
+    outside_domain,
 };
 use crate::shapes::Shapes;
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
-
-/// Second derivatives of one number, SI.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
-)]
-pub struct SecondDerivatives<T> {
-    /// By two inputs.
-    pub by_input: Matrix<T>,
-    /// `by_input_and_design[i][j]`: by input `i` and design variable `j`.
-    pub by_input_and_design: Matrix<T>,
-    /// By two design variables: the Hessian.
-    pub by_design: Matrix<T>,
-}
 
 /// First and second total derivatives of one mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,32 +47,6 @@ impl ModeCurvature {
     }
 }
 
-impl<T: Copy> SecondDerivatives<T> {
-    /// Element by element with the two first derivatives it belongs to.
-    fn combine<F: Copy, R: Copy + Default>(
-        &self,
-        first: &Slopes<F>,
-        f: impl Fn(F, F, T) -> R,
-    ) -> SecondDerivatives<R> {
-        let block = |matrix: &Matrix<T>, rows: &[F], columns: &[F]| {
-            Matrix::from_fn(rows.len(), columns.len(), |i, j| {
-                f(rows[i], columns[j], matrix[i][j])
-            })
-        };
-        let (inputs, design) = (&first.by_input, &first.by_design);
-        SecondDerivatives {
-            by_input: block(&self.by_input, inputs, inputs),
-            by_input_and_design: block(&self.by_input_and_design, inputs, design),
-            by_design: block(&self.by_design, design, design),
-        }
-    }
-
-    fn iter(&self) -> impl Iterator<Item = &T> {
-        let blocks = [&self.by_input, &self.by_input_and_design, &self.by_design];
-        blocks.into_iter().flat_map(Matrix::as_flattened)
-    }
-}
-
 /// First and second total derivatives of mode number `mode` by all inputs and design variables.
 ///
 /// # Errors
@@ -107,7 +66,7 @@ pub fn mode_curvature(
         .map(|direction| gradient.along(&direction, &shapes))
         .collect();
     let slopes = gradient.slopes();
-    let (second, asymmetry) = symmetric(&rows, at.inputs.len());
+    let (second, asymmetry) = symmetric(&rows, at.inputs.len(), Complex::norm);
     let mut first = ModeSensitivity::blank();
     first.set(mode, modes.family, &slopes);
     let (lambda, eigenvalue) = match modes.family {
@@ -151,7 +110,7 @@ struct AdjointGradient<'a> {
     at: &'a Equilibrium,
     family: Family,
     mode: &'a Mode,
-    factors: Lu<f64>,
+    adjoint: Adjoint<'a>,
     /// `Khat^T w = da/dq`: the real part, and the imaginary one of a general mode.
     w: Vec<Vector>,
     /// `n`.
@@ -167,7 +126,7 @@ impl<'a> AdjointGradient<'a> {
         family: Family,
         mode: &'a Mode,
     ) -> Result<Self, Error> {
-        let factors = Lu::new(&at.linear.stiffness.transpose()).ok_or(Error::CriticalState)?;
+        let adjoint = Adjoint::new(mechanism, at)?;
         let kernels: &dyn Kernels = mechanism;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let (mut total, mut room) = gradients(kernels);
@@ -180,19 +139,14 @@ impl<'a> AdjointGradient<'a> {
                 form_gradient(kernels, at, &form(mode), &mut room, &mut total);
             }
         }
-        let mut w = Vec::new();
-        for part in &mut total[..parts(family)] {
-            let adjoint = factors.solve(&part.coordinates);
-            kernels.residual_gradient_into(q, u, b, &adjoint, &mut room);
-            subtract(part, &room);
-            w.push(adjoint);
-        }
+        let parts = total[..parts(family)].iter_mut();
+        let w = parts.map(|part| adjoint.total(part, &mut room)).collect();
         Ok(Self {
             mechanism,
             at,
             family,
             mode,
-            factors,
+            adjoint,
             w,
             numerator: joined(&total),
             denominator: normaliser(at, mode),
@@ -210,13 +164,12 @@ impl<'a> AdjointGradient<'a> {
     /// Their derivatives along a direction.
     fn along(&self, direction: &Direction, shapes: &Shapes<'_>) -> Slopes<Complex> {
         let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
-        let kernels: &dyn Kernels = mechanism;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let [dq, du, db] = direction.parts();
         let change = direction.linear(mechanism, at);
         let rate = shapes.rate.along(&change);
         let (dphi, dpsi) = shapes.along(&change, rate);
-        let (mut total, mut room) = gradients(kernels);
+        let (mut total, mut room) = gradients(mechanism);
         match self.family {
             Family::Undamped => mechanism.mode_gradient_along_into(
                 q,
@@ -234,13 +187,8 @@ impl<'a> AdjointGradient<'a> {
                 form_gradient_along(mechanism, at, forms, direction, &mut room, &mut total);
             }
         }
-        let fixed = Vector::zeros(q.len());
         for (part, w) in total.iter_mut().zip(&self.w) {
-            mechanism.residual_gradient_along_into(q, u, b, w, [dq, du, db, &fixed], &mut room);
-            subtract(part, &room);
-            let dw = self.factors.solve(&part.coordinates);
-            kernels.residual_gradient_into(q, u, b, &dw, &mut room);
-            subtract(part, &room);
+            self.adjoint.total_along(part, w, direction, &mut room);
         }
         let mut slopes = joined(&total);
         if self.family == Family::General {
@@ -276,7 +224,7 @@ fn form(mode: &Mode) -> Form {
 }
 
 /// Room for the gradient of a complex number, and for one more.
-fn gradients(kernels: &dyn Kernels) -> (ComplexGradient, Gradient) {
+fn gradients(kernels: &(impl Kernels + ?Sized)) -> (ComplexGradient, Gradient) {
     let zeros = || Gradient::zeros(kernels.sizes());
     ([zeros(), zeros()], zeros())
 }
@@ -299,27 +247,4 @@ fn parts(family: Family) -> usize {
         Family::Undamped => 1,
         Family::General => 2,
     }
-}
-
-/// The mean of mirrored elements, and how far they differ relative to the greatest; the first `inputs` rows belong to inputs.
-fn symmetric(rows: &[Slopes<Complex>], inputs: usize) -> (SecondDerivatives<Complex>, f64) {
-    let element = |i: usize, j: usize| match j.checked_sub(inputs) {
-        None => rows[i].by_input[j],
-        Some(j) => rows[i].by_design[j],
-    };
-    let mean = |i: usize, j: usize| 0.5 * (element(i, j) + element(j, i));
-    let (mut most, mut difference) = (0.0_f64, 0.0_f64);
-    for i in 0..rows.len() {
-        for j in 0..=i {
-            most = most.max(element(i, j).norm());
-            difference = difference.max((element(i, j) - element(j, i)).norm());
-        }
-    }
-    let (u, p) = (inputs, rows.len() - inputs);
-    let second = SecondDerivatives {
-        by_input: Matrix::from_fn(u, u, mean),
-        by_input_and_design: Matrix::from_fn(u, p, |i, j| mean(i, u + j)),
-        by_design: Matrix::from_fn(p, p, |i, j| mean(u + i, u + j)),
-    };
-    (second, if most > 0.0 { difference / most } else { 0.0 })
 }

@@ -1,19 +1,26 @@
-//! Second order: how frequencies depend on tolerances quadratically, and the exact distribution of such a quadratic model.
+//! Second order: how frequencies, outputs and critical values depend on tolerances quadratically, and the exact distribution of such a quadratic model.
 
+mod adjoint;
+mod critical;
 mod curvature;
+mod derivatives;
 mod distribution;
 mod forbidden_band;
 mod margin;
 mod moments;
 mod nonlinearity;
+mod output;
 mod probability;
 mod quadratic;
 mod spread;
 
-pub use curvature::{ModeCurvature, SecondDerivatives, mode_curvature};
+pub use critical::{CriticalCurvature, critical_curvature};
+pub use curvature::{ModeCurvature, mode_curvature};
+pub use derivatives::SecondDerivatives;
 pub use forbidden_band::{Band, ModeMargin, mode_margin};
 pub use margin::{Margin, MarginDerivatives, margin};
 pub use nonlinearity::Nonlinearity;
+pub use output::{OutputCurvature, output_curvature};
 pub use probability::Probability;
 pub use quadratic::{ModelMoments, Quadratic};
 pub(crate) use spread::second_order_watched;

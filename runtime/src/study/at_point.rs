@@ -9,13 +9,13 @@ use crate::equilibrium::{self, Assembly, Search};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
 use crate::modes::Whirl;
 use crate::picture::{self, ModePictures, Scene};
-use crate::second_order::{Band, ModeCurvature, ModeMargin, SecondOrder};
+use crate::second_order::{Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
 use crate::sensitivity;
 use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::ShapeSensitivity;
 use crate::tolerance;
 use crate::tolerance::{OutputTolerances, PartialMonteCarlo, Sampling};
-use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
+use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
 impl<M: Kernels> Study<M> {
     /// The dynamic equilibrium ([`equilibrium::equilibrium`]).
@@ -328,6 +328,23 @@ impl<M: CurvatureKernels> Study<M> {
     /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
         self.solve()?.mode_curvature(mode)
+    }
+
+    /// First and second derivatives of one output ([`output_curvature`](crate::second_order::output_curvature)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let angle = study.output_curvature(Pendulum::angle)?;
+    /// // cos(angle) = 3 g / (2 omega^2 l) whatever the mass.
+    /// let m = Pendulum::m.index();
+    /// assert!(angle.second.by_design[m][m].abs() < 1e-12);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::outputs`]; [`Error::NoSensitivity`](crate::Error::NoSensitivity) where the output is not smooth.
+    pub fn output_curvature(&self, output: Output<M>) -> Result<OutputCurvature, Error> {
+        self.solve()?.output_curvature(output)
     }
 
     /// Spread of every mode to second order ([`second_order`](crate::second_order::second_order)).

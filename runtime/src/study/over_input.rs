@@ -7,7 +7,8 @@ use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
 use crate::equilibrium::Search;
-use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
+use crate::second_order::{self, CriticalCurvature};
 use crate::sensitivity::Sensitivities;
 use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Sweep, SweepPoint};
 use crate::tolerance;
@@ -371,6 +372,32 @@ impl<M: DirectionalKernels> Study<M> {
             &state,
             tolerances,
         ))
+    }
+}
+
+impl<M: CurvatureKernels> Study<M> {
+    /// As [`Study::critical_state`], with first and second derivatives of the value
+    /// ([`critical_curvature`](crate::second_order::critical_curvature)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let critical = study.critical_curvature(Pendulum::omega, 0.0, 6.0)?;
+    /// // omega_c = sqrt(3 g / (2 l)), so its second derivative is 3 / 4 of it.
+    /// let l = Pendulum::l.index();
+    /// assert!((critical.second[l][l] - 0.75 * critical.value).abs() < 1e-9);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::critical_state`]; [`Error::NoSensitivity`], [`Error::ClusteredMode`] where the value has no derivatives.
+    pub fn critical_curvature(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<CriticalCurvature, Error> {
+        let state = self.critical_state(input, low, high)?;
+        second_order::critical_curvature(&self.mechanism, &state)
     }
 }
 

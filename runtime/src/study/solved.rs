@@ -8,11 +8,11 @@ use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
 use crate::modes::{self, Whirl};
 use crate::picture::{self, ModePictures, Scene};
-use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
+use crate::second_order::{self, Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::{self, ShapeSensitivity};
 use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling, Tolerances};
-use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
+use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
 /// The equilibrium and the modes of a study, solved once for the questions that build on them. Its methods are those of [`Study`] of
 /// the same name.
@@ -287,6 +287,23 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             modes,
         } = self;
         second_order::mode_curvature(&study.mechanism, equilibrium, modes, mode)
+    }
+
+    /// First and second derivatives of one output ([`second_order::output_curvature`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let angle = study.solve()?.output_curvature(Pendulum::angle)?;
+    /// let l = Pendulum::l.index();
+    /// println!("{} rad per square metre", angle.second.by_design[l][l]);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Solved::outputs`]; [`Error::NoSensitivity`] where the output is not smooth.
+    pub fn output_curvature(&self, output: Output<M>) -> Result<OutputCurvature, Error> {
+        let (mechanism, at) = (&self.study.mechanism, &self.equilibrium);
+        second_order::output_curvature(mechanism, at, output.any())
     }
 
     /// Spread of every mode to second order ([`second_order::second_order`]).

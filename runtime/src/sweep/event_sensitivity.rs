@@ -116,26 +116,34 @@ pub fn critical_sensitivity(
     }
 }
 
+/// `Khat` of a critical state, bordered by `Mhat v`.
+pub(crate) fn bordered(critical: &CriticalState) -> Result<Bordered, Error> {
+    let linear = &critical.equilibrium.linear;
+    let border = times(&linear.mass, &critical.v);
+    Bordered::new(&linear.stiffness, [&border], [&border], [[0.0]])
+        .ok_or(Error::ClusteredMode { mode: 0 })
+}
+
 /// The neighbourhood of a branch point.
-struct Crossed {
+pub(crate) struct Crossed {
     /// `Khat` bordered by the critical vectors.
-    factors: Bordered,
-    /// `w^T g''(x_i, .)` by coordinate and by design variable.
-    second: [(Vector, Vector); 2],
+    pub(crate) factors: Bordered,
+    /// `dq/du` without the part along `v`.
+    pub(crate) along: Vector,
+    /// `w^T g''(x_i, .)`.
+    pub(crate) second: [Gradient; 2],
     /// `H`.
-    hessian: [[f64; 2]; 2],
+    pub(crate) hessian: [[f64; 2]; 2],
 }
 
 impl Crossed {
-    fn new(
+    pub(crate) fn new(
         mechanism: &dyn DirectionalKernels,
         critical: &CriticalState,
         force_input: &[f64],
     ) -> Result<Self, Error> {
         let at = &critical.equilibrium;
-        let column = times(&at.linear.mass, &critical.v);
-        let factors = Bordered::new(&at.linear.stiffness, [&column], [&column], [[0.0]])
-            .ok_or(Error::ClusteredMode { mode: 0 })?;
+        let factors = bordered(critical)?;
         let (along, _) = factors.solve(&force_input.map(|value| -value), [0.0]);
         let bend = |dq: &[f64], share: f64| {
             let (mut du, db) = (
@@ -159,7 +167,8 @@ impl Crossed {
         Ok(Self {
             factors,
             hessian: [row(&by_v), row(&by_along)],
-            second: [by_v, by_along].map(|bend| (bend.coordinates, bend.design)),
+            along,
+            second: [by_v, by_along],
         })
     }
 
@@ -180,7 +189,7 @@ impl Crossed {
             let rates = self
                 .second
                 .each_ref()
-                .map(|(coordinates, design)| dot(coordinates, &shift) + design[j]);
+                .map(|bend| dot(&bend.coordinates, &shift) + bend.design[j]);
             let share = (critical.value / at.design[j]).abs();
             let scale = rates[0].abs() + b.abs() * if share.is_finite() { share } else { 0.0 };
             if dot(&critical.w, force).abs() > UNFORCED * scale * motion {

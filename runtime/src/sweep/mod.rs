@@ -19,6 +19,7 @@ pub(crate) use critical::Path;
 pub use critical::critical_state;
 pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
+pub(crate) use event_sensitivity::{Crossed, bordered};
 pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_tolerance};
 pub use points::{CriticalState, Sweep, SweepPoint};

@@ -127,6 +127,28 @@ law!(
 );
 
 law!(
+    /// A pitchfork at `z = q0 + 0.3 q1 - b^2 u = 0` on the branch `q1 = b u / a`, of the potential
+    /// `(a - b u^2) z^2 / 2 + z^4 / 4 + a q1^2 / 2 - b u q1 + b q1 z^2`.
+    MovingPitchfork, 2, 2, symmetric: true, METRE, ["a" = 1.0, "b" = 1.0],
+    |q, u, b, c| {
+        let z = q[0] + c(0.3) * q[1] - b[1] * b[1] * u;
+        let by_z = (b[0] - b[1] * u * u) * z + z * z * z + c(2.0) * b[1] * q[1] * z;
+        [by_z, c(0.3) * by_z + b[0] * q[1] - b[1] * u + b[1] * z * z]
+    }
+);
+
+law!(
+    /// A pitchfork at `z = q0 + 0.3 q1 - b u = 0` on the branch `q1 = u^2 - 0.2 u / b`, its rows mixed.
+    Skewed, 2, 2, symmetric: false, METRE, ["a" = 1.0, "b" = 1.0],
+    |q, u, b, c| {
+        let z = q[0] + c(0.3) * q[1] - b[1] * u;
+        let odd = (b[0] + c(0.25) * q[1] - u) * z + z * z * z;
+        let even = b[1] * (q[1] - u * u) + z * z + c(0.2) * u;
+        [odd + c(0.4) * even, even - c(0.6) * u * odd]
+    }
+);
+
+law!(
     /// `q - sqrt(1 - u)`: the branch ends at `u = 1` with infinite slope.
     Edge, 1, 0, symmetric: true, METRE, [],
     |q, u, b, c| [q[0] - (c(1.0) - u).sqrt()]

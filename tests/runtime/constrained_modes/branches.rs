@@ -1,6 +1,7 @@
 //! Folds, pitchforks and critical speeds of mechanisms with constraints.
 
 use eigentol::branches::{BranchEnd, Continuation, SpecialKind, branches};
+use eigentol::kernels::CurvatureKernels;
 use eigentol::sweep::{Range, critical_state, crossings};
 use eigentol::sweep::{critical_sensitivity, crossing_sensitivity};
 use eigentol::{Input, Policy, Stability};
@@ -10,6 +11,7 @@ use crate::constrained_modes::compare::{all_near, near, nominal};
 use crate::constrained_modes::holonomic::{
     Bar, Chain, ChainByAngles, Press, PressByAngle, Spherical, SphericalByPlane,
 };
+use crate::critical_curvature::Case;
 
 const OMEGA: Input = Input::new(0);
 
@@ -55,6 +57,43 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
         &slopes,
         1e-9,
     );
+}
+
+/// Second derivatives of `(3 g / 2 L)^(1/2)`, a constraint stated once and twice; of a limit point in minimal coordinates and with a
+/// loop.
+#[test]
+fn critical_values_bend_with_the_design() {
+    let bar = |machine: &dyn CurvatureKernels, start: &[f64]| {
+        let found = Case {
+            machine,
+            b: &nominal::<Bar<1>>(),
+            start,
+            between: (0.5, 6.0),
+        }
+        .curvature();
+        let (speed, _) = critical();
+        let g = 9.81;
+        let mixed = -0.25 * speed / g;
+        all_near(&found.second[0], &[0.0; 3], 1e-9);
+        all_near(&found.second[1], &[0.0, 0.75 * speed, mixed], 1e-9);
+        all_near(&found.second[2], &[0.0, mixed, mixed / g], 1e-9);
+    };
+    bar(&Derived(Bar::<1>), &[0.3, 0.9, 0.0]);
+    bar(&Derived(Bar::<2>), &[0.3, 0.9, 0.0, 0.0]);
+    let press = |machine: &dyn CurvatureKernels, start: &[f64]| {
+        Case {
+            machine,
+            b: &nominal::<Press>(),
+            start,
+            between: (1.0, 40.0),
+        }
+        .curvature()
+    };
+    let angle = press(&Derived(PressByAngle), &[0.8]);
+    let own = press(&Derived(Press), &[0.8, 0.61, 0.0]);
+    for (own, angle) in own.second.iter().zip(angle.second.iter()) {
+        all_near(own, angle, 1e-8);
+    }
 }
 
 #[test]

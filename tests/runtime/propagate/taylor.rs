@@ -127,7 +127,7 @@ fn quantiles_of_the_models() {
     );
 }
 
-/// Linear outputs are exact to first order, several of them with their covariance; outputs have no second derivatives.
+/// Linear outputs are exact to first order, several of them with their covariance; a product is to second order.
 #[test]
 fn a_linear_response() {
     let laws = [Law::Uniform, Law::Triangular, Law::Normal];
@@ -147,11 +147,90 @@ fn a_linear_response() {
         assert!(spread(&all, 0).skewness.unwrap().value.abs() < 1e-12);
         close(all.covariance[0][1].unwrap(), 2.0 * a + 2.0 * b, 1e-12);
         close(all.with_design[0][4].unwrap(), -3.0 * c, 1e-12);
-        // Nothing tells that they are linear.
-        assert_eq!(spread(&all, 0).mean.error, None);
         let second = second_order(&Sum, responses, &tolerances).unwrap();
-        assert_eq!(second.spreads, [None, None]);
+        for all in [&all, &second] {
+            assert!(spread(all, 0).mean.error < Some(1e-12));
+            close(
+                spread(all, 0).sigma.unwrap().value,
+                (a + 4.0 * b + 9.0 * c).sqrt(),
+                1e-12,
+            );
+        }
+        // a0 = 1, b0 = 2: first order leaves `sigma_a sigma_b` out, and says so.
+        let [linear, exact] = [&all, &second].map(|all| spread(all, 1).sigma.unwrap());
+        let truth = (4.0 * a + b + a * b).sqrt();
+        close(exact.value, truth, 1e-12);
+        assert!(linear.error.unwrap() >= truth - linear.value && linear.value < truth);
     });
+}
+
+/// An angle and a critical speed of the bar: the moments are those of the Taylor polynomials of their closed forms.
+#[test]
+fn outputs_and_critical_values() {
+    let c = 1.5 * GRAVITY / SPEED.powi(2);
+    let (sine, angle) = ((1.0 - c * c).sqrt(), c.acos());
+    let speed = (1.5 * GRAVITY).sqrt();
+    let polynomials = [
+        [angle, c / sine, -c / sine * (2.0 + c * c / (sine * sine))],
+        [speed, -0.5 * speed, 0.75 * speed],
+    ];
+    let length = Distribution::uniform(0.92, 1.1).unwrap();
+    let range = Range::new(Bar::omega.any(), 0.5, 8.0).steps(20);
+    let wanted = vec![
+        Response::Output(Bar::angle.any()),
+        Response::Critical(range),
+    ];
+    let all = ask(&bar(), wanted, |responses| {
+        second_order(&Bar, responses, &varied(length.clone())).unwrap()
+    });
+    let number = 200_000;
+    for (k, [value, slope, bend]) in polynomials.into_iter().enumerate() {
+        let at = |k: u32| {
+            let x = length.quantile((f64::from(k) + 0.5) / f64::from(number)) - 1.0;
+            value + slope * x + 0.5 * bend * x * x
+        };
+        let mean = (0..number).map(at).sum::<f64>() / f64::from(number);
+        let square = (0..number).map(|k| (at(k) - mean).powi(2)).sum::<f64>();
+        let own = spread(&all, k);
+        close(own.nominal.unwrap(), value, 1e-12);
+        close(own.mean.value, mean, 1e-8);
+        close(
+            own.sigma.unwrap().value,
+            (square / f64::from(number)).sqrt(),
+            1e-6,
+        );
+    }
+}
+
+mechanism! {
+    mechanism Twins {
+        design m = 1.0 kg;
+        design k = 4.0 N/m;
+        body left: sphere(mass: m, radius: 0.1 m);
+        body right: sphere(mass: m, radius: 0.1 m);
+        joint x: prismatic(x) from ground to left;
+        joint y: prismatic(y) from ground to right;
+        force hold_x: spring(on: x, stiffness: k);
+        force hold_y: spring(on: y, stiffness: k);
+    }
+}
+
+/// Modes that are equal have no second derivatives of their own.
+#[test]
+fn first_order_where_there_is_no_second() {
+    let study = Study::new(Twins).tolerance(Twins::m, 0.01);
+    let (solved, tolerances) = (study.solve().unwrap(), study.tolerances().unwrap());
+    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let responses = Responses::new(&Twins, at, modes, vec![FREQUENCY]).unwrap();
+    let effort = Effort::default().solutions(1);
+    let all = propagate(&Twins, &responses, &tolerances, effort).unwrap();
+    assert_eq!(all.method, Method::FirstOrder);
+    assert!(
+        all.reason.ends_with("no second derivatives"),
+        "{}",
+        all.reason
+    );
+    assert_eq!(spread(&all, 0).mean.error, None);
 }
 
 /// Dependent variables that are not normal have no closed form: samples of the model, with their error.
@@ -219,7 +298,7 @@ fn the_method_follows_the_cost() {
     );
     assert_eq!(
         of(&critical, &tolerances, 21 * 4).method,
-        Method::FirstOrder
+        Method::SecondOrder
     );
     let still = varied(Distribution::constant(1.0).unwrap());
     assert_eq!(

@@ -4,10 +4,10 @@
 use eigentol::equilibrium::Equilibrium;
 use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::{Family, Mode, Modes, modes, undamped_modes};
-use eigentol::second_order::{SecondDerivatives, mode_curvature};
+use eigentol::second_order::{SecondDerivatives, mode_curvature, output_curvature};
 use eigentol::sensitivity::{Quantity, sensitivities};
 use eigentol::shapes::shape_sensitivity;
-use eigentol::{Complex, Description, Error, Role, Sensitivities};
+use eigentol::{Complex, Description, Error, Output, Role, Sensitivities};
 use eigentol_tests::resolved::{Comparison, ComplexDerived, Derived, State, every_machine};
 
 use super::expected::Expected;
@@ -23,6 +23,7 @@ pub(super) struct Product {
     second: usize,
     shapes: usize,
     one_sided: usize,
+    outputs: usize,
     /// Greatest errors relative to what is allowed, and where.
     worst: [(f64, String); 3],
 }
@@ -39,6 +40,12 @@ fn ordered<T: Copy>(all: &SecondDerivatives<T>) -> Vec<Vec<T>> {
     let variables = 0..design + inputs;
     let row = |i| variables.clone().map(|j| by(i, j)).collect();
     variables.clone().map(row).collect()
+}
+
+/// Sizes of the variables.
+fn sizes(at: &Equilibrium) -> Vec<f64> {
+    let all = at.design.iter().chain(&at.inputs);
+    all.map(|&x| if x == 0.0 { 1.0 } else { x.abs() }).collect()
 }
 
 impl Product {
@@ -102,6 +109,28 @@ impl Product {
         }
     }
 
+    /// Every output.
+    fn outputs(
+        &mut self,
+        what: &str,
+        machine: &dyn CurvatureKernels,
+        at: &Equilibrium,
+        expected: &[Derived],
+    ) {
+        let b = sizes(at);
+        for (o, expected) in expected.iter().enumerate() {
+            let what = format!("{what} output {o}");
+            let found = output_curvature(machine, at, Output::new(o))
+                .unwrap_or_else(|error| panic!("{what}: {error}"));
+            assert!(found.asymmetry < 1e-8, "{what}: {:e}", found.asymmetry);
+            let size = found.value.abs().max(1e-3);
+            let first = [&found.first.by_design[..], &found.first.by_input].concat();
+            self.first(&first, expected, &b, size, &what);
+            self.second(&ordered(&found.second), expected, &b, size, &what);
+            self.outputs += 1;
+        }
+    }
+
     #[allow(clippy::too_many_arguments)]
     fn mode(
         &mut self,
@@ -112,11 +141,7 @@ impl Product {
         r: usize,
         expected: &Expected,
     ) {
-        let b: Vec<f64> = [&at.design[..], &at.inputs]
-            .concat()
-            .iter()
-            .map(|&x| if x == 0.0 { 1.0 } else { x.abs() })
-            .collect();
+        let b = sizes(at);
         let own = &all.modes[r];
         let curvature =
             mode_curvature(machine, at, modes, r).unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -215,6 +240,7 @@ impl Comparison for Product {
         at: &Equilibrium,
         state: &State,
     ) {
+        self.outputs(what, machine, at, &state.outputs());
         let general = eigentol::modes::modes_of(&at.linear, Family::General, &at.description)
             .unwrap_or_else(|error| panic!("{what}: {error}"));
         assert_eq!(general.modes.len(), state.eigenvalues().len(), "{what}");
@@ -299,8 +325,9 @@ fn every_derivative_of_every_mode() {
         second,
         shapes,
         one_sided,
+        outputs,
         ..
     } = product;
-    assert!(second > 10_000 && shapes > 5_000 && one_sided > 20);
+    assert!(second > 10_000 && shapes > 5_000 && one_sided > 20 && outputs > 40);
     product.judge(150);
 }

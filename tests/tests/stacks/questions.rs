@@ -11,7 +11,7 @@ use eigentol::requirement::{Requirement, SamplingSettings};
 use eigentol::response::Response;
 use eigentol::second_order::Band;
 use eigentol::sensitivity::Quantity;
-use eigentol::{Error, Input, Study};
+use eigentol::{Error, Input, Output, Study};
 
 /// Where a machine has something to tell.
 #[derive(Clone, Copy)]
@@ -92,6 +92,9 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
             answered(s.shape_sensitivity(mode(s)));
         }),
         ("mode_curvature", |s, _| answered(s.mode_curvature(mode(s)))),
+        ("output_curvature", |s, _| {
+            answered(s.output_curvature(Output::new(0)));
+        }),
         ("second_order", |s, _| answered(s.second_order())),
         ("clusters", |s, _| answered(s.clusters())),
         ("margin", |s, _| answered(s.margin(mode(s), BAND))),
@@ -135,6 +138,7 @@ pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels + PictureKern
         mode_pictures(mode(study), 2, 0.1);
         shape_sensitivity(mode(study));
         mode_curvature(mode(study));
+        output_curvature(Output::new(0));
         second_order();
         clusters();
         margin(mode(study), BAND);
@@ -277,6 +281,7 @@ pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels
         between!(continuation, branches),
         between!(critical_state, critical),
         between!(critical_tolerance, critical),
+        between!(critical_curvature, critical),
         crossings!(crossings),
         crossings!(crossing_tolerances),
         between!(flutter_onsets, crossings),

@@ -278,6 +278,23 @@ impl<K: CurvatureKernels + ?Sized> CurvatureKernels for DeviatingInputs<'_, K> {
                 .pencil_gradient_along_into(q, &u, b, vectors, direction, changes, gradient);
         });
     }
+
+    fn output_partials_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        partials: [&mut Matrix; 3],
+    ) {
+        let (u, b) = self.applied(u, b);
+        let [dq, du, db] = direction;
+        let (du, db) = self.applied(du, db);
+        self.deviations.output_partials(partials, |partials| {
+            self.kernels
+                .output_partials_along_into(q, &u, b, [dq, &du, db], partials);
+        });
+    }
 }
 
 impl<K: MotionKernels + ?Sized> MotionKernels for DeviatingInputs<'_, K> {

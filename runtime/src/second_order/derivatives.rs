@@ -1,0 +1,79 @@
+//! Second derivatives of one number, made of the derivatives of its gradient.
+
+use core::ops::{Add, Mul, Sub};
+
+use crate::algebra::Matrix;
+use crate::sensitivity::Slopes;
+
+/// Second derivatives of one number, SI.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
+)]
+pub struct SecondDerivatives<T> {
+    /// By two inputs.
+    pub by_input: Matrix<T>,
+    /// `by_input_and_design[i][j]`: by input `i` and design variable `j`.
+    pub by_input_and_design: Matrix<T>,
+    /// By two design variables: the Hessian.
+    pub by_design: Matrix<T>,
+}
+
+impl<T: Copy> SecondDerivatives<T> {
+    /// Element by element with the two first derivatives it belongs to.
+    pub(super) fn combine<F: Copy, R: Copy + Default>(
+        &self,
+        first: &Slopes<F>,
+        f: impl Fn(F, F, T) -> R,
+    ) -> SecondDerivatives<R> {
+        let block = |matrix: &Matrix<T>, rows: &[F], columns: &[F]| {
+            Matrix::from_fn(rows.len(), columns.len(), |i, j| {
+                f(rows[i], columns[j], matrix[i][j])
+            })
+        };
+        let (inputs, design) = (&first.by_input, &first.by_design);
+        SecondDerivatives {
+            by_input: block(&self.by_input, inputs, inputs),
+            by_input_and_design: block(&self.by_input_and_design, inputs, design),
+            by_design: block(&self.by_design, design, design),
+        }
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &T> {
+        let blocks = [&self.by_input, &self.by_input_and_design, &self.by_design];
+        blocks.into_iter().flat_map(Matrix::as_flattened)
+    }
+}
+
+/// The mean of mirrored elements, and how far they differ relative to the greatest; the first `inputs` rows belong to inputs.
+pub(super) fn symmetric<T>(
+    rows: &[Slopes<T>],
+    inputs: usize,
+    size: impl Fn(T) -> f64,
+) -> (SecondDerivatives<T>, f64)
+where
+    T: Copy + Default + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+{
+    let element = |i: usize, j: usize| match j.checked_sub(inputs) {
+        None => rows[i].by_input[j],
+        Some(j) => rows[i].by_design[j],
+    };
+    let mean = |i: usize, j: usize| (element(i, j) + element(j, i)) * 0.5;
+    let (mut most, mut difference) = (0.0_f64, 0.0_f64);
+    for i in 0..rows.len() {
+        for j in 0..=i {
+            most = most.max(size(element(i, j)));
+            difference = difference.max(size(element(i, j) - element(j, i)));
+        }
+    }
+    let (u, p) = (inputs, rows.len() - inputs);
+    let second = SecondDerivatives {
+        by_input: Matrix::from_fn(u, u, mean),
+        by_input_and_design: Matrix::from_fn(u, p, |i, j| mean(i, u + j)),
+        by_design: Matrix::from_fn(p, p, |i, j| mean(u + i, u + j)),
+    };
+    (second, if most > 0.0 { difference / most } else { 0.0 })
+}
