@@ -4,7 +4,10 @@
 use crate::algebra::Vector;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
-use crate::sweep::{CriticalState, Range, critical_sensitivity, critical_state};
+use crate::sweep::{
+    Condition, CriticalState, Crossing, Following, Range, critical_sensitivity, critical_state,
+    crossing_sensitivity, first_crossing,
+};
 use crate::tolerance::{Outcome, Solution};
 use crate::{Equilibrium, Error, Modes, Output, Watch};
 
@@ -25,6 +28,16 @@ pub enum Response {
     /// The first value of an input in a range at which the branch that is stable at its low end loses its stiffness, SI
     /// ([`critical_state`]).
     Critical(Range),
+    /// The first value of an input in a range at which a mode meets a condition, SI: the speed at which a rotor resonates, or begins to
+    /// flutter. The range is followed as by [`crossings`](crate::sweep::crossings).
+    Crossing {
+        /// Number of the mode at the start of the range, from 0.
+        mode: usize,
+        /// What it meets.
+        condition: Condition,
+        /// Where to look.
+        range: Range,
+    },
 }
 
 /// The responses to one design.
@@ -69,12 +82,7 @@ impl<'a> Responses<'a> {
         let description = &nominal.description;
         for response in &wanted {
             match response {
-                Response::Mode { mode, .. } => {
-                    let (mode, count) = (*mode, modes.modes.len());
-                    if mode >= count {
-                        return Err(Error::NoSuchMode { mode, count });
-                    }
-                }
+                Response::Mode { mode, .. } => check_mode(*mode, modes)?,
                 Response::Output(output) => {
                     let (index, count) = (output.index(), description.outputs.len());
                     if index >= count {
@@ -87,6 +95,10 @@ impl<'a> Responses<'a> {
                     }
                 }
                 Response::Critical(range) => range.check(description)?,
+                Response::Crossing { mode, range, .. } => {
+                    check_mode(*mode, modes)?;
+                    range.check(description)?;
+                }
             }
         }
         Ok(Self {
@@ -210,7 +222,20 @@ impl<'a> Responses<'a> {
         let mut own = Own::default();
         for response in &self.wanted {
             let (value, gradient) = match response {
-                Response::Critical(range) => self.critical(design, *range, slopes),
+                Response::Critical(range) => {
+                    let state = self.critical_state(design, *range);
+                    let asked = state.as_ref().filter(|_| slopes);
+                    let gradient =
+                        asked.and_then(|state| critical_sensitivity(self.mechanism, state).ok());
+                    (state.map(|state| state.value), gradient)
+                }
+                Response::Crossing { .. } => {
+                    let state = self.first_crossing(design, response);
+                    let asked = state.as_ref().filter(|_| slopes);
+                    let gradient =
+                        asked.and_then(|state| crossing_sensitivity(self.mechanism, state).ok());
+                    (state.map(|state| state.value), gradient)
+                }
                 _ if !stable => (None, None),
                 Response::Mode { mode, quantity } => {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
@@ -244,25 +269,44 @@ impl<'a> Responses<'a> {
         Ok(found)
     }
 
-    fn critical(
-        &self,
-        design: &[f64],
-        range: Range,
-        slopes: bool,
-    ) -> (Option<f64>, Option<Vector>) {
-        let Some(state) = self.critical_state(design, range) else {
-            return (None, None);
-        };
-        let gradient = || critical_sensitivity(self.mechanism, &state).ok();
-        (Some(state.value), slopes.then(gradient).flatten())
-    }
-
     pub(crate) fn critical_state(&self, design: &[f64], range: Range) -> Option<CriticalState> {
         let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
         if self.mechanism.violation(inputs, design).is_some() {
             return None;
         }
         critical_state(self.mechanism, inputs, design, start, range).ok()
+    }
+
+    /// The state of a [`Response::Crossing`].
+    pub(crate) fn first_crossing(&self, design: &[f64], response: &Response) -> Option<Crossing> {
+        let Response::Crossing {
+            mode,
+            condition,
+            range,
+        } = *response
+        else {
+            return None;
+        };
+        let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
+        let (values, what) = ((&**inputs, design), (mode, condition));
+        first_crossing(
+            self.mechanism,
+            values,
+            start,
+            Following::default(),
+            range,
+            what,
+        )
+        .ok()
+        .flatten()
+    }
+}
+
+fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {
+    let count = modes.modes.len();
+    match mode < count {
+        true => Ok(()),
+        false => Err(Error::NoSuchMode { mode, count }),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::common::pendulum::{Pendulum, W};
 use eigentol::branches::SpecialKind;
 use eigentol::error::NoDerivative;
 use eigentol::kernels::CurvatureKernels;
-use eigentol::second_order::{CriticalCurvature, critical_curvature};
+use eigentol::second_order::{EventCurvature, critical_curvature};
 use eigentol::sweep::{CriticalState, Range, critical_sensitivity, critical_state};
 use eigentol::{Error, Input};
 
@@ -30,7 +30,7 @@ impl Case<'_> {
     }
 
     /// Second derivatives, held against differences of the first ones, extrapolated.
-    pub(crate) fn curvature(&self) -> CriticalCurvature {
+    pub(crate) fn curvature(&self) -> EventCurvature {
         let b = self.b;
         let found = critical_curvature(self.machine, &self.state(b)).unwrap();
         let first = |b: &[f64]| critical_sensitivity(self.machine, &self.state(b)).unwrap();

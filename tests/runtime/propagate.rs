@@ -2,6 +2,7 @@
 //! and of the spring oscillator, whose frequency and output are simple.
 
 mod control;
+mod crossing;
 mod influence;
 mod quadrature;
 mod sampling;

@@ -79,7 +79,7 @@ pub(crate) enum FrequencyUnit {
     RadiansPerSecond,
 }
 
-/// A requirement: a quantity of a mode or an output within limits, or outside of a band.
+/// A requirement: a quantity of a mode, an output or a value of an input at which something happens within limits, or outside of a band.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Require {
@@ -88,6 +88,14 @@ pub(crate) struct Require {
     #[serde(default)]
     pub(crate) quantity: Quantity,
     pub(crate) output: Option<String>,
+    /// Where the equilibrium loses its stiffness; a range as after `--sweep`.
+    pub(crate) critical: Option<String>,
+    /// Where the frequency of the mode is `order` times the input.
+    pub(crate) resonance: Option<String>,
+    #[serde(default = "one")]
+    pub(crate) order: f64,
+    /// Where the mode begins to grow.
+    pub(crate) flutter: Option<String>,
     /// The equilibrium is stable.
     #[serde(default)]
     pub(crate) stable: bool,

@@ -1,7 +1,7 @@
 //! A range of an input: `speed=0..6000rpm`.
 
 use clap::Args;
-use eigentol::Input;
+use eigentol::{Input, Study};
 use eigentol_interpreter::{Interpreted, value};
 
 use crate::failure::Failure;
@@ -45,24 +45,26 @@ impl Sweep {
     /// The range; `None` where neither the command line nor a study file has one.
     pub(crate) fn range_if_any(&self, question: &Question) -> Result<Option<Range>, Failure> {
         let text = self.sweep.as_ref().or(question.file.sweep.as_ref());
-        let Some(text) = text else {
-            return Ok(None);
-        };
-        let parts = text
-            .split_once('=')
-            .and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
-        let Some((name, (low, high))) = parts else {
-            return Err(Failure::usage(format!("`{text}` is no range"), HELP));
-        };
-        let (input, unit) = input(&question.study, name)?;
-        let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
-        let end = |text: &str| value(text, &unit, &format!("`{name}`")).map_err(refused);
-        Ok(Some(Range {
-            input,
-            low: end(&with_unit_of(low, high))?,
-            high: end(high)?,
-        }))
+        text.map(|text| range(&question.study, text)).transpose()
     }
+}
+
+/// A range as it is written.
+pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Failure> {
+    let parts = text
+        .split_once('=')
+        .and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
+    let Some((name, (low, high))) = parts else {
+        return Err(Failure::usage(format!("`{text}` is no range"), HELP));
+    };
+    let (input, unit) = input(study, name)?;
+    let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
+    let end = |text: &str| value(text, &unit, &format!("`{name}`")).map_err(refused);
+    Ok(Range {
+        input,
+        low: end(&with_unit_of(low, high))?,
+        high: end(high)?,
+    })
 }
 
 impl Points {

@@ -12,7 +12,7 @@ use pyo3::types::{PyString, PyTuple};
 use crate::events::{Event, events};
 use crate::response::wanted;
 use crate::results::{
-    Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
+    Assembly, Branches, Campbell, Curvature, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
     OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
 };
 use crate::spreads::{
@@ -173,6 +173,14 @@ impl Study {
             .map(ModeCurvature)
     }
 
+    /// First and second derivatives of an output.
+    fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<Curvature> {
+        self.ask(py, |study| {
+            study.output_curvature(study.find_output(output)?)
+        })
+        .map(Curvature::from)
+    }
+
     /// Derivatives of the shapes of one mode, counted from 0.
     fn shape_sensitivity(&self, py: Python<'_>, mode: i64) -> PyResult<ShapeSensitivity> {
         let mode = mode_number(py, mode)?;
@@ -227,8 +235,8 @@ impl Study {
             .map(ModeMargin)
     }
 
-    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output", "angle") or
-    /// ("critical", "speed", 0, 300), as `response` takes them.
+    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output", "angle"),
+    /// ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
     fn propagate(
         &self,
         py: Python<'_>,
@@ -315,6 +323,19 @@ impl Study {
         let (input, low, high) = self.range(py, input, low, high)?;
         self.ask(py, |study| study.critical_tolerance(input, low, high))
             .map(Event)
+    }
+
+    /// First and second derivatives of that value by the design variables.
+    fn critical_curvature(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        low: &Bound<'_, PyAny>,
+        high: &Bound<'_, PyAny>,
+    ) -> PyResult<Curvature> {
+        let (input, low, high) = self.range(py, input, low, high)?;
+        self.ask(py, |study| study.critical_curvature(input, low, high))
+            .map(Curvature::from)
     }
 
     /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and `offset`

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eigentol::response::{Responses, Workspace};
-use eigentol::sweep::Range;
+use eigentol::sweep::{Condition, Line, Range};
 use eigentol::{Equilibrium, Error, Modes, Output};
 use eigentol_interpreter::Interpreted;
 use numpy::{AllowTypeChange, PyArrayLike2, PyArrayMethods};
@@ -41,7 +41,8 @@ pub(crate) struct Response {
     text: String,
 }
 
-/// What is asked of a design: "frequency" and so on of a mode, ("output", name), or ("critical", input, low, high).
+/// What is asked of a design: "frequency" and so on of a mode, ("output", name), ("critical", input, low, high), ("resonance", mode, input,
+/// low, high, order) or ("flutter", mode, input, low, high).
 pub(crate) fn wanted(
     study: &eigentol::Study<Interpreted>,
     what: &str,
@@ -63,12 +64,30 @@ pub(crate) fn wanted(
         }
         "critical" => {
             count(3, "the name of an input, a low and a high value")?;
-            let name = given.get_item(0)?.extract::<String>()?;
-            let (place, unit) = List::Inputs.find(py, study.description(), &name)?;
-            let low = number(&given.get_item(1)?, &unit, &name)?;
-            let high = number(&given.get_item(2)?, &unit, &name)?;
-            let range = Range::new(eigentol::Input::new(place), low, high);
-            Ok(eigentol::response::Response::Critical(range))
+            range(study, given, 0).map(eigentol::response::Response::Critical)
+        }
+        "resonance" | "flutter" => {
+            let most = if what == "resonance" { 5 } else { 4 };
+            if given.len() != 4 && given.len() != most {
+                let list = "the number of a mode, the name of an input, a low and a high value";
+                let order = if most == 5 {
+                    ", and perhaps an order"
+                } else {
+                    ""
+                };
+                return Err(PyTypeError::new_err(format!(
+                    "\"{what}\" needs {list}{order}"
+                )));
+            }
+            let order = given.get_item(4).map_or(Ok(1.0), |order| order.extract())?;
+            Ok(eigentol::response::Response::Crossing {
+                mode: mode_number(py, given.get_item(0)?.extract()?)?,
+                condition: match what {
+                    "resonance" => Condition::Line(Line::from(order)),
+                    _ => Condition::FlutterOnset,
+                },
+                range: range(study, given, 1)?,
+            })
         }
         other => {
             let quantity = quantity(py, other)?;
@@ -79,13 +98,27 @@ pub(crate) fn wanted(
     }
 }
 
+/// The range of an input whose name is number `first` of what is given.
+fn range(
+    study: &eigentol::Study<Interpreted>,
+    given: &Bound<'_, PyTuple>,
+    first: usize,
+) -> PyResult<Range> {
+    let name = given.get_item(first)?.extract::<String>()?;
+    let (place, unit) = List::Inputs.find(given.py(), study.description(), &name)?;
+    let low = number(&given.get_item(first + 1)?, &unit, &name)?;
+    let high = number(&given.get_item(first + 2)?, &unit, &name)?;
+    Ok(Range::new(eigentol::Input::new(place), low, high))
+}
+
 #[pymethods]
 impl Study {
     /// A response as a function of arrays of designs.
     ///
     /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the number of a
-    /// mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value. `variables` names the
-    /// design variables that vary, in order; all unless given.
+    /// mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value, between which the equilibrium loses
+    /// its stiffness; "resonance" and the number of a mode, an input, a low and a high value, and an order (1), or "flutter" and the same
+    /// without it. `variables` names the design variables that vary, in order; all unless given.
     #[pyo3(signature = (what, *of, variables=None))]
     fn response(
         &self,

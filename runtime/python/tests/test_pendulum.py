@@ -65,6 +65,22 @@ def test_hessian(study):
     np.testing.assert_allclose(study.mode_curvature(0).gradient()[1], slope(LENGTH), rtol=1e-12)
 
 
+def test_hessians_of_numbers(study):
+    ratio = COSINE / math.sqrt(1 - COSINE**2)
+    angle = study.output_curvature("angle")
+    assert angle.value == pytest.approx(math.acos(COSINE)) and angle.asymmetry < 1e-12
+    np.testing.assert_allclose(angle.gradient, [0.0, ratio / LENGTH], rtol=1e-12, atol=1e-12)
+    expected = -ratio * (2 + ratio**2) / LENGTH**2
+    np.testing.assert_allclose(angle.hessian, [[0.0, 0.0], [0.0, expected]], rtol=1e-10, atol=1e-10)
+    critical = study.critical_curvature("omega", 0.5, 8.0)
+    speed = math.sqrt(1.5 * G / LENGTH)
+    expected = 0.75 * speed / LENGTH**2
+    assert critical.value == pytest.approx(speed)
+    np.testing.assert_allclose(critical.hessian, [[0.0, 0.0], [0.0, expected]], rtol=1e-9, atol=1e-9)
+    with pytest.raises(eigentol.UnknownName):
+        study.output_curvature("angel")
+
+
 def test_first_order_spread(study):
     found = study.first_order()
     sigma = slope(LENGTH) * 0.03 * LENGTH / 3

@@ -151,8 +151,8 @@ pub fn propagate(
 /// Solutions of the equilibrium that a design costs.
 fn price(wanted: &[Response]) -> u64 {
     let steps = wanted.iter().map(|response| match response {
-        Response::Critical(range) => range.steps as u64,
-        _ => 0,
+        Response::Critical(range) | Response::Crossing { range, .. } => range.steps as u64,
+        Response::Mode { .. } | Response::Output(_) => 0,
     });
     steps.fold(1, u64::saturating_add)
 }

@@ -8,7 +8,9 @@ use crate::Error;
 use crate::algebra::{Matrix, Vector, dot, form};
 use crate::kernels::CurvatureKernels;
 use crate::response::{Response, Responses};
-use crate::second_order::{ModeCurvature, critical_curvature, mode_curvature, output_curvature};
+use crate::second_order::{
+    ModeCurvature, critical_curvature, crossing_curvature, mode_curvature, output_curvature,
+};
 use crate::tolerance::Outcome;
 
 /// `f(b0 + x) = value + S x + x^T H x / 2`, SI.
@@ -63,6 +65,11 @@ pub(super) fn expansions(
                 Response::Critical(range) => {
                     let state = responses.critical_state(&at.design, range);
                     let found = state.map(|state| critical_curvature(mechanism, &state));
+                    found?.ok().map(|found| found.second)
+                }
+                Response::Crossing { .. } => {
+                    let state = responses.first_crossing(&at.design, response);
+                    let found = state.map(|state| crossing_curvature(mechanism, &state));
                     found?.ok().map(|found| found.second)
                 }
             },

@@ -14,6 +14,7 @@ mod numbers;
 mod propagation;
 mod relevance;
 mod requirement;
+mod response;
 mod second_order;
 mod sensitivity;
 mod sentences;

@@ -1,6 +1,6 @@
 //! Numbers as text, with as many digits as they deserve.
 
-use crate::{Quantity, Text, Unit};
+use crate::Unit;
 
 /// A computed value: six significant digits, in scientific form where that is shorter to read.
 pub(super) fn number(value: f64) -> String {
@@ -103,18 +103,6 @@ fn converted(value: f64, unit: &Unit) -> f64 {
         value
     } else {
         value / unit.scale
-    }
-}
-
-/// The unit of a quantity of a mode.
-pub(super) fn unit_of(quantity: Quantity) -> Unit {
-    Unit {
-        symbol: Text::Static(match quantity {
-            Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
-            Quantity::DampingRatio => "",
-            Quantity::Growth => "1/s",
-        }),
-        scale: 1.0,
     }
 }
 

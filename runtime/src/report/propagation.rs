@@ -4,7 +4,7 @@ use core::fmt;
 
 use eigentol_statistics::sensitivity::Estimate;
 
-use super::numbers::{heading, in_unit, or_dash, percent, short, unit_of};
+use super::numbers::{heading, in_unit, or_dash, percent, short};
 use super::relevance::{BELOW, names, relevant, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title;
@@ -14,26 +14,9 @@ use crate::propagation::{
 use crate::response::Response;
 use crate::{Description, Unit};
 
-/// What a response is called, and the unit it is printed in.
-fn named(response: &Response, d: &Description) -> (String, Unit) {
-    match response {
-        Response::Mode { mode, quantity } => {
-            (format!("{quantity} {}", mode + 1), unit_of(*quantity))
-        }
-        Response::Output(output) => {
-            let info = &d.outputs[output.index()];
-            (info.name.to_string(), info.unit.clone())
-        }
-        Response::Critical(range) => {
-            let info = &d.inputs[range.input.index()];
-            (format!("critical {}", info.name), info.unit.clone())
-        }
-    }
-}
-
 fn labelled(response: &Response, d: &Description) -> (String, Unit) {
-    let (name, unit) = named(response, d);
-    (heading(&name, &unit), unit)
+    let unit = response.unit(d);
+    (heading(&response.name(d), &unit), unit)
 }
 
 impl fmt::Display for Method {
@@ -114,7 +97,7 @@ impl fmt::Display for Propagation {
 impl Propagation {
     fn correlations(&self) -> Table {
         let names: Vec<String> = (self.wanted.iter())
-            .map(|response| named(response, &self.description).0)
+            .map(|response| response.name(&self.description))
             .collect();
         let mut head = vec!["correlation".to_owned()];
         head.extend(names.iter().cloned());
@@ -164,7 +147,7 @@ impl fmt::Display for WorstCase {
         }
         write!(f, "{table}")?;
         for (response, own) in self.wanted.iter().zip(&self.responses) {
-            let (name, _) = named(response, d);
+            let name = response.name(d);
             if !own.turning.is_empty() {
                 let variables = own.turning.iter().map(|&j| &*d.design[j].name);
                 let variables: Vec<&str> = variables.collect();

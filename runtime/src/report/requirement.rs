@@ -3,15 +3,14 @@
 use core::fmt;
 
 use super::margin::chance;
-use super::numbers::{given, given_in, heading, in_unit, or_dash, rough, short, with_unit};
+use super::numbers::{given_in, heading, in_unit, or_dash, rough, short, with_unit};
 use super::relevance::{BELOW, names, relevant};
 use super::table::{Table, cells};
 use super::title::title;
+use crate::Description;
 use crate::requirement::{
     Chances, DesignPoint, Edge, Limit, LimitReliability, RareFailure, Reliability, Tally,
 };
-use crate::response::Response;
-use crate::{Description, Quantity};
 
 /// How sure the intervals are.
 const CONFIDENCE: f64 = 0.95;
@@ -158,40 +157,8 @@ fn point(f: &mut fmt::Formatter<'_>, at: &DesignPoint, d: &Description) -> fmt::
 
 /// `frequency 1 at least 4.00000 rad/s`.
 fn text(limit: &Limit, d: &Description) -> String {
-    let one = |end: f64| match limit.response {
-        Response::Mode { quantity, .. } => match quantity {
-            Quantity::DampingRatio => given(end),
-            Quantity::Growth => format!("{} 1/s", given(end)),
-            _ => format!("{} rad/s", given(end)),
-        },
-        Response::Output(output) => match d.outputs.get(output.index()) {
-            Some(info) => with_unit(given_in(end, &info.unit), &info.unit),
-            None => given(end),
-        },
-        Response::Critical(range) => match d.inputs.get(range.input.index()) {
-            Some(info) => with_unit(given_in(end, &info.unit), &info.unit),
-            None => given(end),
-        },
-    };
-    let name = match limit.response {
-        Response::Mode { mode, quantity } => {
-            let quantity = match quantity {
-                Quantity::Frequency => "frequency",
-                Quantity::NaturalFrequency => "natural frequency",
-                Quantity::DampingRatio => "damping ratio",
-                Quantity::Growth => "growth",
-            };
-            format!("{quantity} {}", mode + 1)
-        }
-        Response::Output(output) => {
-            let info = d.outputs.get(output.index());
-            info.map_or_else(String::new, |info| info.name.to_string())
-        }
-        Response::Critical(range) => {
-            let info = d.inputs.get(range.input.index());
-            info.map_or_else(String::new, |info| format!("critical {}", info.name))
-        }
-    };
+    let (name, unit) = (limit.response.name(d), limit.response.unit(d));
+    let one = |end: f64| with_unit(given_in(end, &unit), &unit);
     match limit.edge {
         Edge::AtLeast(low) => format!("{name} at least {}", one(low)),
         Edge::AtMost(high) => format!("{name} at most {}", one(high)),

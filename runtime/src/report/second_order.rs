@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::margin::MarginTable;
-use super::numbers::{heading, number, rough, unit_of};
+use super::numbers::{heading, number, rough};
 use super::relevance::{CHANCE, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title;
@@ -60,7 +60,7 @@ impl fmt::Display for ModeMargin {
             inputs: &self.inputs,
             margin: &self.margin,
             quantity: &format!("{} {}", self.quantity, self.mode + 1),
-            unit: unit_of(self.quantity),
+            unit: self.quantity.unit(),
             description: &self.description,
         };
         write!(f, "{table}")?;

@@ -1,33 +1,14 @@
 //! Exact second derivatives of a critical value by the design.
 
 use super::derivatives::symmetric;
-use crate::algebra::{Matrix, Vector, add_to, all_finite, all_finite_matrix, dot, times};
+use super::event::EventCurvature;
+use crate::Error;
+use crate::algebra::{Matrix, Vector, add_to, dot, times};
 use crate::branches::{Bordered, SpecialKind};
 use crate::error::NoDerivative;
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels};
-use crate::sensitivity::{Direction, Slopes, outside_domain, subtract};
+use crate::sensitivity::{Direction, Slopes, subtract};
 use crate::sweep::{CriticalState, Crossed, bordered, critical_sensitivity};
-use crate::{Description, Error, Input, Shared};
-
-/// First and second derivatives of a critical value by the design, SI.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct CriticalCurvature {
-    /// The input.
-    pub input: Input,
-    /// Its critical value.
-    pub value: f64,
-    /// First derivatives by the design variables ([`critical_sensitivity`](crate::sweep::critical_sensitivity)).
-    pub first: Vector,
-    /// Second derivatives by two design variables.
-    pub second: Matrix,
-    /// Greatest difference of mirrored second derivatives before they were averaged, relative to the greatest: exact
-    /// arithmetic would give zero.
-    pub asymmetry: f64,
-    /// The mechanism it belongs to.
-    pub description: Shared<Description>,
-}
 
 /// First and second derivatives of a critical value by all design variables: how the state where `Khat` is singular moves with the
 /// design, `v` and `w` its critical vectors.
@@ -43,7 +24,7 @@ pub struct CriticalCurvature {
 pub fn critical_curvature(
     mechanism: &dyn CurvatureKernels,
     critical: &CriticalState,
-) -> Result<CriticalCurvature, Error> {
+) -> Result<EventCurvature, Error> {
     let at = &critical.equilibrium;
     let first = critical_sensitivity(mechanism, critical)?;
     let state = State {
@@ -65,18 +46,15 @@ pub fn critical_curvature(
         })
         .collect();
     let (second, asymmetry) = symmetric(&rows, 0, f64::abs);
-    let second = second.by_design;
-    if !all_finite(&first) || !all_finite_matrix(&second) {
-        return Err(outside_domain(at));
-    }
-    Ok(CriticalCurvature {
+    EventCurvature {
         input: critical.input,
         value: critical.value,
         first,
-        second,
+        second: second.by_design,
         asymmetry,
         description: at.description.clone(),
-    })
+    }
+    .finite(at)
 }
 
 fn none(reason: NoDerivative) -> Error {

@@ -8,7 +8,7 @@ use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
 use crate::equilibrium::Search;
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
-use crate::second_order::{self, CriticalCurvature};
+use crate::second_order::{self, EventCurvature};
 use crate::sensitivity::Sensitivities;
 use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Sweep, SweepPoint};
 use crate::tolerance;
@@ -395,7 +395,7 @@ impl<M: CurvatureKernels> Study<M> {
         input: Input<M>,
         low: impl Into<Value>,
         high: impl Into<Value>,
-    ) -> Result<CriticalCurvature, Error> {
+    ) -> Result<EventCurvature, Error> {
         let state = self.critical_state(input, low, high)?;
         second_order::critical_curvature(&self.mechanism, &state)
     }

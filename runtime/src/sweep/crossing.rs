@@ -127,7 +127,17 @@ pub fn crossings(
     line: impl Into<Line>,
 ) -> Result<Vec<Crossing>, Error> {
     let condition = Condition::Line(line.into());
-    meetings(mechanism, (u, b), start, following.into(), range, condition)
+    let all = |_: &[Crossing]| false;
+    let values = (u, b);
+    meetings(
+        mechanism,
+        values,
+        start,
+        following.into(),
+        range,
+        condition,
+        all,
+    )
 }
 
 /// Finds every value of an input in a range at which an oscillation begins or ceases to grow, on the equilibria that
@@ -143,14 +153,36 @@ pub fn flutter_onsets(
     following: impl Into<Following>,
     range: Range,
 ) -> Result<Vec<Crossing>, Error> {
-    let general = Following {
-        family: Some(Family::General),
-        ..following.into()
-    };
     let onset = Condition::FlutterOnset;
-    meetings(mechanism, (u, b), start, general, range, onset)
+    let all = |_: &[Crossing]| false;
+    let values = (u, b);
+    meetings(
+        mechanism,
+        values,
+        start,
+        following.into(),
+        range,
+        onset,
+        all,
+    )
 }
 
+/// The first value in a range at which the mode that is number `mode` at its start meets a condition; `None` where it does not.
+pub(crate) fn first_crossing(
+    mechanism: &dyn Kernels,
+    values: (&[f64], &[f64]),
+    start: &[f64],
+    following: Following,
+    range: Range,
+    (mode, condition): (usize, Condition),
+) -> Result<Option<Crossing>, Error> {
+    let wanted = |crossing: &Crossing| crossing.mode == mode;
+    let met = |found: &[Crossing]| found.iter().any(wanted);
+    let found = meetings(mechanism, values, start, following, range, condition, met)?;
+    Ok(found.into_iter().find(wanted))
+}
+
+/// The meetings in a range, until there are enough.
 fn meetings(
     mechanism: &dyn Kernels,
     values: (&[f64], &[f64]),
@@ -158,8 +190,16 @@ fn meetings(
     following: Following,
     range: Range,
     condition: Condition,
+    enough: impl Fn(&[Crossing]) -> bool,
 ) -> Result<Vec<Crossing>, Error> {
     range.check(&mechanism.description())?;
+    let following = Following {
+        family: match condition {
+            Condition::FlutterOnset => Some(Family::General),
+            Condition::Line(_) => following.family,
+        },
+        ..following
+    };
     let mut tracker = Tracker::new(mechanism, values, start, following, range.input);
     if let Some(failed) = tracker.advance(range.low) {
         failed.modes?;
@@ -172,6 +212,9 @@ fn meetings(
         }
         if let (Some(before), Some(after)) = (&before, &tracker.last) {
             between(&tracker, before, after, condition, &mut found);
+        }
+        if enough(&found) {
+            break;
         }
     }
     Ok(found)

@@ -17,8 +17,8 @@ mod track;
 
 pub(crate) use critical::Path;
 pub use critical::critical_state;
-pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
+pub(crate) use crossing::{between, first_crossing};
 pub(crate) use event_sensitivity::{Crossed, bordered};
 pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_tolerance};

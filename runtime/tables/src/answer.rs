@@ -8,7 +8,9 @@ use eigentol::equilibrium::Assembly;
 use eigentol::modes::Whirl;
 use eigentol::propagation::{Controlled, Influence, Propagation, WorstCase};
 use eigentol::requirement::{Chances, RareFailure, Reliability};
-use eigentol::second_order::{ModeCurvature, ModeMargin, SecondOrder};
+use eigentol::second_order::{
+    EventCurvature, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder,
+};
 use eigentol::sensitivity::{EquilibriumShift, OutputSensitivities};
 use eigentol::shapes::ShapeSensitivity;
 use eigentol::summary::Summary;
@@ -106,6 +108,8 @@ macro_rules! at_no_point {
 
 at_no_point! {
     "second derivatives": ModeCurvature;
+    "second derivatives of an event": EventCurvature;
+    "second derivatives of an output": OutputCurvature;
     "shape sensitivities": ShapeSensitivity;
 }
 

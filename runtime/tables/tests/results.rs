@@ -13,6 +13,7 @@ mechanism! {
         body bar: rod(mass: 3 kg, length: l, along: -z);
         joint spin: revolute(z) from ground to shaft, driven at speed;
         joint theta: revolute(y) from shaft to bar;
+        output angle = theta;
     }
 }
 
@@ -148,4 +149,28 @@ fn second_derivatives_are_per_declared_units() {
     );
     let mixed = [number(table, "lambda", 1), number(table, "lambda", 2)];
     assert!(mixed[0] == mixed[1] && mixed[0] != 0.0, "{mixed:?}");
+}
+
+/// `theta'' = -cos / sin (2 + cos^2 / sin^2) / l^2` by the length; of the critical speed `(3 g / 2 l)^(1/2)` it is `3/4` of it by `l^2`.
+#[test]
+fn second_derivatives_of_outputs_and_critical_values() {
+    let [theta, ..] = closed_form();
+    let (sin, cos) = theta.sin_cos();
+    let angle = study().output_curvature(RotatingBar::angle);
+    let table = &tables(&angle.expect("derivatives"))[0];
+    assert_eq!(table.rows(), 4);
+    close(
+        number(table, "angle", 3),
+        -1e-6 * cos / sin * (2.0 + (cos / sin).powi(2)),
+    );
+    // dtheta/dl = cot theta / l, dtheta/dOmega = 2 cot theta / Omega.
+    let mixed = -1e-3 / RPM * 2.0 * cos / sin.powi(3);
+    close(number(table, "angle", 1), mixed);
+    close(number(table, "angle", 2), mixed);
+    let (low, high) = (InDeclaredUnit(1.0), InDeclaredUnit(100.0));
+    let critical = study().critical_curvature(RotatingBar::speed, low, high);
+    let table = &tables(&critical.expect("derivatives"))[0];
+    assert_eq!(table.rows(), 1);
+    let speed = (1.5_f64 * 9.81).sqrt() * 60.0 / std::f64::consts::TAU;
+    close(number(table, "speed", 0), 0.75e-6 * speed);
 }

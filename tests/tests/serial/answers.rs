@@ -6,7 +6,7 @@ use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::clusters::ClusterTolerance;
 use eigentol::requirement::{Requirement, SamplingSettings};
 use eigentol::response::Response;
-use eigentol::second_order::{Band, CriticalCurvature};
+use eigentol::second_order::{Band, EventCurvature};
 use eigentol::sweep::{CriticalState, Crossing, EventTolerance};
 use eigentol::{Coordinate, Error, Input, Mechanism, Output, Quantity, Study};
 use eigentol_tables::{Answer, json};
@@ -171,7 +171,7 @@ impl Answers {
         self.both(name, study.branches(input, low, high));
         self.both::<CriticalState>(name, study.critical_state(input, low, high));
         self.both::<EventTolerance>(name, study.critical_tolerance(input, low, high));
-        self.both::<CriticalCurvature>(name, study.critical_curvature(input, low, high));
+        self.both::<EventCurvature>(name, study.critical_curvature(input, low, high));
         self.both::<Vec<Crossing>>(name, study.crossings(input, low, high, 1.0));
         self.both::<Vec<EventTolerance>>(name, study.crossing_tolerances(input, low, high, 1.0));
         self.both::<Vec<Crossing>>(name, study.flutter_onsets(input, low, high));

@@ -4,8 +4,8 @@ use clap::Args;
 use eigentol::allocation::{Choices, Cost, HalfWidth, Nominal};
 use eigentol::requirement::Requirement;
 use eigentol::response::Response;
-use eigentol::{Parameter, Study};
-use eigentol::{Quantity, Unit};
+use eigentol::sweep::{Condition, Line, Range};
+use eigentol::{Parameter, Quantity, Study, Unit};
 use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
@@ -13,6 +13,7 @@ use crate::output::Output;
 use crate::point::{Point, Question, design, parameter, unknown, whole, written};
 use crate::progress;
 use crate::study_file::{self, Choose, Require, Written};
+use crate::sweep::range;
 use crate::verdict::Verdict;
 
 /// The cheapest tolerances that meet requirements; a study file says what is required and what may be chosen
@@ -76,22 +77,11 @@ impl Allocate {
 }
 
 fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement, Failure> {
-    let (response, unit) = match (own.stable, own.mode, &own.output) {
-        (true, None, None) => return Ok(Requirement::Stable),
-        (false, Some(mode), None) => {
-            let quantity = own.quantity.into();
-            let mode = mode
-                .checked_sub(1)
-                .ok_or_else(|| Failure::usage("there is no mode 0", "modes are counted from 1"))?;
-            (Response::Mode { mode, quantity }, unit_of(quantity))
-        }
-        (false, None, Some(name)) => output(study, name)?,
-        _ => {
-            let help = "a requirement is about `mode = 1`, `output = \"name\"` or `stable = true`";
-            let message = "a requirement is about one thing";
-            return Err(Failure::usage(message, help));
-        }
-    };
+    if own.stable && !about_a_number(own) {
+        return Ok(Requirement::Stable);
+    }
+    let response = response(study, own)?;
+    let unit = response.unit(study.description());
     let read = |place: &str, text: &Written| written(place, text, &unit);
     match (&own.at_least, &own.at_most, &own.outside) {
         (None, None, Some([low, high])) => Ok(Requirement::Outside {
@@ -115,30 +105,60 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
     }
 }
 
-fn output(study: &Study<Interpreted>, name: &str) -> Result<(Response, Unit), Failure> {
-    let all = &study.description().outputs;
-    match study.find_output(name) {
-        Ok(found) => Ok((
-            Response::Output(found.any()),
-            all[found.index()].unit.clone(),
-        )),
-        Err(_) => {
-            let known = all.iter().map(|info| &info.name);
-            Err(unknown(study.description(), "output", name, known))
-        }
-    }
+fn about_a_number(own: &Require) -> bool {
+    let texts = [&own.output, &own.critical, &own.resonance, &own.flutter];
+    own.mode.is_some() || texts.into_iter().any(Option::is_some)
 }
 
-fn unit_of(quantity: Quantity) -> Unit {
-    let symbol = match quantity {
-        Quantity::DampingRatio => "1",
-        Quantity::Growth => "1/s",
-        _ => "rad/s",
+fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failure> {
+    let mode = || {
+        let help = "modes are counted from 1: `mode = 1`";
+        let place = own.mode.and_then(|mode| mode.checked_sub(1));
+        place.ok_or_else(|| Failure::usage("there is no such mode", help))
     };
-    Unit {
-        symbol: symbol.to_owned().into(),
-        scale: 1.0,
+    let range = |text: &str| {
+        let found = range(study, text)?;
+        Ok::<_, Failure>(Range::new(found.input.any(), found.low, found.high))
+    };
+    let crossing = |condition, text: &str| {
+        Ok(Response::Crossing {
+            mode: mode()?,
+            condition,
+            range: range(text)?,
+        })
+    };
+    match (&own.output, &own.critical, &own.resonance, &own.flutter) {
+        _ if own.stable => {}
+        (None, None, None, None) if own.mode.is_some() => {
+            let (mode, quantity) = (mode()?, own.quantity.into());
+            return Ok(Response::Mode { mode, quantity });
+        }
+        (Some(name), None, None, None) if own.mode.is_none() => return output(study, name),
+        (None, Some(text), None, None) if own.mode.is_none() => {
+            return Ok(Response::Critical(range(text)?));
+        }
+        (None, None, Some(text), None) => {
+            return crossing(Condition::Line(Line::from(own.order)), text);
+        }
+        (None, None, None, Some(text)) => return crossing(Condition::FlutterOnset, text),
+        _ => {}
     }
+    Err(Failure::usage(
+        "a requirement is about one thing",
+        "it is `mode = 1`, `output = \"name\"`, `critical = \"speed=0..6000rpm\"`, `resonance` or `flutter` of a `mode` along such a \
+         range, or `stable = true`",
+    ))
+}
+
+fn output(study: &Study<Interpreted>, name: &str) -> Result<Response, Failure> {
+    let all = &study.description().outputs;
+    study
+        .find_output(name)
+        .map(|found| Response::Output(found.any()))
+        .map_err(|_| {
+            let known = all.iter().map(|info| &info.name);
+            unknown(study.description(), "output", name, known)
+        })
 }
 
 impl From<study_file::Quantity> for Quantity {

@@ -11,7 +11,7 @@ pub(crate) use branches::{Branch, Branches};
 pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
 pub(crate) use modes::Modes;
 pub(crate) use sensitivities::{
-    ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, quantity,
+    Curvature, ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, quantity,
 };
 pub(crate) use shared::{Document, html, json_schema, result, table};
 pub(crate) use sweep::{Campbell, Sweep};

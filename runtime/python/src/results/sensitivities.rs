@@ -1,8 +1,8 @@
 //! What moves modes and outputs.
 
-use eigentol::second_order::SecondDerivatives;
+use eigentol::second_order::{EventCurvature, OutputCurvature, SecondDerivatives};
 use eigentol::sensitivity::{ModeSensitivity, Slopes};
-use eigentol::{Complex, Quantity};
+use eigentol::{Complex, Matrix, Quantity, Vector};
 use pyo3::prelude::*;
 
 use super::result;
@@ -174,6 +174,78 @@ impl ModeCurvature {
     fn __repr__(&self) -> String {
         let (of, mode, s) = (&self.0.description.name, self.0.mode, self.0.s);
         format!("First and second derivatives of mode {mode} of {of}, s = {s} 1/s")
+    }
+}
+
+/// First and second total derivatives of one number, per SI unit.
+#[pyclass(frozen, module = "eigentol")]
+pub(crate) struct Curvature {
+    value: f64,
+    gradient: Vector,
+    hessian: Matrix,
+    asymmetry: f64,
+    what: String,
+}
+
+impl From<OutputCurvature> for Curvature {
+    fn from(own: OutputCurvature) -> Self {
+        let of = &own.description;
+        let name = of.outputs.get(own.output.index()).map(|info| &*info.name);
+        Self {
+            value: own.value,
+            gradient: own.first.by_design,
+            hessian: own.second.by_design,
+            asymmetry: own.asymmetry,
+            what: format!("output {} of {}", name.unwrap_or("?"), of.name),
+        }
+    }
+}
+
+impl From<EventCurvature> for Curvature {
+    fn from(own: EventCurvature) -> Self {
+        let of = &own.description;
+        let name = of.inputs.get(own.input.index()).map(|info| &*info.name);
+        Self {
+            value: own.value,
+            gradient: own.first,
+            hessian: own.second,
+            asymmetry: own.asymmetry,
+            what: format!("critical {} of {}", name.unwrap_or("?"), of.name),
+        }
+    }
+}
+
+#[pymethods]
+impl Curvature {
+    /// The number, SI.
+    #[getter]
+    fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// First derivatives by design variables, shape (design,).
+    #[getter]
+    fn gradient<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.gradient.clone())
+    }
+
+    /// Second derivatives by design variables, shape (design, design).
+    #[getter]
+    fn hessian<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
+        matrix(py, &self.hessian)
+    }
+
+    /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give zero.
+    #[getter]
+    fn asymmetry(&self) -> f64 {
+        self.asymmetry
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "First and second derivatives of {}, {} SI",
+            self.what, self.value
+        )
     }
 }
 

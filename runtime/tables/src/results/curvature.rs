@@ -1,9 +1,9 @@
-use eigentol::second_order::ModeCurvature;
+use eigentol::second_order::{EventCurvature, ModeCurvature, OutputCurvature, SecondDerivatives};
 use eigentol::shapes::ShapeSensitivity;
-use eigentol::{Complex, Matrix};
+use eigentol::{Complex, Matrix, Text, Unit};
 
 use super::Tables;
-use super::names::{by, per_unit, variables};
+use super::names::{by, in_unit, per_unit, variables};
 use crate::Table;
 
 /// Entry of a matrix that a damaged file may have cut.
@@ -11,58 +11,114 @@ fn entry<T: Copy>(matrix: &Matrix<T>, i: usize, j: usize) -> Option<T> {
     matrix.iter().nth(i)?.get(j).copied()
 }
 
+/// Every two of some variables, a row for each.
+struct Pairs<'a>(Vec<(&'a Text, &'a Unit)>);
+
+impl Pairs<'_> {
+    fn iter(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let count = self.0.len();
+        (0..count).flat_map(move |i| (0..count).map(move |j| (i, j)))
+    }
+
+    /// Names and units of both.
+    fn columns(&self, table: &mut Table) {
+        for (title, which) in [
+            ("by", (|(i, _)| i) as fn((usize, usize)) -> usize),
+            ("and by", |(_, j)| j),
+        ] {
+            let own = |pair| self.0.get(which(pair));
+            let name = |pair| own(pair).map(|(name, _)| name.to_string());
+            table.texts(title, self.iter().map(name));
+            let unit = |pair| own(pair).and_then(|(_, unit)| by(unit));
+            table.texts("unit", self.iter().map(unit));
+        }
+    }
+
+    /// A second derivative by declared units.
+    fn scaled(&self, (i, j): (usize, usize), value: f64) -> Option<f64> {
+        let (by_first, by_second) = (self.0.get(i)?.1, self.0.get(j)?.1);
+        Some(per_unit(per_unit(value, by_first), by_second))
+    }
+}
+
 /// `second derivatives`: a row for each pair of variables, derivatives of `lambda` and of the eigenvalue `s` per `unit` of the first and
 /// `unit 2` of the second one.
 impl Tables for ModeCurvature {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
-        let all: Vec<_> = variables(d).collect();
+        let pairs = Pairs(variables(d).collect());
         let inputs = d.inputs.len();
-        let pairs = || (0..all.len()).flat_map(|i| (0..all.len()).map(move |j| (i, j)));
-        let name = |k: usize| all.get(k).map(|(name, _)| name.to_string());
-        let unit = |k: usize| all.get(k).and_then(|(_, unit)| by(unit));
-        let scaled = |(i, j): (usize, usize), value: f64| {
-            Some(per_unit(per_unit(value, all.get(i)?.1), all.get(j)?.1))
-        };
         let mut table = Table::new("second derivatives");
-        table.whole("mode", pairs().map(|_| self.mode + 1));
-        table.texts("by", pairs().map(|(i, _)| name(i)));
-        table.texts("unit", pairs().map(|(i, _)| unit(i)));
-        table.texts("and by", pairs().map(|(_, j)| name(j)));
-        table.texts("unit", pairs().map(|(_, j)| unit(j)));
-        let lambda = pairs().map(|(i, j)| {
-            let own = &self.lambda;
-            let parts = (&own.by_input, &own.by_input_and_design, &own.by_design);
-            scaled((i, j), element(parts, inputs, i, j)?)
-        });
-        table.numbers("lambda", "1/s^2 per units", lambda);
+        table.whole("mode", pairs.iter().map(|_| self.mode + 1));
+        pairs.columns(&mut table);
+        let lambda = |pair| pairs.scaled(pair, element(&self.lambda, inputs, pair)?);
+        table.numbers("lambda", "1/s^2 per units", pairs.iter().map(lambda));
         for (title, part) in [
             ("Re s", (|s| s.re) as fn(Complex) -> f64),
             ("Im s", |s| s.im),
         ] {
-            let value = pairs().map(|(i, j)| {
-                let own = self.eigenvalue.as_ref()?;
-                let parts = (&own.by_input, &own.by_input_and_design, &own.by_design);
-                scaled((i, j), part(element(parts, inputs, i, j)?))
-            });
-            table.numbers(title, "1/s per units", value);
+            let value = |pair| {
+                let own = element(self.eigenvalue.as_ref()?, inputs, pair)?;
+                pairs.scaled(pair, part(own))
+            };
+            table.numbers(title, "1/s per units", pairs.iter().map(value));
         }
         vec![table]
     }
 }
 
-/// The second derivative by variables `i` and `j`, inputs first.
+/// `second derivatives`: a row for each pair of variables, the derivative of the output per `unit` of the first and `unit 2` of the
+/// second one.
+impl Tables for OutputCurvature {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let pairs = Pairs(variables(d).collect());
+        let mut table = Table::new("second derivatives");
+        pairs.columns(&mut table);
+        if let Some(info) = d.outputs.get(self.output.index()) {
+            let value = |pair| {
+                let own = element(&self.second, d.inputs.len(), pair)?;
+                Some(in_unit(pairs.scaled(pair, own)?, &info.unit))
+            };
+            let unit = format!("{} per units", info.unit.symbol);
+            table.numbers(&*info.name, &unit, pairs.iter().map(value));
+        }
+        vec![table]
+    }
+}
+
+/// `second derivatives`: a row for each pair of design variables, the derivative of the critical value per `unit` of the first and
+/// `unit 2` of the second one.
+impl Tables for EventCurvature {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let design = d.design.iter().map(|info| (&info.name, &info.unit));
+        let pairs = Pairs(design.collect());
+        let mut table = Table::new("second derivatives");
+        pairs.columns(&mut table);
+        if let Some(info) = d.inputs.get(self.input.index()) {
+            let value = |(i, j)| {
+                let own = entry(&self.second, i, j)?;
+                Some(in_unit(pairs.scaled((i, j), own)?, &info.unit))
+            };
+            let unit = format!("{} per units", info.unit.symbol);
+            table.numbers(&*info.name, &unit, pairs.iter().map(value));
+        }
+        vec![table]
+    }
+}
+
+/// The second derivative by two variables, inputs first.
 fn element<T: Copy>(
-    (by_input, mixed, by_design): (&Matrix<T>, &Matrix<T>, &Matrix<T>),
+    own: &SecondDerivatives<T>,
     inputs: usize,
-    i: usize,
-    j: usize,
+    (i, j): (usize, usize),
 ) -> Option<T> {
     match (i.checked_sub(inputs), j.checked_sub(inputs)) {
-        (None, None) => entry(by_input, i, j),
-        (None, Some(j)) => entry(mixed, i, j),
-        (Some(i), None) => entry(mixed, j, i),
-        (Some(i), Some(j)) => entry(by_design, i, j),
+        (None, None) => entry(&own.by_input, i, j),
+        (None, Some(j)) => entry(&own.by_input_and_design, i, j),
+        (Some(i), None) => entry(&own.by_input_and_design, j, i),
+        (Some(i), Some(j)) => entry(&own.by_design, i, j),
     }
 }
 

@@ -1,7 +1,6 @@
 //! Names, units and operating points, as reports have them.
 
-use eigentol::response::Response;
-use eigentol::{Behaviour, Description, Input, Quantity, Text, Unit};
+use eigentol::{Behaviour, Description, Input, Text, Unit};
 
 use crate::Table;
 
@@ -121,41 +120,6 @@ pub(super) fn behaviour(behaviour: Behaviour) -> Option<String> {
         Behaviour::Neutral => "neutral",
         Behaviour::Divergent(_) => "divergent",
     })
-}
-
-/// What a quantity of a mode is measured in.
-pub(super) fn unit_of(quantity: Quantity) -> Unit {
-    let symbol = match quantity {
-        Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
-        Quantity::Growth => "1/s",
-        _ => "",
-    };
-    Unit {
-        symbol: symbol.into(),
-        scale: 1.0,
-    }
-}
-
-/// What a response is called, and the unit of its values.
-pub(super) fn response(response: &Response, d: &Description) -> (String, Unit) {
-    let declared = |own: Option<(&Text, &Unit)>, what: &str| match own {
-        Some((name, unit)) => (format!("{what}{name}"), unit.clone()),
-        None => (what.to_owned(), unit_of(Quantity::DampingRatio)),
-    };
-    match response {
-        Response::Mode { mode, quantity } => {
-            (format!("{quantity} {}", mode + 1), unit_of(*quantity))
-        }
-        Response::Output(output) => {
-            let info = d.outputs.get(output.index());
-            declared(info.map(|info| (&info.name, &info.unit)), "")
-        }
-        Response::Critical(range) => {
-            let info = d.inputs.get(range.input.index());
-            declared(info.map(|info| (&info.name, &info.unit)), "critical ")
-        }
-        other => (format!("{other:?}"), unit_of(Quantity::DampingRatio)),
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@ use eigentol::propagation::{Controlled, Estimated, Influence, Propagation, Worst
 use eigentol::response::Response;
 
 use super::Tables;
-use super::names::{by, in_unit, operating_point, response};
+use super::names::{by, in_unit, operating_point};
 use super::tolerance::outcomes;
 use crate::Table;
 
@@ -13,8 +13,8 @@ fn responses<'a>(
     d: &Description,
     all: impl Iterator<Item = &'a Response> + Clone,
 ) {
-    table.texts("response", all.clone().map(|own| Some(response(own, d).0)));
-    table.texts("unit", all.map(|own| by(&response(own, d).1)));
+    table.texts("response", all.clone().map(|own| Some(own.name(d))));
+    table.texts("unit", all.map(|own| by(&own.unit(d))));
 }
 
 /// The columns of an estimate, in the unit of each response, or without one.
@@ -25,7 +25,7 @@ fn estimates<'a>(
     all: impl Iterator<Item = (Option<&'a Response>, Option<Estimated>)> + Clone,
 ) {
     let scaled = |of: Option<&Response>, value: f64| match of {
-        Some(own) => in_unit(value, &response(own, d).1),
+        Some(own) => in_unit(value, &own.unit(d)),
         None => value,
     };
     let value = all.clone().map(|(of, own)| Some(scaled(of, own?.value)));
@@ -46,7 +46,7 @@ impl Tables for Propagation {
         };
         let mut table = Table::new("spreads");
         responses(&mut table, d, self.wanted.iter());
-        let nominal = each().map(|(of, own)| Some(in_unit(own?.nominal?, &response(of, d).1)));
+        let nominal = each().map(|(of, own)| Some(in_unit(own?.nominal?, &of.unit(d))));
         table.numbers("nominal", "", nominal);
         estimates(
             &mut table,
@@ -82,9 +82,9 @@ impl Tables for Propagation {
                 "",
                 quantiles().map(|(_, own)| own.probability),
             );
-            let value = quantiles().map(|(of, own)| in_unit(own.value, &response(of, d).1));
+            let value = quantiles().map(|(of, own)| in_unit(own.value, &of.unit(d)));
             table.numbers("value", "", value);
-            let error = quantiles().map(|(of, own)| Some(in_unit(own.error?, &response(of, d).1)));
+            let error = quantiles().map(|(of, own)| Some(in_unit(own.error?, &of.unit(d))));
             table.numbers("error", "", error);
             operating_point(&mut table, d, &self.inputs, None);
             tables.push(table);
@@ -92,7 +92,7 @@ impl Tables for Propagation {
         let count = self.wanted.len();
         if count > 1 {
             let pairs = || (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
-            let name = |k: usize| Some(response(self.wanted.get(k)?, d).0);
+            let name = |k: usize| Some(self.wanted.get(k)?.name(d));
             let mut table = Table::new("correlations");
             table.texts("response", pairs().map(|(i, _)| name(i)));
             table.texts("with", pairs().map(|(_, j)| name(j)));
@@ -156,13 +156,11 @@ impl Tables for WorstCase {
         let each = || self.wanted.iter().zip(&self.responses);
         let mut table = Table::new("worst case");
         responses(&mut table, d, self.wanted.iter());
-        let own = each().map(|(of, own)| Some(in_unit(own.nominal?, &response(of, d).1)));
+        let own = each().map(|(of, own)| Some(in_unit(own.nominal?, &of.unit(d))));
         table.numbers("nominal", "", own);
-        let own =
-            each().map(|(of, own)| Some(in_unit(own.least.as_ref()?.value, &response(of, d).1)));
+        let own = each().map(|(of, own)| Some(in_unit(own.least.as_ref()?.value, &of.unit(d))));
         table.numbers("least", "", own);
-        let own =
-            each().map(|(of, own)| Some(in_unit(own.greatest.as_ref()?.value, &response(of, d).1)));
+        let own = each().map(|(of, own)| Some(in_unit(own.greatest.as_ref()?.value, &of.unit(d))));
         table.numbers("greatest", "", own);
         table.flags("monotonic", each().map(|(_, own)| own.is_monotonic()));
         let turning = each().map(|(_, own)| {
@@ -192,7 +190,7 @@ impl Tables for WorstCase {
         designs.numbers(
             "value",
             "",
-            ends().map(|(of, _, own)| in_unit(own.value, &response(of, d).1)),
+            ends().map(|(of, _, own)| in_unit(own.value, &of.unit(d))),
         );
         designs.flags("confirmed", ends().map(|(.., own)| own.confirmed));
         let points: Vec<_> = ends().map(|(.., own)| &own.design[..]).collect();
@@ -245,9 +243,9 @@ impl Tables for Influence {
             rows().map(|(_, own)| own.rank_correlation),
         );
         table.numbers("regression", "", rows().map(|(_, own)| own.regression));
-        let low = rows().map(|(of, own)| Some(in_unit(own.at_low?, &response(of, d).1)));
+        let low = rows().map(|(of, own)| Some(in_unit(own.at_low?, &of.unit(d))));
         table.numbers("at low", "", low);
-        let high = rows().map(|(of, own)| Some(in_unit(own.at_high?, &response(of, d).1)));
+        let high = rows().map(|(of, own)| Some(in_unit(own.at_high?, &of.unit(d))));
         table.numbers("at high", "", high);
         operating_point(&mut table, d, &self.inputs, None);
         vec![table]

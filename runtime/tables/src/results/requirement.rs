@@ -3,7 +3,7 @@ use eigentol::requirement::{
 };
 
 use super::Tables;
-use super::names::{by, in_unit, operating_point, per_unit, response};
+use super::names::{by, in_unit, operating_point, per_unit};
 use super::tolerance::outcomes;
 use crate::Table;
 
@@ -66,7 +66,7 @@ impl Tables for Reliability {
         table.texts(
             "response",
             each.clone()
-                .map(|(own, _)| Some(response(&own.limit.response, d).0)),
+                .map(|(own, _)| Some(own.limit.response.name(d))),
         );
         table.numbers(
             "beta",

@@ -1,7 +1,7 @@
 use eigentol::second_order::{Margin, ModeMargin, SecondOrder};
 
 use super::Tables;
-use super::names::{by, operating_point, per_unit, unit_of};
+use super::names::{by, operating_point, per_unit};
 use crate::Table;
 
 /// `second-order tolerances`: a row for each mode; empty where it has none, with the reason.
@@ -68,7 +68,7 @@ impl Tables for ModeMargin {
         let mut table = Table::new("margin");
         table.whole("mode", [self.mode + 1]);
         table.texts("quantity", [Some(self.quantity.to_string())]);
-        margin(&mut table, &self.margin, &unit_of(self.quantity).symbol);
+        margin(&mut table, &self.margin, &self.quantity.unit().symbol);
         operating_point(&mut table, d, &self.inputs, None);
         let mut tables = vec![table];
         if let Some(slopes) = &self.margin.derivatives {

@@ -2,7 +2,7 @@ use eigentol::sensitivity::{EquilibriumShift, OutputSensitivities};
 use eigentol::{Quantity, Sensitivities};
 
 use super::Tables;
-use super::names::{both, by, in_unit, operating_point, per_unit, unit_of, variables};
+use super::names::{both, by, in_unit, operating_point, per_unit, variables};
 use crate::Table;
 
 const QUANTITIES: [Quantity; 4] = [
@@ -31,7 +31,7 @@ impl Tables for Sensitivities {
                 each.map(move |(j, (_, unit))| Some(per_unit(*slopes.get(j)?, unit)))
                     .collect::<Vec<_>>()
             });
-            let unit = format!("{} per unit", unit_of(quantity).symbol);
+            let unit = format!("{} per unit", quantity.unit().symbol);
             table.numbers(quantity.to_string(), unit.trim_start(), slopes);
         }
         operating_point(&mut table, d, &self.inputs, None);

@@ -2,7 +2,7 @@ use eigentol::tolerance::{Counts, OutputTolerances, Spread, Statistics};
 use eigentol::{Description, FirstOrder, MonteCarlo, Quantity};
 
 use super::Tables;
-use super::names::{behaviour, by, in_unit, operating_point, unit_of, word};
+use super::names::{behaviour, by, in_unit, operating_point, word};
 use super::samples::{origin, samples_table};
 use crate::Table;
 
@@ -12,7 +12,7 @@ fn spreads<'a>(
     quantity: Quantity,
     all: impl Iterator<Item = Option<&'a Spread>> + Clone,
 ) {
-    let unit = unit_of(quantity).symbol;
+    let unit = quantity.unit().symbol;
     let of = |pick: fn(&Spread) -> f64| all.clone().map(move |own| own.map(pick));
     table.numbers(format!("{quantity}"), &unit, of(|own| own.mean));
     let sigma = of(|own| own.sigma);

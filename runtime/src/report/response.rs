@@ -1,0 +1,68 @@
+//! Names and units of responses.
+
+use super::equilibrium::meeting;
+use crate::response::Response;
+use crate::sweep::Condition;
+use crate::{Description, Quantity, Text, Unit};
+
+impl Quantity {
+    /// What it is measured in.
+    #[must_use]
+    pub fn unit(self) -> Unit {
+        Unit {
+            symbol: Text::Static(match self {
+                Self::Frequency | Self::NaturalFrequency => "rad/s",
+                Self::DampingRatio => "",
+                Self::Growth => "1/s",
+            }),
+            scale: 1.0,
+        }
+    }
+}
+
+impl Response {
+    /// What it is called in texts and tables: `frequency 1`, the name of an output, `critical speed`, `speed where frequency 2 is 1
+    /// times speed`. `of` describes the mechanism that is asked.
+    #[must_use]
+    pub fn name(&self, of: &Description) -> String {
+        let input = |range: &crate::sweep::Range| {
+            let info = of.inputs.get(range.input.index());
+            info.map_or("?", |info| &*info.name)
+        };
+        match self {
+            Self::Mode { mode, quantity } => format!("{quantity} {}", mode + 1),
+            Self::Output(output) => {
+                let info = of.outputs.get(output.index());
+                info.map_or("?", |info| &*info.name).to_owned()
+            }
+            Self::Critical(range) => format!("critical {}", input(range)),
+            Self::Crossing {
+                mode,
+                condition,
+                range,
+            } => {
+                let name = input(range);
+                let link = match condition {
+                    Condition::Line(_) => "where",
+                    Condition::FlutterOnset => "at the",
+                };
+                format!("{name} {link} {}", meeting(*mode, *condition, name))
+            }
+        }
+    }
+
+    /// The unit of its values in texts and tables: that of the declaration.
+    #[must_use]
+    pub fn unit(&self, of: &Description) -> Unit {
+        let declared = match self {
+            Self::Mode { quantity, .. } => return quantity.unit(),
+            Self::Output(output) => of.outputs.get(output.index()).map(|info| &info.unit),
+            Self::Critical(range) | Self::Crossing { range, .. } => {
+                of.inputs.get(range.input.index()).map(|info| &info.unit)
+            }
+        };
+        declared
+            .cloned()
+            .unwrap_or_else(|| Quantity::DampingRatio.unit())
+    }
+}
