@@ -169,6 +169,12 @@ def test_response_is_a_function_of_arrays(study):
     np.testing.assert_allclose(angle(angle.nominal), np.arccos(COSINE), rtol=1e-12)
     critical = study.response("critical", "omega", 1, 10)
     np.testing.assert_allclose(critical([3.0, 2.0]), np.sqrt(3 * G / 4), rtol=1e-9)
+    # frequency = 0.8 omega where omega^2 = 3 g / (1.2 l).
+    resonance = study.response("resonance", 0, "omega", 4, 8, 0.8)
+    np.testing.assert_allclose(resonance([3.0, 1.1]), np.sqrt(3 * G / 1.2 / 1.1), rtol=1e-9)
+    assert np.isnan(study.response("flutter", 0, "omega", 4, 8)([3.0, 1.1]))
+    with pytest.raises(TypeError):
+        study.response("flutter", 0, "omega", 4, 8, 0.8)
 
 
 def test_spreads_of_responses(study):

@@ -3,6 +3,7 @@
 use eigentol::branches::SpecialKind;
 use eigentol::equilibrium::Policy;
 use eigentol::kernels::BatchKernels;
+use eigentol::second_order::critical_curvature;
 use eigentol::sweep::{critical_sensitivity, crossing_sensitivity};
 use eigentol::{DesignVariable, Input, Stability, Study};
 use eigentol_oracle::truth::Truth;
@@ -51,13 +52,25 @@ fn of_the_double_bar() {
     let expected = truth.get("Omega_critical").number();
     assert_close(&[critical.value], &[expected], 0.0, "critical");
     // On theta = 0 omega_1^2 = lambda_1 - Omega^2, so the critical speed moves as omega_1 does at rest.
-    let at_rest = truth.get("conditions").list()[0]
+    let mode_at_rest = truth.get("conditions").list()[0]
         .get("undamped_modes")
         .list()[0]
-        .get("domega_db");
-    let expected = ["L1", "L2", "m1", "m2"].map(|name| at_rest.get(name).number());
+        .clone();
+    let at_rest = mode_at_rest.get("domega_db");
+    let names = ["L1", "L2", "m1", "m2"];
+    let expected = names.map(|name| at_rest.get(name).number());
     let found = critical_sensitivity(&RotatingDoublePendulum, &critical).expect("a bifurcation");
     assert_close(&found, &expected, 1e-3, "of the critical speed");
+    let bent = mode_at_rest.get("d2omega_db2");
+    let found = critical_curvature(&RotatingDoublePendulum, &critical).expect("a bifurcation");
+    for (row, expected) in found.second.iter().zip(bent.list()) {
+        assert_close(
+            row,
+            &expected.numbers(),
+            1e-3,
+            "of the critical speed, twice",
+        );
+    }
 
     let resonances = study
         .crossings(RotatingDoublePendulum::omega, 0.1, 8.0, 1.0)

@@ -214,6 +214,23 @@ fn study_files_with_mistakes() {
         &with("at_least = \"1 Hz\""),
         &["a requirement is about one thing"],
     );
+    for two in [
+        "mode = 1\noutput = \"angle\"",
+        "mode = 1\nstable = true",
+        "mode = 1\ncritical = \"omega=0..8\"",
+        "resonance = \"omega=0..8\"\nflutter = \"omega=0..8\"\nmode = 1",
+    ] {
+        let text = with(&format!("{two}\nat_least = 1.0"));
+        allocate(&text, &["a requirement is about one thing"]);
+    }
+    allocate(
+        &with("flutter = \"omega=0..8\"\nat_least = 1.0"),
+        &["there is no such mode", "mode = 1"],
+    );
+    allocate(
+        &with("critical = \"omega\"\nat_least = 1.0"),
+        &["`omega` is no range"],
+    );
     allocate(&with("mode = 0\nat_least = \"1 Hz\""), &["counted from 1"]);
     allocate(
         &with("mode = 1\nat_least = \"1 m\""),

@@ -302,6 +302,42 @@ fn allocation_finds_the_widest_tolerance() {
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
 }
 
+/// `u_c = (1.5 g / l)^(1/2)`, and the frequency is `0.8 u` at `u = (1.5 g / (0.6 l))^(1/2)`: both fall with the length, so that the widest
+/// half-width is again where the limit is 3.09 sigmas away.
+#[test]
+fn allocation_for_values_of_an_input() {
+    let folder = folder("events");
+    for (require, limit, factor) in [
+        (
+            "critical = \"omega=0..8rad/s\"\nat_least = \"3.8 rad/s\"",
+            3.8_f64,
+            1.0,
+        ),
+        (
+            "mode = 1\nresonance = \"omega=4..8rad/s\"\norder = 0.8\nat_least = \"4.9 rad/s\"",
+            4.9,
+            0.6,
+        ),
+    ] {
+        let text = format!(
+            "mechanism = \"{}\"\n[set]\nomega = \"5 rad/s\"\n[start]\ntheta = \"60 deg\"\n[[require]]\nfailure = 0.001\n{require}\n\
+             [[choose]]\ntolerance = \"l\"\nleast = \"0.1 mm\"\nmost = \"300 mm\"\ncost = {{ factor = 1.0 }}\n",
+            crate::program::examples().join(PENDULUM).display(),
+        );
+        let study = file(&folder, "event.toml", &text);
+        let text = answer(&["allocate", "--study", &study, "--samples", "300", "--csv"]);
+        let heading = text.lines().next().unwrap();
+        let place = heading
+            .split(',')
+            .position(|name| name.starts_with("half-width"));
+        let row = text.lines().find(|line| line.starts_with("l,")).unwrap();
+        let found: f64 = row.split(',').nth(place.unwrap()).unwrap().parse().unwrap();
+        let longest = 1.5 * 9.81 / (factor * limit * limit);
+        let expected = 3.0 * (longest - 1.0) / 3.090_232_306_167_813;
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    }
+}
+
 #[test]
 fn expansions_at_every_stage() {
     for (stage, part) in [
