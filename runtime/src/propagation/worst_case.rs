@@ -94,6 +94,7 @@ pub struct WorstCase {
 /// standard normal deviations as half-widths hold ([`Tolerances::sigma_level`]) of the others. Correlation does not matter to a box.
 ///
 /// From the nominal design the search goes to the corner that the gradient points to, and on until the gradient there agrees. A
+/// variable without a slope there is looked at at both its ends: the response may be stationary in it, as in an eccentricity. A
 /// gradient that changes its signs on the way tells that the response is not monotonic; then all corners are looked at, up to ten
 /// variables.
 ///
@@ -126,6 +127,7 @@ pub fn worst_case(responses: &Responses<'_>, tolerances: &Tolerances) -> Result<
     for response in 0..count {
         search.climb(response, 1)?;
         search.climb(response, -1)?;
+        search.look_where_still(response)?;
     }
     if (0..count).any(|response| !search.turning(response).is_empty()) {
         search.all_corners()?;
@@ -185,6 +187,25 @@ impl Search<'_> {
             };
             let next = signs.iter().map(|sign| way * sign).collect();
             met.push(core::mem::replace(&mut corner, next));
+        }
+        Ok(())
+    }
+
+    /// Variables without a sign at the nominal design do not matter, or the response is stationary in them: their ends tell.
+    fn look_where_still(&mut self, response: usize) -> Result<(), Error> {
+        let nominal = vec![0; self.limits.len()];
+        let Some(signs) = self.signs(&nominal, response) else {
+            return Ok(());
+        };
+        for (j, sign) in signs.into_iter().enumerate() {
+            let (low, high) = self.limits[j];
+            if sign == 0 && low < high {
+                for side in [-1, 1] {
+                    let mut corner = nominal.clone();
+                    corner[j] = side;
+                    self.look(&corner)?;
+                }
+            }
         }
         Ok(())
     }

@@ -72,6 +72,47 @@ fn a_response_that_turns() {
     assert!(worst.responses[0].is_monotonic());
 }
 
+mechanism! {
+    /// A beam on a spring, with outputs that are stationary at the nominal design.
+    mechanism Balance {
+        design e = 0 m;
+        design f = 0 m;
+        design idle = 1 m;
+        body beam: rigid(mass: 1 kg, inertia: [1, 1, 1] kg*m^2, center: [0, 0, 0] m);
+        joint turn: revolute(y) from ground to beam;
+        force hold: spring(on: turn, stiffness: 9 N*m/rad);
+        output parabola = 1 m^2 + e^2;
+        output saddle = e * f;
+        output other = idle;
+    }
+}
+
+/// A response that is stationary at the nominal design is not constant: gradients there are zero.
+#[test]
+fn a_stationary_response_turns() {
+    let study = Study::new(Balance)
+        .tolerance(Balance::e, 0.2)
+        .tolerance(Balance::f, 0.5)
+        .tolerance(Balance::idle, 0.3);
+    let wanted = [Balance::parabola, Balance::saddle].map(|own| Response::Output(own.any()));
+    let worst = study.worst_case(&wanted).unwrap();
+    let ends = |k: usize| {
+        let own = &worst.responses[k];
+        let value = |end: &Option<eigentol::propagation::Extreme>| end.as_ref().unwrap().value;
+        (value(&own.least), value(&own.greatest))
+    };
+    let [parabola, saddle] = [&worst.responses[0], &worst.responses[1]];
+    assert_eq!(parabola.turning, [Balance::e.index()]);
+    close(ends(0).0, 1.0, 1e-15);
+    close(ends(0).1, 1.04, 1e-15);
+    assert_eq!(saddle.turning, [Balance::e.index(), Balance::f.index()]);
+    close(ends(1).0, -0.1, 1e-15);
+    close(ends(1).1, 0.1, 1e-15);
+    assert!(!parabola.is_monotonic() && !saddle.is_monotonic());
+    // What has no effect stays nominal.
+    assert_eq!(parabola.greatest.as_ref().unwrap().design[2], 1.0);
+}
+
 #[test]
 fn a_corner_without_value_is_said() {
     let worst = ask(&bar(), vec![FREQUENCY], |responses| {
