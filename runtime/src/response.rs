@@ -3,6 +3,7 @@
 
 use crate::algebra::Vector;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::scalar::Instructions;
 use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
 use crate::sweep::{
     Condition, CriticalState, Crossing, Following, Range, critical_sensitivity, critical_state,
@@ -59,6 +60,7 @@ pub struct Responses<'a> {
     mechanism: &'a dyn DirectionalKernels,
     /// The same where designs can be solved side by side.
     batches: Option<&'a dyn BatchKernels>,
+    vectors: Option<Instructions>,
     nominal: &'a Equilibrium,
     modes: &'a Modes,
     wanted: Vec<Response>,
@@ -104,6 +106,7 @@ impl<'a> Responses<'a> {
         Ok(Self {
             mechanism,
             batches: None,
+            vectors: Some(Instructions::best()),
             nominal,
             modes,
             wanted,
@@ -154,8 +157,17 @@ impl<'a> Responses<'a> {
         })
     }
 
-    pub(crate) fn batches(&self) -> Option<&'a dyn BatchKernels> {
-        self.batches
+    /// Chooses the vector instructions of [`Self::side_by_side`], in place of the best of the processor; `None` solves designs one by
+    /// one.
+    #[must_use]
+    pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
+        self.vectors = vectors;
+        self
+    }
+
+    /// What solves designs side by side, and with which instructions.
+    pub(crate) fn batches(&self) -> Option<(&'a dyn BatchKernels, Instructions)> {
+        self.batches.zip(self.vectors)
     }
 
     /// The responses in order.

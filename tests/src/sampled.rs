@@ -16,23 +16,52 @@ pub struct Compared {
     pub in_vectors: usize,
 }
 
+impl Compared {
+    /// Of many comparisons, with the tolerances of each and with wide ones.
+    pub fn sum(all: impl IntoIterator<Item = [Self; 2]>) -> [Self; 2] {
+        let mut sum = [Self::default(); 2];
+        for own in all {
+            for (sum, own) in sum.iter_mut().zip(own) {
+                sum.samples += own.samples;
+                sum.in_vectors += own.in_vectors;
+            }
+        }
+        sum
+    }
+}
+
 /// Samples of damped and of undamped modes with every set of instructions, which must give the same bits, and one by one, which
-/// must give the same numbers. Nothing is compared where the study has no samples or none in vectors.
+/// must give the same numbers or the same error: with the tolerances of the study and, a quarter of them, with such that are ten
+/// times as wide. Nothing is compared where the study has no samples in vectors.
 ///
 /// # Panics
 /// Where something differs.
-pub fn compare<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
+pub fn compare<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> [Compared; 2] {
+    // Half-widths that stand for a tenth of the standard deviations.
+    let wide = study.clone().sigma_level(0.3);
+    let wide = wide.samples(study.sampling().samples / 4);
+    [
+        compare_one(study, name),
+        compare_one(&wide, &format!("{name}, wide")),
+    ]
+}
+
+fn compare_one<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
     let mut compared = Compared::default();
     for family in [Family::General, Family::Undamped] {
         let study = study.clone().family(family).keep_samples(true);
         let run = |vectors| study.clone().vectors(vectors).monte_carlo();
-        let (Ok(alone), Ok(own)) = (run(None), run(Some(Instructions::SCALAR))) else {
-            continue;
+        let (alone, own) = match (run(None), run(Some(Instructions::SCALAR))) {
+            (Ok(alone), Ok(own)) => (alone, own),
+            (alone, own) => {
+                assert_eq!(own.err(), alone.err(), "{name}, {family:?}");
+                continue;
+            }
         };
         if !own.side_by_side {
             continue;
         }
-        for set in Instructions::available() {
+        for set in Instructions::available().filter(|set| *set != Instructions::SCALAR) {
             assert!(run(Some(set)).as_ref() == Ok(&own), "{name}: {set:?}");
         }
         assert_eq!(own.counts, alone.counts, "{name}");

@@ -5,7 +5,7 @@ use eigentol_tests::corpus::{self, Visitor};
 use eigentol_tests::resolved::operating_points;
 use eigentol_tests::sampled::{Compared, compare};
 
-struct Machines(Vec<(&'static str, Compared)>);
+struct Machines(Vec<(&'static str, [Compared; 2])>);
 
 impl Visitor for Machines {
     fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
@@ -27,10 +27,13 @@ fn samples_in_vectors_are_those_alone() {
     let mut machines = Machines(Vec::new());
     corpus::visit(&mut machines);
     println!("{:#?}", machines.0);
-    let sum = |of: fn(&Compared) -> usize| machines.0.iter().map(|(_, own)| of(own)).sum::<usize>();
-    let (samples, in_vectors) = (sum(|own| own.samples), sum(|own| own.in_vectors));
+    let [own, wide] = Compared::sum(machines.0.iter().map(|(_, own)| *own));
     assert!(
-        samples > 8000 && 10 * in_vectors > 8 * samples,
-        "{in_vectors} of {samples}"
+        own.samples > 8000 && 10 * own.in_vectors > 8 * own.samples,
+        "{own:?}"
+    );
+    assert!(
+        wide.samples > 2000 && 10 * wide.in_vectors > 6 * wide.samples,
+        "{wide:?}"
     );
 }

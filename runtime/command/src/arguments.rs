@@ -142,7 +142,7 @@ impl Arguments {
     /// Does what was asked for; messages go to standard error.
     pub(crate) fn run(self) -> ExitCode {
         let color = self.color;
-        let code = match interrupt::watch().and_then(|()| self.command.run()) {
+        let code = match interrupt::watch().and_then(|()| self.command.run(color)) {
             Ok(Verdict::Yes) => 0,
             Ok(Verdict::No(reason)) => {
                 diagnostics::say_no("no", &reason, color);
@@ -167,9 +167,9 @@ impl Arguments {
 }
 
 impl Command {
-    fn run(self) -> Result<Verdict, Failure> {
+    fn run(self, color: Color) -> Result<Verdict, Failure> {
         match self {
-            Self::Check(own) => own.run(),
+            Self::Check(own) => own.run(color),
             Self::Modes(own) => own.run(),
             Self::Sensitivities(own) => own.run(),
             Self::Tolerance(own) => own.run(),

@@ -4,7 +4,9 @@ use std::fs;
 use std::io::{self, Read as _};
 use std::path::Path;
 
-use eigentol_interpreter::{Interpreted, Mistakes};
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::{Compilation, compile_text};
+use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
 use crate::mistake::Mistake;
@@ -31,14 +33,15 @@ impl Declaration {
         Ok(Self { name, text })
     }
 
-    /// The mechanism that it declares.
-    pub(crate) fn mechanism(&self) -> Result<Interpreted, Failure> {
-        Interpreted::from_text(&self.text).map_err(|mistakes| self.not_compiled(&mistakes))
+    /// What the compiler makes of it.
+    pub(crate) fn compiled(&self) -> Result<Compilation, Failure> {
+        compile_text(&self.text, Limits::default())
+            .map_err(|mistakes| self.refused(mistakes.iter().map(Mistake::from).collect()))
     }
 
-    /// The compiler refuses it.
-    pub(crate) fn not_compiled(&self, mistakes: &Mistakes) -> Failure {
-        self.refused(mistakes.iter().map(Mistake::from).collect())
+    /// The mechanism that it declares.
+    pub(crate) fn mechanism(&self) -> Result<Interpreted, Failure> {
+        Ok(Interpreted::new(&self.compiled()?))
     }
 
     pub(crate) fn refused(&self, mistakes: Vec<Mistake>) -> Failure {

@@ -7,6 +7,7 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::arguments::Color;
+use crate::declaration::Declaration;
 use crate::failure::Failure;
 use crate::mistake::Mistake;
 
@@ -21,12 +22,19 @@ pub(crate) fn say(failure: &Failure, color: Color) {
     } = failure
     {
         for mistake in mistakes {
-            text += &drawn(name, source, mistake, &renderer);
+            text += &drawn(Level::ERROR, name, source, mistake, &renderer);
             text += "\n\n";
         }
     }
     text += &title(&failure.to_string(), failure.help().as_deref(), &renderer);
     write(&text);
+}
+
+/// Writes what may be a mistake in a declaration to standard error.
+pub(crate) fn warn(declaration: &Declaration, warning: &Mistake, color: Color) {
+    let Declaration { name, text } = declaration;
+    let warning = drawn(Level::WARNING, name, text, warning, &renderer(color));
+    write(&format!("{warning}\n"));
 }
 
 /// Writes to standard error why the answer is not all that was hoped for.
@@ -62,10 +70,16 @@ fn title(message: &str, help: Option<&str>, renderer: &Renderer) -> String {
 }
 
 /// A mistake under the line that has it.
-fn drawn(name: &str, source: &str, mistake: &Mistake, renderer: &Renderer) -> String {
+fn drawn(
+    level: Level<'_>,
+    name: &str,
+    source: &str,
+    mistake: &Mistake,
+    renderer: &Renderer,
+) -> String {
     let annotation = AnnotationKind::Primary.span(bytes(source, mistake));
     let snippet = Snippet::source(source).path(name).annotation(annotation);
-    let title = Level::ERROR.primary_title(&*mistake.message);
+    let title = level.primary_title(&*mistake.message);
     let mut group = Group::with_title(title).element(snippet);
     if let Some(help) = &mistake.help {
         group = group.element(Level::HELP.message(&**help));

@@ -69,7 +69,8 @@ fn side_by_side<'a>(
         _ => None,
     });
     let wanted = wanted.collect::<Option<Vec<_>>>()?;
-    let lanes = SideBySide::new(responses.batches()?, at, modes, tolerances)?;
+    let (mechanism, vectors) = responses.batches()?;
+    let lanes = SideBySide::new(mechanism, at, modes, tolerances, vectors)?;
     Some((lanes, wanted))
 }
 

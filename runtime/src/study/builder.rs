@@ -268,9 +268,9 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Chooses the vector instructions with which a Monte Carlo run solves several samples at once, and a sweep several values,
-    /// where the mechanism allows it (the best of the processor unless set); `None` solves one at a time. Results of the two ways
-    /// differ in the last bits; all instruction sets give the same bits. A run says which way it went
+    /// Chooses the vector instructions with which a Monte Carlo run and questions about responses solve several samples at once, and
+    /// a sweep several values, where the mechanism allows it (the best of the processor unless set); `None` solves one at a time.
+    /// Results of the two ways differ in the last bits; all instruction sets give the same bits. A run says which way it went
     /// ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {

@@ -215,7 +215,8 @@ impl<M: SummaryKernels> Solved<'_, M> {
         let tolerances = self.study.settings.tolerances()?;
         let (at, modes) = (&self.equilibrium, &self.modes);
         let responses = Responses::side_by_side(mechanism, at, modes, wanted.to_vec())?;
-        let responses = responses.watched(watch);
+        let vectors = self.study.settings.vectors;
+        let responses = responses.vectors(vectors).watched(watch);
         question(mechanism, &responses, tolerances)
     }
 }

@@ -27,8 +27,8 @@ impl<'a> SideBySide<'a> {
         nominal: &'a Equilibrium,
         modes: &Modes,
         tolerances: &'a Tolerances,
+        vectors: Instructions,
     ) -> Option<Self> {
-        let vectors = Instructions::best();
         Some(Self {
             prepared: Prepared::new(mechanism, (nominal, modes), tolerances, vectors)?,
             size: Size::of(nominal, modes),

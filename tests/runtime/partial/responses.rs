@@ -3,12 +3,14 @@
 use eigentol::kernels::SummaryKernels;
 use eigentol::propagation::{Points, Sampler, Samples, sampled};
 use eigentol::response::{Response, Responses};
+use eigentol::scalar::Instructions;
 use eigentol::sweep::Range;
 use eigentol::tolerance::Distribution;
 use eigentol::{Quantity, Study};
 use proptest::prelude::*;
 
 use super::{Bar, bar, plate, ranges};
+use crate::side_by_side::Rotor;
 
 const FREQUENCY: Response = Response::Mode {
     mode: 0,
@@ -93,6 +95,37 @@ fn side_by_side_as_one_by_one() {
     assert_eq!(how(&both.unwrap()), "one by one");
     let plate = plate().sample_responses(&[FREQUENCY], &sampler);
     assert_eq!(how(&plate.unwrap()), "one by one");
+}
+
+/// Any set of instructions gives the bits of the best; `None` gives those of designs that are solved one by one.
+#[test]
+fn questions_about_responses_use_the_vectors_that_are_chosen() {
+    let rotor = Study::new(Rotor).input(Rotor::omega, 300.0).samples(500);
+    for study in [rotor.clone(), rotor.tolerance(Rotor::omega, 1.0)] {
+        let alone = study.clone().vectors(None);
+        for set in Instructions::available() {
+            let own = study.clone().vectors(Some(set));
+            answers(&study, &own, true);
+            answers(&alone, &own, false);
+        }
+    }
+    let study = bar().vectors(None);
+    let sampler = Sampler::new(Points::Sobol).samples(512);
+    let own = study.sample_responses(&[FREQUENCY], &sampler).unwrap();
+    assert_eq!(how(&own), "one by one");
+    assert!(own == alone(&study, &sampler));
+}
+
+/// Whether the bits of every answer of two studies are the same, or of none.
+#[track_caller]
+fn answers<M: SummaryKernels>(a: &Study<M>, b: &Study<M>, same: bool) {
+    let wanted = &[FREQUENCY];
+    let equal = [
+        a.propagate(wanted).unwrap() == b.propagate(wanted).unwrap(),
+        a.controlled(wanted).unwrap() == b.controlled(wanted).unwrap(),
+        a.influence(wanted).unwrap() == b.influence(wanted).unwrap(),
+    ];
+    assert_eq!(equal, [same; 3]);
 }
 
 proptest! {

@@ -72,7 +72,7 @@ fn second_order_and_samples() {
 }
 
 /// Samples of every point in vectors and one by one.
-fn in_vectors<M: Mechanism + Copy>(machine: M, name: &'static str) -> Vec<(String, Compared)> {
+fn in_vectors<M: Mechanism + Copy>(machine: M, name: &'static str) -> Vec<(String, [Compared; 2])> {
     let case = Case::new(name);
     let points = case.points().into_iter();
     let compared = points.map(|point| {
@@ -97,10 +97,13 @@ fn samples_in_vectors_are_those_alone() {
     ];
     let all = all.concat();
     println!("{all:#?}");
-    let sum = |of: fn(&Compared) -> usize| all.iter().map(|(_, own)| of(own)).sum::<usize>();
-    let (samples, in_vectors) = (sum(|own| own.samples), sum(|own| own.in_vectors));
+    let [own, wide] = Compared::sum(all.iter().map(|(_, own)| *own));
     assert!(
-        samples > 3000 && 10 * in_vectors > 8 * samples,
-        "{in_vectors} of {samples}"
+        own.samples > 3000 && 10 * own.in_vectors > 8 * own.samples,
+        "{own:?}"
+    );
+    assert!(
+        wide.samples > 750 && 10 * wide.in_vectors > 6 * wide.samples,
+        "{wide:?}"
     );
 }

@@ -144,7 +144,7 @@ fn unit(unit: &Unit) -> TokenStream {
 /// A variable that nothing reads for every design variable that nothing refers to: rustc warns where that is declared, and can
 /// be told not to, as of its own variables. The functions hide constants of the same names, which `let` would mean.
 pub(super) fn unused(mechanism: &Mechanism) -> TokenStream {
-    let unused = mechanism.design.iter().filter(|variable| !variable.is_used);
+    let unused = mechanism.unused_design();
     let names: Vec<_> = unused.map(|variable| &variable.name).collect();
     if names.is_empty() {
         return TokenStream::new();

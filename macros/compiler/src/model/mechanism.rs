@@ -69,6 +69,11 @@ impl Mechanism {
             |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
         joint.closing == Some(Closing::Planar) && joint.steps.iter().all(coasts)
     }
+
+    /// Design variables that nothing refers to.
+    pub fn unused_design(&self) -> impl Iterator<Item = &DesignVariable> {
+        self.design.iter().filter(|variable| !variable.is_used)
+    }
 }
 
 /// An operating parameter chosen at run time.

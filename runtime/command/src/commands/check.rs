@@ -4,13 +4,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use eigentol::{Description, Role};
+use eigentol_interpreter::Interpreted;
 
+use crate::arguments::Color;
 use crate::declaration::Declaration;
+use crate::diagnostics;
 use crate::failure::{Failure, plural};
 use crate::place::print;
 use crate::verdict::Verdict;
 
-/// Check declarations: every mistake with its place, or what they declare
+/// Check declarations: every mistake with its place, or what they declare and which design variables nothing refers to
 #[derive(Args, Debug)]
 pub(crate) struct Check {
     /// Files with a declaration each, `-` for standard input
@@ -19,11 +22,14 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+    pub(crate) fn run(&self, color: Color) -> Result<Verdict, Failure> {
         for file in &self.files {
             let declaration = Declaration::read(file)?;
-            let mechanism = declaration.mechanism()?;
-            let found = summary(mechanism.description());
+            let compilation = declaration.compiled()?;
+            for warning in &compilation.warnings() {
+                diagnostics::warn(&declaration, &warning.into(), color);
+            }
+            let found = summary(Interpreted::new(&compilation).description());
             print(&format!("{}: {found}\n", declaration.name))?;
         }
         Ok(Verdict::Yes)

@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use eigentol_compiler::mechanics::Limits;
-use eigentol_compiler::{Compilation, compile_text, formatted};
+use eigentol_compiler::{Compilation, formatted};
 
 use crate::declaration::Declaration;
 use crate::failure::Failure;
@@ -47,7 +46,7 @@ impl Expand {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.place.check()?;
         let declaration = Declaration::read(&self.file)?;
-        let compilation = compiled(&declaration)?;
+        let compilation = declaration.compiled()?;
         let mut text = match self.stage {
             Stage::Rust => formatted(&compilation),
             Stage::Operations => operations(&compilation),
@@ -63,11 +62,6 @@ impl Expand {
         self.place.write(&text)?;
         Ok(Verdict::Yes)
     }
-}
-
-fn compiled(declaration: &Declaration) -> Result<Compilation, Failure> {
-    compile_text(&declaration.text, Limits::default())
-        .map_err(|mistakes| declaration.not_compiled(&mistakes))
 }
 
 fn dump(compilation: &Compilation, stage: &str) -> String {

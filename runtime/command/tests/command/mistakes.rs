@@ -46,6 +46,41 @@ error: `standard input` has 2 mistakes
     assert_eq!(err, expected);
 }
 
+#[test]
+fn unused_design_variables_are_warned_of() {
+    let text = "mechanism A {\n    design l = 1 m;\n    /// of the bar\n    design µ_bar = 5 cm +/- 1 mm;\n    design _depth = 5 cm;\n    \
+                gravity 9.81 m/s^2 along -z;\n    body bar: rod(mass: 3 kg, length: l, along: -z);\n    \
+                joint t: revolute(y) from ground to bar;\n}\n";
+    let declared =
+        "standard input: mechanism `A`, 1 coordinate, 0 inputs, 3 design variables, 0 outputs\n";
+    let Run { code, out, err } = run_with_input(&["check", "-"], text);
+    assert_eq!((code, out.as_str()), (0, declared));
+    let expected = "\
+warning: unused variable: `µ_bar`
+ --> standard input:4:12
+  |
+4 |     design µ_bar = 5 cm +/- 1 mm;
+  |            ^^^^^
+  |
+  = help: if this is intentional, prefix it with an underscore: `_µ_bar`
+
+";
+    assert_eq!(err, expected);
+    for (attributes, expected) in [
+        ("#[allow(unused_variables)]", ""),
+        ("#[allow(dead_code, unused)]", ""),
+        ("#[allow(dead_code)]", expected),
+        (
+            "#[warn(unused_variables)] #[allow(unused, reason = \"later\")]",
+            "",
+        ),
+        ("#[allow(unused)] #[warn(unused_variables)]", expected),
+    ] {
+        let run = run_with_input(&["check", "-"], &format!("{attributes} {text}"));
+        assert_eq!((run.code, run.err.as_str()), (0, expected), "{attributes}");
+    }
+}
+
 /// Wherever a file is cut off, there is a message and no panic.
 #[test]
 fn a_truncated_declaration_is_refused_wherever_it_ends() {
