@@ -30,7 +30,7 @@ pub enum Response {
     /// ([`critical_state`]).
     Critical(Range),
     /// The first value of an input in a range at which a mode meets a condition, SI: the speed at which a rotor resonates, or begins to
-    /// flutter. The range is followed as by [`crossings`](crate::sweep::crossings).
+    /// flutter. Along the range stable equilibria are followed, as by [`crossings`](crate::sweep::crossings).
     Crossing {
         /// Number of the mode at the start of the range, from 0.
         mode: usize,
