@@ -77,7 +77,7 @@ impl dyn CurvatureKernels + '_ {
         self.pencil_gradient_along_into(q, u, b, vectors, direction, changes, &mut gradient);
         gradient
     }
-    /// Derivatives of [`Kernels::output_partials`](crate::Kernels::output_partials) along `dq`, `du`, `db`.
+    /// Derivatives of [`Kernels::output_partials_into`](crate::Kernels::output_partials_into) along `dq`, `du`, `db`.
     pub fn output_partials_along(
         &self,
         q: &[f64],
