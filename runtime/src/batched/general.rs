@@ -19,8 +19,9 @@ const NEAR: f64 = 0.1;
 const STEPS: usize = 4;
 /// Eigenvalues closer than this share of their size the solver for one state tells apart.
 const APART: f64 = 1e-4;
-/// Greatest accepted error of an eigenvalue, relative: much less than their distances.
-const ACCURATE: f64 = 1e-9;
+/// Greatest accepted error of an eigenvalue, relative: so much less than their distances that the solver for one state accepts it
+/// too.
+const ACCURATE: f64 = 1e-6;
 /// Stands in for a pivot that is nothing.
 const TINY: f64 = 1e-100;
 /// By how much a mode must be more like its own predecessor than like any other.

@@ -1,5 +1,7 @@
 //! Modes in lanes against those of the solver for one state.
 
+mod ill_conditioned;
+
 use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

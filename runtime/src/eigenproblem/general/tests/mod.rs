@@ -6,7 +6,7 @@ mod hard;
 mod known;
 pub(crate) mod near;
 mod parts;
-mod torture;
+pub(crate) mod torture;
 
 use num_complex::Complex64;
 

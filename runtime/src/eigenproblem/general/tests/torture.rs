@@ -8,7 +8,7 @@ use super::known::{below, check_known, known};
 use super::*;
 
 /// Uniform in -1 .. 1.
-pub(super) fn uniform(rng: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn uniform(rng: &mut ChaCha8Rng) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
