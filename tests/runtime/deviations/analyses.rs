@@ -12,12 +12,12 @@ use crate::common::models::{Follower, Plate};
 use crate::common::pendulum::Pendulum;
 use eigentol::clusters::{clusters, directional_derivatives};
 use eigentol::kernels::{CurvatureKernels, DeviatingInputs, Kernels, SummaryKernels};
-use eigentol::second_order::{mode_curvature, second_order};
+use eigentol::second_order::{mode_curvature, output_curvature, second_order};
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
 use eigentol::shapes::shape_sensitivity;
 use eigentol::summary::summary;
 use eigentol::tolerance::{first_order, output_tolerances};
-use eigentol::{Complex, Quantity, Tolerances};
+use eigentol::{Complex, Output, Quantity, Tolerances};
 
 /// All derivatives of a state by deviations against those by inputs, and the rest against the mechanism without deviations.
 fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
@@ -41,6 +41,25 @@ fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
     for (by_input, by_design) in outputs.by_input.iter().zip(&outputs.by_design) {
         let (by_input, by_design) = (by_input.as_ref().unwrap(), by_design.as_ref().unwrap());
         assert_eq!(by_design[own..], **by_input);
+    }
+    for output in 0..outputs.values.len() {
+        let found = output_curvature(&deviating, &at, Output::new(output)).unwrap();
+        let without = output_curvature(machine, &plain_state, Output::new(output)).unwrap();
+        let (second, plain) = (&found.second, &without.second);
+        let entries = second.by_design.as_flattened().iter();
+        let scale = entries.fold(1.0, |most: f64, value| most.max(value.abs()));
+        let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-11 * scale, "{a:e} {b:e}");
+        for i in 0..u.len() {
+            for j in 0..u.len() {
+                near(second.by_design[own + i][own + j], plain.by_input[i][j]);
+            }
+            for k in 0..own {
+                near(
+                    second.by_design[own + i][k],
+                    plain.by_input_and_design[i][k],
+                );
+            }
+        }
     }
 
     let slopes = sensitivities(&deviating, &at, &modes).unwrap();

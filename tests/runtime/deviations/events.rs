@@ -8,7 +8,8 @@ use crate::common::models::Spring;
 use crate::common::pendulum::Pendulum;
 use crate::common::{METRE, NUMBER, close, coordinate, design, input, sizes};
 use eigentol::campbell::{Axes, campbell};
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
+use eigentol::second_order::{critical_curvature, crossing_curvature};
 use eigentol::sweep::{
     Line, Range, critical_sensitivity, critical_state, critical_tolerance, crossing_sensitivity,
     crossing_tolerance, crossings, flutter_onsets,
@@ -16,7 +17,7 @@ use eigentol::sweep::{
 use eigentol::{DampingKind, Description, Policy, Real, Shared, Tolerances};
 
 /// The set value moves by minus the deviation, whatever the design does.
-fn critical_moves_back<K: DirectionalKernels>(
+fn critical_moves_back<K: CurvatureKernels>(
     machine: &K,
     b: &[f64],
     start: &[f64],
@@ -40,6 +41,18 @@ fn critical_moves_back<K: DirectionalKernels>(
     let without = critical_sensitivity(machine, &plain).unwrap();
     for (found, expected) in slopes.iter().zip(&without) {
         assert!((found - expected).abs() <= 1e-10 * expected.abs().max(1.0));
+    }
+    let bent = critical_curvature(&deviating, &exact).unwrap().second;
+    let expected = critical_curvature(machine, &plain).unwrap().second;
+    for i in 0..=own {
+        for j in 0..=own {
+            let expected = if i.max(j) < own { expected[i][j] } else { 0.0 };
+            let error = (bent[i][j] - expected).abs();
+            assert!(
+                error <= 1e-9 * expected.abs().max(1.0),
+                "{i}, {j}: {error:e}"
+            );
+        }
     }
 }
 
@@ -104,6 +117,8 @@ fn crossings_move_back_by_the_deviation() {
         for crossing in &met {
             let slopes = crossing_sensitivity(&deviating, crossing).unwrap();
             assert!((slopes[2] + 1.0).abs() < 1e-14, "{}", slopes[2]);
+            let bent = crossing_curvature(&deviating, crossing).unwrap().second;
+            assert!(bent[2].iter().all(|value| value.abs() < 1e-10), "{bent:?}");
             let tolerances = Tolerances::new([0.0, 0.03, 0.06], 3.0, None).unwrap();
             let spread = crossing_tolerance(&deviating, crossing, &tolerances);
             close(
