@@ -244,7 +244,7 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
-    /// The sensitivity of a critical value or crossing does not exist.
+    /// A derivative of a critical value, a crossing or an output does not exist.
     #[error("the sensitivity does not exist: {reason}")]
     NoSensitivity {
         /// Why.

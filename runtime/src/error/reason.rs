@@ -61,7 +61,7 @@ reasons! {
 }
 
 reasons! {
-    /// Why a critical value or a crossing has no sensitivity.
+    /// Why a critical value, a crossing or an output has no derivative, first or second.
     NoDerivative {
         Merge = "two frequencies merge there: the least damping moves the onset by a finite amount",
         UnknownInput = "there is no such input",

@@ -126,18 +126,8 @@ pub fn crossings(
     range: Range,
     line: impl Into<Line>,
 ) -> Result<Vec<Crossing>, Error> {
-    let condition = Condition::Line(line.into());
-    let all = |_: &[Crossing]| false;
-    let values = (u, b);
-    meetings(
-        mechanism,
-        values,
-        start,
-        following.into(),
-        range,
-        condition,
-        all,
-    )
+    let line = Condition::Line(line.into());
+    all_meetings(mechanism, (u, b), start, following.into(), range, line)
 }
 
 /// Finds every value of an input in a range at which an oscillation begins or ceases to grow, on the equilibria that
@@ -154,17 +144,7 @@ pub fn flutter_onsets(
     range: Range,
 ) -> Result<Vec<Crossing>, Error> {
     let onset = Condition::FlutterOnset;
-    let all = |_: &[Crossing]| false;
-    let values = (u, b);
-    meetings(
-        mechanism,
-        values,
-        start,
-        following.into(),
-        range,
-        onset,
-        all,
-    )
+    all_meetings(mechanism, (u, b), start, following.into(), range, onset)
 }
 
 /// The first value in a range at which the mode that is number `mode` at its start meets a condition; `None` where it does not.
@@ -176,10 +156,23 @@ pub(crate) fn first_crossing(
     range: Range,
     (mode, condition): (usize, Condition),
 ) -> Result<Option<Crossing>, Error> {
-    let wanted = |crossing: &Crossing| crossing.mode == mode;
+    // Labels at the start are positions; modes that end on the way move the positions of others.
+    let wanted = |crossing: &Crossing| crossing.modes.modes[crossing.mode].label == mode;
     let met = |found: &[Crossing]| found.iter().any(wanted);
     let found = meetings(mechanism, values, start, following, range, condition, met)?;
     Ok(found.into_iter().find(wanted))
+}
+
+fn all_meetings(
+    mechanism: &dyn Kernels,
+    values: (&[f64], &[f64]),
+    start: &[f64],
+    following: Following,
+    range: Range,
+    condition: Condition,
+) -> Result<Vec<Crossing>, Error> {
+    let never = |_: &[Crossing]| false;
+    meetings(mechanism, values, start, following, range, condition, never)
 }
 
 /// The meetings in a range, until there are enough.
