@@ -198,7 +198,7 @@ pub fn campbell_each(
                 }));
             }
         }
-        if let Some(point) = failed.as_ref().or(tracker.last.as_ref()) {
+        if let Some(point) = failed.as_ref().or(tracker.last.as_deref()) {
             unreached -= 1;
             let describe = |(state, modes)| describe(mechanism, state, modes, tolerances);
             path.add(

@@ -102,23 +102,22 @@ fn departed(point: &OperatingPoint<'_>, from: &[f64], downhill: &[f64]) -> Resul
     assembly::closed(point, &beside, &vec![false; point.size()]).map(|(start, _)| start)
 }
 
-/// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
-/// it is what was predicted. For mechanisms with a potential and without constraints.
+/// As [`solve_into`], for the stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight
+/// way leads there and it is what was predicted. For mechanisms with a potential and without constraints.
 pub(crate) fn solve_from_prediction(
     point: &OperatingPoint<'_>,
     last: &[f64],
     predicted: &[f64],
-) -> Option<Judged> {
+    state: &mut Equilibrium,
+) -> Option<Vec<Mode>> {
     if !has_open_potential(point) {
         return None;
     }
-    let mut state = point.blank_state();
-    newton_fast_path::newton_fast_path(point, predicted, &mut state).ok()?;
+    newton_fast_path::newton_fast_path(point, predicted, state).ok()?;
     if !confirmed(&state.coordinates, predicted, last) {
         return None;
     }
-    let modes = judge(point, &mut state).ok()?;
-    Some(Judged { state, modes })
+    judge(point, state).ok()
 }
 
 /// As [`solve`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.

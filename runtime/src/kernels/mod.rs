@@ -47,7 +47,7 @@ pub type LinearPartials<T = f64> = mechanism::LinearPartials<Vec<Linear<T>>>;
 pub type ResidualPartials<T = f64> = (Matrix<T>, Matrix<T>);
 
 /// How many unknowns, inputs, design variables and outputs there are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
     /// Unknowns.
     pub coordinates: usize,

@@ -4,10 +4,10 @@
 
 use super::gradients::{Source, changes, of_general, rate};
 use super::pencil::{ComplexGradient, Form, form_gradient};
-use super::{Method, ModeSensitivity, Sensitivities, assemble, check_state, redundancy};
+use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, redundancy};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{
-    Gradient, Kernels, PartialMatrices, ResidualPartials, residual_partials_zeros,
+    Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros,
 };
 use crate::modes::{Family, pencil_slope_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
@@ -23,48 +23,87 @@ pub fn sensitivities(
     modes: &Modes,
 ) -> Result<Sensitivities, Error> {
     check_state(mechanism, at)?;
-    redundancy::check(mechanism, at)?;
-    let factors = Factors::new(at)?;
-    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    let (costs, sizes) = (mechanism.costs(), mechanism.sizes());
-    let mut residual = residual_partials_zeros(sizes);
-    let matrices;
-    let (matrices, residual) = match Source::cheapest(costs, sizes, modes.family) {
-        Source::Partials => {
-            matrices = mechanism.partials(q, u, b, &mut residual);
-            (Some(&matrices), Some(&residual))
+    let mut found = Sensitivities::blank(at, modes, Method::Adjoint);
+    Adjoint::new(mechanism, modes.family).sensitivities_into(at, modes, &mut found)?;
+    Ok(found)
+}
+
+/// [`sensitivities`] of one state after the other.
+pub(crate) struct Adjoint<'a> {
+    mechanism: &'a dyn Kernels,
+    source: Source,
+    /// Explicit partials, where gradients come from them; of no variables otherwise.
+    matrices: PartialMatrices,
+    residual: ResidualPartials,
+}
+
+impl<'a> Adjoint<'a> {
+    pub(crate) fn new(mechanism: &'a dyn Kernels, family: Family) -> Self {
+        let sizes = mechanism.sizes();
+        let source = Source::cheapest(mechanism.costs(), sizes, family);
+        let where_used = |used| if used { sizes } else { Sizes::default() };
+        Self {
+            mechanism,
+            source,
+            matrices: PartialMatrices::zeros(where_used(source == Source::Partials)),
+            residual: residual_partials_zeros(where_used(source != Source::Reverse)),
         }
-        Source::ResidualPartials => {
-            mechanism.residual_partials_into(q, u, b, &mut residual);
-            (None, Some(&residual))
-        }
-        Source::Reverse => (None, None),
-    };
-    let shared = Shared {
-        mechanism,
-        at,
-        factors: &factors,
-        residual,
-    };
-    let method = Method::Adjoint;
-    match (modes.family, matrices, residual) {
-        (Family::Undamped, Some(matrices), Some(residual)) => {
-            assemble(at, modes, method, |own, mode| {
-                shared.undamped_from_partials(matrices, residual, own, mode);
-            })
-        }
-        (Family::Undamped, ..) => {
-            let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
-            assemble(at, modes, method, |own, mode| {
-                shared.undamped(&mut gradient, &mut room, own, mode);
-            })
-        }
-        (Family::General, ..) => {
-            let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
-            let mut room = Gradient::zeros(sizes);
-            assemble(at, modes, method, |own, mode| {
-                shared.general(matrices, &mut gradient, &mut room, own, mode);
-            })
+    }
+
+    /// Writes over derivatives of modes of the same family.
+    pub(crate) fn sensitivities_into(
+        &mut self,
+        at: &Equilibrium,
+        modes: &Modes,
+        found: &mut Sensitivities,
+    ) -> Result<(), Error> {
+        let Self {
+            mechanism,
+            source,
+            matrices,
+            residual,
+        } = self;
+        check_state(*mechanism, at)?;
+        redundancy::check(*mechanism, at)?;
+        let factors = Factors::new(at)?;
+        let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+        let (matrices, residual) = match source {
+            Source::Partials => {
+                mechanism.partials_into(q, u, b, matrices, residual);
+                (Some(&*matrices), Some(&*residual))
+            }
+            Source::ResidualPartials => {
+                mechanism.residual_partials_into(q, u, b, residual);
+                (None, Some(&*residual))
+            }
+            Source::Reverse => (None, None),
+        };
+        let sizes = mechanism.sizes();
+        let shared = Shared {
+            mechanism: *mechanism,
+            at,
+            factors: &factors,
+            residual,
+        };
+        match (modes.family, matrices, residual) {
+            (Family::Undamped, Some(matrices), Some(residual)) => {
+                assemble_into(at, modes, found, |own, mode| {
+                    shared.undamped_from_partials(matrices, residual, own, mode);
+                })
+            }
+            (Family::Undamped, ..) => {
+                let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
+                assemble_into(at, modes, found, |own, mode| {
+                    shared.undamped(&mut gradient, &mut room, own, mode);
+                })
+            }
+            (Family::General, ..) => {
+                let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
+                let mut room = Gradient::zeros(sizes);
+                assemble_into(at, modes, found, |own, mode| {
+                    shared.general(matrices, &mut gradient, &mut room, own, mode);
+                })
+            }
         }
     }
 }

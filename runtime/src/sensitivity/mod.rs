@@ -14,6 +14,7 @@ mod redundancy;
 mod shift;
 
 pub(crate) use adjoint::normaliser;
+pub(crate) use adjoint::Adjoint;
 pub use adjoint::sensitivities;
 pub(crate) use eigenvalues::eigenvalues;
 pub(crate) use explicit::Rate;
@@ -91,10 +92,25 @@ fn assemble(
     at: &Equilibrium,
     modes: &Modes,
     method: Method,
-    mut set: impl FnMut(&mut ModeSensitivity, &Mode),
+    set: impl FnMut(&mut ModeSensitivity, &Mode),
 ) -> Result<Sensitivities, Error> {
-    check_modes(at, modes)?;
     let mut found = Sensitivities::blank(at, modes, method);
+    assemble_into(at, modes, &mut found, set)?;
+    Ok(found)
+}
+
+/// The same: writes over derivatives of the same mechanism and family, found by the same method.
+fn assemble_into(
+    at: &Equilibrium,
+    modes: &Modes,
+    found: &mut Sensitivities,
+    mut set: impl FnMut(&mut ModeSensitivity, &Mode),
+) -> Result<(), Error> {
+    check_modes(at, modes)?;
+    found.inputs.clone_from(&at.inputs);
+    found
+        .modes
+        .resize_with(modes.modes.len(), ModeSensitivity::blank);
     let mut finite = true;
     for (position, (own, mode)) in found.modes.iter_mut().zip(&modes.modes).enumerate() {
         if merged(modes, position) {
@@ -106,7 +122,7 @@ fn assemble(
         finite &= own.finite();
     }
     if finite {
-        Ok(found)
+        Ok(())
     } else {
         Err(shift::outside_domain(at))
     }

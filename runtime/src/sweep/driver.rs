@@ -8,7 +8,7 @@ use super::track::{Tracker, even};
 use crate::batched::Block;
 use crate::kernels::BatchKernels;
 use crate::scalar::WIDTH;
-use crate::sensitivity::{Method, sensitivities};
+use crate::sensitivity::{Adjoint, Method};
 use crate::{Error, Sensitivities};
 
 /// What is known at one value.
@@ -33,6 +33,7 @@ pub(crate) fn follow(
     let mut memory = Vec::new();
     let mut workspace =
         (tracker.side_by_side()).then(|| tracker.workspace(&mut memory, with_slopes));
+    let mut adjoint = with_slopes.then(|| Adjoint::new(tracker.mechanism, tracker.family()));
     let mut slopes = None;
     // Values to be solved one by one before a block is tried again; three tell a way.
     let mut alone = 3;
@@ -54,11 +55,10 @@ pub(crate) fn follow(
         }
         alone = alone.saturating_sub(1);
         let failed = tracker.advance(value);
-        if let Some(point) = failed.as_ref().or(tracker.last.as_ref()) {
-            slopes = with_slopes.then(|| {
-                let (state, modes) = point.solved().map_err(Error::clone)?;
-                sensitivities(tracker.mechanism, state, modes)
-            });
+        if let Some(point) = failed.as_ref().or(tracker.last.as_deref()) {
+            if let Some(adjoint) = &mut adjoint {
+                slopes = Some(slopes_at(point, adjoint, slopes.take()));
+            }
             let shown = each(Station {
                 point,
                 slopes: slopes.as_ref(),
@@ -70,6 +70,19 @@ pub(crate) fn follow(
         }
         rest = behind;
     }
+}
+
+/// The derivatives at a point, written over those at another where there are any.
+fn slopes_at(
+    point: &SweepPoint,
+    adjoint: &mut Adjoint<'_>,
+    over: Option<Result<Sensitivities, Error>>,
+) -> Result<Sensitivities, Error> {
+    let (state, modes) = point.solved().map_err(Error::clone)?;
+    let blank = || Sensitivities::blank(state, modes, Method::Adjoint);
+    let mut slopes = over.and_then(Result::ok).unwrap_or_else(blank);
+    adjoint.sensitivities_into(state, modes, &mut slopes)?;
+    Ok(slopes)
 }
 
 /// The first states of a block, each written over the one before.

@@ -5,14 +5,14 @@ use super::points::SweepPoint;
 use crate::algebra::Vector;
 use crate::batched::algebra::{Square, small};
 use crate::batched::{Block, KERNELS, Workspace, possible};
-use crate::equilibrium::{Judged, OperatingPoint, Path, Policy, solve, solve_from_prediction};
+use crate::equilibrium::{OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{
-    CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another, position,
+    CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position,
 };
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters::setters;
-use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
+use crate::{Description, Equilibrium, Error, Input, Mode, Modes, Shared, Stability};
 
 /// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
 const RECOGNISED: f64 = 0.8;
@@ -71,7 +71,9 @@ pub(crate) struct Tracker<'a> {
     /// The last advance ended where the way before led, and no stiffness came near to zero: it passed no critical state.
     pub(crate) smooth: bool,
     /// The last point that has modes.
-    pub(crate) last: Option<SweepPoint>,
+    pub(crate) last: Option<Box<SweepPoint>>,
+    /// What the next point is written over.
+    spare: Option<Box<SweepPoint>>,
 }
 
 impl<'a> Tracker<'a> {
@@ -102,6 +104,7 @@ impl<'a> Tracker<'a> {
             unused: 0,
             smooth: false,
             last: None,
+            spare: None,
         }
     }
 
@@ -119,26 +122,35 @@ impl<'a> Tracker<'a> {
         inputs
     }
 
-    /// The equilibrium at a value of the input, from `from`, or from where the way leads if it is found there at once: then
-    /// true.
-    fn equilibrium(
+    /// Writes the equilibrium at a value of the input over `state`, from `from`, or from where the way leads if it is found there at
+    /// once: then true. Returns its general modes where its stability was judged by them.
+    fn equilibrium_into(
         &self,
         value: f64,
         from: &[f64],
         predicted: Option<&[f64]>,
-    ) -> Result<(Judged, bool), Error> {
+        state: &mut Equilibrium,
+    ) -> Result<(Vec<Mode>, bool), Error> {
         let inputs = self.inputs_at(value);
-        let operating_point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
-        operating_point.check_start(from)?;
+        let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
+        point.check_start(from)?;
+        state.inputs.clone_from(&inputs);
         let predicted = predicted.filter(|_| self.policy == Policy::Stable);
-        if let Some(state) =
-            predicted.and_then(|to| solve_from_prediction(&operating_point, from, to))
+        if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state))
         {
-            return Ok((state, true));
+            return Ok((modes, true));
         }
-        solve(&operating_point, from, self.policy)
-            .map(|state| (state, false))
-            .map_err(|failure| failure.explain(&operating_point.description))
+        solve_into(&point, from, self.policy, state)
+            .map(|modes| (modes, false))
+            .map_err(|failure| failure.explain(&point.description))
+    }
+
+    /// A state and its modes, to be written over.
+    fn blank(&self) -> (Equilibrium, Modes) {
+        (
+            Equilibrium::blank(&self.description, &self.inputs, &self.design),
+            Modes::empty(self.family, &self.description),
+        )
     }
 
     /// Equilibrium and modes at a value, near to others, in the order and with the labels of their modes.
@@ -147,9 +159,10 @@ impl<'a> Tracker<'a> {
         value: f64,
         (state, modes): (&Equilibrium, &Modes),
     ) -> Result<(Equilibrium, Modes), Error> {
-        let (judged, _) = self.equilibrium(value, &state.coordinates, None)?;
-        let (equilibrium, found) = (judged.state, judged.modes);
-        let found = modes_at(&equilibrium, self.family, found)?;
+        let (mut equilibrium, mut found) = self.blank();
+        let from = &state.coordinates;
+        let (judged, _) = self.equilibrium_into(value, from, None, &mut equilibrium)?;
+        found.solve_at(&equilibrium, judged)?;
         let modes = found.continuing(modes, &equilibrium.linear, self.unused);
         Ok((equilibrium, modes))
     }
@@ -217,7 +230,7 @@ impl<'a> Tracker<'a> {
     pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
         let (equilibrium, error) = match self.go(value) {
             Ok(None) => return None,
-            Ok(Some((state, error))) => (Ok(*state), error),
+            Ok(Some((point, error))) => (point.equilibrium, error),
             Err(error) => (Err(error.clone()), error),
         };
         Some(SweepPoint {
@@ -228,7 +241,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// As [`Self::advance`]: a state whose modes fail comes back.
-    fn go(&mut self, value: f64) -> Result<Option<(Box<Equilibrium>, Error)>, Error> {
+    fn go(&mut self, value: f64) -> Result<Option<(Box<SweepPoint>, Error)>, Error> {
         // Where to go next, how often the way may still be halved, and what comes after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
@@ -245,7 +258,7 @@ impl<'a> Tracker<'a> {
                         next = middle;
                     }
                     (_, Some(place)) => (next, halvings) = place,
-                    (Step::WithoutModes(state, error), None) => return Ok(Some((state, error))),
+                    (Step::WithoutModes(point, error), None) => return Ok(Some((point, error))),
                     (Step::Arrived, None) => {
                         self.smooth = smooth;
                         return Ok(None);
@@ -262,16 +275,23 @@ impl<'a> Tracker<'a> {
 
     fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
         let predicted = self.path.at(value);
-        let (Judged { state, modes }, confirmed) =
-            self.equilibrium(value, &self.from, predicted.as_deref())?;
-        let mut found = match modes_at(&state, self.family, modes) {
-            Ok(found) => found,
-            Err(error) => {
-                self.from.clone_from(&state.coordinates);
-                self.path.go(value, &state.coordinates);
-                return Ok(Step::WithoutModes(Box::new(state), error));
-            }
-        };
+        let mut point = self.spare.take().unwrap_or_else(|| {
+            let (equilibrium, modes) = self.blank();
+            Box::new(SweepPoint {
+                value,
+                equilibrium: Ok(equilibrium),
+                modes: Ok(modes),
+            })
+        });
+        point.value = value;
+        let (state, found) = point.solved_mut().map_err(|error| error.clone())?;
+        let (judged, confirmed) =
+            self.equilibrium_into(value, &self.from, predicted.as_deref(), state)?;
+        if let Err(error) = found.solve_at(state, judged) {
+            self.from.clone_from(&state.coordinates);
+            self.path.go(value, &state.coordinates);
+            return Ok(Step::WithoutModes(point, error));
+        }
         self.smooth = false;
         if let Some(last) = &self.last
             && let Ok(modes) = &last.modes
@@ -279,9 +299,9 @@ impl<'a> Tracker<'a> {
             self.smooth = confirmed
                 && self.family == Family::Undamped
                 && even(modes.least_lambda(), found.least_lambda());
-            let order = match_with_assurance(modes, &found, &state.linear);
+            let order = match_with_assurance(modes, found, &state.linear);
             // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
-            let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
+            let repeated = |r: usize| merged(found, r) || near_another(found, r, CLUSTER_GAP);
             let doubtful = order
                 .iter()
                 .flatten()
@@ -289,6 +309,7 @@ impl<'a> Tracker<'a> {
             let middle = 0.5 * (last.value + value);
             let between = (middle - last.value) * (value - middle) > 0.0;
             if doubtful && halvings > 0 && between {
+                self.spare = Some(point);
                 return Ok(Step::TooFar(middle));
             }
             let order = order.map(position);
@@ -298,11 +319,7 @@ impl<'a> Tracker<'a> {
         self.path.go(value, &state.coordinates);
         let labels = found.modes.iter().map(|mode| mode.label + 1);
         self.unused = labels.fold(self.unused, usize::max);
-        self.last = Some(SweepPoint {
-            value,
-            equilibrium: Ok(state),
-            modes: Ok(found),
-        });
+        self.spare = self.last.replace(point);
         Ok(Step::Arrived)
     }
 }
@@ -318,8 +335,8 @@ pub(super) fn even(a: f64, b: f64) -> bool {
 enum Step {
     /// At a state with modes: the last one.
     Arrived,
-    /// At a state without.
-    WithoutModes(Box<Equilibrium>, Error),
+    /// At a state without; what it has for modes is none.
+    WithoutModes(Box<SweepPoint>, Error),
     /// Modes are not recognised; a value on the way.
     TooFar(f64),
 }
