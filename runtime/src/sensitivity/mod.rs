@@ -13,8 +13,8 @@ mod quantity;
 mod redundancy;
 mod shift;
 
-pub(crate) use adjoint::normaliser;
 pub(crate) use adjoint::Adjoint;
+pub(crate) use adjoint::normaliser;
 pub use adjoint::sensitivities;
 pub(crate) use eigenvalues::eigenvalues;
 pub(crate) use explicit::Rate;

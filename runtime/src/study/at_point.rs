@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::deviating::deviating;
+use super::deviating::Subject;
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Search};
@@ -157,11 +157,8 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        if let Some(wide) = deviating!(self, Kernels) {
-            return wide.output_tolerances();
-        }
-        let outputs = self.outputs()?;
-        tolerance::output_tolerances(&outputs, self.settings.tolerances()?)
+        self.subject::<dyn Kernels>(&self.mechanism)
+            .output_tolerances()
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -499,5 +496,15 @@ impl<M: BatchKernels> Study<M> {
         sampling: &Sampling<'_>,
     ) -> Result<(), Error> {
         self.solve()?.resume_samples(done, sampling)
+    }
+}
+
+impl Subject<'_, dyn Kernels + '_> {
+    fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
+        self.deviating(|own| {
+            let state = own.settings.regular(own.kernels)?;
+            let outputs = sensitivity::output_sensitivities(own.kernels, &state)?;
+            tolerance::output_tolerances(&outputs, own.settings.tolerances()?)
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::deviating::deviating;
+use super::deviating::Subject;
 use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
@@ -10,7 +10,7 @@ use crate::equilibrium::Search;
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::second_order::{self, EventCurvature};
 use crate::sensitivity::Sensitivities;
-use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Sweep, SweepPoint};
+use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Range, Sweep, SweepPoint};
 use crate::tolerance;
 use crate::tolerance::{FirstOrder, Tolerances};
 use crate::{Error, Input, Watch};
@@ -32,13 +32,9 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Sweep, Error> {
-        let mut points = Vec::with_capacity(values.len());
-        let each = |point: &SweepPoint| {
-            points.push(point.clone());
-            ControlFlow::Continue(())
-        };
-        let found = self.sweep_each(input, values, each)?;
-        Ok(Sweep { points, ..found })
+        let values = self.settings.values_si(input.any(), values)?;
+        self.subject::<dyn BatchKernels>(&self.mechanism)
+            .sweep((input.any(), &values))
     }
 
     /// As [`Study::sweep`], but shows each point to `each` as soon as it is found, until that breaks off, and keeps none
@@ -64,17 +60,9 @@ impl<M: BatchKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
     ) -> Result<Sweep, Error> {
-        let Self {
-            mechanism,
-            settings,
-        } = self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let start = settings.assembled_start(mechanism)?;
-        let values = settings.values_si(input.any(), values)?;
-        let (following, along) = (settings.following(), (input.any(), &values[..]));
-        let watch = settings.watch();
-        let each = |found: &SweepPoint| go_on(each(found), watch);
-        sweep::sweep_each(mechanism, point, &start, following, along, each)
+        let values = self.settings.values_si(input.any(), values)?;
+        self.subject::<dyn BatchKernels>(&self.mechanism)
+            .sweep_each((input.any(), &values), &mut each)
     }
 
     /// Calls `each` with equilibrium, modes and their total derivatives at each value of one input, in order
@@ -98,20 +86,9 @@ impl<M: BatchKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
-        let Self {
-            mechanism,
-            settings,
-        } = self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let start = settings.assembled_start(mechanism)?;
-        let values = settings.values_si(input.any(), values)?;
-        let (following, along) = (settings.following(), (input.any(), &values[..]));
-        let watch = settings.watch();
-        let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
-            each(point, slopes);
-            go_on(ControlFlow::Continue(()), watch)
-        };
-        sweep::sensitivity_sweep(mechanism, point, &start, following, along, each)
+        let values = self.settings.values_si(input.any(), values)?;
+        self.subject::<dyn BatchKernels>(&self.mechanism)
+            .sensitivity_sweep((input.any(), &values), &mut each)
     }
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and their label
@@ -132,15 +109,9 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
-        if let Some(wide) = deviating!(self, BatchKernels) {
-            return wide.first_order_sweep(Input::new(input.index()), values);
-        }
-        let tolerances = self.settings.tolerances()?;
-        let mut found = Vec::with_capacity(values.len());
-        self.sensitivity_sweep(input, values, |point, slopes| {
-            found.push(spread(point, slopes, tolerances));
-        })?;
-        Ok(found)
+        let values = self.settings.values_si(input.any(), values)?;
+        self.subject::<dyn BatchKernels>(&self.mechanism)
+            .first_order_sweep((input.any(), &values))
     }
 }
 
@@ -162,13 +133,10 @@ impl<M: DirectionalKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell, Error> {
-        let mut points = Vec::with_capacity(values.len());
-        let each = |point| {
-            points.push(point);
-            ControlFlow::Continue(())
-        };
-        let found = self.campbell_each(input, values, orders, each)?;
-        Ok(Campbell { points, ..found })
+        let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
+        let values = self.settings.values_si(input.any(), values)?;
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
+            .campbell(&Axes::new(input.any(), &values, &orders))
     }
 
     /// As [`Study::campbell`], but gives each point to `each` as soon as it is found, until that breaks off, and keeps none
@@ -196,31 +164,10 @@ impl<M: DirectionalKernels> Study<M> {
         orders: &[impl Into<Line> + Copy],
         mut each: impl FnMut(CampbellPoint) -> ControlFlow<()>,
     ) -> Result<Campbell, Error> {
-        if let Some(wide) = deviating!(self, DirectionalKernels) {
-            return wide.campbell_each(Input::new(input.index()), values, orders, each);
-        }
-        let Self {
-            mechanism,
-            settings,
-        } = self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(mechanism)?;
-        let tolerances = settings.tolerances()?;
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        let values = settings.values_si(input.any(), values)?;
-        let axes = Axes::new(input.any(), &values, &orders);
-        let following = settings.following();
-        let watch = settings.watch();
-        let each = |found| go_on(each(found), watch);
-        campbell::campbell_each(
-            mechanism,
-            (u, b),
-            &start,
-            following,
-            &axes,
-            tolerances,
-            each,
-        )
+        let values = self.settings.values_si(input.any(), values)?;
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
+            .campbell_each(&Axes::new(input.any(), &values, &orders), &mut each)
     }
 
     /// Branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
@@ -282,16 +229,10 @@ impl<M: DirectionalKernels> Study<M> {
         &self,
         continuation: &Continuation,
         search: Option<&Search>,
-        each: impl FnMut(&Branch),
+        mut each: impl FnMut(&Branch),
     ) -> Result<Branches, Error> {
-        let Self {
-            mechanism,
-            settings,
-        } = self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let start = settings.assembled_start(mechanism)?;
-        let (how, watch) = ((continuation, search), settings.watch());
-        branches::branches_each(mechanism, point, &start, how, watch, each)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
+            .branches_each((continuation, search), &mut each)
     }
 
     /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be changed and passed to
@@ -336,14 +277,9 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<CriticalState, Error> {
-        let Self {
-            mechanism,
-            settings,
-        } = self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(mechanism)?;
-        let range = settings.range(input.any(), low.into(), high.into())?;
-        sweep::critical_state(mechanism, u, b, &start, range)
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
+            .critical_state(range)
     }
 
     /// As [`Study::critical_state`], with its sensitivity and spread ([`sweep::critical_tolerance`]).
@@ -362,16 +298,9 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
-        if let Some(wide) = deviating!(self, DirectionalKernels) {
-            return wide.critical_tolerance(Input::new(input.index()), low, high);
-        }
-        let tolerances = self.settings.tolerances()?;
-        let state = self.critical_state(input, low, high)?;
-        Ok(sweep::critical_tolerance(
-            &self.mechanism,
-            &state,
-            tolerances,
-        ))
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
+            .critical_tolerance(range)
     }
 }
 
@@ -422,15 +351,9 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing>, Error> {
-        let Self {
-            mechanism,
-            settings,
-        } = self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(mechanism)?;
-        let range = settings.range(input.any(), low.into(), high.into())?;
-        let (following, line) = (settings.following(), line.into());
-        sweep::crossings(mechanism, u, b, &start, following, range, line)
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        self.subject::<dyn Kernels>(&self.mechanism)
+            .crossings(range, line.into())
     }
 
     /// As [`Study::crossings`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
@@ -452,12 +375,9 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
-        if let Some(wide) = deviating!(self, Kernels) {
-            return wide.crossing_tolerances(Input::new(input.index()), low, high, line);
-        }
-        let tolerances = self.settings.tolerances()?;
-        let found = self.crossings(input, low, high, line)?;
-        Ok(spreads(&self.mechanism, &found, tolerances))
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        self.subject::<dyn Kernels>(&self.mechanism)
+            .crossing_tolerances(range, line.into())
     }
 
     /// Values of an input between `low` and `high` where an oscillation begins or ceases to grow
@@ -478,14 +398,9 @@ impl<M: Kernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Vec<Crossing>, Error> {
-        let Self {
-            mechanism,
-            settings,
-        } = self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(mechanism)?;
-        let range = settings.range(input.any(), low.into(), high.into())?;
-        sweep::flutter_onsets(mechanism, u, b, &start, settings.following(), range)
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        self.subject::<dyn Kernels>(&self.mechanism)
+            .flutter_onsets(range)
     }
 
     /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
@@ -504,12 +419,153 @@ impl<M: Kernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
-        if let Some(wide) = deviating!(self, Kernels) {
-            return wide.flutter_onset_tolerances(Input::new(input.index()), low, high);
-        }
-        let tolerances = self.settings.tolerances()?;
-        let found = self.flutter_onsets(input, low, high)?;
-        Ok(spreads(&self.mechanism, &found, tolerances))
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        self.subject::<dyn Kernels>(&self.mechanism)
+            .flutter_onset_tolerances(range)
+    }
+}
+
+impl Subject<'_, dyn BatchKernels + '_> {
+    fn sweep(&self, along: (Input, &[f64])) -> Result<Sweep, Error> {
+        let mut points = Vec::with_capacity(along.1.len());
+        let found = self.sweep_each(along, &mut |point| {
+            points.push(point.clone());
+            ControlFlow::Continue(())
+        })?;
+        Ok(Sweep { points, ..found })
+    }
+
+    fn sweep_each(
+        &self,
+        along: (Input, &[f64]),
+        each: &mut dyn FnMut(&SweepPoint) -> ControlFlow<()>,
+    ) -> Result<Sweep, Error> {
+        let Self { kernels, settings } = *self;
+        let point = (&settings.inputs[..], &settings.design[..]);
+        let start = settings.assembled_start(kernels)?;
+        let watch = settings.watch();
+        let each = |found: &SweepPoint| go_on(each(found), watch);
+        sweep::sweep_each(kernels, point, &start, settings.following(), along, each)
+    }
+
+    fn sensitivity_sweep(
+        &self,
+        along: (Input, &[f64]),
+        each: &mut dyn FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+    ) -> Result<(), Error> {
+        let Self { kernels, settings } = *self;
+        let point = (&settings.inputs[..], &settings.design[..]);
+        let start = settings.assembled_start(kernels)?;
+        let watch = settings.watch();
+        let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
+            each(point, slopes);
+            go_on(ControlFlow::Continue(()), watch)
+        };
+        sweep::sensitivity_sweep(kernels, point, &start, settings.following(), along, each)
+    }
+
+    fn first_order_sweep(
+        &self,
+        along: (Input, &[f64]),
+    ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let mut found = Vec::with_capacity(along.1.len());
+            own.sensitivity_sweep(along, &mut |point, slopes| {
+                found.push(spread(point, slopes, tolerances));
+            })?;
+            Ok(found)
+        })
+    }
+}
+
+impl Subject<'_, dyn DirectionalKernels + '_> {
+    fn campbell(&self, axes: &Axes<'_>) -> Result<Campbell, Error> {
+        let mut points = Vec::with_capacity(axes.values.len());
+        let found = self.campbell_each(axes, &mut |point| {
+            points.push(point);
+            ControlFlow::Continue(())
+        })?;
+        Ok(Campbell { points, ..found })
+    }
+
+    fn campbell_each(
+        &self,
+        axes: &Axes<'_>,
+        each: &mut dyn FnMut(CampbellPoint) -> ControlFlow<()>,
+    ) -> Result<Campbell, Error> {
+        self.deviating(|own| {
+            let Subject { kernels, settings } = *own;
+            let point = (&settings.inputs[..], &settings.design[..]);
+            let start = settings.assembled_start(kernels)?;
+            let tolerances = settings.tolerances()?;
+            let (following, watch) = (settings.following(), settings.watch());
+            let each = |found| go_on(each(found), watch);
+            campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
+        })
+    }
+
+    fn branches_each(
+        &self,
+        how: (&Continuation, Option<&Search>),
+        each: &mut dyn FnMut(&Branch),
+    ) -> Result<Branches, Error> {
+        let Self { kernels, settings } = *self;
+        let point = (&settings.inputs[..], &settings.design[..]);
+        let start = settings.assembled_start(kernels)?;
+        branches::branches_each(kernels, point, &start, how, settings.watch(), each)
+    }
+
+    fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
+        let Self { kernels, settings } = *self;
+        let start = settings.assembled_start(kernels)?;
+        sweep::critical_state(kernels, &settings.inputs, &settings.design, &start, range)
+    }
+
+    fn critical_tolerance(&self, range: Range) -> Result<EventTolerance, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let state = own.critical_state(range)?;
+            Ok(sweep::critical_tolerance(own.kernels, &state, tolerances))
+        })
+    }
+}
+
+impl Subject<'_, dyn Kernels + '_> {
+    fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
+        let Self { kernels, settings } = *self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(kernels)?;
+        sweep::crossings(kernels, u, b, &start, settings.following(), range, line)
+    }
+
+    fn crossing_tolerances(&self, range: Range, line: Line) -> Result<Vec<EventTolerance>, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            Ok(spreads(
+                own.kernels,
+                &own.crossings(range, line)?,
+                tolerances,
+            ))
+        })
+    }
+
+    fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
+        let Self { kernels, settings } = *self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(kernels)?;
+        sweep::flutter_onsets(kernels, u, b, &start, settings.following(), range)
+    }
+
+    fn flutter_onset_tolerances(&self, range: Range) -> Result<Vec<EventTolerance>, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            Ok(spreads(
+                own.kernels,
+                &own.flutter_onsets(range)?,
+                tolerances,
+            ))
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! What tolerances do to any responses: quantities of modes, outputs, critical values of an input.
 
-use super::deviating::deviating;
+use super::deviating::SolvedSubject;
 use super::{Solved, Study};
 use crate::kernels::{CurvatureKernels, SummaryKernels};
 use crate::propagation::{
@@ -116,14 +116,8 @@ impl<M: SummaryKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::propagate`].
     pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
-        let effort = self.effort();
-        self.about(
-            wanted,
-            self.study.settings.watch(),
-            |mechanism, responses, tolerances| {
-                propagation::propagate(mechanism, responses, tolerances, effort)
-            },
-        )
+        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
+            .propagate(wanted)
     }
 
     /// See [`Study::sample_responses`].
@@ -135,7 +129,52 @@ impl<M: SummaryKernels> Solved<'_, M> {
         wanted: &[Response],
         sampler: &Sampler<'_>,
     ) -> Result<Samples, Error> {
-        let watch = self.study.settings.watch();
+        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
+            .sample_responses(wanted, sampler)
+    }
+
+    /// See [`Study::worst_case`].
+    ///
+    /// # Errors
+    /// As [`Study::worst_case`].
+    pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
+        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
+            .worst_case(wanted)
+    }
+
+    /// See [`Study::controlled`].
+    ///
+    /// # Errors
+    /// As [`Study::controlled`].
+    pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
+        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
+            .controlled(wanted)
+    }
+
+    /// See [`Study::influence`].
+    ///
+    /// # Errors
+    /// As [`Study::influence`].
+    pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
+        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
+            .influence(wanted)
+    }
+}
+
+impl SolvedSubject<'_, dyn SummaryKernels + '_> {
+    fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
+        let (watch, effort) = (self.settings.watch(), self.effort());
+        self.about(wanted, watch, |mechanism, responses, tolerances| {
+            propagation::propagate(mechanism, responses, tolerances, effort)
+        })
+    }
+
+    fn sample_responses(
+        &self,
+        wanted: &[Response],
+        sampler: &Sampler<'_>,
+    ) -> Result<Samples, Error> {
+        let watch = self.settings.watch();
         let sampler = Sampler {
             progress: sampler.progress.or(watch.progress),
             stop: sampler.stop.or(watch.stop),
@@ -146,54 +185,35 @@ impl<M: SummaryKernels> Solved<'_, M> {
         })
     }
 
-    /// See [`Study::worst_case`].
-    ///
-    /// # Errors
-    /// As [`Study::worst_case`].
-    pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
-        self.about(
-            wanted,
-            self.study.settings.watch(),
-            |_, responses, tolerances| propagation::worst_case(responses, tolerances),
-        )
+    fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
+        let watch = self.settings.watch();
+        self.about(wanted, watch, |_, responses, tolerances| {
+            propagation::worst_case(responses, tolerances)
+        })
     }
 
-    /// See [`Study::controlled`].
-    ///
-    /// # Errors
-    /// As [`Study::controlled`].
-    pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
-        let effort = self.effort();
+    fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
+        let (watch, effort) = (self.settings.watch(), self.effort());
         let sampler = Sampler::new(Points::Random)
             .samples(effort.samples)
             .seed(effort.seed)
             .stream(effort.stream)
             .threads(effort.threads);
-        self.about(
-            wanted,
-            self.study.settings.watch(),
-            |mechanism, responses, tolerances| {
-                propagation::controlled(mechanism, responses, tolerances, &sampler)
-            },
-        )
+        self.about(wanted, watch, |mechanism, responses, tolerances| {
+            propagation::controlled(mechanism, responses, tolerances, &sampler)
+        })
     }
 
-    /// See [`Study::influence`].
-    ///
-    /// # Errors
-    /// As [`Study::influence`].
-    pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
-        let effort = self.effort();
-        self.about(
-            wanted,
-            self.study.settings.watch(),
-            |_, responses, tolerances| propagation::influence(responses, tolerances, effort),
-        )
+    fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
+        let (watch, effort) = (self.settings.watch(), self.effort());
+        self.about(wanted, watch, |_, responses, tolerances| {
+            propagation::influence(responses, tolerances, effort)
+        })
     }
 
     /// What the settings allow.
     fn effort(&self) -> Effort {
-        let settings = &self.study.settings;
+        let settings = self.settings;
         Effort::default()
             .samples(settings.samples as u64)
             .seed(settings.seed)
@@ -201,22 +221,19 @@ impl<M: SummaryKernels> Solved<'_, M> {
             .threads(settings.threads)
     }
 
-    /// Asks about responses of the mechanism, or of that whose inputs deviate where inputs have tolerances.
+    /// Asks about responses.
     fn about<R>(
         &self,
         wanted: &[Response],
         watch: Watch<'_>,
         question: impl FnOnce(&dyn CurvatureKernels, &Responses<'_>, &Tolerances) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        if let Some(wide) = deviating!(self.study, SummaryKernels) {
-            return self.in_study(&wide).about(wanted, watch, question);
-        }
-        let mechanism = &self.study.mechanism;
-        let tolerances = self.study.settings.tolerances()?;
-        let (at, modes) = (&self.equilibrium, &self.modes);
-        let responses = Responses::side_by_side(mechanism, at, modes, wanted.to_vec())?;
-        let vectors = self.study.settings.vectors;
-        let responses = responses.vectors(vectors).watched(watch);
-        question(mechanism, &responses, tolerances)
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let (at, modes) = (own.equilibrium, own.modes);
+            let responses = Responses::side_by_side(own.kernels, at, modes, wanted.to_vec())?;
+            let responses = responses.vectors(own.settings.vectors).watched(watch);
+            question(own.kernels, &responses, tolerances)
+        })
     }
 }

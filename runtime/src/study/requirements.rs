@@ -1,6 +1,6 @@
 //! Requirements of a study: chances of meeting them, and the cheapest tolerances that do.
 
-use super::deviating::deviating;
+use super::deviating::SolvedSubject;
 use super::{Solved, Study};
 use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
@@ -55,10 +55,8 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         wanted: &[Requirement],
         sampling: &Sampling<'_>,
     ) -> Result<Chances, Error> {
-        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
-            return self.in_study(&wide).chances_by(wanted, sampling);
-        }
-        self.requirements(wanted)?.chances(sampling)
+        self.subject::<dyn DirectionalKernels>(&self.study.mechanism)
+            .chances_by(wanted, sampling)
     }
 
     /// Probabilities of failure by design points, with importance factors and exact derivatives ([`Requirements::reliability`]).
@@ -79,12 +77,8 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::tolerances`], [`Requirements::new`] and [`Requirements::reliability`].
     pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
-        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
-            return self.in_study(&wide).reliability(wanted);
-        }
-        self.requirements(wanted)?
-            .watched(self.study.settings.watch())
-            .reliability(&FormSettings::default())
+        self.subject::<dyn DirectionalKernels>(&self.study.mechanism)
+            .reliability(wanted)
     }
 
     /// A small probability of failing any requirement, by importance sampling about the design points
@@ -109,18 +103,8 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         wanted: &[Requirement],
         settings: &SamplingSettings,
     ) -> Result<RareFailure, Error> {
-        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
-            return self.in_study(&wide).rare_failure(wanted, settings);
-        }
-        let own = &self.study.settings;
-        let settings = SamplingSettings {
-            seed: own.seed,
-            stream: own.stream,
-            ..settings.clone()
-        };
-        let requirements = self.requirements(wanted)?.watched(own.watch());
-        let about = requirements.reliability(&FormSettings::default())?;
-        requirements.rare_failure(&about, &settings, own.threads)
+        self.subject::<dyn DirectionalKernels>(&self.study.mechanism)
+            .rare_failure(wanted, settings)
     }
 
     /// The cheapest tolerances that meet requirements, checked by as many samples as the study takes
@@ -151,27 +135,8 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         wanted: &[Requirement],
         choices: &Choices<'_>,
     ) -> Result<Allocation, Error> {
-        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
-            return self.in_study(&wide).allocation(wanted, choices);
-        }
-        let sampling = self.study.settings.sampling();
-        allocate(&self.requirements(wanted)?, choices, &sampling)
-    }
-
-    fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        let tolerances = study.settings.tolerances()?;
-        Requirements::new(
-            &study.mechanism,
-            equilibrium,
-            modes,
-            tolerances,
-            wanted.to_vec(),
-        )
+        self.subject::<dyn DirectionalKernels>(&self.study.mechanism)
+            .allocation(wanted, choices)
     }
 }
 
@@ -226,5 +191,57 @@ impl<M: DirectionalKernels> Study<M> {
         choices: &Choices<'_>,
     ) -> Result<Allocation, Error> {
         self.solve()?.allocation(wanted, choices)
+    }
+}
+
+impl SolvedSubject<'_, dyn DirectionalKernels + '_> {
+    fn chances_by(
+        &self,
+        wanted: &[Requirement],
+        sampling: &Sampling<'_>,
+    ) -> Result<Chances, Error> {
+        self.deviating(|own| own.requirements(wanted)?.chances(sampling))
+    }
+
+    fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
+        self.deviating(|own| {
+            own.requirements(wanted)?
+                .watched(own.settings.watch())
+                .reliability(&FormSettings::default())
+        })
+    }
+
+    fn rare_failure(
+        &self,
+        wanted: &[Requirement],
+        settings: &SamplingSettings,
+    ) -> Result<RareFailure, Error> {
+        self.deviating(|own| {
+            let settings = SamplingSettings {
+                seed: own.settings.seed,
+                stream: own.settings.stream,
+                ..settings.clone()
+            };
+            let requirements = own.requirements(wanted)?.watched(own.settings.watch());
+            let about = requirements.reliability(&FormSettings::default())?;
+            requirements.rare_failure(&about, &settings, own.settings.threads)
+        })
+    }
+
+    fn allocation(
+        &self,
+        wanted: &[Requirement],
+        choices: &Choices<'_>,
+    ) -> Result<Allocation, Error> {
+        self.deviating(|own| {
+            let sampling = own.settings.sampling();
+            allocate(&own.requirements(wanted)?, choices, &sampling)
+        })
+    }
+
+    fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
+        let tolerances = self.settings.tolerances()?;
+        let (at, modes) = (self.equilibrium, self.modes);
+        Requirements::new(self.kernels, at, modes, tolerances, wanted.to_vec())
     }
 }

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::Study;
-use super::deviating::deviating;
+use super::deviating::SolvedSubject;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
 use crate::modes::{self, Whirl};
@@ -11,7 +11,7 @@ use crate::picture::{self, ModePictures, Scene};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::{self, ShapeSensitivity};
-use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling, Tolerances};
+use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
 /// The equilibrium and the modes of a study, solved once for the questions that build on them. Its methods are those of [`Study`] of
@@ -89,11 +89,8 @@ impl<'a, M: Kernels> Solved<'a, M> {
     /// # Errors
     /// As [`Solved::equilibrium_shift`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        if let Some(wide) = deviating!(self.study, Kernels) {
-            return self.in_study(&wide).output_tolerances();
-        }
-        let tolerances = self.study.settings.tolerances()?;
-        tolerance::output_tolerances(&self.outputs()?, tolerances)
+        self.subject::<dyn Kernels>(&self.study.mechanism)
+            .output_tolerances()
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -121,12 +118,8 @@ impl<'a, M: Kernels> Solved<'a, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        if let Some(wide) = deviating!(self.study, Kernels) {
-            return self.in_study(&wide).first_order();
-        }
-        let tolerances = self.study.settings.tolerances()?;
-        let slopes = self.sensitivities()?;
-        tolerance::first_order(&self.modes, &slopes, tolerances)
+        self.subject::<dyn Kernels>(&self.study.mechanism)
+            .first_order()
     }
 
     /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`]).
@@ -251,20 +244,8 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
-            return self.in_study(&wide).clusters();
-        }
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        clusters::clusters(
-            &study.mechanism,
-            equilibrium,
-            modes,
-            study.settings.tolerances()?,
-        )
+        self.subject::<dyn DirectionalKernels>(&self.study.mechanism)
+            .clusters()
     }
 }
 
@@ -317,21 +298,8 @@ impl<M: CurvatureKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
-        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
-            return self.in_study(&wide).second_order();
-        }
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        let tolerances = study.settings.tolerances()?;
-        Ok(second_order::second_order(
-            &study.mechanism,
-            equilibrium,
-            modes,
-            tolerances,
-        ))
+        self.subject::<dyn CurvatureKernels>(&self.study.mechanism)
+            .second_order()
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
@@ -374,17 +342,8 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin, Error> {
-        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
-            return self.in_study(&wide).margin_of(mode, quantity, band);
-        }
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        let tolerances = study.settings.tolerances()?;
-        let what = (mode, quantity);
-        second_order::mode_margin(&study.mechanism, equilibrium, modes, what, tolerances, band)
+        self.subject::<dyn CurvatureKernels>(&self.study.mechanism)
+            .margin((mode, quantity), band)
     }
 }
 
@@ -424,9 +383,8 @@ impl<M: BatchKernels> Solved<'_, M> {
     }
 
     fn drawn(&self, sampling: &Sampling<'_>) -> Result<MonteCarlo, Error> {
-        self.with_tolerances(|mechanism, at, modes, tolerances| {
-            tolerance::monte_carlo(mechanism, at, modes, tolerances, sampling)
-        })
+        self.subject::<dyn BatchKernels>(&self.study.mechanism)
+            .monte_carlo(sampling)
     }
 
     /// See [`Study::samples_between`].
@@ -442,26 +400,8 @@ impl<M: BatchKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::sample_modes`].
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
-        self.with_tolerances(|mechanism, at, modes, tolerances| {
-            tolerance::partial_monte_carlo(mechanism, at, modes, tolerances, sampling)
-        })
-    }
-
-    /// Asks the mechanism, or that whose inputs deviate where inputs have tolerances.
-    fn with_tolerances<R>(
-        &self,
-        question: impl FnOnce(&dyn BatchKernels, &Equilibrium, &Modes, &Tolerances) -> Result<R, Error>,
-    ) -> Result<R, Error> {
-        if let Some(wide) = deviating!(self.study, BatchKernels) {
-            return self.in_study(&wide).with_tolerances(question);
-        }
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        let tolerances = study.settings.tolerances()?;
-        question(&study.mechanism, equilibrium, modes, tolerances)
+        self.subject::<dyn BatchKernels>(&self.study.mechanism)
+            .partial_monte_carlo(sampling)
     }
 
     /// See [`Study::resume_samples`].
@@ -480,5 +420,73 @@ impl<M: BatchKernels> Solved<'_, M> {
             done.merge(part(range)?)?;
         }
         Ok(())
+    }
+}
+
+impl SolvedSubject<'_, dyn Kernels + '_> {
+    fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let outputs = sensitivity::output_sensitivities(own.kernels, own.equilibrium)?;
+            tolerance::output_tolerances(&outputs, tolerances)
+        })
+    }
+
+    fn first_order(&self) -> Result<FirstOrder, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let slopes = sensitivity::sensitivities(own.kernels, own.equilibrium, own.modes)?;
+            tolerance::first_order(own.modes, &slopes, tolerances)
+        })
+    }
+}
+
+impl SolvedSubject<'_, dyn DirectionalKernels + '_> {
+    fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            clusters::clusters(own.kernels, own.equilibrium, own.modes, tolerances)
+        })
+    }
+}
+
+impl SolvedSubject<'_, dyn CurvatureKernels + '_> {
+    fn second_order(&self) -> Result<SecondOrder, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let (at, modes) = (own.equilibrium, own.modes);
+            Ok(second_order::second_order(
+                own.kernels,
+                at,
+                modes,
+                tolerances,
+            ))
+        })
+    }
+
+    fn margin(&self, what: (usize, Quantity), band: Band) -> Result<ModeMargin, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let (at, modes) = (own.equilibrium, own.modes);
+            second_order::mode_margin(own.kernels, at, modes, what, tolerances, band)
+        })
+    }
+}
+
+impl SolvedSubject<'_, dyn BatchKernels + '_> {
+    fn monte_carlo(&self, sampling: &Sampling<'_>) -> Result<MonteCarlo, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let (at, modes) = (own.equilibrium, own.modes);
+            tolerance::monte_carlo(own.kernels, at, modes, tolerances, sampling)
+        })
+    }
+
+    fn partial_monte_carlo(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
+        self.deviating(|own| {
+            let tolerances = own.settings.tolerances()?;
+            let (at, modes) = (own.equilibrium, own.modes);
+            tolerance::partial_monte_carlo(own.kernels, at, modes, tolerances, sampling)
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Verdicts on first order, for a study.
 
-use super::deviating::deviating;
+use super::deviating::SolvedSubject;
 use super::{Solved, Study};
 use crate::Error;
 use crate::kernels::SummaryKernels;
@@ -34,21 +34,8 @@ impl<M: SummaryKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::summary`].
     pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
-        if let Some(wide) = deviating!(self.study, SummaryKernels) {
-            return self.in_study(&wide).summary_within(operations);
-        }
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        summary::summary_watched(
-            &study.mechanism,
-            (equilibrium, modes),
-            study.settings.tolerances()?,
-            operations,
-            study.settings.watch(),
-        )
+        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
+            .summary_within(operations)
     }
 }
 
@@ -66,5 +53,19 @@ impl<M: SummaryKernels> Study<M> {
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn summary(&self) -> Result<Summary, Error> {
         self.solve()?.summary()
+    }
+}
+
+impl SolvedSubject<'_, dyn SummaryKernels + '_> {
+    fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
+        self.deviating(|own| {
+            summary::summary_watched(
+                own.kernels,
+                (own.equilibrium, own.modes),
+                own.settings.tolerances()?,
+                operations,
+                own.settings.watch(),
+            )
+        })
     }
 }

@@ -7,9 +7,7 @@ use crate::batched::algebra::{Square, small};
 use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels};
-use crate::modes::{
-    CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position,
-};
+use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters::setters;
 use crate::{Description, Equilibrium, Error, Input, Mode, Modes, Shared, Stability};
