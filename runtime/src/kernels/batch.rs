@@ -188,10 +188,10 @@ macro_rules! kernel {
     };
 }
 
-/// A kernel in the form that is inlined, which vectors need, or as it is compiled for other callers.
+/// A kernel in the form that is inlined, which vectors need, or as it is compiled for other callers, who have one state.
 macro_rules! call {
-    ($m:ident.$kernel:ident or $inlined:ident $arguments:tt) => {
-        if const { pays::<M>() } {
+    ($v:ident: $m:ident.$kernel:ident or $inlined:ident $arguments:tt) => {
+        if const { pays::<M>() && $v::WIDTH > 1 } {
             $m.$inlined $arguments
         } else {
             $m.$kernel $arguments
@@ -202,7 +202,7 @@ macro_rules! call {
 kernel! {
     ResidualAndStiffness<'a> { residual: &'a mut [Batch], stiffness: &'a mut [Batch] },
     m, (q, u, b), at, V => {
-        let found = call!(m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
+        let found = call!(V: m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
         store(found.0.as_ref(), residual, at);
         store_rows(found.1.as_ref(), stiffness, at);
     }
@@ -210,28 +210,28 @@ kernel! {
 kernel! {
     LinearTask<'a, 'b> { linear: &'a mut BatchLinear<'b> },
     m, (q, u, b), at, V => {
-        let found = call!(m.linear or linear_inlined(q, u, b));
+        let found = call!(V: m.linear or linear_inlined(q, u, b));
         store_linears::<V, M>(&[found], linear, at);
     }
 }
 kernel! {
     PartsAndLinear<'a, 'b, 'c> { parts: &'a mut BatchParts<'b>, linear: &'a mut BatchLinear<'c> },
     m, (q, u, b), at, V => {
-        let found = call!(m.residual_parts or residual_parts_inlined(q, u, b));
+        let found = call!(V: m.residual_parts or residual_parts_inlined(q, u, b));
         store(found.inertia.as_ref(), parts.inertia, at);
         store(found.applied.as_ref(), parts.applied, at);
-        let found = call!(m.linear or linear_inlined(q, u, b));
+        let found = call!(V: m.linear or linear_inlined(q, u, b));
         store_linears::<V, M>(&[found], linear, at);
     }
 }
 kernel! {
     Partials<'a, 'b> { matrices: &'a mut BatchPartials<'b>, residual: [&'a mut [Batch]; 2] },
     m, (q, u, b), at, V => {
-        let found = call!(m.linear_partials or linear_partials_inlined(q, u, b));
+        let found = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
         store_linears::<V, M>(found.by_coordinate.as_ref(), &mut matrices.by_coordinate, at);
         store_linears::<V, M>(found.by_input.as_ref(), &mut matrices.by_input, at);
         store_linears::<V, M>(found.by_design.as_ref(), &mut matrices.by_design, at);
-        let found = call!(m.residual_partials or residual_partials_inlined(q, u, b));
+        let found = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
         store_rows(found.0.as_ref(), residual[0], at);
         store_rows(found.1.as_ref(), residual[1], at);
     }
@@ -239,7 +239,7 @@ kernel! {
 kernel! {
     ModeGradient<'a, 'b> { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
-        let found = call!(m.mode_gradient or mode_gradient_inlined(q, u, b, &load(phi, at), V::load(lambda, at)));
+        let found = call!(V: m.mode_gradient or mode_gradient_inlined(q, u, b, &load(phi, at), V::load(lambda, at)));
         store(found.coordinates.as_ref(), gradient.coordinates, at);
         store(found.inputs.as_ref(), gradient.inputs, at);
         store(found.design.as_ref(), gradient.design, at);
@@ -248,7 +248,7 @@ kernel! {
 kernel! {
     ResidualGradient<'a, 'b> { w: &'a [Batch], gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
-        let found = call!(m.residual_gradient or residual_gradient_inlined(q, u, b, &load(w, at)));
+        let found = call!(V: m.residual_gradient or residual_gradient_inlined(q, u, b, &load(w, at)));
         store(found.coordinates.as_ref(), gradient.coordinates, at);
         store(found.inputs.as_ref(), gradient.inputs, at);
         store(found.design.as_ref(), gradient.design, at);
