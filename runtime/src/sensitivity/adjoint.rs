@@ -22,7 +22,6 @@ pub fn sensitivities(
     at: &Equilibrium,
     modes: &Modes,
 ) -> Result<Sensitivities, Error> {
-    check_state(mechanism, at)?;
     let mut found = Sensitivities::blank(at, modes, Method::Adjoint);
     Adjoint::new(mechanism, modes.family).sensitivities_into(at, modes, &mut found)?;
     Ok(found)
