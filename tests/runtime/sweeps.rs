@@ -1,9 +1,12 @@
 //! Sweeps whose values are solved side by side against sweeps whose values are solved one by one: the same states, modes,
 //! labels, derivatives and critical states up to rounding, the same bits with every set of instructions.
 
+use std::mem::discriminant;
 use std::ops::ControlFlow;
 
+use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{BatchKernels, Kernels};
+use eigentol::modes::modes_of;
 use eigentol::scalar::Instructions;
 use eigentol::sensitivity::sensitivities;
 use eigentol::sweep::sensitivity_sweep;
@@ -79,6 +82,38 @@ mechanism! {
         force first: spring(on: x, stiffness: k);
         force second: spring(on: y, stiffness: c);
         force twist: spring(on: roll, stiffness: 2.0 N*m/rad);
+    }
+}
+
+mechanism! {
+    /// Overdamped or not, by the damper: two real eigenvalues or a pair.
+    mechanism Damped {
+        input c: N*s/m;
+        design m = 2.0 kg;
+        design k = 8.0 N/m;
+        body block: point(mass: m);
+        joint x: prismatic(x) from ground to block;
+        force spring: spring(on: x, stiffness: k);
+        force friction: damper(on: x, damping: c);
+    }
+}
+
+mechanism! {
+    /// A weight on a cart that a rod holds.
+    mechanism Held {
+        input load: N;
+        design m = 2.0 kg;
+        design l = 1.5 m;
+        gravity 9.81 m/s^2 along -z;
+        body cart: point(mass: 1.0 kg);
+        body bar: rod(mass: m, length: 1.0 m, along: -z);
+        joint x: prismatic(x) from ground to cart;
+        joint theta: revolute(y) from cart to bar;
+        point wall: ground at [-1 m, 0, 0];
+        point end: bar at [0, 0, -1 m];
+        constraint hold: distance(from: wall, to: end, length: l);
+        force spring: spring(on: x, stiffness: 30.0 N/m);
+        force pull: potential(energy: load * x);
     }
 }
 
@@ -336,6 +371,110 @@ fn other_policies_and_families_go_one_by_one() {
         run(Policy::Stable, None, best),
         run(Policy::Stable, None, None)
     );
+}
+
+/// Solves one value after the other, and holds every state, its modes and their derivatives against those that are found from
+/// nothing there. Returns how many values had them all, and how many sets of modes differ from the one before in number or kind.
+fn from_nothing(
+    m: &dyn BatchKernels,
+    (u, start): (&[f64], &[f64]),
+    (policy, family): (Policy, Option<Family>),
+    (input, values): (Input, &[f64]),
+) -> (usize, usize) {
+    let b = nominal(m);
+    let following = Following::from(policy).family(family).vectors(None);
+    let (mut solved, mut changes, mut kinds) = (0, 0, Vec::new());
+    let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
+        let (Ok(state), Ok(found)) = (&point.equilibrium, &point.modes) else {
+            assert!(slopes.is_err());
+            return ControlFlow::Continue(());
+        };
+        assert_eq!(*slopes, sensitivities(m, state, found));
+        let again = equilibrium(m, &state.inputs, &b, &state.coordinates, policy).expect("found");
+        assert_eq!(again.inputs, state.inputs);
+        assert_eq!(again.design, state.design);
+        assert_eq!(again.stability, state.stability);
+        assert_eq!(again.constraints, state.constraints);
+        assert_eq!(again.pose.is_some(), state.pose.is_some());
+        let entries = [
+            (&again.linear.mass, &state.linear.mass),
+            (&again.linear.damping, &state.linear.damping),
+            (&again.linear.stiffness, &state.linear.stiffness),
+        ];
+        for (a, b) in entries {
+            let pairs = a.as_flattened().iter().zip(b.as_flattened());
+            pairs.for_each(|(a, b)| near(*a, *b, 10.0));
+        }
+        let fresh = modes_of(&again.linear, found.family, &again.description).expect("modes");
+        assert_eq!(fresh.modes.len(), found.modes.len());
+        assert_eq!(fresh.damping_ignored, found.damping_ignored);
+        assert_eq!(found.inputs, state.inputs);
+        for own in &found.modes {
+            let same = fresh.modes.iter().find(|other| {
+                let apart = (other.s - own.s).norm();
+                apart < 1e-7 && discriminant(&other.behaviour) == discriminant(&own.behaviour)
+            });
+            let same = same.unwrap_or_else(|| panic!("{}: {own:?}", point.value));
+            for (a, b) in same.shape.iter().zip(&own.shape) {
+                near(a.re, b.re, 1e4);
+                near(a.im, b.im, 1e4);
+            }
+        }
+        let mut own: Vec<_> = (found.modes.iter())
+            .map(|mode| format!("{:?}", discriminant(&mode.behaviour)))
+            .collect();
+        own.sort();
+        changes += usize::from(solved > 0 && own != kinds);
+        kinds = own;
+        solved += 1;
+        ControlFlow::Continue(())
+    };
+    sensitivity_sweep(m, (u, &b), start, following, (input, values), each)
+        .expect("an input of the mechanism");
+    (solved, changes)
+}
+
+#[test]
+fn nothing_of_an_earlier_value_is_left_in_a_later_one() {
+    let there_and_back = |low, high| -> Vec<f64> {
+        let there = steps(low, high, 23);
+        let back = there.iter().rev().copied();
+        there.iter().copied().chain(back).collect()
+    };
+    // Hanging straight down: modes diverge above the critical speed, the second one too where it turns faster.
+    let values = there_and_back(0.5, 9.0);
+    let hanging = (&[0.0, 0.0][..], &[0.0, 0.0][..]);
+    for family in [None, Some(Family::General)] {
+        let along = (Double::omega.any(), &values[..]);
+        let found = from_nothing(&Double, hanging, (Policy::Nearest, family), along);
+        assert_eq!(found.0, values.len());
+        assert!(found.1 >= 2, "{found:?}");
+    }
+    // On stable branches, and with values that no mechanism can have.
+    let along = (Double::omega.any(), &values[..]);
+    let out = (&[0.0, 0.0][..], &[0.3, 0.1][..]);
+    let found = from_nothing(&Double, out, (Policy::Stable, None), along);
+    assert!(found.0 > 30, "{found:?}");
+    let masses = [1.0, 1.1, 1.2, -1.0, 1.3, f64::NAN, 1.4, 1.5];
+    let along = (Triple::m.any(), &masses[..]);
+    let lying = (&[5.0, 1.0][..], &[0.9, 0.1, 0.0][..]);
+    let found = from_nothing(&Triple, lying, (Policy::Stable, None), along);
+    assert_eq!(found.0, 6);
+    // One mode or two: the critical damping is 8 N s/m.
+    let values = there_and_back(1.0, 15.3);
+    for family in [None, Some(Family::Undamped)] {
+        let along = (Damped::c.any(), &values[..]);
+        let rest = (&[1.0][..], &[0.0][..]);
+        let found = from_nothing(&Damped, rest, (Policy::Stable, family), along);
+        let expected = if family.is_none() { 2 } else { 0 };
+        assert_eq!(found, (values.len(), expected));
+    }
+    // Reactions among the unknowns.
+    let values = there_and_back(-4.0, 5.0);
+    let along = (Held::load.any(), &values[..]);
+    let start = (&[0.0][..], &[0.0, 0.0, 0.0][..]);
+    let found = from_nothing(&Held, start, (Policy::Stable, None), along);
+    assert_eq!(found.0, values.len());
 }
 
 #[test]

@@ -177,7 +177,7 @@ fn every_question_is_asked() {
     for (files, asked) in [
         (&["at_point"][..], names(at_one_state())),
         (&["solved"], names(of_what_is_solved())),
-        (&["over_input"], names(along_an_input())),
+        (&["over_input", "events"], names(along_an_input())),
         (
             &["summary", "propagation", "requirements"],
             names(of_chance()),

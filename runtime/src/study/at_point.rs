@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::deviating::Subject;
+use super::subject::Subject;
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Search};

@@ -3,13 +3,14 @@
 // The documentation of `Study` shows its methods in the order of these modules: `Study::new` first.
 mod at_point;
 mod builder;
-mod deviating;
+mod events;
 mod over_input;
 mod parameter;
 mod propagation;
 mod requirements;
 mod settings;
 mod solved;
+mod subject;
 mod summary;
 mod value;
 mod variation;

@@ -1,16 +1,15 @@
-//! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
+//! What a study can be asked along an input: sweeps, diagrams, branches.
 
 use core::ops::ControlFlow;
 
-use super::deviating::Subject;
+use super::subject::Subject;
 use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
 use crate::equilibrium::Search;
-use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
-use crate::second_order::{self, EventCurvature};
+use crate::kernels::{BatchKernels, DirectionalKernels};
 use crate::sensitivity::Sensitivities;
-use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Range, Sweep, SweepPoint};
+use crate::sweep::{self, Line, Sweep, SweepPoint};
 use crate::tolerance;
 use crate::tolerance::{FirstOrder, Tolerances};
 use crate::{Error, Input, Watch};
@@ -258,171 +257,6 @@ impl<M: DirectionalKernels> Study<M> {
         let high = self.settings.input_si(input, high.into())?;
         Ok(Continuation::new(input, low, high))
     }
-
-    /// First critical value of an input between `low` and `high` ([`sweep::critical_state`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// let critical = study.critical_state(Pendulum::omega, 0.0, 6.0)?;
-    /// assert!((critical.value - 14.715_f64.sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::NotInRange`], [`Error::Setting`], [`Error::UnknownHandle`]; where the branch cannot be followed so far,
-    /// as [`Study::equilibrium`].
-    pub fn critical_state(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<CriticalState, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .critical_state(range)
-    }
-
-    /// As [`Study::critical_state`], with its sensitivity and spread ([`sweep::critical_tolerance`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// println!("{}", study.critical_tolerance(Pendulum::omega, 0.0, 6.0)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative carries its own error.
-    pub fn critical_tolerance(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<EventTolerance, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .critical_tolerance(range)
-    }
-}
-
-impl<M: CurvatureKernels> Study<M> {
-    /// As [`Study::critical_state`], with first and second derivatives of the value
-    /// ([`critical_curvature`](crate::second_order::critical_curvature)).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// let critical = study.critical_curvature(Pendulum::omega, 0.0, 6.0)?;
-    /// // omega_c = sqrt(3 g / (2 l)), so its second derivative is 3 / 4 of it.
-    /// let l = Pendulum::l.index();
-    /// assert!((critical.second[l][l] - 0.75 * critical.value).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::critical_state`]; [`Error::NoSensitivity`], [`Error::ClusteredMode`] where the value has no derivatives.
-    pub fn critical_curvature(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<EventCurvature, Error> {
-        let state = self.critical_state(input, low, high)?;
-        second_order::critical_curvature(&self.mechanism, &state)
-    }
-}
-
-impl<M: Kernels> Study<M> {
-    /// Values of an input between `low` and `high` where a frequency meets a line: a number `k` for the line
-    /// `k u`, or a [`Line`]
-    /// ([`sweep::crossings`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// let resonances = study.crossings(Pendulum::omega, 0.5, 3.5, 1.0)?;
-    /// assert!((resonances[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::modes`] at the first point; [`Error::Setting`], [`Error::UnknownHandle`].
-    pub fn crossings(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-        line: impl Into<Line>,
-    ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
-            .crossings(range, line.into())
-    }
-
-    /// As [`Study::crossings`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// for resonance in study.crossing_tolerances(Pendulum::omega, 0.5, 3.5, 1.0)? {
-    ///     println!("{resonance}");
-    /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
-    pub fn crossing_tolerances(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-        line: impl Into<Line>,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
-            .crossing_tolerances(range, line.into())
-    }
-
-    /// Values of an input between `low` and `high` where an oscillation begins or ceases to grow
-    /// ([`sweep::flutter_onsets`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// // A bar without damping never flutters.
-    /// assert!(study.flutter_onsets(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`].
-    pub fn flutter_onsets(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
-            .flutter_onsets(range)
-    }
-
-    /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// assert!(study.flutter_onset_tolerances(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
-    pub fn flutter_onset_tolerances(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
-            .flutter_onset_tolerances(range)
-    }
 }
 
 impl Subject<'_, dyn BatchKernels + '_> {
@@ -515,58 +349,6 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
         let start = settings.assembled_start(kernels)?;
         branches::branches_each(kernels, point, &start, how, settings.watch(), each)
     }
-
-    fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
-        let Self { kernels, settings } = *self;
-        let start = settings.assembled_start(kernels)?;
-        sweep::critical_state(kernels, &settings.inputs, &settings.design, &start, range)
-    }
-
-    fn critical_tolerance(&self, range: Range) -> Result<EventTolerance, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            let state = own.critical_state(range)?;
-            Ok(sweep::critical_tolerance(own.kernels, &state, tolerances))
-        })
-    }
-}
-
-impl Subject<'_, dyn Kernels + '_> {
-    fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(kernels)?;
-        sweep::crossings(kernels, u, b, &start, settings.following(), range, line)
-    }
-
-    fn crossing_tolerances(&self, range: Range, line: Line) -> Result<Vec<EventTolerance>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            Ok(spreads(
-                own.kernels,
-                &own.crossings(range, line)?,
-                tolerances,
-            ))
-        })
-    }
-
-    fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(kernels)?;
-        sweep::flutter_onsets(kernels, u, b, &start, settings.following(), range)
-    }
-
-    fn flutter_onset_tolerances(&self, range: Range) -> Result<Vec<EventTolerance>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            Ok(spreads(
-                own.kernels,
-                &own.flutter_onsets(range)?,
-                tolerances,
-            ))
-        })
-    }
 }
 
 /// One more value is done.
@@ -588,14 +370,4 @@ fn spread(
         (Ok(modes), Ok(slopes)) => tolerance::first_order(modes, slopes, tolerances),
         (Err(error), _) | (_, Err(error)) => Err(error.clone()),
     }
-}
-
-/// Spread of each value at which something happens.
-fn spreads(
-    mechanism: &dyn Kernels,
-    crossings: &[Crossing],
-    tolerances: &Tolerances,
-) -> Vec<EventTolerance> {
-    let spread = |crossing| sweep::crossing_tolerance(mechanism, crossing, tolerances);
-    crossings.iter().map(spread).collect()
 }

@@ -1,6 +1,6 @@
 //! What tolerances do to any responses: quantities of modes, outputs, critical values of an input.
 
-use super::deviating::SolvedSubject;
+use super::subject::SolvedSubject;
 use super::{Solved, Study};
 use crate::kernels::{CurvatureKernels, SummaryKernels};
 use crate::propagation::{

@@ -1,6 +1,6 @@
 //! Requirements of a study: chances of meeting them, and the cheapest tolerances that do.
 
-use super::deviating::SolvedSubject;
+use super::subject::SolvedSubject;
 use super::{Solved, Study};
 use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::Study;
-use super::deviating::SolvedSubject;
+use super::subject::SolvedSubject;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
 use crate::modes::{self, Whirl};

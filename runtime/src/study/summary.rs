@@ -1,6 +1,6 @@
 //! Verdicts on first order, for a study.
 
-use super::deviating::SolvedSubject;
+use super::subject::SolvedSubject;
 use super::{Solved, Study};
 use crate::Error;
 use crate::kernels::SummaryKernels;

@@ -127,7 +127,15 @@ pub fn crossings(
     line: impl Into<Line>,
 ) -> Result<Vec<Crossing>, Error> {
     let line = Condition::Line(line.into());
-    all_meetings(mechanism, (u, b), start, following.into(), range, line)
+    meetings(
+        mechanism,
+        (u, b),
+        start,
+        following.into(),
+        range,
+        line,
+        never,
+    )
 }
 
 /// Finds every value of an input in a range at which an oscillation begins or ceases to grow, on the equilibria that
@@ -144,7 +152,15 @@ pub fn flutter_onsets(
     range: Range,
 ) -> Result<Vec<Crossing>, Error> {
     let onset = Condition::FlutterOnset;
-    all_meetings(mechanism, (u, b), start, following.into(), range, onset)
+    meetings(
+        mechanism,
+        (u, b),
+        start,
+        following.into(),
+        range,
+        onset,
+        never,
+    )
 }
 
 /// The first value in a range at which the mode that is number `mode` at its start meets a condition; `None` where it does not.
@@ -163,16 +179,9 @@ pub(crate) fn first_crossing(
     Ok(found.into_iter().find(wanted))
 }
 
-fn all_meetings(
-    mechanism: &dyn Kernels,
-    values: (&[f64], &[f64]),
-    start: &[f64],
-    following: Following,
-    range: Range,
-    condition: Condition,
-) -> Result<Vec<Crossing>, Error> {
-    let never = |_: &[Crossing]| false;
-    meetings(mechanism, values, start, following, range, condition, never)
+/// However many there are, there may be more.
+fn never(_: &[Crossing]) -> bool {
+    false
 }
 
 /// The meetings in a range, until there are enough.
