@@ -159,7 +159,7 @@ impl Buffers {
         machine.motion_residual_into(q, q, q, u, b, numbers);
         machine.motion_into(q, q, u, b, matrix, numbers);
         machine.motion_linear_into(q, q, q, u, b, linear);
-        machine.residual_and_stiffness_into(q, u, b, numbers, matrix);
+        machine.residual_and_stiffness_into(q, u, b, numbers, matrix.as_flattened_mut());
         machine.linear_into(q, u, b, linear);
         machine.parts_and_linear_into(q, u, b, parts, linear);
         machine.residual_partials_into(q, u, b, residual_partials);

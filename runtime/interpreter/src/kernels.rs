@@ -155,14 +155,10 @@ impl Kernels for Interpreted {
         u: &[f64],
         b: &[f64],
         residual: &mut [f64],
-        stiffness: &mut Matrix,
+        stiffness: &mut [f64],
     ) {
         let tape = &self.shared.tapes.residual_and_stiffness;
-        run(
-            tape,
-            &[q, u, b],
-            &mut [residual, stiffness.as_flattened_mut()],
-        );
+        run(tape, &[q, u, b], &mut [residual, stiffness]);
     }
 
     fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {

@@ -44,36 +44,15 @@ impl Cholesky {
     /// The same of a matrix of size `n`; see [`for_size`].
     #[inline(always)]
     pub(crate) fn factor_of(&mut self, n: usize, matrix: &Matrix) -> Result<(), usize> {
-        let threshold = 8.0 * n as f64 * f64::EPSILON;
-        let matrix = &matrix.as_flattened()[..n * n];
+        let (lower, pivots) = self.room(n);
+        factor_rows(n, matrix.as_flattened(), lower, pivots)
+    }
+
+    /// The entries of `L`, row by row, and the pivots.
+    #[inline(always)]
+    pub(crate) fn room(&mut self, n: usize) -> (&mut [f64], &mut [f64]) {
         let lower = &mut self.lower.as_flattened_mut()[..n * n];
-        let pivots = &mut self.pivots[..n];
-        for i in 0..n {
-            let row = &matrix[i * n..(i + 1) * n];
-            let (above, own) = lower.split_at_mut(i * n);
-            let own = &mut own[..n];
-            let mut pivot = row[i];
-            for j in 0..i {
-                let mut sum = row[j];
-                let other = &above[j * n..j * n + j];
-                for k in 0..j {
-                    sum -= own[k] * other[k];
-                }
-                // Scaled by its pivot until the row is finished.
-                own[j] = sum;
-            }
-            for j in 0..i {
-                let scaled = own[j];
-                own[j] = scaled / pivots[j];
-                pivot -= scaled * own[j];
-            }
-            if pivot > threshold * row[i].abs() && pivot < f64::INFINITY {
-                pivots[i] = pivot;
-            } else {
-                return Err(i);
-            }
-        }
-        Ok(())
+        (lower, &mut self.pivots[..n])
     }
 
     /// The diagonal of `D`.
@@ -120,18 +99,61 @@ impl Cholesky {
     /// The same for `n` unknowns; see [`for_size`].
     #[inline(always)]
     pub(crate) fn solve_of(&self, n: usize, x: &mut [f64]) {
-        let (lower, pivots) = (&self.lower.as_flattened()[..n * n], &self.pivots[..n]);
-        let x = &mut x[..n];
-        for i in 0..n {
-            for k in 0..i {
-                x[i] -= lower[i * n + k] * x[k];
+        solve_rows(n, self.lower.as_flattened(), &self.pivots, x);
+    }
+}
+
+/// [`Cholesky::factor_of`] of matrices that are given row by row.
+#[inline(always)]
+pub(crate) fn factor_rows(
+    n: usize,
+    matrix: &[f64],
+    lower: &mut [f64],
+    pivots: &mut [f64],
+) -> Result<(), usize> {
+    let threshold = 8.0 * n as f64 * f64::EPSILON;
+    let (matrix, lower, pivots) = (&matrix[..n * n], &mut lower[..n * n], &mut pivots[..n]);
+    for i in 0..n {
+        let row = &matrix[i * n..(i + 1) * n];
+        let (above, own) = lower.split_at_mut(i * n);
+        let own = &mut own[..n];
+        let mut pivot = row[i];
+        for j in 0..i {
+            let mut sum = row[j];
+            let other = &above[j * n..j * n + j];
+            for k in 0..j {
+                sum -= own[k] * other[k];
             }
+            // Scaled by its pivot until the row is finished.
+            own[j] = sum;
         }
-        for i in (0..n).rev() {
-            x[i] /= pivots[i];
-            for k in i + 1..n {
-                x[i] -= lower[k * n + i] * x[k];
-            }
+        for j in 0..i {
+            let scaled = own[j];
+            own[j] = scaled / pivots[j];
+            pivot -= scaled * own[j];
+        }
+        if pivot > threshold * row[i].abs() && pivot < f64::INFINITY {
+            pivots[i] = pivot;
+        } else {
+            return Err(i);
+        }
+    }
+    Ok(())
+}
+
+/// [`Cholesky::solve_of`] by factors that are given row by row.
+#[inline(always)]
+pub(crate) fn solve_rows(n: usize, lower: &[f64], pivots: &[f64], x: &mut [f64]) {
+    let (lower, pivots, x) = (&lower[..n * n], &pivots[..n], &mut x[..n]);
+    for i in 0..n {
+        for k in 0..i {
+            x[i] -= lower[i * n + k] * x[k];
+        }
+    }
+    for i in (0..n).rev() {
+        x[i] /= pivots[i];
+        for k in i + 1..n {
+            x[i] -= lower[k * n + i] * x[k];
         }
     }
 }

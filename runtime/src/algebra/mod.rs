@@ -18,7 +18,7 @@ mod vector;
 pub use matrix::Matrix;
 pub use vector::Vector;
 
-pub(crate) use cholesky::Cholesky;
+pub(crate) use cholesky::{Cholesky, factor_rows, solve_rows};
 pub(crate) use lu::Lu;
 pub(crate) use matrix::{
     all_finite_matrix, asymmetry, form, largest_element, times, times_complex,

@@ -6,7 +6,9 @@ use super::Equilibrium;
 use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};
 use super::descent::{GROWTH, LineModel, SearchState};
 use super::operating_point::OperatingPoint;
-use crate::algebra::{Cholesky, Matrix, Vector, all_finite, dot, for_size, form, largest};
+use crate::algebra::{
+    Cholesky, Matrix, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows,
+};
 use crate::kernels::RestParts;
 
 /// Newton's method doubles the digits: a start in the valley takes few steps.
@@ -36,7 +38,7 @@ fn newton(
     state: &mut Equilibrium,
 ) -> Result<(), SearchState> {
     let (u, b) = (point.inputs, point.design);
-    let evaluate = |q: &[f64], residual: &mut [f64], stiffness: &mut Matrix| {
+    let evaluate = |q: &[f64], residual: &mut [f64], stiffness: &mut [f64]| {
         let mechanism = point.mechanism;
         mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
@@ -45,14 +47,16 @@ fn newton(
     let mut factors = Cholesky::zeros(n);
     let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
     let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
-    evaluate(start, residual, &mut stiffness);
+    let stiffness = &mut stiffness.as_flattened_mut()[..n * n];
+    let (lower, pivots) = factors.room(n);
+    evaluate(start, residual, stiffness);
     while place.iterations < MAX_ITERATIONS {
-        if factors.factor_of(n, &stiffness).is_err() {
+        if factor_rows(n, stiffness, lower, pivots).is_err() {
             return Err(place);
         }
         let q = &mut place.q[..n];
         step.copy_from_slice(residual);
-        factors.solve_of(n, step);
+        solve_rows(n, lower, pivots, step);
         step.iter_mut().for_each(|value| *value = -*value);
         let left = last(step, q, n);
         if left != StepsLeft::More {
@@ -66,7 +70,7 @@ fn newton(
             for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
                 *end = q + step;
             }
-            return match ends(n, point, residual, &factors, state) {
+            return match ends(n, point, residual, (lower, pivots), state) {
                 true => Ok(()),
                 false => Err(place),
             };
@@ -88,10 +92,12 @@ fn newton(
         for ((next, q), step) in next.iter_mut().zip(&*q).zip(&*step) {
             *next = q + step;
         }
-        evaluate(next, residual, &mut stiffness);
+        evaluate(next, residual, stiffness);
         // NaN, infinite and overflowing values fail one of the two.
         let slope = dot(step, residual);
-        let curvature = form(step, &stiffness, step);
+        let rows = stiffness.chunks_exact(n.max(1));
+        let forces = step.iter().zip(rows);
+        let curvature = forces.fold(-0.0, |sum, (x, row)| sum + x * dot(row, step));
         let finite = slope.is_finite() && curvature.is_finite();
         if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
             return Err(place);
@@ -112,7 +118,7 @@ fn ends(
     n: usize,
     point: &OperatingPoint<'_>,
     before: &[f64],
-    factors: &Cholesky,
+    (lower, pivots): (&[f64], &[f64]),
     state: &mut Equilibrium,
 ) -> bool {
     let (u, b) = (point.inputs, point.design);
@@ -134,7 +140,7 @@ fn ends(
     state.relative_residual = relative_of((n, n), forces, q, residual, stiffness);
     let fell = largest(residual) <= 1e-3 * largest(before) || {
         let mut displacement = Vector::from(&*residual);
-        factors.solve_of(n, &mut displacement[..n]);
+        solve_rows(n, lower, pivots, &mut displacement);
         is_rounding(&displacement[..n], q, n)
     };
     fell && state.relative_residual <= TOLERANCE

@@ -150,24 +150,19 @@ impl<M: Mechanism> Kernels for M {
         u: &[f64],
         b: &[f64],
         residual: &mut [f64],
-        stiffness: &mut Matrix,
+        stiffness: &mut [f64],
     ) {
         let (q, u, b) = point::<M>(q, u, b);
         if const { M::Coordinates::<f64>::LEN > FEW_COORDINATES } {
             let found = Mechanism::residual_and_stiffness(self, q, u, b);
             copy_array(&found.0, residual);
-            copy_matrix(&found.1, stiffness);
+            copy_rows(&found.1, stiffness);
             return;
         }
         // Results of few numbers go from registers to their places.
-        <f64 as Real>::run(
-            #[inline(always)]
-            || {
-                let found = self.residual_and_stiffness_inlined(q, u, b);
-                copy_array(&found.0, residual);
-                copy_matrix(&found.1, stiffness);
-            },
-        );
+        let found = self.residual_and_stiffness_inlined(q, u, b);
+        copy_array(&found.0, residual);
+        copy_rows(&found.1, stiffness);
     }
 
     fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
@@ -189,15 +184,10 @@ impl<M: Mechanism> Kernels for M {
             return;
         }
         let (q, u, b) = point::<M>(q, u, b);
-        <f64 as Real>::run(
-            #[inline(always)]
-            || {
-                let found = self.residual_parts_inlined(q, u, b);
-                copy_array(&found.inertia, &mut parts.inertia);
-                copy_array(&found.applied, &mut parts.applied);
-                copy_linear::<M>(&self.linear_inlined(q, u, b), linear);
-            },
-        );
+        let found = self.residual_parts_inlined(q, u, b);
+        copy_array(&found.inertia, &mut parts.inertia);
+        copy_array(&found.applied, &mut parts.applied);
+        copy_linear::<M>(&self.linear_inlined(q, u, b), linear);
     }
 
     fn residual_partials_into(

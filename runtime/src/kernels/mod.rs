@@ -157,14 +157,14 @@ pub trait Kernels: Sync {
     /// [`Mechanism::residual_parts`](crate::Mechanism::residual_parts).
     fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts);
 
-    /// [`Mechanism::residual_and_stiffness`](crate::Mechanism::residual_and_stiffness).
+    /// [`Mechanism::residual_and_stiffness`](crate::Mechanism::residual_and_stiffness); the matrix row by row.
     fn residual_and_stiffness_into(
         &self,
         q: &[f64],
         u: &[f64],
         b: &[f64],
         residual: &mut [f64],
-        stiffness: &mut Matrix,
+        stiffness: &mut [f64],
     );
 
     /// [`Mechanism::linear`](crate::Mechanism::linear).
@@ -287,7 +287,8 @@ impl dyn Kernels + '_ {
     pub fn residual_and_stiffness(&self, q: &[f64], u: &[f64], b: &[f64]) -> (Vector, Matrix) {
         let n = q.len();
         let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
-        self.residual_and_stiffness_into(q, u, b, &mut residual, &mut stiffness);
+        let entries = stiffness.as_flattened_mut();
+        self.residual_and_stiffness_into(q, u, b, &mut residual, entries);
         (residual, stiffness)
     }
 

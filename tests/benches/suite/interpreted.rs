@@ -75,7 +75,13 @@ fn one_by_one<M: Mechanism + 'static>(chain: Interpreted, function: &str) -> Box
                 inputs,
                 evaluate: move |s: &State<M>| {
                     let (q, u, b) = (s.q.as_ref(), s.u.as_ref(), s.b.as_ref());
-                    chain.residual_and_stiffness_into(q, u, b, &mut out.0, &mut out.1);
+                    chain.residual_and_stiffness_into(
+                        q,
+                        u,
+                        b,
+                        &mut out.0,
+                        out.1.as_flattened_mut(),
+                    );
                     black_box(&out);
                 },
                 results: move |s: &State<M>| {

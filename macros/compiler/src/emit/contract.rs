@@ -1,5 +1,7 @@
 //! Methods of the runtime's contract, each with the variants that loops over vector lanes call.
 
+use std::ops::RangeInclusive;
+
 use crate::mechanics::KernelName;
 use crate::program::Kernel;
 
@@ -19,16 +21,18 @@ const INLINED: [KernelName; 7] = [
     KernelName::ResidualGradient,
 ];
 
-/// Instructions that a kernel may have for `Real::run` to choose those of the processor: it is compiled once for each choice.
-const CHOSEN: usize = 2048;
-
-/// Kernels for which it is worth it at any length: two are generated for small mechanisms only, the third is what large ones
-/// spend their time in.
-const ALWAYS_CHOSEN: [KernelName; 3] = [
-    KernelName::MotionLinear,
+/// Kernels for which `Real::run` chooses the instructions of the processor, at any length: their values are needed again and again,
+/// and they take three quarters to nine tenths of the time.
+const CHOSEN: [KernelName; 4] = [
     KernelName::LinearPartials,
     KernelName::ModeGradient,
+    KernelName::PencilGradient,
+    KernelName::ResidualGradient,
 ];
+
+/// Instructions that any other kernel has if it is worth it: shorter ones are slower with AVX by up to a quarter, and as a kernel is
+/// compiled once for each choice, longer ones would take too long.
+const LONG: RangeInclusive<usize> = 1024..=2048;
 
 fn is_one_of(kernel: &Kernel, names: &[KernelName]) -> bool {
     KernelName::named(kernel.name).is_some_and(|name| names.contains(&name))
@@ -58,8 +62,9 @@ pub(super) fn method(kernel: &Kernel, form: Form) -> String {
 
 /// A body that runs with the instructions of the processor that suit it, where that pays.
 fn run(kernel: &Kernel, body: &str) -> String {
-    let chosen = kernel.instructions.len() <= CHOSEN || is_one_of(kernel, &ALWAYS_CHOSEN);
-    match chosen && !kernel.instructions.is_empty() {
+    let count = kernel.instructions.len();
+    let chosen = is_one_of(kernel, &CHOSEN) || LONG.contains(&count);
+    match chosen && count > 0 {
         true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
         false => format!("{{\n{body}\n}}\n"),
     }

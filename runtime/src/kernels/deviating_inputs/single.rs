@@ -55,7 +55,7 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         u: &[f64],
         b: &[f64],
         residual: &mut [f64],
-        stiffness: &mut Matrix,
+        stiffness: &mut [f64],
     ) {
         let (u, b) = self.applied(u, b);
         self.kernels

@@ -50,7 +50,11 @@ impl Places {
     }
 }
 
-/// Counts of whole octaves of places, from the first to the last that has any.
+/// The counts of one octave of places.
+type Octave = Box<[u64; OCTAVE as usize]>;
+
+/// Counts by octaves of places, from the first to the last that has any. Octaves without values, most of those near the
+/// reference, take no memory.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -58,86 +62,95 @@ impl Places {
     serde(into = "Vec<(i32, u64)>", try_from = "Vec<(i32, u64)>")
 )]
 pub(super) struct Buckets {
-    /// Place of the first count, a multiple of [`OCTAVE`].
+    /// Which octave is the first.
     first: i32,
-    counts: Vec<u64>,
+    octaves: Vec<Option<Octave>>,
 }
 
 impl Buckets {
     /// Makes room for the places from `least` to `greatest`.
     pub(super) fn reach(&mut self, least: i32, greatest: i32) {
-        let first = least.div_euclid(OCTAVE) * OCTAVE;
-        let end = (greatest.div_euclid(OCTAVE) + 1) * OCTAVE;
-        if self.counts.is_empty() {
+        let (first, last) = (least.div_euclid(OCTAVE), greatest.div_euclid(OCTAVE));
+        if self.octaves.is_empty() {
             self.first = first;
         }
         if first < self.first {
             let missing = self.first - first;
-            self.counts.splice(..0, (0..missing).map(|_| 0));
+            self.octaves.splice(..0, (0..missing).map(|_| None));
             self.first = first;
         }
-        let length = (end - self.first).unsigned_abs() as usize;
-        if length > self.counts.len() {
-            self.counts.resize(length, 0);
+        let length = (last + 1 - self.first).unsigned_abs() as usize;
+        if length > self.octaves.len() {
+            self.octaves.resize(length, None);
         }
     }
 
     /// Counts deviations at these places, for which there is room.
     #[inline(always)]
     pub(super) fn count(&mut self, places: &[i32]) {
-        let (first, counts) = (self.first, self.counts.as_mut_slice());
-        for place in places {
-            if let Some(count) = counts.get_mut((place - first) as usize) {
-                *count += 1;
-            }
-        }
+        places.iter().for_each(|place| self.count_equal(*place, 1));
     }
 
     /// Counts so many deviations at one place, for which there is room.
+    #[inline(always)]
     pub(super) fn count_equal(&mut self, place: i32, number: u64) {
-        let place = (place - self.first) as usize;
-        if let Some(count) = self.counts.get_mut(place) {
-            *count += number;
+        let octave = (place.div_euclid(OCTAVE) - self.first) as usize;
+        if let Some(octave) = self.octaves.get_mut(octave) {
+            let counts = octave.get_or_insert_with(empty);
+            counts[place.rem_euclid(OCTAVE) as usize] += number;
         }
     }
 
     pub(super) fn merge(&mut self, other: &Self) {
-        if other.counts.is_empty() {
+        if other.octaves.is_empty() {
             return;
         }
-        self.reach(other.first, other.last());
+        let last = other.first + other.octaves.len() as i32 - 1;
+        self.reach(other.first * OCTAVE, last * OCTAVE);
         let start = (other.first - self.first).unsigned_abs() as usize;
-        for (own, other) in self.counts[start..].iter_mut().zip(&other.counts) {
-            *own += other;
+        for (own, other) in self.octaves[start..].iter_mut().zip(&other.octaves) {
+            match (own, other) {
+                (own @ None, other) => own.clone_from(other),
+                (Some(own), Some(other)) => {
+                    own.iter_mut()
+                        .zip(&**other)
+                        .for_each(|(own, other)| *own += other);
+                }
+                (Some(_), None) => {}
+            }
         }
     }
 
     /// The places that have values and how many, in order.
     pub(super) fn counted(&self) -> impl Iterator<Item = (i32, u64)> {
-        let counts = (self.first..).zip(&self.counts);
+        let octaves = (self.first..).zip(&self.octaves);
+        let counts = octaves.flat_map(|(octave, counts)| {
+            let counts = counts.iter().flat_map(|counts| counts.iter());
+            (octave * OCTAVE..).zip(counts)
+        });
         counts
             .filter(|(_, count)| **count > 0)
             .map(|(place, count)| (place, *count))
     }
 
-    fn last(&self) -> i32 {
-        self.first + self.counts.len() as i32 - 1
-    }
-
-    /// The sum of all counts; `None` if these are not counts of whole octaves from `least` to `greatest`.
+    /// The sum of all counts; `None` if these are not counts of the octaves from `least` to `greatest`.
     #[cfg(feature = "serde")]
     pub(super) fn total(&self, least: i32, greatest: i32) -> Option<u64> {
         let mut expected = Self::default();
-        if !self.counts.is_empty() {
+        if !self.octaves.is_empty() {
             expected.reach(least, greatest);
         }
-        let fits = (expected.first, expected.counts.len()) == (self.first, self.counts.len());
+        let fits = (expected.first, expected.octaves.len()) == (self.first, self.octaves.len());
         let sum = self
-            .counts
-            .iter()
-            .try_fold(0_u64, |sum, count| sum.checked_add(*count))?;
+            .counted()
+            .try_fold(0_u64, |sum, (_, count)| sum.checked_add(count))?;
         fits.then_some(sum)
     }
+}
+
+#[cold]
+fn empty() -> Octave {
+    Box::new([0; OCTAVE as usize])
 }
 
 /// Most are empty: those that have values are written.
@@ -159,7 +172,7 @@ impl TryFrom<Vec<(i32, u64)>> for Buckets {
         if !counted
             .iter()
             .all(|(place, count)| known(*place) && *count > 0)
-            || !counted.is_sorted_by_key(|(place, _)| *place)
+            || !counted.is_sorted_by(|(before, _), (place, _)| before < place)
         {
             return Err("these are not the buckets of a sketch");
         }
@@ -168,10 +181,7 @@ impl TryFrom<Vec<(i32, u64)>> for Buckets {
             buckets.reach(first.0, last.0);
         }
         for (place, count) in counted {
-            let at = (place - buckets.first) as usize;
-            if let Some(own) = buckets.counts.get_mut(at) {
-                *own = own.saturating_add(count);
-            }
+            buckets.count_equal(place, count);
         }
         Ok(buckets)
     }
@@ -214,5 +224,32 @@ mod tests {
             assert_eq!(places.of_deviation(0.0), 0);
             assert!(places.of_deviation(2e300) > 0 && places.edges(0).1 > 0.0);
         }
+    }
+
+    #[test]
+    fn octaves_without_values_take_no_room() {
+        let mut far = Buckets::default();
+        far.reach(-9000, 7000);
+        far.count(&[7000, -9000, 7000]);
+        assert_eq!(far.octaves.iter().flatten().count(), 2);
+        let mut near = Buckets::default();
+        near.reach(0, 1);
+        near.count(&[0, 1]);
+        let (mut one, mut other) = (far.clone(), near.clone());
+        one.merge(&near);
+        other.merge(&far);
+        assert_eq!(one, other);
+        let all: Vec<_> = one.counted().collect();
+        assert_eq!(all, [(-9000, 1), (0, 1), (1, 1), (7000, 2)]);
+        assert_eq!(one.octaves.iter().flatten().count(), 3);
+    }
+
+    #[cfg(feature = "serde")]
+    #[test]
+    fn a_bucket_is_read_once() {
+        let read = |counted: &[(i32, u64)]| Buckets::try_from(counted.to_vec());
+        assert!(read(&[(-3, 1), (5, 2)]).is_ok());
+        assert!(read(&[(5, 1), (5, 2)]).is_err());
+        assert!(read(&[(5, 1), (-3, 2)]).is_err());
     }
 }

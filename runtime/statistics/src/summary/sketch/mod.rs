@@ -16,8 +16,8 @@ use buckets::{Buckets, Places};
 /// are told apart to less than 0.004 of that scale.
 ///
 /// Counts are integers, so the result does not depend on the order of the values or of merging. Memory: 2 KiB for each power of
-/// two between the least and the greatest value, about 100 KiB if they scatter about the reference by some scales, and never
-/// more than 9 MiB.
+/// two that has deviations, above or below; about 50 KiB for some thousand values that scatter about the reference, and never more
+/// than 9 MiB.
 ///
 /// The buckets are those of HDR histograms and of DDSketch (Masson, Rim and Lee, 2019), at powers of two divided in equal parts.
 ///
