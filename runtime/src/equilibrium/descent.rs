@@ -44,11 +44,14 @@ impl SearchState {
     }
 }
 
-/// Descends to a minimum of the amended potential from `from`, a place on the way from `start`; both meet the constraints.
+/// Descends to a minimum of the amended potential from `from`, a place on the way from `start`; both meet the constraints. Asks
+/// `straight` for the minimum once a region is left where the potential is not convex: it is found faster where the rest of the way
+/// is easy.
 pub(super) fn stable<S>(
     point: &OperatingPoint<'_>,
     start: &[f64],
     from: &SearchState,
+    straight: impl Fn(SearchState) -> Option<Found>,
 ) -> Result<Found, Failure>
 where
     S: SearchSpace,
@@ -58,6 +61,7 @@ where
     let mut radius = from.radius;
     let mut departures = 0;
     let mut left_unstable_region = false;
+    let mut was_curved = false;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
     for iterations in from.iterations..MAX_ITERATIONS {
@@ -65,6 +69,20 @@ where
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.stiffness(&base.stiffness);
         let convex = Cholesky::new(&stiffness).ok();
+        if was_curved && convex.is_some() {
+            let place = SearchState {
+                q: base.q.clone(),
+                radius,
+                iterations,
+            };
+            if let Some(found) = straight(place) {
+                return Ok(Found {
+                    left_unstable_region,
+                    ..found
+                });
+            }
+        }
+        was_curved = convex.is_none();
         let (mut step, curved) = match &convex {
             Some(factors) => (factors.solve(&slopes).map(|value| -value), None),
             None => {

@@ -14,27 +14,27 @@ use crate::kernels::RestParts;
 /// Newton's method doubles the digits: a start in the valley takes few steps.
 const MAX_ITERATIONS: usize = 8;
 
-/// The minimum of the amended potential to which Newton steps lead from `start`, all of them through states where it is
-/// convex, written over `state` but for its stability; otherwise where that ended: at the last such state, or at the start.
+/// The minimum of the amended potential to which Newton steps lead from `place`, all of them through states where it is
+/// convex, written over `state` but for its stability; otherwise where that ended: at the last such state, or at `place`.
 /// For mechanisms without constraints.
 pub(super) fn newton_fast_path(
     point: &OperatingPoint<'_>,
-    start: &[f64],
+    place: SearchState,
     state: &mut Equilibrium,
 ) -> Result<(), SearchState> {
     for_size(
         point.size(),
         #[inline(always)]
-        |n| newton(n, point, start, state),
+        |n| newton(n, point, place, state),
     )
 }
 
-/// As [`quick`], for `n` unknowns.
+/// As [`newton_fast_path`], for `n` unknowns.
 #[inline(always)]
 fn newton(
     n: usize,
     point: &OperatingPoint<'_>,
-    start: &[f64],
+    mut place: SearchState,
     state: &mut Equilibrium,
 ) -> Result<(), SearchState> {
     let (u, b) = (point.inputs, point.design);
@@ -42,15 +42,15 @@ fn newton(
         let mechanism = point.mechanism;
         mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
-    let mut place = SearchState::first(start);
+    let most = place.iterations + MAX_ITERATIONS;
     let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
     let mut factors = Cholesky::zeros(n);
     let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
     let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
     let stiffness = &mut stiffness.as_flattened_mut()[..n * n];
     let (lower, pivots) = factors.room(n);
-    evaluate(start, residual, stiffness);
-    while place.iterations < MAX_ITERATIONS {
+    evaluate(&place.q[..n], residual, stiffness);
+    while place.iterations < most {
         if factor_rows(n, stiffness, lower, pivots).is_err() {
             return Err(place);
         }
@@ -148,8 +148,11 @@ fn ends(
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
     use crate::algebra::add_scaled;
+    use crate::equilibrium::acceptance::{Candidate, Found};
     use crate::equilibrium::descent::stable;
     use crate::equilibrium::search_space::Unconstrained;
     use crate::mechanism;
@@ -169,36 +172,56 @@ mod tests {
 
     #[test]
     fn the_way_is_that_of_descent() {
-        let mut alone = 0;
+        let alone = Cell::new(0);
+        let fast = |point: &OperatingPoint<'_>, place| {
+            let mut state = point.blank_state();
+            newton_fast_path(point, place, &mut state)?;
+            alone.set(alone.get() + 1);
+            Ok(state)
+        };
+        let mut resumed = 0;
         for omega in [0.0, 1.0, 3.0, 3.3, 5.0, 9.0] {
             let inputs = [omega];
             let point = OperatingPoint::unchecked(&DoublePendulum, &inputs, &[]);
+            let straight = |place| {
+                let found: Result<Equilibrium, SearchState> = fast(&point, place);
+                let found = found.ok()?;
+                let end = Candidate {
+                    coordinates: found.coordinates,
+                    residual: found.residual,
+                    measured: None,
+                };
+                Some(Found::new(end, found.iterations))
+            };
             for k in 0..400_i32 {
                 let start = [0.47 * f64::from(k % 20 - 10), 0.41 * f64::from(k / 20 - 10)];
                 let Ok(expected) =
-                    stable::<Unconstrained>(&point, &start, &SearchState::first(&start))
+                    stable::<Unconstrained>(&point, &start, &SearchState::first(&start), |_| None)
                 else {
                     panic!("no state from {start:?}")
                 };
-                let mut state = point.blank_state();
-                let found = match newton_fast_path(&point, &start, &mut state) {
-                    Ok(()) => {
-                        alone += 1;
-                        assert!(!expected.left_unstable_region, "{omega} {start:?}");
-                        Ok(state.coordinates)
+                let left = expected.left_unstable_region;
+                let found = match fast(&point, SearchState::first(&start)) {
+                    Ok(state) => {
+                        assert!(!left, "{omega} {start:?}");
+                        state.coordinates
                     }
                     Err(place) => {
-                        let found = stable::<Unconstrained>(&point, &start, &place);
-                        found.map(|found| found.coordinates)
+                        let before = alone.get();
+                        let found = stable::<Unconstrained>(&point, &start, &place, straight);
+                        let Ok(found) = found else {
+                            panic!("nothing from {start:?}")
+                        };
+                        assert_eq!(found.left_unstable_region, left, "{omega} {start:?}");
+                        resumed += alone.get() - before;
+                        found.coordinates
                     }
-                };
-                let Ok(found) = found else {
-                    panic!("nothing from {start:?}")
                 };
                 let apart = add_scaled(&found, -1.0, &expected.coordinates);
                 assert!(largest(&apart) < 1e-9, "{omega} {start:?}: {apart:?}");
             }
         }
-        assert!(alone > 300, "{alone}");
+        assert!(alone.get() - resumed > 300, "{alone:?}");
+        assert!(resumed > 300, "{resumed}");
     }
 }

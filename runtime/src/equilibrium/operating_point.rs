@@ -125,15 +125,17 @@ impl<'a> OperatingPoint<'a> {
 
     /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
     pub(crate) fn evaluate(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
-        let (mut residual, mut stiffness) = self.evaluate_plain(q)?;
-        if !self.structure.open() {
+        let mut found = self.evaluate_plain(q);
+        if !self.structure.open()
+            && let Some((residual, stiffness)) = &mut found
+        {
             if self.dropped.contains(&true) {
-                self.drop_rows(&mut residual, Some(&mut stiffness));
+                self.drop_rows(residual, Some(stiffness));
             } else {
-                fix_gauge(&mut stiffness, self.structure);
+                fix_gauge(stiffness, self.structure);
             }
         }
-        Some((residual, stiffness))
+        found
     }
 
     /// The residual alone; it may not be finite.
@@ -165,10 +167,9 @@ impl<'a> OperatingPoint<'a> {
 
     /// As [`Self::evaluate`], with every constraint and the gauge as it is.
     pub(crate) fn evaluate_plain(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
-        let (residual, stiffness) =
-            self.mechanism
-                .residual_and_stiffness(q, self.inputs, self.design);
-        (all_finite(&residual) && all_finite_matrix(&stiffness)).then_some((residual, stiffness))
+        let kernels = self.mechanism;
+        let found = kernels.residual_and_stiffness(q, self.inputs, self.design);
+        (all_finite(&found.0) && all_finite_matrix(&found.1)).then_some(found)
     }
 
     pub(crate) fn evaluate_start(&self, q: &[f64]) -> Result<(Vector, Matrix), Failure> {

@@ -42,7 +42,8 @@ pub(crate) fn solve_into(
     state: &mut Equilibrium,
 ) -> Result<Vec<Mode>, Failure> {
     let found = if policy == Policy::Stable && has_open_potential(point) {
-        match newton_fast_path::newton_fast_path(point, start, state) {
+        let place = descent::SearchState::first(start);
+        match newton_fast_path::newton_fast_path(point, place, state) {
             Ok(()) => return judge(point, state),
             Err(place) => from_afar(point, start, &place)?,
         }
@@ -113,7 +114,8 @@ pub(crate) fn solve_from_prediction(
     if !has_open_potential(point) {
         return None;
     }
-    newton_fast_path::newton_fast_path(point, predicted, state).ok()?;
+    let place = descent::SearchState::first(predicted);
+    newton_fast_path::newton_fast_path(point, place, state).ok()?;
     if !confirmed(&state.coordinates, predicted, last) {
         return None;
     }
@@ -132,9 +134,11 @@ fn from_afar(
         return Ok(held);
     }
     let found = if structure.open() {
-        descent::stable::<search_space::Unconstrained>(point, start, place)
+        descent::stable::<search_space::Unconstrained>(point, start, place, |place| {
+            straight(point, place)
+        })
     } else {
-        descent::stable::<search_space::ConstraintManifold>(point, start, place)
+        descent::stable::<search_space::ConstraintManifold>(point, start, place, |_| None)
             .and_then(|found| polished(point, found))
     };
     found
@@ -149,6 +153,22 @@ fn from_afar(
             } if !structure.open() => unbalanced(point, coordinates).unwrap_or(failure),
             _ => failure,
         })
+}
+
+/// The minimum that the fast path finds from `place`.
+fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<Found> {
+    let mut state = point.blank_state();
+    newton_fast_path::newton_fast_path(point, place, &mut state).ok()?;
+    Some(Found {
+        coordinates: state.coordinates,
+        residual: state.residual,
+        measured: Some(Measured {
+            linear: state.linear,
+            relative_residual: state.relative_residual,
+        }),
+        iterations: state.iterations,
+        left_unstable_region: false,
+    })
 }
 
 /// The equilibrium nearest to `start`, which meets the constraints: along the positions that do where these are all there is
