@@ -85,15 +85,15 @@ pub(crate) enum FrequencyUnit {
 pub(crate) struct Require {
     /// Counted from 1.
     pub(crate) mode: Option<usize>,
-    #[serde(default)]
-    pub(crate) quantity: Quantity,
+    /// Of a mode at the operating point; its frequency where nothing is said.
+    pub(crate) quantity: Option<Quantity>,
     pub(crate) output: Option<String>,
     /// Where the equilibrium loses its stiffness; a range as after `--sweep`.
     pub(crate) critical: Option<String>,
     /// Where the frequency of the mode is `order` times the input.
     pub(crate) resonance: Option<String>,
-    #[serde(default = "one")]
-    pub(crate) order: f64,
+    /// Of a resonance; 1 where nothing is said.
+    pub(crate) order: Option<f64>,
     /// Where the mode begins to grow.
     pub(crate) flutter: Option<String>,
     /// The equilibrium is stable.
@@ -107,10 +107,9 @@ pub(crate) struct Require {
 }
 
 /// What is required of a mode.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Quantity {
-    #[default]
     Frequency,
     NaturalFrequency,
     DampingRatio,

@@ -77,6 +77,7 @@ impl Allocate {
 }
 
 fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement, Failure> {
+    all_used(own)?;
     if own.stable && !about_a_number(own) {
         return Ok(Requirement::Stable);
     }
@@ -105,6 +106,27 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
     }
 }
 
+/// Refuses what would say nothing beside the rest of a requirement.
+fn all_used(own: &Require) -> Result<(), Failure> {
+    let limited = own.at_least.is_some() || own.at_most.is_some() || own.outside.is_some();
+    let elsewhere = [&own.output, &own.critical, &own.resonance, &own.flutter];
+    let of_a_mode = own.mode.is_some() && elsewhere.iter().all(|text| text.is_none());
+    let refuse = |message: &str, help: &str| Err(Failure::usage(message, help));
+    if own.order.is_some() && own.resonance.is_none() {
+        let help = "`order` stands beside `resonance = \"speed=0..6000rpm\"`: its frequency is so many times the input";
+        return refuse("`order` is that of a resonance", help);
+    }
+    if own.quantity.is_some() && !of_a_mode {
+        let help = "`quantity` stands beside `mode = 1` alone, at the operating point";
+        return refuse("`quantity` is that of a mode", help);
+    }
+    if own.stable && limited {
+        let help = "`stable = true` takes `failure` and nothing else";
+        return refuse("being stable has no limits", help);
+    }
+    Ok(())
+}
+
 fn about_a_number(own: &Require) -> bool {
     let texts = [&own.output, &own.critical, &own.resonance, &own.flutter];
     own.mode.is_some() || texts.into_iter().any(Option::is_some)
@@ -130,15 +152,18 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {
         _ if own.stable => {}
         (None, None, None, None) if own.mode.is_some() => {
-            let (mode, quantity) = (mode()?, own.quantity.into());
-            return Ok(Response::Mode { mode, quantity });
+            let quantity = own.quantity.map_or(Quantity::Frequency, Quantity::from);
+            return Ok(Response::Mode {
+                mode: mode()?,
+                quantity,
+            });
         }
         (Some(name), None, None, None) if own.mode.is_none() => return output(study, name),
         (None, Some(text), None, None) if own.mode.is_none() => {
             return Ok(Response::Critical(range(text)?));
         }
         (None, None, Some(text), None) => {
-            return crossing(Condition::Line(Line::from(own.order)), text);
+            return crossing(Condition::Line(Line::from(own.order.unwrap_or(1.0))), text);
         }
         (None, None, None, Some(text)) => return crossing(Condition::FlutterOnset, text),
         _ => {}

@@ -251,12 +251,44 @@ fn study_files_with_mistakes() {
     );
     for two in [
         "mode = 1\noutput = \"angle\"",
-        "mode = 1\nstable = true",
         "mode = 1\ncritical = \"omega=0..8\"",
         "resonance = \"omega=0..8\"\nflutter = \"omega=0..8\"\nmode = 1",
     ] {
         let text = with(&format!("{two}\nat_least = 1.0"));
         allocate(&text, &["a requirement is about one thing"]);
+    }
+    allocate(
+        &with("mode = 1\nstable = true"),
+        &["a requirement is about one thing"],
+    );
+    for (unused, message) in [
+        (
+            "mode = 1\norder = 2.0\nat_least = 1.0",
+            "`order` is that of a resonance",
+        ),
+        (
+            "mode = 1\nflutter = \"omega=0..8\"\norder = 2.0\nat_least = 1.0",
+            "`order` is that of a resonance",
+        ),
+        (
+            "output = \"angle\"\nquantity = \"growth\"\nat_least = 1.0",
+            "`quantity` is that of a mode",
+        ),
+        (
+            "mode = 1\nresonance = \"omega=0..8\"\nquantity = \"growth\"\nat_least = 1.0",
+            "`quantity` is that of a mode",
+        ),
+        (
+            "stable = true\nquantity = \"growth\"",
+            "`quantity` is that of a mode",
+        ),
+        ("stable = true\nat_most = 1.0", "being stable has no limits"),
+        (
+            "mode = 1\nstable = true\noutside = [1.0, 2.0]",
+            "being stable has no limits",
+        ),
+    ] {
+        allocate(&with(unused), &[message]);
     }
     allocate(
         &with("flutter = \"omega=0..8\"\nat_least = 1.0"),
