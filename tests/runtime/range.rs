@@ -72,7 +72,17 @@ fn ask<M: Mechanism>(name: &str, study: &Study<M>) {
 
 #[test]
 fn no_answer_has_a_nan_in_it() {
-    for exponent in [100, 149, 151, 153, 155, 160, 200, 250, 300, 307] {
+    none_has_a_nan(&[153, 200, 307]);
+}
+
+#[test]
+#[ignore = "half a minute"]
+fn no_answer_of_any_size_has_a_nan_in_it() {
+    none_has_a_nan(&[100, 149, 151, 153, 155, 160, 200, 250, 300, 307]);
+}
+
+fn none_has_a_nan(exponents: &[i32]) {
+    for &exponent in exponents {
         for x in [10.0_f64.powi(exponent), 10.0_f64.powi(-exponent)] {
             let spring = Study::new(Derived(Spring)).input(Input::new(0), 1.0);
             let spring = spring.relative_tolerance(wide(0), 0.01);

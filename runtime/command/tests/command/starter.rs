@@ -7,6 +7,7 @@ use std::process::Command;
 use crate::program::{folder, run};
 
 #[test]
+#[ignore = "builds the library once more, as a project of its own does"]
 fn the_starter_project_builds() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let folder = folder("starter");
