@@ -1,7 +1,7 @@
 //! Second derivatives of critical values: closed forms, and differences of first derivatives at critical states found anew.
 
 use crate::common::branching::{
-    Exchange, Lopsided, LopsidedSnap, MovingPitchfork, Quintic, Skewed, Snap,
+    Exchange, Flat, Lopsided, LopsidedSnap, MovingPitchfork, Quintic, Skewed, Snap,
 };
 use crate::common::chain::DOUBLE;
 use crate::common::derived::Derived;
@@ -208,5 +208,17 @@ fn where_there_are_none() {
     assert_eq!(state.kind, SpecialKind::Transcritical);
     let refused = critical_curvature(exchange.machine, &state);
     let reason = NoDerivative::Transcritical;
+    assert_eq!(refused, Err(Error::NoSensitivity { reason }));
+
+    let flat = Case {
+        machine: &Derived(Flat),
+        b: &[0.3],
+        start: &[1.3],
+        between: (1.0, -1.0),
+    };
+    let state = flat.state(flat.b);
+    assert_eq!(state.kind, SpecialKind::Fold);
+    let refused = critical_curvature(flat.machine, &state);
+    let reason = NoDerivative::Cusp;
     assert_eq!(refused, Err(Error::NoSensitivity { reason }));
 }

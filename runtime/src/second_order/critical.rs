@@ -3,8 +3,9 @@
 use super::derivatives::symmetric;
 use super::event::EventCurvature;
 use crate::Error;
-use crate::algebra::{Matrix, Vector, add_to, dot, times};
+use crate::algebra::{Matrix, Vector, add_scaled, add_to, dot, largest, times};
 use crate::branches::{Bordered, SpecialKind};
+use crate::equilibrium::SMALL_MOTION;
 use crate::error::NoDerivative;
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels};
 use crate::sensitivity::{Direction, Slopes, subtract};
@@ -78,7 +79,7 @@ impl State<'_> {
         let push = self.residual_gradient(w).inputs[input];
         let by_v = self.bend(w, &self.direction(v.clone(), 0.0, None));
         let curved = dot(&by_v.coordinates, v);
-        if lost(curved, &by_v.coordinates, v) {
+        if self.flat(curved) {
             return Err(none(NoDerivative::Cusp));
         }
         let rows = self.first.iter().enumerate().map(|(k, &rate)| {
@@ -96,6 +97,24 @@ impl State<'_> {
                 .collect()
         });
         Ok(rows.collect())
+    }
+
+    /// Whether `curved`, `w^T g'' v v` at a limit point, is next to nothing beside what it is a small motion along `v` away: another
+    /// limit point may then be at the same place, as far as that is known.
+    fn flat(&self, curved: f64) -> bool {
+        /// To half of the digits is a place known where a slope vanishes; as a share of a small motion.
+        const UNCERTAIN: f64 = 1e-5;
+        let CriticalState { v, w, .. } = self.critical;
+        let along = self.direction(v.clone(), 0.0, None);
+        let aside = [-SMALL_MOTION, SMALL_MOTION].map(|motion| {
+            let q = add_scaled(
+                &self.critical.equilibrium.coordinates,
+                motion / largest(v),
+                v,
+            );
+            dot(&self.bend_at(&q, w, &along).coordinates, v).abs()
+        });
+        curved.abs() <= UNCERTAIN * aside[0].max(aside[1])
     }
 
     /// The rows of the second derivatives at a pitchfork.
@@ -178,8 +197,13 @@ impl State<'_> {
 
     /// `w^T g''(direction, .)`.
     fn bend(&self, w: &[f64], direction: &Direction) -> Gradient {
+        self.bend_at(&self.critical.equilibrium.coordinates, w, direction)
+    }
+
+    /// The same at coordinates beside those of the critical state.
+    fn bend_at(&self, q: &[f64], w: &[f64], direction: &Direction) -> Gradient {
         let at = &self.critical.equilibrium;
-        let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+        let (u, b) = (&at.inputs, &at.design);
         let [dq, du, db] = direction.parts();
         let direction = [dq, du, db, &Vector::zeros(q.len())];
         let kernels: &dyn DirectionalKernels = self.mechanism;
@@ -227,11 +251,4 @@ fn product(gradient: &Gradient, direction: &Direction) -> f64 {
     dot(&gradient.coordinates, &direction.coordinates)
         + dot(&gradient.inputs, &direction.inputs)
         + dot(&gradient.design, &direction.design)
-}
-
-/// Whether a product is no more than what rounding leaves of its terms.
-fn lost(product: f64, a: &[f64], b: &[f64]) -> bool {
-    const ROUNDING: f64 = 1e-9;
-    let terms: f64 = a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum();
-    product.abs() <= ROUNDING * terms
 }

@@ -79,6 +79,15 @@ law!(
 );
 
 law!(
+    /// Limit points that meet: `(q - a)^4 - u`, at `u = 0`, where the curve of equilibria is flat.
+    Flat, 1, 1, symmetric: true, METRE, ["a" = 0.3],
+    |q, u, b, c| {
+        let s = (q[0] - b[0]) * (q[0] - b[0]);
+        [s * s - u]
+    }
+);
+
+law!(
     /// Transcritical: `(q - d) (q - e - s (u - d))`, branches `q = d` and `q = e + s (u - d)` cross at
     /// `u = d + (d - e) / s`.
     Exchange, 1, 3, symmetric: true, METRE, ["d" = 0.0, "e" = 0.0, "s" = 1.0],
