@@ -177,7 +177,7 @@ pub enum Shape {
         /// m.
         radius: f64,
     },
-    /// The uniform solid ellipsoid of the mass and inertia of a body whose tensor is given.
+    /// The uniform solid ellipsoid of the mass and inertia of a body whose tensor is given; flat where no body has such an inertia.
     Ellipsoid {
         /// Directions of its semi-axes.
         axes: [[f64; 3]; 3],
