@@ -241,11 +241,8 @@ fn moments(found: &FirstOrder) -> Vec<Moments> {
         .modes
         .iter()
         .map(|mode| Moments {
-            mean: mode.frequency.as_ref().and_then(|found| finite(found.mean)),
-            sigma: mode
-                .frequency
-                .as_ref()
-                .and_then(|found| finite(found.sigma)),
+            mean: mode.frequency().and_then(|found| finite(found.mean)),
+            sigma: mode.frequency().and_then(|found| finite(found.sigma)),
         })
         .collect()
 }

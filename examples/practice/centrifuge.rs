@@ -51,7 +51,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let study = study();
     // Seen from the head the slower mode beats with the difference between the critical speed and its own.
     let first = study.first_order()?;
-    let beat = first.modes[0].frequency.as_ref().ok_or("the head whirls")?;
+    let beat = first.modes[0].frequency().ok_or("the head whirls")?;
     let (margin, sigma) = (beat.mean / RPM, beat.sigma / RPM);
     writeln!(
         out,

@@ -137,9 +137,9 @@ fn values_have_the_correlation_that_was_asked_for() {
 fn first_order_counts_the_mean_and_the_law() {
     let study = study().limits(LENGTH, -0.01, 0.03);
     let slope = study.sensitivities().unwrap().modes[0]
-        .omega_by_design
-        .clone()
-        .unwrap()[1];
+        .frequency()
+        .unwrap()
+        .by_design[1];
     for (law, sigma) in [
         (Law::Normal, 0.02 / 3.0),
         (Law::Uniform, 0.02 / 3.0_f64.sqrt()),
@@ -157,7 +157,7 @@ fn first_order_counts_the_mean_and_the_law() {
     ] {
         let study = study.clone().law(LENGTH, law);
         let first = study.first_order().unwrap();
-        let found = first.modes[0].frequency.as_ref().unwrap();
+        let found = first.modes[0].frequency().unwrap();
         close(found.sigma, slope.abs() * sigma, 1e-11);
         close(found.mean, frequency(1.0) + 0.01 * slope, 1e-12);
         assert!((study.tolerances().unwrap().shifts()[1] - 0.01).abs() < 1e-12);
@@ -276,10 +276,10 @@ fn a_speed_that_wanders() {
     let study = exact.clone().tolerance(Pendulum::omega, 0.3);
     assert_eq!(study.tolerances().unwrap().sigmas(), [0.0, 0.01, 0.3 / 3.0]);
     let slopes = study.sensitivities().unwrap();
-    let by_speed = slopes.modes[0].omega_by_input.as_ref().unwrap()[0];
+    let by_speed = slopes.modes[0].frequency().unwrap().by_input[0];
     let spread = |study: &Study<Pendulum>| {
         let first = study.first_order().unwrap();
-        first.modes[0].frequency.clone().unwrap()
+        first.modes[0].frequency().unwrap()
     };
     let (with, without) = (spread(&study), spread(&exact));
     close(with.sigma, without.sigma.hypot(0.1 * by_speed), 1e-14);
@@ -309,10 +309,7 @@ fn a_speed_that_wanders() {
     let swept = study
         .first_order_sweep(Pendulum::omega, &[4.5, SPEED])
         .unwrap();
-    let last = swept[1].as_ref().unwrap().modes[0]
-        .frequency
-        .clone()
-        .unwrap();
+    let last = swept[1].as_ref().unwrap().modes[0].frequency().unwrap();
     close(last.sigma, with.sigma, 1e-12);
     // The speed at which the mechanism becomes critical is the same: the one to be set is less by the deviation.
     let critical = study.critical_tolerance(Pendulum::omega, 0.0, 6.0).unwrap();

@@ -242,19 +242,17 @@ fn derivatives(
                 for (own, other) in slopes.modes.iter().zip(expected.modes.iter()) {
                     assert_eq!(own.clustered, other.clustered);
                     let lists = [
-                        (&own.lambda_by_input[..], &other.lambda_by_input[..]),
-                        (&own.lambda_by_design, &other.lambda_by_design),
+                        (&own.lambda.by_input[..], &other.lambda.by_input[..]),
+                        (&own.lambda.by_design, &other.lambda.by_design),
                     ];
                     for (own, other) in lists {
                         let size = other.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                         own.iter().zip(other).for_each(|(a, b)| near(*a, *b, size));
                     }
-                    assert_eq!(
-                        own.omega_by_design.is_some(),
-                        other.omega_by_design.is_some()
-                    );
-                    for (own, other) in own.omega_by_design.iter().zip(&other.omega_by_design) {
-                        own.iter().zip(other).for_each(|(a, b)| near(*a, *b, 1.0));
+                    assert_eq!(own.frequency().is_some(), other.frequency().is_some());
+                    if let (Some(own), Some(other)) = (own.frequency(), other.frequency()) {
+                        let slopes = own.by_design.iter().zip(&other.by_design);
+                        slopes.for_each(|(a, b)| near(*a, *b, 1.0));
                     }
                 }
             }
@@ -494,7 +492,7 @@ fn spreads_along_a_sweep_are_those_of_each_value() {
             panic!("{found:?}");
         };
         for (own, other) in found.modes.iter().zip(alone.modes.iter()) {
-            let frequency = |mode: &ModeTolerance| mode.frequency.clone().expect("it swings");
+            let frequency = |mode: &ModeTolerance| mode.frequency().expect("it swings");
             let (found, alone) = (frequency(own), frequency(other));
             near(found.mean, alone.mean, 1.0);
             near(found.sigma, alone.sigma, 1.0);
@@ -535,7 +533,7 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
     let mut slopes = Vec::new();
     let each = |_: &SweepPoint, found: &Result<Sensitivities, Error>| {
         let found = found.as_ref().expect("derivatives");
-        slopes.push([0, 1].map(|r| found.modes[r].lambda_by_design.clone()));
+        slopes.push([0, 1].map(|r| found.modes[r].lambda.by_design.clone()));
         ControlFlow::Continue(())
     };
     let along = (Double::omega.any(), &values[..]);
@@ -585,13 +583,16 @@ fn a_bar_along_its_speeds_is_the_closed_form() {
         near(modes.modes[0].lambda, u * u - (w / u).powi(2), 0.0);
         let own = &slopes.modes[0];
         near(
-            own.lambda_by_input[0],
+            own.lambda.by_input[0],
             2.0 * u + 2.0 * w * w / u.powi(3),
             0.0,
         );
-        near(own.lambda_by_design[0], 0.0, 1.0);
-        near(own.lambda_by_design[1], 2.0 * w * w / (l * u * u), 0.0);
-        let by_length = own.omega_by_design.as_ref().map(|slopes| slopes[1]);
+        near(own.lambda.by_design[0], 0.0, 1.0);
+        near(own.lambda.by_design[1], 2.0 * w * w / (l * u * u), 0.0);
+        let by_length = own
+            .frequency()
+            .map(|slopes| slopes.by_design)
+            .map(|slopes| slopes[1]);
         let omega = modes.modes[0].lambda.sqrt();
         near(by_length.unwrap_or(0.0), w * w / (l * u * u * omega), 0.0);
         seen += 1;

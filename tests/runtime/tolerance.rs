@@ -36,19 +36,19 @@ fn sampled(omega: f64, tolerance: f64, samples: usize) -> MonteCarlo {
 fn first_order_matches_closed_form_and_warns_near_the_critical_speed() {
     let far = pendulum(3.0, 0.03).first_order().unwrap();
     close(
-        far.modes[0].frequency.as_ref().unwrap().sigma,
+        far.modes[0].frequency().unwrap().sigma,
         0.030_776_707_242_026_677,
         1e-11,
     );
     close(
-        far.modes[0].frequency.as_ref().unwrap().band,
+        far.modes[0].frequency().unwrap().band,
         3.0 * 0.030_776_707_242_026_677,
         1e-11,
     );
     close(far.modes[0].variance_shares()[1], 1.0, 1e-12);
     assert!(far.trusted());
     let near = pendulum(3.836, 0.03).first_order().unwrap();
-    assert!(near.modes[0].frequency.as_ref().unwrap().sigma > 7.0);
+    assert!(near.modes[0].frequency().unwrap().sigma > 7.0);
     assert!(!near.trusted());
     assert!(near.to_string().contains("Not to be trusted"));
     close(
@@ -57,8 +57,7 @@ fn first_order_matches_closed_form_and_warns_near_the_critical_speed() {
             .first_order()
             .unwrap()
             .modes[0]
-            .frequency
-            .as_ref()
+            .frequency()
             .unwrap()
             .sigma,
         0.046_165_060_863_040_02,
@@ -74,11 +73,7 @@ fn plate_sigma_matches_reference() {
         .family(Family::Undamped);
     let spread = study.first_order().unwrap();
     let expected = (0.060_461_190_490_723_515_f64.powi(2) - (0.5 * 0.04_f64 / 3.0).powi(2)).sqrt();
-    close(
-        spread.modes[0].frequency.as_ref().unwrap().sigma,
-        expected,
-        1e-12,
-    );
+    close(spread.modes[0].frequency().unwrap().sigma, expected, 1e-12);
     close(spread.modes[0].variance_shares().iter().sum(), 1.0, 1e-12);
 }
 
@@ -106,14 +101,14 @@ fn correlation_changes_the_spread() {
     matrix[1][0] = 1.0;
     let together = base.clone().correlation(matrix).first_order().unwrap();
     let rates = base.sensitivities().unwrap();
-    let slopes = rates.modes[0].omega_by_design.as_ref().unwrap();
+    let slopes = rates.modes[0].frequency().unwrap().by_design;
     close(
-        together.modes[0].frequency.as_ref().unwrap().sigma,
+        together.modes[0].frequency().unwrap().sigma,
         (slopes[0] + slopes[1]).abs() * 0.01,
         1e-12,
     );
     close(
-        independent.modes[0].frequency.as_ref().unwrap().sigma,
+        independent.modes[0].frequency().unwrap().sigma,
         slopes[0].hypot(slopes[1]) * 0.01,
         1e-12,
     );

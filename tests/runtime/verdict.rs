@@ -103,7 +103,7 @@ fn exact_sigma(all: &[(f64, f64)]) -> f64 {
 /// Checks the verdict on a mode whose sigma is known to `known`, and what it says of the methods.
 fn judged(summary: &Summary, mode: usize, exact: f64, known: f64, at: &str) {
     let (trust, first) = (&summary.trust[mode], &summary.first.modes[mode]);
-    let first = first.frequency.as_ref().unwrap().sigma / exact - 1.0;
+    let first = first.frequency().unwrap().sigma / exact - 1.0;
     let says = || format!("{at}: off by {first}\n{summary}");
     if trust.trusted() {
         assert!(first.abs() <= 0.05 + known, "trusted {}", says());
@@ -155,7 +155,7 @@ fn beyond_the_critical_speed_wide_tolerances_are_found_out() {
         let summary = study.summary().unwrap();
         let check = summary.trust[0].check(Quantity::Frequency).unwrap();
         let error = check.first_order_error.unwrap();
-        let first = summary.first.modes[0].frequency.as_ref().unwrap().sigma;
+        let first = summary.first.modes[0].frequency().unwrap().sigma;
         let exact = first / exact_sigma(&distribution(speed, tolerance / 3.0)) - 1.0;
         assert!(exact < -0.05, "{exact}");
         assert!((error.value - exact).abs() < 4.0 * error.standard_error);
@@ -370,8 +370,8 @@ fn verdicts_on_a_loop_are_right() {
         let (first, trust) = (&summary.first.modes[0], &summary.trust[0]);
         let mut worst = 0.0_f64;
         let all: [(_, _, &dyn Fn(f64) -> f64); 2] = [
-            (Quantity::Frequency, &first.frequency, &vibration),
-            (Quantity::DampingRatio, &first.damping_ratio, &decay),
+            (Quantity::Frequency, &first.frequency(), &vibration),
+            (Quantity::DampingRatio, &first.damping_ratio(), &decay),
         ];
         for (quantity, first, of) in all {
             let all = over_lengths(sigma, of);

@@ -19,25 +19,21 @@ result! {
 }
 
 impl FirstOrder {
-    fn each<'a, T>(
-        &'a self,
+    fn each<T>(
+        &self,
         py: Python<'_>,
         name: &str,
-        of: impl Fn(&'a Spread) -> T,
+        of: impl Fn(&Spread) -> T,
     ) -> PyResult<Vec<Option<T>>> {
         let wanted = match name {
             "lambda" => None,
             other => Some(quantity(py, other)?),
         };
-        let spread = |mode: &'a ModeTolerance| match wanted {
-            None => Some(&mode.lambda),
-            Some(Quantity::NaturalFrequency) => mode.natural_frequency.as_ref(),
-            Some(Quantity::DampingRatio) => mode.damping_ratio.as_ref(),
-            Some(Quantity::Growth) => mode.growth.as_ref(),
-            Some(_) => mode.frequency.as_ref(),
+        let one = |mode: &ModeTolerance| match wanted {
+            None => Some(of(&mode.lambda)),
+            Some(quantity) => mode.of(quantity).as_ref().map(&of),
         };
-        let all = self.0.modes.iter();
-        Ok(all.map(|mode| spread(mode).map(&of)).collect())
+        Ok(self.0.modes.iter().map(one).collect())
     }
 }
 

@@ -89,7 +89,7 @@ fn tables_have_the_numbers_of_the_results_bit_by_bit() {
         .collect();
     assert_eq!(column(&equilibrium, "value"), coordinates);
     let first = solved.first_order().unwrap();
-    let sigma = first.modes[0].frequency.as_ref().map(|own| own.sigma);
+    let sigma = first.modes[0].frequency().map(|own| own.sigma);
     assert_eq!(
         column(&table(&html, "summary"), "sigma, first order"),
         [sigma]
@@ -589,7 +589,7 @@ fn the_lines_in_short_have_the_numbers_of_the_results() {
             .iter()
             .find(|line| line.contains(&format!("Mode {} at", r + 1)))
             .unwrap();
-        let own = mode.frequency.as_ref().unwrap();
+        let own = mode.frequency().unwrap();
         let (k, share) = own
             .variance_shares
             .iter()

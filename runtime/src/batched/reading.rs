@@ -55,10 +55,9 @@ impl Block<'_> {
     pub(crate) fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
         let (inputs, design) = (self.inputs.len(), self.design.len());
         for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
-            let [by_input, by_design] = own.make_room(inputs, design);
+            let [by_input, by_design] = own.make_undamped(mode, inputs, design);
             read(inputs, &self.by_input[r * inputs..], lane, by_input);
             read(design, &self.by_design[r * design..], lane, by_design);
-            own.finish_undamped(mode);
         }
     }
 }

@@ -187,7 +187,7 @@ impl Summary {
         for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
             let alone = self.cluster_of(r).is_none();
             let own = |value: Option<f64>| or_dash(value.filter(|_| alone), rough);
-            let sigma = mode.frequency.as_ref().map(spread_of);
+            let sigma = mode.frequency().as_ref().map(spread_of);
             let nominal = mode.behaviour.frequency();
             let second = self.second_order_sigma(r);
             let mut row = vec![
@@ -220,10 +220,10 @@ impl Summary {
         head.extend(cells(["to instability [sigma]", "mostly from"]));
         let mut table = Table::new(head);
         for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
-            let Some(own) = mode.damping_ratio.as_ref() else {
+            let Some(own) = mode.damping_ratio() else {
                 continue;
             };
-            let sigma = spread_of(own);
+            let sigma = spread_of(&own);
             if sigma == 0.0 || self.cluster_of(r).is_some() {
                 continue;
             }

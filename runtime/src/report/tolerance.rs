@@ -66,12 +66,12 @@ pub(super) fn far(distance: f64) -> String {
 
 /// Whether no tolerance moves the mode, alone or beside others.
 pub(super) fn unmoved(mode: &ModeTolerance) -> bool {
-    let moved = |spread: &Option<Spread>| spread.as_ref().is_some_and(|own| spread_of(own) != 0.0);
+    let moved = |spread: Option<Spread>| spread.is_some_and(|own| spread_of(&own) != 0.0);
     !mode.clustered
         && mode.distance_to_neighbour == f64::INFINITY
         && mode.lambda.sigma == 0.0
-        && !moved(&mode.growth)
-        && !moved(&mode.damping_ratio)
+        && !moved(mode.growth())
+        && !moved(mode.damping_ratio())
 }
 
 impl fmt::Display for FirstOrder {
@@ -166,8 +166,8 @@ impl FirstOrder {
                 true => CLUSTER.to_owned(),
                 false => far(distance),
             };
-            let (frequency, damping) = (mode.frequency.as_ref(), mode.damping_ratio.as_ref());
-            let sigma = frequency.map(spread_of);
+            let (frequency, damping) = (mode.frequency(), mode.damping_ratio());
+            let sigma = frequency.as_ref().map(spread_of);
             let mut row = vec![
                 (r + 1).to_string(),
                 optional(mode.behaviour.frequency()),
@@ -175,8 +175,8 @@ impl FirstOrder {
                 own(sigma.map(|sigma| sigma * self.sigma_level)),
             ];
             if general {
-                row.push(or_dash(damping.map(|spread| spread.mean), rough));
-                row.push(own(damping.map(spread_of)));
+                row.push(or_dash(damping.as_ref().map(|spread| spread.mean), rough));
+                row.push(own(damping.as_ref().map(spread_of)));
                 row.push(away(mode.distance_to_instability));
             }
             row.push(away(mode.distance_to_critical));

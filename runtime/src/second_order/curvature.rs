@@ -41,9 +41,9 @@ impl ModeCurvature {
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<SecondDerivatives<f64>> {
         self.first.of(quantity)?;
-        let (first, second) = (self.first.s.as_ref()?, self.eigenvalue.as_ref()?);
+        let (first, second) = (self.first.s()?, self.eigenvalue.as_ref()?);
         let curvature = |a, b, ab| quantity.curvature(self.s, a, b, ab);
-        Some(second.combine(first, curvature))
+        Some(second.combine(&first, curvature))
     }
 }
 

@@ -126,7 +126,7 @@ impl Shared<'_> {
         mode: &Mode,
     ) {
         let symmetric = self.at.description.symmetric_stiffness;
-        let [inputs, design] = own.make_room(self.at.inputs.len(), self.at.design.len());
+        let [inputs, design] = own.make_undamped(mode, self.at.inputs.len(), self.at.design.len());
         for_size(
             mode.shape.len(),
             #[inline(always)]
@@ -145,7 +145,6 @@ impl Shared<'_> {
                 total_rates(n, form, matrices.by_design(), (w, by_design), design);
             },
         );
-        own.finish_undamped(mode);
     }
 
     /// The derivatives of an undamped mode, the gradient of its form by reverse differentiation.

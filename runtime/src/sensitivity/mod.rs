@@ -21,6 +21,7 @@ pub(crate) use explicit::Rate;
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;
 pub(crate) use gradients::Source;
+pub(crate) use mode::root_rate;
 pub use mode::{ModeSensitivity, Slopes};
 pub use outputs::{OutputSensitivities, output_sensitivities};
 pub(crate) use pencil::{

@@ -1,7 +1,7 @@
 //! Total derivatives of one mode.
 
 use super::Quantity;
-use crate::algebra::{Vector, all_finite, unless_finite};
+use crate::algebra::{Vector, all_finite, greater, unless_finite};
 use crate::modes::Family;
 use crate::{Complex, Mode};
 
@@ -28,17 +28,26 @@ impl<T: Copy + Default> Slopes<T> {
         }
     }
 
-    fn iter(&self) -> impl Iterator<Item = T> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = T> {
         self.by_input.iter().chain(&self.by_design).copied()
     }
-}
 
-impl<T: Copy + Default> Slopes<T> {
-    fn empty() -> Self {
+    /// What slopes are written over.
+    #[inline]
+    fn blank() -> Self {
         Self {
             by_input: Vector::default(),
             by_design: Vector::default(),
         }
+    }
+
+    /// Makes room for so many inputs and design variables; what stands in it is not said.
+    #[inline(always)]
+    fn make_room(&mut self, inputs: usize, design: usize) -> [&mut [T]; 2] {
+        [
+            self.by_input.make_room(inputs),
+            self.by_design.make_room(design),
+        ]
     }
 }
 
@@ -47,48 +56,74 @@ impl<T: Copy + Default> Slopes<T> {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeSensitivity {
-    /// `dlambda/du`, 1/s^2 per SI unit of the input; `lambda = -Re s^2`. Zero, as by the design variables, where `s` has no
-    /// derivative because it has merged with another eigenvalue.
-    pub lambda_by_input: Vector,
-    /// `dlambda/db`, 1/s^2 per SI unit of the design variable.
-    pub lambda_by_design: Vector,
-    /// `ds`, 1/s per SI unit; `None` where the eigenvalue has no derivative: an undamped neutral mode, a general one that
-    /// has merged with another.
-    pub s: Option<Slopes<Complex>>,
-    /// `domega/du`, rad/s per SI unit (eq. 21), `omega = Im s`; `None` for a mode that does not oscillate.
-    pub omega_by_input: Option<Vector>,
-    /// `domega/db`, rad/s per SI unit (eq. 21); `None` for a mode that does not oscillate.
-    pub omega_by_design: Option<Vector>,
+    /// Derivatives of `lambda = -Re s^2`, 1/s^2 per SI unit. Zero where `s` has no derivative because it has merged with another
+    /// eigenvalue.
+    pub lambda: Slopes<f64>,
     /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`](crate::Modes::cluster_of)): these numbers belong to the
     /// computed basis of the cluster and would differ in another. What does exist are [`directional_derivatives`](crate::clusters::directional_derivatives).
     pub clustered: bool,
     /// The eigenvalue they belong to.
     value: Complex,
+    /// It is that of an undamped mode, a root: `s^2 = -lambda`.
+    undamped: bool,
+    /// Derivatives of the eigenvalue of a general mode that has not merged with another.
+    general: Option<Box<Slopes<Complex>>>,
 }
 
 impl ModeSensitivity {
+    /// Derivatives of the eigenvalue `s`, 1/s per SI unit; `None` where it has none: of an undamped neutral mode, of a general
+    /// one that has merged with another.
+    #[must_use]
+    pub fn s(&self) -> Option<Slopes<Complex>> {
+        if self.undamped {
+            return root_slope(self.value).map(|root| self.lambda.map(root));
+        }
+        self.general.as_deref().cloned()
+    }
+
+    /// Those of the eigenvalue of a general mode, where there are any.
+    pub(crate) fn general(&self) -> Option<&Slopes<Complex>> {
+        self.general.as_deref()
+    }
+
+    /// Derivatives of the angular frequency `Im s`, rad/s per SI unit (eq. 21); `None` for a mode that does not oscillate or
+    /// whose eigenvalue has no derivative.
+    #[must_use]
+    pub fn frequency(&self) -> Option<Slopes<f64>> {
+        self.of(Quantity::Frequency)
+    }
+
     /// Total derivatives of a quantity of the mode; `None` where it has none, or one beyond the range of a double.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<Slopes<f64>> {
-        let oscillates = self.omega_by_design.is_some();
-        if !oscillates && quantity != Quantity::Growth {
+        if !self.oscillates() && quantity != Quantity::Growth {
             return None;
         }
-        let slopes = self.s.as_ref()?.map(|ds| quantity.slope(self.value, ds));
+        let slope = |ds| quantity.slope(self.value, ds);
+        let slopes = if self.undamped {
+            let root = root_slope(self.value)?;
+            self.lambda.map(|dlambda| slope(root(dlambda)))
+        } else {
+            self.general.as_ref()?.map(slope)
+        };
         let finite = all_finite(&slopes.by_input) && all_finite(&slopes.by_design);
         finite.then_some(slopes)
     }
 
+    /// Whether the mode oscillates.
+    fn oscillates(&self) -> bool {
+        self.value.im > 0.0
+    }
+
     /// What stands where derivatives are going to be written.
+    #[inline]
     pub(crate) fn blank() -> Self {
         Self {
-            lambda_by_input: Vector::default(),
-            lambda_by_design: Vector::default(),
-            s: None,
-            omega_by_input: None,
-            omega_by_design: None,
+            lambda: Slopes::blank(),
             clustered: false,
             value: Complex::ZERO,
+            undamped: true,
+            general: None,
         }
     }
 
@@ -113,46 +148,27 @@ impl ModeSensitivity {
         by_input: impl ExactSizeIterator<Item = f64>,
         by_design: impl ExactSizeIterator<Item = f64>,
     ) {
-        self.lambda_by_input.assign(by_input);
-        self.lambda_by_design.assign(by_design);
-        self.finish_undamped(mode);
+        let [inputs, design] = self.make_undamped(mode, by_input.len(), by_design.len());
+        let (by_input, by_design) = (
+            inputs.iter_mut().zip(by_input),
+            design.iter_mut().zip(by_design),
+        );
+        by_input.for_each(|(own, slope)| *own = slope);
+        by_design.for_each(|(own, slope)| *own = slope);
     }
 
-    /// Room for the derivatives of `lambda` by so many inputs and design variables. Once they are written,
-    /// [`Self::finish_undamped`] adds what follows from them.
+    /// The same; the derivatives by so many inputs and design variables are to be written where it says.
     #[inline(always)]
-    pub(crate) fn make_room(&mut self, inputs: usize, design: usize) -> [&mut [f64]; 2] {
-        [
-            self.lambda_by_input.make_room(inputs),
-            self.lambda_by_design.make_room(design),
-        ]
-    }
-
-    /// Goes to an undamped mode, apart from all others, whose derivatives of `lambda` are written.
-    #[inline]
-    pub(crate) fn finish_undamped(&mut self, mode: &Mode) {
-        // ds = -dlambda / (2 s), `s` real or imaginary
-        if mode.s.im > 0.0 {
-            let s = self.s.get_or_insert_with(Slopes::empty);
-            let rate = 0.5 / mode.s.im;
-            let omega = self.omega_by_input.get_or_insert_default();
-            oscillating(rate, &self.lambda_by_input, &mut s.by_input, omega);
-            let omega = self.omega_by_design.get_or_insert_default();
-            oscillating(rate, &self.lambda_by_design, &mut s.by_design, omega);
-            self.clustered = false;
-            self.value = mode.s;
-            return;
-        }
-        if mode.s.re > 0.0 {
-            let s = self.s.get_or_insert_with(Slopes::empty);
-            let rate = -0.5 / mode.s.re;
-            let slope = |dlambda: &f64| Complex::new(rate * dlambda, 0.0);
-            s.by_input.assign(self.lambda_by_input.iter().map(slope));
-            s.by_design.assign(self.lambda_by_design.iter().map(slope));
-        } else {
-            self.s = None;
-        }
-        self.finish(mode, false);
+    pub(crate) fn make_undamped(
+        &mut self,
+        mode: &Mode,
+        inputs: usize,
+        design: usize,
+    ) -> [&mut [f64]; 2] {
+        self.clustered = false;
+        self.value = mode.s;
+        self.undamped = true;
+        self.lambda.make_room(inputs, design)
     }
 
     /// Goes to a general mode with these derivatives of `s`; where they are not finite, it has merged with another.
@@ -162,16 +178,20 @@ impl ModeSensitivity {
         by_input: impl ExactSizeIterator<Item = Complex>,
         by_design: impl ExactSizeIterator<Item = Complex>,
     ) {
-        let s = self.s.get_or_insert_with(Slopes::empty);
+        let s = self
+            .general
+            .get_or_insert_with(|| Box::new(Slopes::blank()));
         s.by_input.assign(by_input);
         s.by_design.assign(by_design);
         let lambda = |ds: &Complex| -2.0 * (mode.s * ds).re;
-        self.lambda_by_input.set(&s.by_input, lambda);
-        self.lambda_by_design.set(&s.by_design, lambda);
+        self.lambda.by_input.set(&s.by_input, lambda);
+        self.lambda.by_design.set(&s.by_design, lambda);
         let (inputs, design) = (s.by_input.len(), s.by_design.len());
         let rest: f64 = s.iter().map(|ds| unless_finite(ds.l1_norm())).sum();
         if rest == 0.0 && self.lambda_is_finite() {
-            self.finish(mode, false);
+            self.clustered = false;
+            self.value = mode.s;
+            self.undamped = false;
         } else {
             self.set_merged(mode, inputs, design);
         }
@@ -179,52 +199,48 @@ impl ModeSensitivity {
 
     /// Goes to a general mode that has merged with another: it has no derivatives by so many variables.
     pub(crate) fn set_merged(&mut self, mode: &Mode, inputs: usize, design: usize) {
-        self.lambda_by_input = Vector::zeros(inputs);
-        self.lambda_by_design = Vector::zeros(design);
-        self.s = None;
-        self.finish(mode, true);
-    }
-
-    /// What follows from `s`.
-    #[inline]
-    fn finish(&mut self, mode: &Mode, clustered: bool) {
-        match &self.s {
-            Some(s) if mode.frequency().is_some() => {
-                let by_input = self.omega_by_input.get_or_insert_default();
-                by_input.set(&s.by_input, |ds| ds.im);
-                let by_design = self.omega_by_design.get_or_insert_default();
-                by_design.set(&s.by_design, |ds| ds.im);
-            }
-            _ => (self.omega_by_input, self.omega_by_design) = (None, None),
+        for slopes in self.lambda.make_room(inputs, design) {
+            slopes.fill(0.0);
         }
-        self.clustered = clustered;
+        self.clustered = true;
         self.value = mode.s;
+        self.undamped = false;
+        self.general = None;
     }
 
     fn lambda_is_finite(&self) -> bool {
-        all_finite(&self.lambda_by_input) && all_finite(&self.lambda_by_design)
+        all_finite(&self.lambda.by_input) && all_finite(&self.lambda.by_design)
     }
 
     #[inline]
     pub(crate) fn finite(&self) -> bool {
-        match &self.s {
-            // As finite as those of `lambda`, from which they come or which come from them.
-            Some(s) => {
-                let rest = |z: Complex| unless_finite(z.re) + unless_finite(z.im);
-                s.iter().map(rest).sum::<f64>() == 0.0
-            }
-            None => self.lambda_is_finite(),
+        if self.undamped && self.value != Complex::ZERO {
+            let rate = root_rate(self.value);
+            let slopes = self.lambda.iter();
+            let rest = |dlambda| unless_finite(rate * dlambda);
+            return slopes.map(rest).sum::<f64>() == 0.0;
         }
+        // Those of a general mode are as finite as those of `lambda`, which come from them.
+        self.lambda_is_finite()
     }
 }
 
-/// `domega = rate dlambda` of an undamped mode that oscillates, and `ds`.
+/// `|ds / dlambda|` of an undamped mode whose `s`, real or imaginary, is not zero: `s^2 = -lambda`.
 #[inline(always)]
-fn oscillating(rate: f64, dlambda: &[f64], ds: &mut Vector<Complex>, domega: &mut Vector) {
-    let count = dlambda.len();
-    let (ds, domega) = (ds.make_room(count), domega.make_room(count));
-    for ((ds, domega), dlambda) in ds.iter_mut().zip(domega).zip(dlambda) {
-        *domega = rate * dlambda;
-        *ds = Complex::new(0.0, *domega);
-    }
+pub(crate) fn root_rate(s: Complex) -> f64 {
+    0.5 / greater(s.re, s.im)
+}
+
+/// `ds = -dlambda / (2 s)` of an undamped mode; `None` where `s`, real or imaginary, is zero.
+#[inline]
+fn root_slope(s: Complex) -> Option<impl Fn(f64) -> Complex> {
+    let rate = root_rate(s);
+    let oscillates = s.im > 0.0;
+    (s != Complex::ZERO).then_some(move |dlambda: f64| {
+        if oscillates {
+            Complex::new(0.0, rate * dlambda)
+        } else {
+            Complex::new(-rate * dlambda, 0.0)
+        }
+    })
 }

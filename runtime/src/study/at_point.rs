@@ -166,7 +166,7 @@ impl<M: Kernels> Study<M> {
     /// ```
     #[doc = include_str!("example.txt")]
     /// let slopes = study.sensitivities()?;
-    /// let by_design = slopes.modes[0].omega_by_design.as_ref();
+    /// let by_design = slopes.modes[0].frequency().map(|slopes| slopes.by_design);
     /// println!("{:?} rad/s per metre", by_design.map(|slopes| slopes[Pendulum::l.index()]));
     /// # Ok::<(), eigentol::Error>(())
     /// ```

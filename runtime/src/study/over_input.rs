@@ -71,7 +71,7 @@ impl<M: BatchKernels> Study<M> {
     #[doc = include_str!("example.txt")]
     /// study.sensitivity_sweep(Pendulum::omega, &[4.0, 4.5, 5.0], |point, slopes| {
     ///     if let Ok(slopes) = slopes {
-    ///         println!("{}: {:?}", point.value, slopes.modes[0].omega_by_design);
+    ///         println!("{}: {:?}", point.value, slopes.modes[0].frequency());
     ///     }
     /// })?;
     /// # Ok::<(), eigentol::Error>(())

@@ -8,7 +8,7 @@ use crate::clusters::ClusterTolerance;
 use crate::modes::Family;
 use crate::second_order::{ModeSecondOrder, SecondOrder, SecondOrderSpread};
 use crate::sensitivity::Quantity;
-use crate::tolerance::{FirstOrder, ModeTolerance, Spread, TRUSTED_DISTANCE};
+use crate::tolerance::{FirstOrder, TRUSTED_DISTANCE};
 use crate::{Behaviour, Mode};
 
 /// A critical state or another mode within as many standard deviations takes more samples: rare ones may matter.
@@ -55,7 +55,7 @@ impl<'a> Judge<'a> {
             quantity,
             nominal: quantity.of(own).unwrap_or(0.0),
             size,
-            slopes: spread_of(first, quantity).map(|spread| &spread.by_design[..]),
+            slopes: first.of(quantity).map(|spread| spread.by_design),
             second: second.map(|second| &second_spread_of(second, quantity).model),
             doubtful: distance < DOUBTFUL_DISTANCE || self.cluster(mode).is_some(),
         };
@@ -118,7 +118,7 @@ impl<'a> Judge<'a> {
             if let Some(error) = check.and_then(|check| check.first_order_error) {
                 said.errors.push((quantity, error, finding(error)));
             }
-            let spread = spread_of(&self.first.modes[mode], quantity);
+            let spread = self.first.modes[mode].of(quantity);
             if quantity == Quantity::Frequency {
                 // Checked, or nothing moves it and samples agree.
                 let still = spread.is_some_and(|own| own.sigma <= ROUNDING * prediction.size);
@@ -220,7 +220,7 @@ impl<'a> Judge<'a> {
 
     /// `(Im s)^2` over its standard deviation; `None` for undamped modes and those that do not oscillate.
     fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
-        let own = self.first.modes[mode].frequency.as_ref()?;
+        let own = self.first.modes[mode].frequency()?;
         (self.first.family == Family::General && own.sigma > 0.0)
             .then(|| 0.5 * own.mean / own.sigma)
     }
@@ -255,13 +255,6 @@ fn quantities(own: &Mode) -> Vec<(Quantity, f64)> {
         all.push((Quantity::DampingRatio, 1.0));
     }
     all
-}
-
-fn spread_of(mode: &ModeTolerance, quantity: Quantity) -> Option<&Spread> {
-    match quantity {
-        Quantity::DampingRatio => mode.damping_ratio.as_ref(),
-        _ => mode.frequency.as_ref(),
-    }
 }
 
 fn second_spread_of(mode: &ModeSecondOrder, quantity: Quantity) -> &SecondOrderSpread {

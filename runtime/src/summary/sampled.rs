@@ -42,7 +42,7 @@ pub(super) struct Prediction<'a> {
     /// What it is measured by: a spread much smaller is rounding.
     pub(super) size: f64,
     /// Derivatives by the design variables.
-    pub(super) slopes: Option<&'a [f64]>,
+    pub(super) slopes: Option<Vector>,
     pub(super) second: Option<&'a Quadratic>,
     /// Rare samples may matter: a critical state is not far.
     pub(super) doubtful: bool,
@@ -166,7 +166,7 @@ impl About<'_> {
             };
             let found = values.get(prediction.mode).copied().flatten();
             let found = found.filter(|_| sample.outcome == Outcome::Stable);
-            let first = prediction.slopes.map_or(0.0, |slopes| {
+            let first = prediction.slopes.as_ref().map_or(0.0, |slopes| {
                 slopes.iter().zip(&change).map(|(slope, x)| slope * x).sum()
             });
             let second = prediction.second.map_or(0.0, |model| model.change(&change));
@@ -215,7 +215,7 @@ fn check(prediction: &Prediction<'_>, paired: &Paired) -> Option<Check> {
         value: ratio.value - 1.0,
         ..ratio
     };
-    let (first, second) = (prediction.slopes, prediction.second);
+    let (first, second) = (prediction.slopes.as_deref(), prediction.second);
     Some(Check {
         quantity: prediction.quantity,
         samples: paired.samples(),

@@ -1,9 +1,9 @@
 //! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to trust it.
 
 use super::{Spread, Tolerances};
-use crate::algebra::{Vector, greater};
+use crate::algebra::Vector;
 use crate::modes::Family;
-use crate::sensitivity::{ModeSensitivity, Quantity};
+use crate::sensitivity::{ModeSensitivity, Quantity, root_rate};
 use crate::{Behaviour, Complex, Description, Error, Mode, Modes, Sensitivities, Shared};
 
 /// Nearer to the critical state, or to another mode, than this many standard deviations, first order is not to be
@@ -25,14 +25,6 @@ pub struct ModeTolerance {
     /// `-Re s^2`, 1/s^2: of an undamped mode the eigenvalue. Its standard deviation is infinite for a general mode without a
     /// derivative (a defective eigenvalue).
     pub lambda: Spread,
-    /// The frequency `Im s`, rad/s; `None` for a mode that does not oscillate or has no derivative.
-    pub frequency: Option<Spread>,
-    /// The natural frequency `|s|`, rad/s; `None` likewise.
-    pub natural_frequency: Option<Spread>,
-    /// The damping ratio; `None` likewise.
-    pub damping_ratio: Option<Spread>,
-    /// The growth `Re s`, 1/s; `None` where the eigenvalue has no derivative.
-    pub growth: Option<Spread>,
     /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda` over its own, with
     /// `|s|^2` for `lambda` of a general mode; negative when the mode diverges, zero when it is neutral, infinite when nothing moves it or when
     /// it has no derivative.
@@ -51,6 +43,22 @@ pub struct ModeTolerance {
     /// and the numbers here belong to the computed basis of the cluster. Whether tolerances mix modes
     /// farther apart, [`clusters`](crate::clusters::clusters) and [`summary`](crate::summary::summary) tell.
     pub clustered: bool,
+    /// The nominal eigenvalue.
+    value: Complex,
+    of: Quantities,
+}
+
+/// Spreads of the quantities of a mode.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+enum Quantities {
+    /// Of an undamped mode that of `lambda`, scaled: its eigenvalue is a root.
+    Undamped {
+        /// What means beside the nominal values add to `lambda`.
+        shift: f64,
+    },
+    /// Of a general mode, in the order of [`Quantity::ALL`].
+    General(Box<[Option<Spread>; 4]>),
 }
 
 impl ModeTolerance {
@@ -59,22 +67,71 @@ impl ModeTolerance {
         Self {
             behaviour: Behaviour::Neutral,
             lambda: Spread::blank(),
-            frequency: None,
-            natural_frequency: None,
-            damping_ratio: None,
-            growth: None,
             distance_to_critical: f64::INFINITY,
             distance_to_instability: f64::INFINITY,
             distance_to_neighbour: f64::INFINITY,
             clustered: false,
+            value: Complex::ZERO,
+            of: Quantities::Undamped { shift: 0.0 },
         }
+    }
+
+    /// The spread of a quantity of the mode; `None` where it has none or no derivative: only the growth of a mode that does not
+    /// oscillate has one.
+    #[must_use]
+    pub fn of(&self, quantity: Quantity) -> Option<Spread> {
+        let shift = match &self.of {
+            Quantities::General(all) => return all[quantity as usize].clone(),
+            Quantities::Undamped { shift } => *shift,
+        };
+        if self.value == Complex::ZERO {
+            return None;
+        }
+        // s = sqrt(-lambda), real or imaginary
+        let oscillates = self.value.im > 0.0;
+        let rate = root_rate(self.value);
+        match quantity {
+            Quantity::Frequency | Quantity::NaturalFrequency if oscillates => {
+                Some(self.lambda.scaled(rate, self.value.im + rate * shift))
+            }
+            Quantity::DampingRatio | Quantity::Growth if oscillates => Some(self.lambda.still(0.0)),
+            Quantity::Growth => Some(self.lambda.scaled(-rate, self.value.re - rate * shift)),
+            _ => None,
+        }
+    }
+
+    /// The spread of the frequency `Im s`, rad/s, as [`Self::of`].
+    #[must_use]
+    pub fn frequency(&self) -> Option<Spread> {
+        self.of(Quantity::Frequency)
+    }
+
+    /// The spread of the natural frequency `|s|`, rad/s, as [`Self::of`].
+    #[must_use]
+    pub fn natural_frequency(&self) -> Option<Spread> {
+        self.of(Quantity::NaturalFrequency)
+    }
+
+    /// The spread of the damping ratio, as [`Self::of`].
+    #[must_use]
+    pub fn damping_ratio(&self) -> Option<Spread> {
+        self.of(Quantity::DampingRatio)
+    }
+
+    /// The spread of the growth `Re s`, 1/s, as [`Self::of`].
+    #[must_use]
+    pub fn growth(&self) -> Option<Spread> {
+        self.of(Quantity::Growth)
     }
 
     /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without one.
     #[must_use]
     pub fn variance_shares(&self) -> &[f64] {
-        let own = self.frequency.as_ref().unwrap_or(&self.lambda);
-        &own.variance_shares
+        let frequency = match &self.of {
+            Quantities::General(all) => all[Quantity::Frequency as usize].as_ref(),
+            Quantities::Undamped { .. } => None,
+        };
+        &frequency.unwrap_or(&self.lambda).variance_shares
     }
 
     /// Whether no other mode is so near that tolerances bring the two together.
@@ -154,7 +211,7 @@ pub fn first_order(
     })
 }
 
-/// The spread of an undamped mode, its neighbours left out: `s` is a root of `lambda`, so that every spread is that of `lambda`, or nothing.
+/// The spread of an undamped mode, its neighbours left out.
 fn undamped(
     mode: &Mode,
     own: &ModeSensitivity,
@@ -162,34 +219,11 @@ fn undamped(
     found: &mut ModeTolerance,
 ) {
     let lambda = &mut found.lambda;
-    lambda.by_design.set(&own.lambda_by_design, |slope| *slope);
-    lambda.finish(mode.lambda, tolerances);
-    let variables = lambda.by_design.len();
-    let sigma = lambda.sigma / (2.0 * greater(mode.s.re, mode.s.im));
-    let moving = |place: &mut Option<Spread>, mean: f64, part: fn(&Complex) -> f64, slopes| {
-        let spread = place.get_or_insert_with(Spread::blank);
-        spread.by_design.set(slopes, part);
-        spread.mean = mean + tolerances.mean_shift(&spread.by_design);
-        spread.sigma = sigma;
-        spread.band = tolerances.sigma_level() * sigma;
-        let shares = &lambda.variance_shares;
-        spread.variance_shares.set(shares, |share| *share);
-    };
-    let still = |place: &mut Option<Spread>, mean: f64| {
-        let spread = place.get_or_insert_with(Spread::blank);
-        spread.set_without_derivatives(mean, 0.0, variables);
-    };
-    match (&own.s, mode.frequency()) {
-        (Some(s), Some(mean)) => {
-            moving(&mut found.frequency, mean, |ds| ds.im, &s.by_design);
-            moving(&mut found.natural_frequency, mean, |ds| ds.im, &s.by_design);
-            still(&mut found.damping_ratio, 0.0);
-            still(&mut found.growth, mode.s.re);
-        }
-        (Some(s), None) => moving(&mut found.growth, mode.s.re, |ds| ds.re, &s.by_design),
-        (None, _) => {}
-    }
+    lambda.by_design.set(&own.lambda.by_design, |slope| *slope);
+    let shift = lambda.finish(mode.lambda, tolerances);
+    found.of = Quantities::Undamped { shift };
     found.behaviour = mode.behaviour;
+    found.value = mode.s;
     found.distance_to_critical = match mode.behaviour {
         Behaviour::Neutral => 0.0,
         _ => in_sigmas(found.lambda.mean, found.lambda.sigma),
@@ -199,28 +233,17 @@ fn undamped(
 
 /// The spread of a general mode, its neighbours left out: that of each quantity by its own derivatives.
 fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &mut ModeTolerance) {
-    let slopes = &own.lambda_by_design;
-    let of = |quantity: Quantity| {
-        let slopes = own.of(quantity)?;
-        Some(Spread::new(
-            quantity.of(mode)?,
-            slopes.by_design,
-            tolerances,
-        ))
-    };
-    found.behaviour = mode.behaviour;
-    match own.s {
-        None => {
-            let lambda = &mut found.lambda;
-            lambda.set_without_derivatives(mode.lambda, f64::INFINITY, slopes.len());
-        }
-        Some(_) => found.lambda = Spread::new(mode.lambda, slopes.clone(), tolerances),
+    let slopes = &own.lambda.by_design;
+    let lambda = &mut found.lambda;
+    match own.general() {
+        None => lambda.set_without_derivatives(mode.lambda, f64::INFINITY, slopes.len()),
+        Some(_) => *lambda = Spread::new(mode.lambda, slopes.clone(), tolerances),
     }
-    found.frequency = of(Quantity::Frequency);
-    found.natural_frequency = of(Quantity::NaturalFrequency);
-    found.damping_ratio = of(Quantity::DampingRatio);
-    found.growth = of(Quantity::Growth);
-    let (natural, growth) = (found.natural_frequency.as_ref(), found.growth.as_ref());
+    let all = Quantity::ALL.map(|quantity| {
+        let slopes = own.of(quantity)?.by_design;
+        Some(Spread::new(quantity.of(mode)?, slopes, tolerances))
+    });
+    let [_, natural, _, growth] = all.each_ref().map(Option::as_ref);
     found.distance_to_critical = distance_to_zero(mode, natural, growth);
     found.distance_to_instability = growth
         .filter(|spread| !keeps_amplitude(mode, spread))
@@ -228,7 +251,10 @@ fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &
             Behaviour::Oscillating(_) => 0.0,
             _ => in_sigmas(-spread.mean, spread.sigma),
         });
+    found.behaviour = mode.behaviour;
+    found.value = mode.s;
     found.clustered = own.clustered;
+    found.of = Quantities::General(Box::new(all));
 }
 
 /// Whether neither the growth nor what tolerances add to it can be told from zero.
@@ -268,9 +294,9 @@ fn distances(
     let (a, b) = (&modes.modes[r], &modes.modes[other]);
     let (da, db) = (&sensitivities.modes[r], &sensitivities.modes[other]);
     // Halves, because a difference may exceed the range of a double.
-    let (gap, sigma) = match (modes.family, &da.s, &db.s) {
+    let (gap, sigma) = match (modes.family, da.general(), db.general()) {
         (Family::Undamped, ..) => {
-            let slopes = da.lambda_by_design.iter().zip(&db.lambda_by_design);
+            let slopes = da.lambda.by_design.iter().zip(&db.lambda.by_design);
             let slopes: Vector = slopes.map(|(a, b)| 0.5 * a - 0.5 * b).collect();
             let gap = (0.5 * a.lambda - 0.5 * b.lambda).abs();
             (gap, tolerances.sigma(&slopes))
@@ -286,7 +312,7 @@ fn distances(
         }
         // One that has merged did so perhaps with the other: nothing tells what moves them. To the other it says nothing.
         (Family::General, one, another) => {
-            return [one, another].map(|slopes| slopes.as_ref().map_or(0.0, |_| f64::INFINITY));
+            return [one, another].map(|slopes| slopes.map_or(0.0, |_| f64::INFINITY));
         }
     };
     [if sigma > 0.0 {

@@ -46,12 +46,32 @@ impl Spread {
         }
     }
 
-    /// Goes to a quantity whose derivatives are written.
+    /// Goes to a quantity whose derivatives are written; returns what means beside the nominal values add to it.
     #[inline]
-    pub(super) fn finish(&mut self, mean: f64, tolerances: &Tolerances) {
-        self.mean = mean + tolerances.mean_shift(&self.by_design);
+    pub(super) fn finish(&mut self, mean: f64, tolerances: &Tolerances) -> f64 {
+        let shift = tolerances.mean_shift(&self.by_design);
+        self.mean = mean + shift;
         self.sigma = tolerances.spread(&self.by_design, &mut self.variance_shares);
         self.band = tolerances.sigma_level() * self.sigma;
+        shift
+    }
+
+    /// That of a quantity which moves `rate` times as fast.
+    pub(super) fn scaled(&self, rate: f64, mean: f64) -> Self {
+        Self {
+            mean,
+            by_design: self.by_design.map(|slope| rate * slope),
+            sigma: rate.abs() * self.sigma,
+            band: rate.abs() * self.band,
+            variance_shares: self.variance_shares.clone(),
+        }
+    }
+
+    /// That of a quantity which the same variables do not move.
+    pub(super) fn still(&self, mean: f64) -> Self {
+        let mut found = Self::blank();
+        found.set_without_derivatives(mean, 0.0, self.by_design.len());
+        found
     }
 
     /// Goes to a quantity which nothing moves, `sigma` zero, or which moves without bound, `sigma` infinite.

@@ -173,7 +173,8 @@ fn sweep(vectors: Option<Instructions>) -> Box<dyn Work> {
                 arrays.push(state.coordinates.to_vec());
                 arrays.push(found.frequencies().iter().flatten().copied().collect());
                 for mode in slopes.modes.iter() {
-                    arrays.push(mode.omega_by_design.iter().flatten().copied().collect());
+                    let slopes = mode.frequency().map(|slopes| slopes.by_design.to_vec());
+                    arrays.push(slopes.unwrap_or_default());
                 }
             });
             arrays

@@ -142,7 +142,7 @@ fn numbers_of_a_cluster_are_not_printed_as_ordinary_ones() {
     let alone = apart
         .directional_derivatives(1, (&[], &[0.0, 1.0, 0.0]))
         .unwrap();
-    let slope = apart.sensitivities().unwrap().modes[1].lambda_by_design[1];
+    let slope = apart.sensitivities().unwrap().modes[1].lambda.by_design[1];
     assert_eq!(alone.modes, [1]);
     within(alone.eigenvalues[0].re, slope, 1e-12);
     within(slope, 0.25, 1e-12);

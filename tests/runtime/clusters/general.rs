@@ -219,12 +219,12 @@ fn a_defective_root_has_no_sigma() {
     );
     assert!(found[0].defective() && found[0].mean.is_none());
     for mode in &study.sensitivities().unwrap().modes {
-        assert!(mode.clustered && mode.s.is_none() && mode.omega_by_design.is_none());
+        assert!(mode.clustered && mode.s().is_none() && mode.frequency().is_none());
     }
     let first = study.first_order().unwrap();
     assert!(!first.trusted());
     for mode in &first.modes {
-        assert!(mode.clustered && mode.frequency.is_none() && mode.lambda.sigma == f64::INFINITY);
+        assert!(mode.clustered && mode.frequency().is_none() && mode.lambda.sigma == f64::INFINITY);
         assert_eq!(mode.distance_to_neighbour, 0.0);
     }
     let summary = study.summary().unwrap();
@@ -293,7 +293,7 @@ fn critically_damped_roots_are_defective() {
         let summary = study.summary().unwrap();
         assert!(!format!("{summary:?} {summary}").contains("NaN"));
         for mode in &found.modes {
-            assert!(summary.first.modes[*mode].growth.is_none());
+            assert!(summary.first.modes[*mode].growth().is_none());
         }
     }
     // Equal overdamped motions are double roots that are not defective.

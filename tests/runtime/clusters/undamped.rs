@@ -97,7 +97,7 @@ fn what_mixes_modes_counts_as_well_as_what_moves_them_apart() {
     // Nothing moves lambda_1 - lambda_2 at first order: first order alone sees no neighbour.
     let study = pair(2.0, 0.0, [0.0, 0.0, 1.0]);
     let first = study.first_order().unwrap();
-    assert!(first.trusted() && first.modes[0].frequency.as_ref().unwrap().sigma < 1e-12);
+    assert!(first.trusted() && first.modes[0].frequency().unwrap().sigma < 1e-12);
     close(only(study.clusters().unwrap()).distance, 1.0, 1e-12);
     // sigma(k2 - k1) = 0.5, 2 sigma(c) = 2.
     let both = pair(2.0, 0.0, [0.3, 0.4, 1.0]);

@@ -87,8 +87,8 @@ pub(crate) fn same_modes(a: &Modes, b: &Modes, tolerance: f64) {
 pub(crate) fn same_sensitivities(a: &Sensitivities, b: &Sensitivities, tolerance: f64) {
     assert_eq!(a.modes.len(), b.modes.len());
     for (own, other) in a.modes.iter().zip(&b.modes) {
-        all_near(&own.lambda_by_design, &other.lambda_by_design, tolerance);
-        all_near(&own.lambda_by_input, &other.lambda_by_input, tolerance);
+        all_near(&own.lambda.by_design, &other.lambda.by_design, tolerance);
+        all_near(&own.lambda.by_input, &other.lambda.by_input, tolerance);
         for quantity in Quantity::ALL {
             let pair = (own.of(quantity), other.of(quantity));
             let (Some(own), Some(other)) = pair else {

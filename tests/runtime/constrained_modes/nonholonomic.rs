@@ -109,7 +109,7 @@ fn against_cubic<const P: usize>(
     for (r, mode) in found.modes.iter().enumerate() {
         near_complex(mode.s, root(polynomial, &b, v, mode.s), 1e-12, size);
         let exact = |b: &[f64; P], v: f64, j: usize| slope(polynomial, b, v, mode.s, j);
-        let [own, other] = [&adjoint, &explicit].map(|all| all.modes[r].s.as_ref().unwrap());
+        let [own, other] = [&adjoint, &explicit].map(|all| all.modes[r].s().unwrap());
         let curvature = mode_curvature(mechanism, &at, &found, r).unwrap();
         assert!(
             curvature.asymmetry < 1e-8,
@@ -161,7 +161,7 @@ fn a_massless_trail_swings_back() {
         near_complex(s, Complex::new(-v / 0.3, 0.0), 1e-14, v.abs() / 0.3);
         assert_eq!(found.stable(), v > 0.0);
         let slopes = sensitivities(&Derived(Trail), &at, &found).unwrap();
-        let own = slopes.modes[0].s.as_ref().unwrap();
+        let own = slopes.modes[0].s().unwrap();
         near_complex(
             own.by_design[0],
             Complex::new(v / 0.09, 0.0),
@@ -321,7 +321,7 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
         for (mode, own) in found.modes.iter().zip(&all.modes) {
             let straight = (mode.s.re - wanted[0]).abs() < 1e-9;
             near_complex(mode.s, wanted[usize::from(!straight)].into(), 1e-13, 1.0);
-            let slopes = own.s.as_ref().unwrap().by_design.map(|value| value.re);
+            let slopes = own.s().unwrap().by_design.map(|value| value.re);
             let inertia = j + m * a * a;
             let exact = if straight {
                 [d / (m * m), 0.0, 0.0, -1.0 / m]
@@ -446,7 +446,7 @@ fn a_constraint_stated_again_as_a_rate_changes_nothing() {
     near_complex(found.modes[0].s, once.modes.modes[0].s, 1e-12, 1.0);
     let own = sensitivities(&Derived(Rated), &at, &found).unwrap();
     let other = sensitivities(&*once.mechanism, &once.at, &once.modes).unwrap();
-    let [own, other] = [&own, &other].map(|all| all.modes[0].s.as_ref().unwrap());
+    let [own, other] = [&own, &other].map(|all| all.modes[0].s().unwrap());
     for j in 0..3 {
         near_complex(own.by_design[j], other.by_design[j], 1e-10, 1.0);
     }

@@ -37,7 +37,7 @@ fn first_and_second_order_are_those_of_minimal_coordinates() {
     let (a, b) = (own.first_order().unwrap(), other.first_order().unwrap());
     assert_eq!(a.modes.len(), 2);
     for (a, b) in a.modes.iter().zip(&b.modes) {
-        let [sigma, other] = [a, b].map(|mode| mode.frequency.as_ref().unwrap().sigma);
+        let [sigma, other] = [a, b].map(|mode| mode.frequency().unwrap().sigma);
         near(sigma, other, 1e-10, other);
         near(
             a.distance_to_critical,
@@ -84,7 +84,7 @@ fn every_sample_is_that_of_minimal_coordinates() {
     }
     let first = chain().first_order().unwrap();
     for (sampled, first) in own.modes.iter().zip(&first.modes) {
-        let (sampled, first) = (sampled.as_ref().unwrap(), first.frequency.as_ref().unwrap());
+        let (sampled, first) = (sampled.as_ref().unwrap(), first.frequency().unwrap());
         // 600 samples tell a standard deviation to 3 %.
         near(sampled.sigma.unwrap(), first.sigma, 0.12, first.sigma);
         near(sampled.mean, first.mean, 0.15, first.sigma);
@@ -130,7 +130,7 @@ fn a_caster_varies_as_its_first_order_says() {
     assert_eq!(sampled.counts.total(), 1500);
     let mut oscillating = 0;
     for (sampled, first) in sampled.modes.iter().zip(&first.modes) {
-        let (Some(sampled), Some(first)) = (sampled, &first.frequency) else {
+        let (Some(sampled), Some(first)) = (sampled, &first.frequency()) else {
             continue;
         };
         oscillating += 1;

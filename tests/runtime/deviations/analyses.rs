@@ -66,17 +66,15 @@ fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
     let without = sensitivities(machine, &plain_state, &plain_modes).unwrap();
     let mut moving = 0;
     for (mode, without) in slopes.modes.iter().zip(&without.modes) {
-        assert_eq!(mode.lambda_by_design[own..], *mode.lambda_by_input);
-        let s = mode.s.as_ref().unwrap();
+        assert_eq!(mode.lambda.by_design[own..], *mode.lambda.by_input);
+        let s = mode.s().unwrap();
         assert_eq!(s.by_design[own..], *s.by_input);
         moving += s.by_input.iter().filter(|slope| slope.norm() > 0.0).count();
-        for (found, expected) in s
-            .by_design
-            .iter()
-            .zip(&without.s.as_ref().unwrap().by_design)
-        {
-            let scale = without.s.as_ref().unwrap().by_design.iter();
-            let scale = scale.fold(1.0, |most: f64, slope| most.max(slope.norm()));
+        let without = without.s().unwrap().by_design;
+        for (found, expected) in s.by_design.iter().zip(&without) {
+            let scale = without
+                .iter()
+                .fold(1.0, |most: f64, slope| most.max(slope.norm()));
             assert!(
                 (found - expected).norm() <= 1e-12 * scale,
                 "{found} {expected}"
@@ -141,7 +139,7 @@ fn of_the_pendulum(machine: &dyn SummaryKernels, speed: f64, sigma: f64) {
     let slopes = sensitivities(&deviating, &at, &modes).unwrap();
     let spread = first_order(&modes, &slopes, &tolerances).unwrap();
     let [slope, bend] = frequency_slopes(speed);
-    let found = spread.modes[0].frequency.as_ref().unwrap();
+    let found = spread.modes[0].frequency().unwrap();
     close(found.mean, frequency(speed), 1e-13);
     close(found.sigma, slope.abs() * sigma, 1e-12);
     assert_eq!(found.variance_shares, [0.0, 0.0, 1.0]);
@@ -175,12 +173,12 @@ fn deviations_take_part_in_correlations() {
     let deviating = all_deviate(&Pendulum);
     let (at, modes) = solved(&deviating, &[5.0], &deviating.design(&[3.0, 1.0]), &[1.0]);
     let slopes = sensitivities(&deviating, &at, &modes).unwrap();
-    let rates = slopes.modes[0].omega_by_design.as_ref().unwrap();
+    let rates = slopes.modes[0].frequency().unwrap().by_design;
     let correlation = [[1.0, 0.0, 0.0], [0.0, 1.0, -1.0], [0.0, -1.0, 1.0]];
     let half_widths = [0.0, 0.03, 0.3];
     let together = Tolerances::new(half_widths, 3.0, Some(correlation.into())).unwrap();
     let spread = first_order(&modes, &slopes, &together).unwrap();
-    let sigma = spread.modes[0].frequency.as_ref().unwrap().sigma;
+    let sigma = spread.modes[0].frequency().unwrap().sigma;
     close(sigma, (rates[1] * 0.01 - rates[2] * 0.1).abs(), 1e-12);
 }
 

@@ -60,10 +60,10 @@ fn compare(machine: &dyn BatchKernels, (u, b): (&[f64], &[f64]), start: &[f64]) 
         let [slopes, expected] =
             [slopes, expected_slopes].map(|slopes| &slopes.as_ref().unwrap().modes);
         for (slopes, expected) in slopes.iter().zip(expected) {
-            assert_eq!(slopes.lambda_by_design[own..], *slopes.lambda_by_input);
-            let expected = &expected.lambda_by_design;
+            assert_eq!(slopes.lambda.by_design[own..], *slopes.lambda.by_input);
+            let expected = &expected.lambda.by_design;
             let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            for (found, expected) in slopes.lambda_by_design.iter().zip(expected) {
+            for (found, expected) in slopes.lambda.by_design.iter().zip(expected) {
                 assert!((found - expected).abs() <= 1e-9 * size);
             }
         }
@@ -89,7 +89,7 @@ fn slopes_along_a_sweep_are_the_closed_form() {
     for vectors in [None, Some(Instructions::best())] {
         for (point, slopes) in swept(&deviating, (&[0.0], &b), &[1.0], vectors) {
             let [slope, _] = frequency_slopes(point.value);
-            let found = slopes.unwrap().modes[0].omega_by_design.clone().unwrap();
+            let found = slopes.unwrap().modes[0].frequency().unwrap().by_design;
             close(found[2], slope, 1e-10);
         }
     }

@@ -110,7 +110,7 @@ fn shares_of_a_huge_variance() {
             .expect("a spread");
         let own = &spread.modes[0];
         assert_numbers(own.variance_shares(), "shares");
-        assert_numbers(own.frequency.iter().map(|own| own.sigma), "sigma");
+        assert_numbers(own.frequency().iter().map(|own| own.sigma), "sigma");
         let outputs = pendulum(5.0, 1.0, 3.0)
             .start(Coordinate::new(0), 1.0)
             .tolerance(RotatingPendulum::l, width)
@@ -136,7 +136,7 @@ fn both_ways_of_differentiating_refuse_alike() {
     let adjoint = sensitivities(&RotatingPendulum, &state, &found);
     assert!(adjoint.is_err(), "{adjoint:?}");
     if let Ok(all) = sensitivities_explicit(&RotatingPendulum, &state, &found) {
-        assert_numbers(&all.modes[0].lambda_by_design, "explicit");
+        assert_numbers(&all.modes[0].lambda.by_design, "explicit");
     }
 }
 
@@ -149,7 +149,7 @@ fn frozen_derivatives_are_numbers() {
     );
     let frozen = sensitivities_with_frozen_equilibrium(&RotatingPendulum, &state, &found);
     if let Ok(frozen) = frozen {
-        assert_numbers(&frozen.modes[0].lambda_by_design, "frozen");
+        assert_numbers(&frozen.modes[0].lambda.by_design, "frozen");
     }
 }
 

@@ -48,7 +48,7 @@ fn pendulums_of_every_size() {
                     let off = (scaled[i].lambda - expected).abs();
                     assert!(off <= 1e-8 * expected, "{what}: {}", scaled[i].lambda);
                     let sigma = |modes: &[ModeTolerance]| {
-                        let frequency = modes[i].frequency.as_ref();
+                        let frequency = modes[i].frequency();
                         frequency.expect("a frequency").sigma
                     };
                     let expected = sigma(&sigmas) / length.sqrt();

@@ -6,7 +6,8 @@ use eigentol::sensitivity::{
 };
 use eigentol::tolerance::{first_order, output_tolerances};
 use eigentol::{
-    Behaviour, Equilibrium, Kernels, Modes, Sensitivities, Stability, modes, tolerance::Tolerances,
+    Behaviour, Equilibrium, Kernels, Modes, Quantity, Sensitivities, Stability, modes,
+    tolerance::Tolerances,
 };
 use nalgebra::DMatrix;
 use std::borrow::Borrow;
@@ -84,10 +85,16 @@ pub(crate) fn assert_modes(modes: &Modes) {
 
 fn assert_sensitivities(all: &Sensitivities, what: &str) {
     for own in &all.modes {
-        assert_numbers(&own.lambda_by_input, what);
-        assert_numbers(&own.lambda_by_design, what);
-        assert_numbers(own.omega_by_input.iter().flatten(), what);
-        assert_numbers(own.omega_by_design.iter().flatten(), what);
+        assert_numbers(&own.lambda.by_input, what);
+        assert_numbers(&own.lambda.by_design, what);
+        for slopes in Quantity::ALL
+            .map(|quantity| own.of(quantity))
+            .iter()
+            .flatten()
+        {
+            assert_numbers(&slopes.by_input, what);
+            assert_numbers(&slopes.by_design, what);
+        }
     }
 }
 
@@ -120,8 +127,13 @@ pub(crate) fn assert_answers(machine: &dyn Kernels, at: &Equilibrium, tolerances
                 [own.lambda.sigma, own.distance_to_critical],
                 "spread of lambda",
             );
-            let frequency = own.frequency.iter();
-            assert_numbers(frequency.flat_map(|own| [own.sigma, own.band]), "spread");
+            for quantity in Quantity::ALL {
+                let spread = own.of(quantity);
+                assert_numbers(
+                    spread.iter().flat_map(|own| [own.sigma, own.band]),
+                    "spread",
+                );
+            }
             assert_numbers(own.variance_shares(), "shares");
         }
     }

@@ -39,7 +39,7 @@ fn a_spring_too_weak_for_the_speed() {
         assert!((rate - 21f64.sqrt()).abs() < 1e-13);
         assert_eq!(modes.modes[0].frequency(), None);
         let spread = &beyond.first_order().expect("of lambda").modes[0];
-        assert!(spread.frequency.is_none() && spread.lambda.sigma > 0.0);
+        assert!(spread.frequency().is_none() && spread.lambda.sigma > 0.0);
         assert!(spread.distance_to_critical < 0.0);
         let run = beyond.monte_carlo().expect("counts");
         assert_eq!((run.counts.divergent, run.counts.total()), (3000, 3000));

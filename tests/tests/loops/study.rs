@@ -134,7 +134,7 @@ fn check_modes(study: &Study<impl Mechanism>, case: &Case, point: &Point, at: &E
         let r = place_of(&modes, s, &what);
         assert_near(modes.modes[r].s, s, 0.0, &what);
         for (way, found) in [("adjoint", &adjoint), ("explicit", &explicit)] {
-            let found = joined(found.modes[r].s.as_ref().expect("derivatives"));
+            let found = joined(&found.modes[r].s().expect("derivatives"));
             for (j, variable) in case.variables.iter().enumerate() {
                 let what = format!("{what} by {variable}, {way}");
                 let expected = complex(&truth.get("s_by").get(variable));
@@ -152,10 +152,10 @@ fn check_modes(study: &Study<impl Mechanism>, case: &Case, point: &Point, at: &E
 
         let own = &spread.modes[r];
         let sigma = truth.get("sigma_frequency").number();
-        let frequency = own.frequency.as_ref().map_or(0.0, |own| own.sigma);
+        let frequency = own.frequency().map_or(0.0, |own| own.sigma);
         assert_close(frequency, sigma, 1e-4 * s.norm(), &format!("{what}, sigma"));
         let sigma = truth.get("sigma_growth").number();
-        let growth = own.growth.as_ref().map_or(0.0, |own| own.sigma);
+        let growth = own.growth().map_or(0.0, |own| own.sigma);
         assert_close(growth, sigma, 1e-4 * s.norm(), &format!("{what}, growth"));
     }
 }

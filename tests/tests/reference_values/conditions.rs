@@ -39,8 +39,8 @@ pub(crate) fn study<M: Kernels>(machine: M, condition: &Truth, names: &[&str]) -
 fn omega_by(all: &Sensitivities, mode: usize, by: By) -> f64 {
     let own = &all.modes[mode];
     match by {
-        By::Input(k) => own.omega_by_input.as_ref().expect("it oscillates")[k],
-        By::Design(k) => own.omega_by_design.as_ref().expect("it oscillates")[k],
+        By::Input(k) => own.frequency().expect("it oscillates").by_input[k],
+        By::Design(k) => own.frequency().expect("it oscillates").by_design[k],
     }
 }
 
@@ -147,7 +147,7 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
                     variance += (total * sigma).powi(2);
                 }
             }
-            let own = spread.modes[r].frequency.as_ref();
+            let own = spread.modes[r].frequency();
             let own = own.expect("it oscillates");
             let sigma = own.sigma;
             let sigma1 = variance.mul_add(1.0, sigma * sigma).sqrt();

@@ -152,7 +152,7 @@ fn general_modes_of_the_sliders() {
                 let expected = complex(&truth.get("ds_db").get(name));
                 for all in [&adjoint, &explicit] {
                     let own = &all.modes[r];
-                    let ds = own.s.as_ref().expect("a derivative");
+                    let ds = own.s().expect("a derivative");
                     let natural = own.of(Quantity::NaturalFrequency).expect("a derivative");
                     let (ds, natural) = match by(&PLATE, name) {
                         By::Input(k) => (ds.by_input[k], natural.by_input[k]),

@@ -89,17 +89,12 @@ impl Comparison for Gradients {
             };
             let (own, product) = (&all.modes[r], &found.modes[r]);
             assert_within(TIGHT, &[product.lambda], &[mode.lambda.value], 0.0, &what);
-            let by = [&own.lambda_by_design[..], &own.lambda_by_input].concat();
+            let by = [&own.lambda.by_design[..], &own.lambda.by_input].concat();
             assert_gradient(&by, &mode.lambda, &variables, &what);
-            assert_eq!(
-                own.omega_by_design.is_some(),
-                mode.omega.is_some(),
-                "{what}"
-            );
+            assert_eq!(own.frequency().is_some(), mode.omega.is_some(), "{what}");
             if let Some(omega) = mode.omega {
-                let by_design = own.omega_by_design.as_ref().expect("checked");
-                let by_input = own.omega_by_input.as_ref().expect("checked");
-                let by = [&by_design[..], by_input].concat();
+                let own = own.frequency().expect("checked");
+                let by = [&own.by_design[..], &own.by_input].concat();
                 assert_gradient(&by, &omega, &variables, &what);
             }
             let shape: Vec<f64> = mode.shape.iter().map(|x| x.value).collect();

@@ -157,15 +157,14 @@ impl Product {
             mode_curvature(machine, at, modes, r).unwrap_or_else(|error| panic!("{what}: {error}"));
         let size = modes.modes[r].s.norm();
         if let Some(lambda) = &expected.lambda {
-            let found = [&own.lambda_by_design[..], &own.lambda_by_input].concat();
+            let found = [&own.lambda.by_design[..], &own.lambda.by_input].concat();
             self.first(&found, lambda, &b, size * size, &format!("{what} lambda"));
             let found = ordered(&curvature.lambda);
             self.second(&found, lambda, &b, size * size, &format!("{what} lambda"));
         }
         if let Some(s) = &expected.s {
             let slopes = own
-                .s
-                .as_ref()
+                .s()
                 .unwrap_or_else(|| panic!("{what} has no derivative"));
             let slopes = [&slopes.by_design[..], &slopes.by_input].concat();
             let second = ordered(curvature.eigenvalue.as_ref().expect("second derivatives"));

@@ -48,7 +48,7 @@ fn overdamped_motions_are_modes_of_their_own() {
     let spread = study.relative_tolerance(SlidersOnPlate::cx, 0.03);
     let spread = spread.first_order().expect("a spread");
     let creeping = &spread.modes[0];
-    assert!(creeping.frequency.is_none() && creeping.growth.as_ref().expect("a rate").sigma > 0.0);
+    assert!(creeping.frequency().is_none() && creeping.growth().expect("a rate").sigma > 0.0);
 }
 
 /// Without an anchor the pair drifts: `s = 0` twice, with one shape.

@@ -70,15 +70,12 @@ fn turning_splits_a_double_frequency() {
         let slopes = at.sensitivities().expect("derivatives");
         for (r, sign) in [(0, -1.0), (1, 1.0)] {
             near(found.modes[r].s, Complex::new(0.0, omega + sign * speed));
-            let by_speed = slopes.modes[r]
-                .omega_by_input
-                .as_ref()
-                .expect("it oscillates")[0];
+            let by_speed = slopes.modes[r].frequency().expect("it oscillates").by_input[0];
             close(by_speed, sign);
             let by_length = slopes.modes[r]
-                .omega_by_design
-                .as_ref()
-                .expect("it oscillates")[0];
+                .frequency()
+                .expect("it oscillates")
+                .by_design[0];
             close(by_length, -0.5 * omega / l);
         }
     }

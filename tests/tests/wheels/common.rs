@@ -130,8 +130,7 @@ pub(crate) fn check_modes<M: Mechanism>(study: &Study<M>, point: &Truth) {
             found.modes[nearest].s
         );
         let own = slopes.modes[nearest]
-            .s
-            .as_ref()
+            .s()
             .expect("an eigenvalue with derivatives");
         let what = format!("{what}, {s}");
         for (found, names, values, field) in [

@@ -54,7 +54,7 @@ fn samples_spread_as_the_derivatives_say() {
     let spread = (linear + curved).sqrt();
 
     let first_order = study.first_order().expect("first order");
-    let first_order = first_order.modes[weave].frequency.as_ref();
+    let first_order = first_order.modes[weave].frequency();
     let sigma = first_order.expect("it oscillates").sigma;
     close(sigma, linear.sqrt(), 0.0, "sigma of first order");
     let second_order = study.second_order().expect("second order");

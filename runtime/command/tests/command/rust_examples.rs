@@ -106,7 +106,7 @@ fn compare<M: SummaryKernels>(study: &Study<M>, point: &[&str]) {
     let spreads = solved.first_order().unwrap();
     let found = ask("tolerance", &[]);
     let expected: Vec<_> = (spreads.modes.iter())
-        .map(|own| own.frequency.as_ref().map(|spread| spread.sigma))
+        .map(|own| own.frequency().map(|spread| spread.sigma))
         .collect();
     same(
         &column(&found, "sigma of frequency"),

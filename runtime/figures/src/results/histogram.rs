@@ -1,6 +1,7 @@
 //! Distributions of a frequency.
 
 use eigentol::second_order::{ModeMargin, Quadratic, SecondOrder};
+use eigentol::tolerance::ModeTolerance;
 use eigentol::{FirstOrder, MonteCarlo, Quantity, Tolerances};
 
 use super::along::with_notes;
@@ -107,7 +108,7 @@ impl<'a> Histogram<'a> {
         let label = format!("Monte Carlo, {} samples", statistics.count);
         panel.bars(label, Colour::Grey, bars.collect::<Vec<_>>());
         let first = self.first_order.and_then(|own| own.modes.get(mode));
-        if let Some(spread) = first.and_then(|own| own.frequency.as_ref()) {
+        if let Some(spread) = first.and_then(ModeTolerance::frequency) {
             let points = normal(scale * spread.mean, scale * spread.sigma);
             let curve = Curve::new(
                 "normal, mean and sigma of first order",

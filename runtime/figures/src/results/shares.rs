@@ -1,6 +1,7 @@
 //! Where the variance of a mode comes from.
 
 use eigentol::FirstOrder;
+use eigentol::tolerance::ModeTolerance;
 
 use super::along::with_notes;
 use crate::Error;
@@ -123,10 +124,7 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
 
 fn spread(result: &FirstOrder, mode: usize, style: &Style) -> String {
     let (scale, symbol) = style.frequency(None);
-    let own = result
-        .modes
-        .get(mode)
-        .and_then(|own| own.frequency.as_ref());
+    let own = result.modes.get(mode).and_then(ModeTolerance::frequency);
     own.map_or_else(String::new, |own| {
         let (mean, sigma) = (number(scale * own.mean), number(scale * own.sigma));
         format!("frequency {mean} {symbol}, sigma {sigma} {symbol} at first order.")

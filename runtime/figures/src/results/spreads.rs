@@ -150,7 +150,7 @@ impl<'a> Spreads<'a> {
         let value = |inputs: &[f64]| Some(in_unit(*inputs.get(self.input.index())?, &unit));
         let nominal = |inputs: &[f64]| self.nominal(series, inputs);
         let points = series.first_order.iter().map(|own| -> Option<Point> {
-            let spread = own.modes.get(self.mode)?.frequency.as_ref()?;
+            let spread = own.modes.get(self.mode)?.frequency()?;
             Some([value(&own.inputs)?, scale * spread.sigma])
         });
         let curve = Curve::new(

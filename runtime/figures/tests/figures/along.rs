@@ -593,7 +593,7 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
             assert_eq!(bar.at[1], statistics.sigma.unwrap());
             let nominal = first.iter().find(|own| own.inputs[0] == speed).unwrap();
             let curve = points(sigmas, &format!("first order, {} %", [3, 6, 12][k]));
-            let expected = [speed, nominal.modes[0].frequency.as_ref().unwrap().sigma];
+            let expected = [speed, nominal.modes[0].frequency().unwrap().sigma];
             assert!(curve.contains(&&expected), "{expected:?}");
             let nominal = nominal.modes[0].behaviour.frequency().unwrap();
             let bar = means.error_bars[k]

@@ -49,7 +49,7 @@ fn shares_are_those_of_first_order_with_the_greatest_on_top() {
             "{label:?} {bar:?}"
         );
     }
-    let spread = found.modes[0].frequency.as_ref().unwrap();
+    let spread = found.modes[0].frequency().unwrap();
     let line = figure
         .caption
         .iter()
@@ -90,7 +90,7 @@ fn a_histogram_has_area_one_and_so_have_its_densities() {
     }
     // In Hz: the peak of first order, the mean of the second-order model, and the bars about the mean of the samples.
     let scale = 1.0 / TAU;
-    let own = first.modes[0].frequency.as_ref().unwrap();
+    let own = first.modes[0].frequency().unwrap();
     let (mean, sigma) = (scale * own.mean, scale * own.sigma);
     let density = |z: f64| (-0.5 * z * z).exp() / (sigma * TAU.sqrt());
     for at in &panel.curves[0].pieces[0] {

@@ -43,8 +43,8 @@ impl Sensitivities {
         of: impl Fn(&Slopes<Complex>) -> Vec<Complex>,
     ) -> PyResult<Array2<'py, Complex>> {
         let none = Complex::new(f64::NAN, f64::NAN);
-        let row = |mode: &ModeSensitivity| match &mode.s {
-            Some(slopes) => of(slopes),
+        let row = |mode: &ModeSensitivity| match mode.s() {
+            Some(slopes) => of(&slopes),
             None => vec![none; columns],
         };
         crate::arrays::rows(py, columns, self.0.modes.iter().map(row))
@@ -74,7 +74,7 @@ impl Sensitivities {
     #[getter]
     fn lambda_by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
         self.rows(py, self.counts().1, |own| {
-            Some(own.lambda_by_design.to_vec())
+            Some(own.lambda.by_design.to_vec())
         })
     }
 
@@ -82,7 +82,7 @@ impl Sensitivities {
     #[getter]
     fn lambda_by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
         self.rows(py, self.counts().0, |own| {
-            Some(own.lambda_by_input.to_vec())
+            Some(own.lambda.by_input.to_vec())
         })
     }
 
@@ -139,7 +139,7 @@ impl ModeCurvature {
     #[pyo3(signature = (quantity="frequency"))]
     fn gradient<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array1<'py>> {
         if quantity == "lambda" {
-            return Ok(vector(py, self.0.first.lambda_by_design.clone()));
+            return Ok(vector(py, self.0.first.lambda.by_design.clone()));
         }
         let wanted = self::quantity(py, quantity)?;
         let slopes = self.0.first.of(wanted);

@@ -106,8 +106,7 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
         return String::new();
     };
     let Some(spread) = own
-        .frequency
-        .as_ref()
+        .frequency()
         .filter(|own| !is_rounding(own.sigma, own.mean))
     else {
         return String::new();

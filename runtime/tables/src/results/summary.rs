@@ -19,8 +19,7 @@ impl Tables for Summary {
             "rad/s",
             modes().map(|(_, (own, _))| own.behaviour.frequency()),
         );
-        let first =
-            modes().map(|(r, (own, _))| Some(own.frequency.as_ref().filter(|_| alone(r))?.sigma));
+        let first = modes().map(|(r, (own, _))| Some(own.frequency().filter(|_| alone(r))?.sigma));
         table.numbers("sigma, first order", "rad/s", first);
         let second = modes().map(|(r, _)| {
             let mode = self.second.modes.get(r).filter(|_| alone(r))?;
@@ -36,8 +35,7 @@ impl Tables for Summary {
         let error = checks().map(|own| Some(own?.sigma.standard_error));
         table.numbers("standard error of sampled sigma", "rad/s", error);
         table.whole("samples", checks().map(|own| Some(own?.count)));
-        let band =
-            modes().map(|(r, (own, _))| Some(own.frequency.as_ref().filter(|_| alone(r))?.band));
+        let band = modes().map(|(r, (own, _))| Some(own.frequency().filter(|_| alone(r))?.band));
         table.numbers("band", "rad/s", band);
         table.flags("trusted", modes().map(|(_, (_, trust))| trust.trusted()));
         let advice = modes().map(|(_, (_, trust))| {

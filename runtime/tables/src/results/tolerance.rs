@@ -7,13 +7,13 @@ use super::samples::{origin, samples_table};
 use crate::Table;
 
 /// Columns of one spread: mean, sigma, band.
-fn spreads<'a>(
+fn spreads(
     table: &mut Table,
     quantity: Quantity,
-    all: impl Iterator<Item = Option<&'a Spread>> + Clone,
+    all: impl Iterator<Item = Option<Spread>> + Clone,
 ) {
     let unit = quantity.unit().symbol;
-    let of = |pick: fn(&Spread) -> f64| all.clone().map(move |own| own.map(pick));
+    let of = |pick: fn(&Spread) -> f64| all.clone().map(move |own| own.as_ref().map(pick));
     table.numbers(format!("{quantity}"), &unit, of(|own| own.mean));
     let sigma = of(|own| own.sigma);
     table.numbers(format!("sigma of {quantity}"), &unit, sigma);
@@ -49,15 +49,9 @@ impl Tables for FirstOrder {
             Quantity::DampingRatio,
             Quantity::Growth,
         ] {
-            let spread = modes.clone().map(|mode| {
-                let own = match quantity {
-                    Quantity::Frequency => &mode.frequency,
-                    Quantity::NaturalFrequency => &mode.natural_frequency,
-                    Quantity::DampingRatio => &mode.damping_ratio,
-                    _ => &mode.growth,
-                };
-                own.as_ref().filter(|_| !mode.clustered)
-            });
+            let spread = modes
+                .clone()
+                .map(|mode| mode.of(quantity).filter(|_| !mode.clustered));
             spreads(&mut table, quantity, spread);
         }
         table.texts(
