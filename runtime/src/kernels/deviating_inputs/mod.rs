@@ -49,7 +49,7 @@ use crate::{DesignVariable, Error};
 /// let tolerances = Tolerances::new([0.0, 0.0, 0.3], 3.0, None)?;
 /// let slopes = sensitivity::sensitivities(&wandering, &state, &found)?;
 /// let spread = tolerance::first_order(&found, &slopes, &tolerances)?;
-/// let sigma = spread.modes[0].frequency.as_ref().map(|frequency| frequency.sigma);
+/// let sigma = spread.modes[0].frequency().map(|frequency| frequency.sigma);
 ///
 /// // The frequency is sqrt(u^2 - (3 g / 2 l)^2 / u^2).
 /// let (speed, natural) = (5.0_f64, 1.5 * 9.81);
