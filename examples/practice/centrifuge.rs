@@ -1,6 +1,6 @@
-//! One tube is overfilled: how far does the head run out at working speed, and how near is the critical speed?
+//! One tube is overfilled: how far does the head run out at working speed, and how close is the critical speed?
 //!
-//! An unbalance `m r` bends the spindle by `m r Omega^2 / (k - M Omega^2)` (H. H. Jeffcott, 1919).
+//! An unbalance `m r` deflects the spindle by `m r Omega^2 / (k - M Omega^2)` (H. H. Jeffcott, 1919).
 
 use std::error::Error;
 use std::io::Write;
@@ -10,12 +10,12 @@ use eigentol::{Study, mechanism};
 use super::RPM;
 
 mechanism! {
-    /// The head of a laboratory centrifuge on its spindle, seen from the head; typical data.
+    /// The head of a laboratory centrifuge on its spindle, in the rotating frame of the head; typical data.
     pub mechanism Centrifuge {
         /// Speed of the head.
         input speed: rpm;
 
-        /// What one tube holds more than its opposite.
+        /// Excess mass in one tube relative to the opposite one.
         design overfill = 2 g +/- 1 g;
         design radius = 150 mm +/- 0.5 mm;
         design head = 6 kg +/- 50 g;
@@ -38,18 +38,18 @@ mechanism! {
 
 /// Working speed, rpm.
 pub const WORKING: f64 = 6000.0;
-/// What the bearings bear, m.
+/// Run-out that the bearings tolerate, m.
 const ALLOWED: f64 = 0.3e-3;
 
-/// The centrifuge at work.
+/// The centrifuge at its working speed.
 pub fn study() -> Study<Centrifuge> {
     Study::new(Centrifuge).input(Centrifuge::speed, WORKING * RPM)
 }
 
-/// The margin of speed, and the run-out.
+/// Writes the speed margin and the run-out.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let study = study();
-    // Seen from the head the slower mode beats with the difference between the critical speed and its own.
+    // In the frame of the head, the frequency of the slower mode is the critical speed minus the speed of the head.
     let first = study.first_order()?;
     let beat = first.modes[0].frequency().ok_or("the head whirls")?;
     let (margin, sigma) = (beat.mean / RPM, beat.sigma / RPM);

@@ -1,6 +1,6 @@
-//! At which speed does this governor begin to lift its sleeve, where does it hold the engine, and how far do both scatter?
+//! At which speed does this governor begin to lift its sleeve, where does it hold the engine, and how much do both scatter?
 //!
-//! The balls of a Porter governor swing at the height `h = (1 + M / m) g / Omega^2` below the hinge, whatever the arms
+//! The balls of a Porter governor swing at the height `h = (1 + M / m) g / Omega^2` below the hinge, whatever the length of the arms
 //! (T. Bevan, The Theory of Machines, 1939).
 
 use std::error::Error;
@@ -37,10 +37,10 @@ mechanism! {
     }
 }
 
-/// The speed that the engine is to keep, rpm.
+/// Speed at which the governor is to hold the engine, rpm.
 pub const HELD: f64 = 240.0;
 
-/// The governor with its balls out.
+/// The governor with its balls swung out.
 pub fn study() -> Study<FlyBallGovernor> {
     let angle = 50f64.to_radians();
     Study::new(FlyBallGovernor)
@@ -50,7 +50,7 @@ pub fn study() -> Study<FlyBallGovernor> {
         .guess(FlyBallGovernor::slide, -0.4 * angle.cos())
 }
 
-/// The critical speed at which hanging becomes unstable, and the place of the sleeve at the speed that is held.
+/// Writes the critical speed at which the hanging position becomes unstable, and the sleeve position at the governed speed.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (speed, lift) = (FlyBallGovernor::speed, FlyBallGovernor::lift.index());
     let begins = Study::new(FlyBallGovernor).critical_tolerance(speed, 100.0 * RPM, 300.0 * RPM)?;

@@ -1,6 +1,6 @@
-//! Which tolerances may be wide? The torsional vibration of a geared drive must stay clear of the ripple of its motor.
+//! Which tolerances may be wide? The torsional frequency of a geared drive must stay clear of its motor's torque ripple.
 //!
-//! The cheapest tolerances that keep 999 of 1000 drives clear, where half of a tolerance costs twice as much.
+//! Finds the cheapest tolerances that keep 999 of 1000 drives clear, if halving a tolerance doubles its cost.
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -12,7 +12,7 @@ use eigentol::response::Response;
 use eigentol::{DesignVariable, Quantity, Study, mechanism};
 
 mechanism! {
-    /// A servo that keeps its speed, a shaft, a pair of gears, a second shaft and a drum; typical data.
+    /// A servo at constant speed, a shaft, a pair of gears, a second shaft and a drum; typical data.
     pub mechanism GearTrain {
         input speed: rpm;
         design motor_shaft = 20 mm +/- 0.1 mm;
@@ -36,10 +36,10 @@ mechanism! {
     }
 }
 
-/// Highest ripple of the motor, Hz.
+/// Highest ripple frequency of the motor, Hz.
 pub const RIPPLE: f64 = 19.5;
 
-/// The drive as it is drawn.
+/// The drive as drawn.
 pub fn study() -> Study<GearTrain> {
     Study::new(GearTrain)
 }
@@ -63,7 +63,7 @@ pub fn cheapest() -> Result<Allocation, eigentol::Error> {
     study().solve()?.allocation(&[clear], &choices)
 }
 
-/// What the drive could have instead of its tolerances.
+/// Writes the tolerances that the drive could have instead of its own.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let found = cheapest()?;
     let half = &found.half_widths;

@@ -1,6 +1,6 @@
 //! A grinding wheel sits askew on its spindle: does the face run true at speed, and is a stiffer bearing worth its price?
 //!
-//! A disk that is clamped at an angle `s` straightens itself when it turns: it is left at `s / (1 + (C - A) Omega^2 / k)`
+//! A disk clamped at an angle `s` straightens itself when it turns: the remaining angle is `s / (1 + (C - A) Omega^2 / k)`
 //! (J. P. Den Hartog, Mechanical Vibrations, 1956, on gyroscopic moments of disks).
 
 use std::error::Error;
@@ -20,7 +20,7 @@ mechanism! {
         design skew = 0.02 deg +/- 0.01 deg;
         design radius = 200 mm +/- 0.5 mm;
         design width = 40 mm +/- 0.2 mm;
-        /// Moment for an angle of the flange.
+        /// Moment per unit tilt of the flange.
         design bending = 60 kN*m/rad +/- 10%;
 
         body shaft: massless;
@@ -34,7 +34,7 @@ mechanism! {
         force bend_x: spring(on: alpha, stiffness: bending);
         force bend_y: spring(on: beta, stiffness: bending);
 
-        /// Of the rim, from its highest to its lowest place.
+        /// Axial run-out of the rim, from its highest to its lowest point.
         output face = 2 * radius * (skew + alpha);
     }
 }
@@ -42,12 +42,12 @@ mechanism! {
 /// Working speed, rpm.
 pub const WORKING: f64 = 3000.0;
 
-/// The spindle at a speed, rpm.
+/// The spindle at the given speed, rpm.
 pub fn study(speed: f64) -> Study<GrindingSpindle> {
     Study::new(GrindingSpindle).input(GrindingSpindle::speed, speed * RPM)
 }
 
-/// The run-out of the face at rest and at speed, and what it comes from.
+/// Writes the face run-out at rest and at speed, and its causes.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let face = GrindingSpindle::face.index();
     let at = |speed: f64| -> Result<_, Box<dyn Error>> {

@@ -1,7 +1,7 @@
-//! Ground resonance: how likely is it that the lagging blades beat at the rate at which the helicopter rocks on its wheels?
+//! Ground resonance: how likely is it that the beat of the blades' lag motion meets the rocking frequency of the helicopter on its wheels?
 //!
-//! In the frame of the body the regressing lag motion has the frequency `Omega - omega_lag`. Where it meets that of the body on its
-//! landing gear, both grow (R. P. Coleman and A. M. Feingold, NACA report 1351, 1958).
+//! In the frame of the body the regressing lag motion has the frequency `Omega - omega_lag`. Where this meets the frequency of the body on
+//! its landing gear, both motions grow (R. P. Coleman and A. M. Feingold, NACA report 1351, 1958).
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -11,7 +11,7 @@ use eigentol::second_order::Band;
 use eigentol::{Study, mechanism};
 
 mechanism! {
-    /// One blade of a light helicopter with flap and lag hinges in one place and an elastomeric lag bearing; typical data.
+    /// One blade of a light helicopter with coincident flap and lag hinges and an elastomeric lag bearing; typical data.
     pub mechanism HelicopterBlade {
         /// Speed of the rotor.
         input rotor: rad/s;
@@ -19,7 +19,7 @@ mechanism! {
         design mass = 40 kg +/- 1%;
         design length = 5.7 m +/- 5 mm;
         design hinge = 300 mm +/- 1 mm;
-        /// Elastomers scatter, and soften when warm.
+        /// The stiffness of elastomers scatters, and they soften when warm.
         design elastomer = 40 kN*m/rad +/- 15%;
         /// Moment of the lift about the flap hinge.
         design lift = 26 kN*m +/- 5%;
@@ -37,9 +37,9 @@ mechanism! {
     }
 }
 
-/// Speed in flight, rad/s.
+/// Rotor speed in flight, rad/s.
 pub const FLIGHT: f64 = 40.0;
-/// Frequencies at which the body rocks on its gear, Hz.
+/// Range of frequencies at which the body rocks on its landing gear, Hz.
 const ROCKING: [f64; 2] = [3.6, 3.95];
 
 /// The blade in flight.
@@ -47,7 +47,7 @@ pub fn study() -> Study<HelicopterBlade> {
     Study::new(HelicopterBlade).input(HelicopterBlade::rotor, FLIGHT)
 }
 
-/// Frequencies per revolution, and the probability of the band.
+/// Writes the frequencies per revolution, and the probability of the rocking band.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let study = study();
     let solved = study.solve()?;

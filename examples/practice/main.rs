@@ -1,7 +1,7 @@
-//! Questions that engineers ask, each with its mechanism, its method and its answer in a file of its own.
+//! Questions that engineers ask, each in its own file with its mechanism, method and answer.
 //!
-//! `cargo run --release --example practice` answers all, `-- gear_train` one; with `--reports DIRECTORY` each writes its report there as
-//! well. They are one program because each would link the solvers anew.
+//! `cargo run --release --example practice` answers all of them, `-- gear_train` only one; with `--reports DIRECTORY` each also writes
+//! its report there. They form a single program because separate ones would each have to link the solvers.
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -28,9 +28,9 @@ mod tests;
 /// Writes the answer to a question.
 pub type Answer = fn(&mut dyn Write) -> Result<(), Box<dyn Error>>;
 
-/// A question by the name of its file.
+/// A question, identified by the name of its file.
 pub struct Question {
-    /// Name of the file, without the ending.
+    /// Name of the file, without the extension.
     pub name: &'static str,
     /// Writes the answer.
     pub answer: Answer,
@@ -38,7 +38,7 @@ pub struct Question {
     pub report: fn(&Path) -> Result<(), eigentol_report::Error>,
 }
 
-/// All of them.
+/// All questions.
 pub const QUESTIONS: [Question; 9] = [
     Question {
         name: "helicopter_blade",

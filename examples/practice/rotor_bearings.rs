@@ -1,4 +1,4 @@
-//! At which speed do its oil films make this rotor unstable, and how sure is that?
+//! At which speed do the oil films make this rotor unstable, and how certain is that speed?
 
 use std::error::Error;
 use std::io::Write;
@@ -50,12 +50,12 @@ mechanism! {
     }
 }
 
-/// The rotor at work.
+/// The rotor at its working speed.
 pub fn study() -> Study<RotorBearings> {
     Study::new(RotorBearings).input(RotorBearings::speed, 6000.0 * RPM)
 }
 
-/// The limit speed, and what makes it uncertain.
+/// Writes the stability limit, and what makes it uncertain.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (study, low, high) = (study(), 2000.0 * RPM, 12000.0 * RPM);
     let limits = study.flutter_onset_tolerances(RotorBearings::speed, low, high)?;

@@ -1,6 +1,6 @@
-//! How hard does this press strike with a given torque, and is it the material or the lengths that make blows differ?
+//! How hard does this press strike at a given torque, and do the blows vary because of the material or the lengths?
 //!
-//! Near the dead centre the ram gains force without limit, `F = M / (dx / d phi)`, so that small errors of length count.
+//! Near the dead centre the force of the ram grows without limit, `F = M / (dx / d phi)`, so small errors in length matter.
 
 use std::error::Error;
 use std::io::Write;
@@ -8,14 +8,14 @@ use std::io::Write;
 use eigentol::{Study, mechanism};
 
 mechanism! {
-    /// An eccentric press of some 60 kN, standing against a work piece that springs back; typical data.
+    /// An eccentric press of about 60 kN, at rest against an elastic workpiece; typical data.
     pub mechanism SliderCrankPress {
         /// Torque on the crank.
         input torque: N*m;
 
         design crank = 60 mm +/- 0.05 mm;
         design rod = 300 mm +/- 0.1 mm;
-        /// Where the ram meets the work piece, from the axis of the crank.
+        /// Distance from the crank axis at which the ram meets the workpiece.
         design contact = 248 mm +/- 0.1 mm;
         design stiffness = 20 kN/mm +/- 10%;
 
@@ -37,10 +37,10 @@ mechanism! {
     }
 }
 
-/// Torque of the clutch, N m.
+/// Clutch torque, N m.
 pub const TORQUE: f64 = 2000.0;
 
-/// The press at rest against the work piece.
+/// The press at rest against the workpiece.
 pub fn study() -> Study<SliderCrankPress> {
     Study::new(SliderCrankPress)
         .input(SliderCrankPress::torque, TORQUE)
@@ -48,7 +48,7 @@ pub fn study() -> Study<SliderCrankPress> {
         .guess(SliderCrankPress::guide, 0.35)
 }
 
-/// The blow, its scatter, and its causes.
+/// Writes the blow, its scatter, and the causes of the scatter.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let study = study();
     let spreads = study.output_tolerances()?;

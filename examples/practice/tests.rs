@@ -1,4 +1,4 @@
-//! The examples from practice against closed forms.
+//! Checks the examples from practice against closed forms.
 use std::f64::consts::PI;
 
 use eigentol::Study;
@@ -36,7 +36,7 @@ fn every_question_has_an_answer() {
 }
 
 /// `nu^2 = 1 + 3 e / (2 (1 - e))` per revolution, `e` the hinge offset as a fraction of the radius (W. Johnson, Helicopter Theory,
-/// 1980); in lag without the 1 of the plane, and with the elastomer. Without lift the two are apart.
+/// 1980). In lag the 1 is absent and the elastomer adds its stiffness. Without lift the two motions are uncoupled.
 #[test]
 fn a_blade_without_lift_flaps_and_lags_as_in_the_textbook() {
     use helicopter_blade::{FLIGHT, HelicopterBlade, study};
@@ -49,7 +49,7 @@ fn a_blade_without_lift_flaps_and_lags_as_in_the_textbook() {
     close(found(1), (1.0 + hinge).sqrt(), 1e-9);
 }
 
-/// The height of a Porter governor, and the speed at which it is the length of the arm.
+/// The height of a Porter governor, and the speed at which the height equals the length of the arm.
 #[test]
 fn a_governor_stands_at_the_height_of_porter() {
     use fly_ball_governor::{FlyBallGovernor, HELD, study};
@@ -63,13 +63,13 @@ fn a_governor_stands_at_the_height_of_porter() {
         .unwrap();
     let expected = (9.0 * G / 0.2_f64).sqrt();
     close(begins.value, expected, 1e-9);
-    // d ln Omega = (d ln (1 + M / m) - d ln l) / 2, where M / m is 8 of the 9 of 1 + M / m.
+    // d ln Omega = (d ln (1 + M / m) - d ln l) / 2, where M / m accounts for 8 of the 9 in 1 + M / m.
     let masses = 8.0 / 9.0 * 0.01 / 3.0 * 2f64.sqrt();
     let sigma = 0.5 * expected * masses.hypot(0.001 / 3.0);
     close(begins.spread.unwrap().sigma, sigma, 1e-7);
 }
 
-/// Virtual work: the blow moves by `dx/dphi` of the slider-crank while the crank turns.
+/// Virtual work: per unit turn of the crank the blow moves by `dx/dphi` of the slider-crank.
 #[test]
 fn a_press_strikes_as_virtual_work_says() {
     use slider_crank_press::{TORQUE, study};
@@ -86,7 +86,7 @@ fn a_press_strikes_as_virtual_work_says() {
     close(r * angle.cos() + along, 0.248 + blow / 20e6, 1e-10);
 }
 
-/// Jeffcott's rotor in its own frame.
+/// The Jeffcott rotor in its rotating frame.
 #[test]
 fn a_centrifuge_runs_out_as_jeffcott_says() {
     use centrifuge::{WORKING, study};
@@ -113,7 +113,7 @@ fn a_skew_wheel_straightens_itself() {
     }
 }
 
-/// At rest on its table the potential energy of the arm, centrifugal included, does not change with either angle.
+/// In equilibrium on its table the potential energy of the arm, centrifugal part included, is stationary in both angles.
 #[test]
 fn an_arm_is_where_its_energy_is_least() {
     use turntable_arm::{WORKING, study};
@@ -153,10 +153,10 @@ fn an_arm_is_where_its_energy_is_least() {
     close(height, points(q)[2][1], 1e-12);
 }
 
-/// The lower frequency of two inertias behind two shafts.
+/// The lower natural frequency of two inertias driven through two shafts.
 fn drive(motor_shaft: f64, load_shaft: f64, drum: f64) -> f64 {
     let stiffness = |diameter: f64, length: f64| 80e9 * PI * diameter.powi(4) / 32.0 / length;
-    // As if all turned with the wheel: four times the angle at the motor.
+    // Everything referred to the large wheel: the angle at the motor is four times as large.
     let (k1, k2) = (
         16.0 * stiffness(motor_shaft, 0.4),
         stiffness(load_shaft, 0.6),
@@ -176,7 +176,7 @@ fn a_drive_gets_the_tolerances_that_its_closed_form_allows() {
     let modes = Study::new(GearTrain).modes().unwrap();
     close(modes.frequencies()[0].unwrap(), of(nominal), 1e-9);
     let found = cheapest().unwrap();
-    // The share of drives below the limit, summed over a grid of normal deviations.
+    // The fraction of drives below the limit, summed over a grid of normal deviates.
     let deviations: Vec<f64> = (-40..=40).map(|k| 0.15 * f64::from(k)).collect();
     let at = |k: usize, u: f64| nominal[k] + u * found.half_widths[k] / 3.0;
     let (mut below, mut all) = (0.0, 0.0);

@@ -1,6 +1,6 @@
-//! Does the flapping of a turbine blade meet three times the speed of the rotor, and does pitching the blade help?
+//! Does the flap frequency of a turbine blade meet three times the rotor speed, and does pitching the blade help?
 //!
-//! Centrifugal forces stiffen the blade by the part of its flapping that is out of the plane of the rotor:
+//! Centrifugal forces stiffen the blade in proportion to the out-of-plane component of its flapping:
 //! `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` (R. V. Southwell and B. S. Gough, 1921; hinge offset `e`).
 
 use std::error::Error;
@@ -12,7 +12,7 @@ use eigentol::{Study, mechanism};
 use super::RPM;
 
 mechanism! {
-    /// A rigid blade of 30 m on a spring at its root that has the first flap frequency of the real one; typical data.
+    /// A rigid 30 m blade on a root spring that gives the first flap frequency of the real blade; typical data.
     pub mechanism TurbineBlade {
         /// Speed of the rotor.
         input rotor: rpm;
@@ -44,7 +44,7 @@ pub fn study() -> Study<TurbineBlade> {
     Study::new(TurbineBlade).input(TurbineBlade::rotor, RATED * RPM)
 }
 
-/// Where the flapping meets three times the speed, with a pitch angle in degrees.
+/// The rotor speed at which the flap frequency meets three times that speed, for a pitch angle in degrees.
 pub fn meeting(pitch: f64) -> Result<EventTolerance, Box<dyn Error>> {
     let found = study()
         .input(TurbineBlade::pitch, pitch.to_radians())
@@ -52,7 +52,7 @@ pub fn meeting(pitch: f64) -> Result<EventTolerance, Box<dyn Error>> {
     Ok(found.into_iter().next().ok_or("no crossing")?)
 }
 
-/// The speed of resonance at two pitch angles beside the rated one.
+/// Writes the resonance speed at two pitch angles and compares it with the rated speed.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     write!(out, "TURBINE BLADE: ")?;
     for pitch in [0.0, 25.0] {

@@ -1,4 +1,4 @@
-//! A robot arm welds on a turning table: how far does its tip move when the table turns, and what makes arms of a series differ?
+//! A robot arm on a turntable welds: how far does its tip move when the table turns, and why do arms of one series differ?
 
 use std::error::Error;
 use std::io::Write;
@@ -8,7 +8,7 @@ use eigentol::{Study, mechanism};
 use super::RPM;
 
 mechanism! {
-    /// Shoulder and elbow of an arm beside the axis of a table; servos and gearboxes give way like springs; typical data.
+    /// Shoulder and elbow of an arm mounted off the axis of a turntable; servos and gearboxes act as springs; typical data.
     pub mechanism TurntableArm {
         /// Speed of the table.
         input table: rpm;
@@ -36,15 +36,15 @@ mechanism! {
     }
 }
 
-/// Working speed, rpm.
+/// Working speed of the table, rpm.
 pub const WORKING: f64 = 30.0;
 
-/// The arm on a table with a speed, rpm.
+/// The arm on a table turning at the given speed, rpm.
 pub fn study(speed: f64) -> Study<TurntableArm> {
     Study::new(TurntableArm).input(TurntableArm::table, speed * RPM)
 }
 
-/// The height of the tip, what the table adds, and what tolerances do.
+/// Writes the height of the tip, the effect of the rotation, and the effect of tolerances.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let still = study(0.0).output_tolerances()?.values[0];
     let working = study(WORKING);
