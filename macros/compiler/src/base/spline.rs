@@ -103,9 +103,8 @@ impl Spline {
     }
 }
 
-/// Solves the three-term equations of the spline (de Boor, A Practical Guide to Splines, chapter IV) for the second derivatives
-/// at
-/// the points, then builds the pieces.
+/// Solves the three-term equations of the spline (de Boor, A Practical Guide to Splines, chapter IV) for the second
+/// derivatives at the points, then builds the pieces.
 fn pieces(x: &[f64], y: &[f64]) -> Vec<Piece> {
     let last = x.len() - 1;
     let h: Vec<f64> = x.windows(2).map(|pair| pair[1] - pair[0]).collect();

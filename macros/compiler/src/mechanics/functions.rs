@@ -22,9 +22,8 @@ pub struct Functions {
     pub picture: Picture,
     /// Properties that hold for every design, input and position.
     pub properties: Properties,
-    /// Coordinates that nothing resists, and the last coordinate of a motion that moves no mass; empty unless the declaration
-    /// says
-    /// `kernels only`.
+    /// Coordinates that nothing resists, and the last coordinate of a motion that moves no mass; empty unless the
+    /// declaration says `kernels only`.
     pub undetermined: Vec<CoordinateId>,
 }
 

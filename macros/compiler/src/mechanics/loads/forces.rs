@@ -175,9 +175,8 @@ impl AppliedForces {
         self.apply(g, force_context, line.to, push, line.closing);
     }
 
-    /// Force and moment from the displacement and rotation of `to` relative to `from`, in the axes of `from`; the opposite acts
-    /// on
-    /// `from` at the place of `to`.
+    /// Force and moment from the displacement and rotation of `to` relative to `from`, in the axes of `from`; the opposite
+    /// acts on `from` at the place of `to`.
     fn bushing(
         &mut self,
         g: &mut Graph,
