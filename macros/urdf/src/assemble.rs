@@ -487,7 +487,7 @@ fn dampers(
 }
 
 /// Drives joints that carry no mass, because no equation determines their motion. Exceptions are joints that follow another, and
-/// joints that one with a mass follows.
+/// joints followed by one that carries mass.
 fn drive_what_moves_no_mass(
     joints: &mut [Moving],
     bodies: &[Body],

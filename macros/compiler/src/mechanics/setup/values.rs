@@ -15,8 +15,8 @@ pub(crate) struct Values<'a> {
     constants: Vec<ExprId>,
 }
 
-/// What a value that depends on the state of the mechanism may ask for. Resolution has checked that a value asks only for
-/// what its place offers, so the default is never reached.
+/// State-dependent quantities that a value may refer to. The resolver has checked that a value refers only to quantities that are
+/// available at its place, so the default is never reached.
 pub(crate) trait State {
     /// A leaf of a value: a coordinate, a rate, a point, a length, a reaction or an energy.
     fn leaf(&self, leaf: &Expr) -> ExprId {

@@ -47,7 +47,7 @@ pub(crate) enum Demand {
     Spanning,
     /// An argument between the ends of a curve.
     OnCurve(Curve),
-    /// No values: a body of which the holes leave something.
+    /// No values: the holes of a body must leave something of it.
     Holes(Rc<[Part]>),
 }
 

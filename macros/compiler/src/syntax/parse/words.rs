@@ -142,8 +142,8 @@ pub(super) fn suggested_law(unknown: &str) -> Option<&'static str> {
     }
 }
 
-/// What to write instead of `# ...`.
+/// Help for `# ...`.
 pub(super) const COMMENT: &str = "a comment begins with `//`";
 
-/// What to write instead of `3,5`.
+/// Help for `3,5`.
 pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
