@@ -1,4 +1,4 @@
-//! Why a build script fails.
+//! Errors of a build script.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,16 +6,16 @@ use std::path::PathBuf;
 use eigentol_compiler::Mistakes;
 use thiserror::Error;
 
-/// Why there is no code.
+/// Reasons why no code was generated.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Cargo has not said where to.
+    /// Cargo has not set the output folder.
     #[error(
         "the environment variable OUT_DIR is not set; call this from a build script, which cargo runs with it"
     )]
     NoDirectory,
-    /// A path without the name of a file.
+    /// A path that does not name a file.
     #[error("`{}` is not the path of a file; give that of a declaration, for example `rotor.mechanism`", .0.display())]
     NoFile(PathBuf),
     /// A file cannot be read.
@@ -23,7 +23,7 @@ pub enum Error {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// A file cannot be written.
@@ -31,18 +31,18 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// What the file declares is no mechanism.
+    /// The file does not declare a valid mechanism.
     #[error("{}", .mistakes.of_file(.path))]
     Mistakes {
         /// The file.
         path: PathBuf,
-        /// Everything that is wrong with it.
+        /// All mistakes in the file.
         mistakes: Mistakes,
     },
-    /// The name of the mechanism, which stands before the names of its functions for C.
+    /// C cannot spell the name of the mechanism, which precedes the names of its functions.
     #[error(
         "{}:{line}:{column}: `{name}` cannot be spelt in C\nhelp: a name for C begins with a letter and has letters and digits of ASCII", .path.display()
     )]
@@ -56,12 +56,12 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// cbindgen wrote no header.
+    /// cbindgen did not write a header.
     #[error("no header for {}: {reason}", .path.display())]
     Header {
         /// The declaration.
         path: PathBuf,
-        /// What cbindgen says.
+        /// The message of cbindgen.
         reason: String,
     },
 }

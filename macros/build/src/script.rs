@@ -1,4 +1,4 @@
-//! What a build script calls.
+//! The functions that a build script calls.
 
 use std::path::{Path, PathBuf};
 use std::process;
@@ -6,15 +6,14 @@ use std::process;
 use crate::error::Error;
 use crate::source::{Source, write};
 
-/// Compiles the declaration in a file to `OUT_DIR/name.rs`, `name` being that of the file without its extension.
+/// Compiles the declaration in a file to `OUT_DIR/name.rs`, where `name` is the file's name without its extension.
 ///
-/// Where that fails, cargo is told everything that is wrong, each mistake with file, line and column, and the build script
-/// ends with exit code 1.
+/// On failure, all mistakes are printed with file, line and column, and the build script ends with exit code 1.
 pub fn compile(path: impl AsRef<Path>) {
     or_end(try_compile(path));
 }
 
-/// [`compile`] that leaves it to the caller what to do about errors; the file that was written.
+/// Like [`compile`], but returns errors to the caller; on success, returns the path of the written file.
 ///
 /// # Errors
 /// All mistakes of the declaration, or the file that cannot be read or written.
@@ -26,15 +25,15 @@ pub fn try_compile(path: impl AsRef<Path>) -> Result<PathBuf, Error> {
     Ok(code)
 }
 
-/// [`compile`] with a function for C for each kernel, declared in `header`.
+/// Like [`compile`], but also generates a C function for each kernel, declared in `header`.
 ///
-/// The header is written where it does not say that already. Its path is relative to the folder of Cargo.toml.
+/// The header is written only if its contents change. Its path is relative to the folder of Cargo.toml.
 #[cfg(feature = "c")]
 pub fn compile_for_c(path: impl AsRef<Path>, header: impl AsRef<Path>) {
     or_end(try_compile_for_c(path, header));
 }
 
-/// [`compile_for_c`] that leaves it to the caller what to do about errors; the Rust file that was written.
+/// Like [`compile_for_c`], but returns errors to the caller; on success, returns the path of the written Rust file.
 ///
 /// # Errors
 /// All mistakes of the declaration, or the file that cannot be read or written.
@@ -49,7 +48,7 @@ pub fn try_compile_for_c(
     let Some(interface) = crate::c::Interface::of(&source.compilation) else {
         return Err(unspeakable(source));
     };
-    // cbindgen reads files only.
+    // cbindgen reads only files.
     let functions = source.output("c.rs");
     write(&functions, &interface.items)?;
     write(

@@ -9,13 +9,13 @@ use eigentol_compiler::{Compilation, compile_text};
 
 use crate::error::Error;
 
-/// A declaration and where its code goes.
+/// A declaration and the destination of its code.
 pub(crate) struct Source {
     /// The file as the user named it.
     pub(crate) path: PathBuf,
     /// The declaration at every stage.
     pub(crate) compilation: Compilation,
-    /// The folder that cargo gives a build script.
+    /// The output folder that cargo provides for a build script.
     directory: PathBuf,
 }
 
@@ -40,14 +40,14 @@ impl Source {
         }
     }
 
-    /// Where a file of this declaration goes.
+    /// The path of an output file for this declaration.
     pub(crate) fn output(&self, extension: &str) -> PathBuf {
         let name = self.path.file_stem().unwrap_or_default();
         self.directory.join(name).with_extension(extension)
     }
 }
 
-/// Writes a file that is not there yet or says something else, and the folders around it: what has not changed need not be built again.
+/// Writes a file and creates its folders, unless it already has this content: unchanged files need no rebuild.
 pub(crate) fn write(path: &Path, text: &str) -> Result<(), Error> {
     if fs::read_to_string(path).is_ok_and(|there| there == text) {
         return Ok(());

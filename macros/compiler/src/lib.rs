@@ -1,16 +1,16 @@
-//! The compiler behind `mechanism!`: a declaration in, specialised Rust out.
+//! The compiler behind `mechanism!`: it turns a declaration into specialised Rust code.
 //!
-//! Seven types, six arrows; each arrow is a folder, and a stage never looks back:
+//! Seven types are connected by six arrows. Each arrow is a folder, and no stage refers back to an earlier one:
 //!
 //! ```text
 //! TokenStream -> Ast -> Mechanism -> Topology -> Functions -> Program -> TokenStream
 //!          parse   resolve     cut loops    derive      lower     emit
 //! ```
 //!
-//! [`expand`] is the macro. For build scripts, snapshot tests and tools there are also `expand_pretty` (with the
-//! feature `pretty`), [`program()`] for evaluation without compiling, and [`compile`] with every stage.
+//! [`expand`] is the macro. Build scripts, snapshot tests and tools can also use `expand_pretty` (with the
+//! feature `pretty`), [`program()`] to evaluate kernels without compiling them, and [`compile`] to inspect every stage.
 //!
-//! Architecture invariant: nothing in here depends on the runtime.
+//! Architecture invariant: nothing in this crate depends on the runtime.
 
 pub mod algebra;
 pub mod base;
@@ -41,8 +41,8 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
     expand_with(declaration, str::parse)
 }
 
-/// [`expand`] with another lexer for the generated text, which is correct and long. Inside of a macro that of rustc
-/// itself is the fastest: `proc_macro2` lexes everything twice there, to refuse what would upset rustc.
+/// [`expand`] with a custom lexer for the generated text, which is well-formed and long. Inside a macro, rustc's own
+/// lexer is the fastest: `proc_macro2` lexes everything twice there, to reject tokens that would upset rustc.
 pub fn expand_with<E: Debug>(
     declaration: TokenStream,
     lexer: impl Fn(&str) -> Result<TokenStream, E>,
@@ -58,7 +58,7 @@ pub fn program(declaration: TokenStream) -> Result<program::Program, Diagnostics
     compile(declaration, Limits::default()).map(|compilation| compilation.program)
 }
 
-/// The declaration of a text, at every stage; what is wrong comes with line and column.
+/// Compiles a declaration given as text and returns every stage; mistakes carry line and column.
 ///
 /// # Errors
 /// Every mistake that could be found.

@@ -1,4 +1,4 @@
-//! What is wrong with a text, and where.
+//! Mistakes in a text, with their positions.
 
 use std::fmt;
 use std::path::Path;
@@ -20,11 +20,11 @@ pub struct Mistake {
     pub column: usize,
     /// Line of its end.
     pub end_line: usize,
-    /// Column behind its last character.
+    /// Column after its last character.
     pub end_column: usize,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
-    /// What to do.
+    /// How to fix it.
     pub help: Option<String>,
 }
 
@@ -83,7 +83,7 @@ impl std::error::Error for Mistakes {}
 /// ```
 ///
 /// # Errors
-/// A sign that no declaration has, or a bracket or a quote without its other half.
+/// If the text contains a sign that has no meaning in a declaration, or an unpaired bracket or quote.
 pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
     text.parse().map_err(|error: LexError| {
         let span = error.span();
@@ -98,7 +98,7 @@ pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
 
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// Signs of drawings and word processors, and what is written for them.
+/// Signs used in drawings and word processors, and what to write instead.
 const SIGNS: [(&str, &str); 8] = [
     ("±", "+/-"),
     ("°", "deg"),
@@ -110,7 +110,7 @@ const SIGNS: [(&str, &str); 8] = [
     ("⁻¹", "^-1"),
 ];
 
-/// What is wrong with a text that has no tokens from this sign on, and what to do.
+/// The problem with a text that cannot be split into tokens from this sign on, and how to fix it.
 fn unreadable(sign: Option<char>) -> (String, String) {
     let pairs = "brackets and quotes come in pairs".to_owned();
     let Some(sign) = sign else {
@@ -139,8 +139,8 @@ impl From<Diagnostics> for Mistakes {
 }
 
 impl Compilation {
-    /// What rustc warns of where the declaration is that of a macro: design variables that nothing refers to. An underscore or
-    /// an attribute says that one is meant.
+    /// The warnings that rustc gives if the declaration is written in a macro: design variables that nothing refers to. A leading
+    /// underscore or an attribute marks such a variable as intended.
     ///
     /// ```
     /// use eigentol_compiler::{compile_text, mechanics::Limits};
@@ -166,7 +166,7 @@ impl Compilation {
     }
 }
 
-/// Lints that unused variables belong to.
+/// Lints that cover unused variables.
 const UNUSED: [&str; 3] = ["unused_variables", "unused", "warnings"];
 
 /// Whether the last attribute about unused variables allows them.

@@ -1,4 +1,4 @@
-//! The recipe: every stage in order.
+//! The compilation pipeline: every stage in order.
 
 use std::fmt::Debug;
 
@@ -26,14 +26,14 @@ pub struct Compilation {
     pub mechanism: Mechanism,
     /// The spanning forest.
     pub topology: Topology,
-    /// The equations and what is derived from them.
+    /// The equations and everything derived from them.
     pub functions: Functions,
     /// Straight-line kernels.
     pub program: Program,
 }
 
-/// Runs every stage up to the program. Mistakes of syntax, of names and values, and of what hangs on what are reported
-/// together; the equations are derived only where there are none.
+/// Runs every stage up to the program. Mistakes in syntax, in names and values, and in the connections between bodies
+/// are reported together; the equations are derived only if there are none.
 pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, Diagnostics> {
     let (ast, mechanism, topology) = accepted(declaration)?;
     let mut functions = derive(&mechanism, &topology, limits)?;
@@ -48,7 +48,7 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
     })
 }
 
-/// The stages that look for mistakes: each goes on with what the one before could make sense of.
+/// The stages that look for mistakes. Each continues with whatever the previous stage could make sense of.
 fn accepted(declaration: TokenStream) -> Result<(Ast, Mechanism, Topology), Diagnostics> {
     let mut mistakes = Diagnostics::new();
     let Some(ast) = parse_what_can_be_read(declaration, &mut mistakes) else {
@@ -72,14 +72,14 @@ fn accepted(declaration: TokenStream) -> Result<(Ast, Mechanism, Topology), Diag
     }
 }
 
-/// Kernels whose residual a solver compares: it has to be the same number in each.
+/// Kernels whose residuals a solver compares with each other, so all of them must return exactly the same number.
 const OF_ONE_RESIDUAL: [KernelName; 3] = [
     KernelName::Residual,
     KernelName::ResidualParts,
     KernelName::ResidualAndStiffness,
 ];
 
-/// The kernels with as few operations as grouping them gives.
+/// The kernels, regrouped to need as few operations as possible.
 fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
     let (alike, others): (Vec<Function>, Vec<Function>) =
         functions.functions.iter().cloned().partition(|function| {
@@ -95,7 +95,7 @@ fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
 }
 
 impl Compilation {
-    /// Every stage as text, by name, in order: for snapshots, and for looking into a surprising result.
+    /// Every stage as text, by name and in order: for snapshots and for tracing a surprising result.
     pub fn dumps(&self) -> [(&'static str, String); 5] {
         [
             ("ast", print(&self.ast)),
@@ -111,7 +111,7 @@ impl Compilation {
         self.emit_with(str::parse)
     }
 
-    /// The generated items, their text taken apart by another lexer.
+    /// The generated items, tokenised by a custom lexer.
     pub fn emit_with<E: Debug>(
         &self,
         lexer: impl Fn(&str) -> Result<TokenStream, E>,

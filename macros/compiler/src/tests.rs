@@ -1,4 +1,4 @@
-//! Derivatives by walks over the bodies against derivatives of the equations, of whole declarations.
+//! Compares derivatives by walks over the bodies with derivatives of the equations, for whole declarations.
 
 use crate::mechanics::compared;
 use crate::model::resolve::resolve;

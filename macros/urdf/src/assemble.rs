@@ -1,4 +1,4 @@
-//! Bodies, joints and points of the declaration, named, with the notes on what became of the rest.
+//! Assembles the named bodies, joints and points of the declaration, with notes on everything that was changed or left out.
 
 use eigentol_compiler::model::inertia::{is_inertia_of_a_body, nearest_of_a_body, principal};
 
@@ -12,7 +12,7 @@ use crate::weld::Tree;
 
 pub(crate) const GROUND: &str = "ground";
 
-/// What is written.
+/// The content of the declaration.
 #[derive(Clone, Debug)]
 pub(crate) struct Assembly {
     pub(crate) robot: String,
@@ -68,7 +68,7 @@ pub(crate) struct Point {
 #[derive(Clone, Debug)]
 pub(crate) struct Coupling {
     pub(crate) name: String,
-    /// Name, and whether it is an angle.
+    /// Name of the coordinate, and whether it is an angle.
     pub(crate) of: (String, bool),
     pub(crate) with: (String, bool),
     pub(crate) ratio: f64,
@@ -87,14 +87,14 @@ const X: Vector = [1.0, 0.0, 0.0];
 const Y: Vector = [0.0, 1.0, 0.0];
 const Z: Vector = [0.0, 0.0, 1.0];
 
-/// Puts a robot together.
+/// Assembles the content of the declaration from a robot.
 pub(crate) fn assemble(
     robot: &Robot,
     tree: &Tree,
     options: &Options,
 ) -> Result<Assembly, ImportError> {
     let mut names = Names::default();
-    // Results are told by coordinate: joints keep their names first.
+    // Results are identified by coordinate, so joints get first choice of their names.
     let joints = tree.moving.iter().map(|&index| {
         let joint = &robot.joints[index];
         (index, names.of_file(&joint.name, "joint"))
@@ -231,7 +231,7 @@ fn base_joint(base: Base, names: &mut Names) -> Option<BaseJoint> {
     Some((name, kind, named(&motions, "base", names)))
 }
 
-/// Ending of the name, axis, whether it is an angle.
+/// Suffix of the name, axis, and whether it is an angle.
 type Motion = (&'static str, Vector, bool);
 
 fn floating() -> Vec<Motion> {
@@ -245,7 +245,7 @@ fn floating() -> Vec<Motion> {
     ]
 }
 
-/// Two displacements across a normal and the turn about it.
+/// Two displacements perpendicular to a normal, and the turn about it.
 fn in_plane(normal: Vector) -> Vec<Motion> {
     let unit = |v: Vector| v.map(|x| x / norm(v));
     let normal = unit(normal);
@@ -287,7 +287,7 @@ fn coordinates(joint: &Joint, name: &str, names: &mut Names) -> Vec<Coordinate> 
     }
 }
 
-/// Every group but the ground, with what its links weigh together.
+/// Every group except the ground, with the combined mass of its links.
 fn bodies(
     robot: &Robot,
     tree: &Tree,
@@ -325,7 +325,7 @@ fn bodies(
     Err(ImportError { mistakes })
 }
 
-/// It has a mass or an inertia.
+/// Whether it has a mass or an inertia.
 fn is_heavy(robot: &Robot, link: usize) -> bool {
     let inertial = robot.links[link].inertial.as_ref();
     inertial.is_some_and(|inertial| {
@@ -333,14 +333,14 @@ fn is_heavy(robot: &Robot, link: usize) -> bool {
     })
 }
 
-/// What links weigh together, in the frame of their group.
+/// The combined mass of links, in the frame of their group.
 fn mass(robot: &Robot, tree: &Tree, links: &[usize]) -> Result<Option<Mass>, Reason> {
     let inertials = links.iter().filter_map(|&link| {
         let inertial = robot.links[link].inertial.as_ref()?;
         Some((link, inertial))
     });
     let inertials: Vec<_> = inertials.collect();
-    // One link in its own axes keeps its digits.
+    // A single link in its own axes keeps its digits.
     if let [(link, inertial)] = inertials[..]
         && tree.place[link].1 == Pose::default()
         && inertial.pose.rotations.is_empty()
@@ -370,7 +370,7 @@ fn mass(robot: &Robot, tree: &Tree, links: &[usize]) -> Result<Option<Mass>, Rea
     }
 }
 
-/// The same with an inertia that a body can have.
+/// The mass with an inertia that a body can have.
 fn judged(
     robot: &Robot,
     links: &[usize],
@@ -405,7 +405,7 @@ fn judged(
     Ok(Some(given))
 }
 
-/// Every link that is not a body is a point of one, with its axes.
+/// The points for links that are not bodies, with their axes.
 fn points(
     robot: &Robot,
     tree: &Tree,
@@ -486,7 +486,8 @@ fn dampers(
     dampers
 }
 
-/// No equation determines the motion of a joint that carries no mass, unless it follows another, or one with a mass follows it.
+/// Drives joints that carry no mass, because no equation determines their motion. Exceptions are joints that follow another, and
+/// joints followed by one that carries mass.
 fn drive_what_moves_no_mass(
     joints: &mut [Moving],
     bodies: &[Body],
@@ -522,7 +523,7 @@ fn drive_what_moves_no_mass(
     }
 }
 
-/// The coordinates that follow one, and those that follow these.
+/// The coordinates that follow a given one, directly or through others.
 fn lead_by<'a>(leader: &str, couplings: &'a [Coupling]) -> impl Iterator<Item = &'a String> {
     let mut found: Vec<&String> = Vec::new();
     loop {

@@ -1,39 +1,39 @@
-//! Why a file cannot be imported.
+//! Errors that prevent the import of a file.
 
 use std::fmt;
 
 use thiserror::Error;
 
-/// All mistakes of a file.
+/// All mistakes in a file.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub struct ImportError {
-    /// In the order of their places in the file; never empty.
+    /// The mistakes, in the order of their positions in the file; never empty.
     pub mistakes: Vec<Mistake>,
 }
 
-/// A mistake and its place.
+/// A mistake and its position.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Mistake {
-    /// From 1.
+    /// Line, from 1.
     pub line: u32,
-    /// From 1, in characters.
+    /// Column, from 1, in characters.
     pub column: u32,
-    /// What is wrong.
+    /// The problem.
     pub reason: Reason,
 }
 
-/// What is wrong with a file.
+/// The problem with a file.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// It is no XML.
+    /// The file is not XML.
     #[error("this is not XML: {0}")]
     Xml(String),
-    /// The outermost element is another one.
+    /// The outermost element is not a robot.
     #[error("this is `{0}`, not a `robot`")]
     NotARobot(String),
-    /// It is a template.
+    /// The file is a template.
     #[error("this is a xacro template, not a robot")]
     Template,
     /// An attribute is missing.
@@ -41,36 +41,36 @@ pub enum Reason {
     MissingAttribute {
         /// The element.
         element: String,
-        /// What it lacks.
+        /// The missing attribute.
         attribute: &'static str,
     },
     /// An element is missing.
     #[error("{of} has no `{element}`")]
     MissingElement {
-        /// What lacks it.
+        /// The element that lacks it.
         of: String,
-        /// The element.
+        /// The missing element.
         element: &'static str,
     },
-    /// A value is not what it has to be.
+    /// A value is invalid.
     #[error("`{attribute}` is `{found}`; {expected} is expected")]
     Value {
         /// The attribute.
         attribute: String,
-        /// Its text.
+        /// Its text as found.
         found: String,
-        /// What it should be.
+        /// The expected value.
         expected: &'static str,
     },
-    /// A joint is of no kind that exists.
+    /// The type of a joint is unknown.
     #[error("`{found}` is no type of a joint")]
     JointType {
-        /// As it is written.
+        /// The type as written.
         found: String,
-        /// The nearest one.
+        /// The nearest known type.
         near: Option<&'static str>,
     },
-    /// Two links, or two joints, have one name.
+    /// Two links, or two joints, have the same name.
     #[error("the {what} `{name}` is there twice")]
     Twice {
         /// `link` or `joint`.
@@ -78,86 +78,86 @@ pub enum Reason {
         /// Its name.
         name: String,
     },
-    /// A link or joint is named that is not there.
+    /// A link or joint is referred to that does not exist.
     #[error("there is no {what} `{name}`")]
     Unknown {
         /// `link` or `joint`.
         what: &'static str,
         /// The name.
         name: String,
-        /// The nearest one.
+        /// The nearest existing name.
         near: Option<String>,
     },
-    /// Nothing is there.
+    /// The file contains no link.
     #[error("the robot has no link")]
     NoLink,
-    /// A link hangs on two others.
+    /// A link has two parents.
     #[error("the link `{link}` is the child of both `{first}` and `{second}`")]
     TwoParents {
         /// The link.
         link: String,
-        /// A joint.
+        /// One joint that leads to it.
         first: String,
-        /// Another joint.
+        /// The other joint.
         second: String,
     },
-    /// Several links hang on nothing.
+    /// Several links have no parent.
     #[error("nothing leads from the root `{root}` to the link `{link}`")]
     TwoRoots {
         /// The first link without a parent.
         root: String,
-        /// Another one.
+        /// Another link without a parent.
         link: String,
     },
-    /// Links hang on each other in a circle.
+    /// Links form a loop of parents.
     #[error("the link `{0}` hangs on itself, through others")]
     Circle(String),
-    /// A joint that moves has no direction.
+    /// The axis of a moving joint has no direction.
     #[error("the axis of the joint `{0}` has no length")]
     NoAxis(String),
-    /// A joint with several coordinates, or a chain of them that bites its tail, cannot follow another.
+    /// A joint cannot mimic another: one of them has several coordinates, or the chain of mimics is closed.
     #[error("the joint `{joint}` cannot mimic `{of}`: {why}")]
     Mimic {
         /// The joint that follows.
         joint: String,
         /// The joint that leads.
         of: String,
-        /// Why not.
+        /// The reason.
         why: &'static str,
     },
-    /// A mass below zero.
+    /// A mass is negative.
     #[error("the mass of the link `{link}` is {mass} kg")]
     NegativeMass {
         /// The link.
         link: String,
-        /// kg.
+        /// The mass, kg.
         mass: f64,
     },
-    /// Inertia without mass.
+    /// A link has an inertia but no mass.
     #[error("the link `{0}` has an inertia but no mass, and no link welded to it has one")]
     InertiaWithoutMass(String),
-    /// No body has such an inertia.
+    /// No body can have this inertia.
     #[error("the inertia of {} is that of no body: its principal moments about the centre of mass are {} kg*m^2, and no one may exceed the sum of the others", of_links(.links), three(.principal))]
     Inertia {
-        /// The links that are welded together, the one that moves them first.
+        /// The links that are welded together, starting with the one that moves them.
         links: Vec<String>,
         /// Principal moments about the centre of mass, ascending, kg m^2.
         principal: [f64; 3],
         /// The principal moments of the nearest inertia that a body can have, kg m^2.
         nearest: [f64; 3],
-        /// That inertia about the centre of mass along the axes of the first link: xx, yy, zz, xy, yz, xz, kg m^2.
+        /// The nearest inertia about the centre of mass, in the axes of the first link: xx, yy, zz, xy, yz, xz, kg m^2.
         replacement: [f64; 6],
     },
-    /// All is fixed.
+    /// Nothing in the robot moves.
     #[error("nothing moves: {0}")]
     NothingMoves(&'static str),
-    /// The declaration does not compile: a limit of the compiler.
+    /// The declaration does not compile, because of a limit of the compiler.
     #[error("the declaration that this file gives does not compile: {0}")]
     Refused(String),
 }
 
 impl Reason {
-    /// What to do about it.
+    /// Advice on how to fix it.
     pub fn help(&self) -> String {
         let did_you_mean = |near: Option<&str>| near.map(|near| format!("did you mean `{near}`?"));
         match self {
@@ -197,7 +197,7 @@ impl Reason {
     }
 }
 
-/// Six digits tell enough in a message.
+/// Six digits are enough for a message.
 pub(crate) fn three(values: &[f64; 3]) -> String {
     values.map(|value| format!("{value:.5e}")).join(", ")
 }

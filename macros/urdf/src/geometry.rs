@@ -1,9 +1,9 @@
-//! Frames, and moments of mass seen from them.
+//! Frames, and moments of mass relative to them.
 
 use crate::robot::{Inertial, Pose};
 
 pub(crate) type Vector = [f64; 3];
-/// Rows.
+/// A matrix by rows.
 pub(crate) type Matrix = [Vector; 3];
 
 pub(crate) fn matrix(entry: impl Fn(usize, usize) -> f64) -> Matrix {
@@ -49,7 +49,7 @@ impl Pose {
         })
     }
 
-    /// The pose of a frame that is at `inner` in this one.
+    /// The pose of a frame whose pose in this one is `inner`.
     pub(crate) fn then(&self, inner: &Pose) -> Pose {
         let offset = turned(&self.matrix(), inner.offset);
         Pose {
@@ -71,7 +71,7 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Those of a link that is at `pose`.
+    /// The moments of a link placed at `pose`.
     pub(crate) fn of(inertial: &Inertial, pose: &Pose) -> Self {
         let frame = pose.then(&inertial.pose);
         let turn = frame.matrix();
@@ -137,7 +137,7 @@ mod tests {
         }
     }
 
-    /// Two halves of a rod of 6 kg and 2 m: `m l^2 / 12` about its middle.
+    /// Two halves of a rod of 6 kg and 2 m give `m l^2 / 12` about its middle.
     #[test]
     fn halves_make_a_rod() {
         let third = 3.0 / 12.0;

@@ -18,15 +18,15 @@ pub use error::{ImportError, Mistake, Reason};
 pub use note::Note;
 pub use options::{Base, Options, Resistance};
 
-/// A robot as a declaration.
+/// A robot converted to a declaration.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Import {
     /// Text in the language of `mechanism!`; numbers in SI.
     pub declaration: String,
-    /// By the name in the declaration, that in the file: of every link and joint that had to be renamed.
+    /// Original names of all links and joints that had to be renamed, by their names in the declaration.
     pub names: BTreeMap<String, String>,
-    /// What the declaration does not say, or says in another way than the file.
+    /// Differences between the declaration and the file.
     pub notes: Vec<Note>,
 }
 
@@ -35,7 +35,7 @@ pub struct Import {
 /// Files that it refers to, such as meshes, are never opened.
 ///
 /// # Errors
-/// All mistakes of the file, each with its line and column. A robot of which no joint moves is one of them.
+/// All mistakes in the file, each with its line and column. A robot without moving joints also counts as a mistake.
 ///
 /// # Examples
 /// ```

@@ -1,8 +1,8 @@
-//! Names of a file as names of a declaration: valid, each once, and as near to the original as that allows.
+//! Converts names of a file to names of a declaration: valid, unique, and as close to the original as possible.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Words with a meaning in a declaration, and those that Rust reserves.
+/// Words with a meaning in a declaration, and words that Rust reserves.
 const RESERVED: [&str; 68] = [
     "input",
     "design",
@@ -74,16 +74,16 @@ const RESERVED: [&str; 68] = [
     "raw",
 ];
 
-/// Hands out names.
+/// Hands out unique names.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     taken: BTreeSet<String>,
-    /// By the name given, the original where it differs.
+    /// Original names by assigned name, where they differ.
     pub(crate) renamed: BTreeMap<String, String>,
 }
 
 impl Names {
-    /// A name for what the file calls `original`; `kind` is put where a name would be none without, and where it is taken.
+    /// A name for something that the file calls `original`; `kind` is added if the name would otherwise be invalid or is taken.
     pub(crate) fn of_file(&mut self, original: &str, kind: &str) -> String {
         let name = self.unique(&valid(original, kind), kind);
         if name != original {
@@ -92,7 +92,7 @@ impl Names {
         name
     }
 
-    /// A name for what the file does not have.
+    /// A name for something that is not in the file.
     pub(crate) fn unique(&mut self, wanted: &str, kind: &str) -> String {
         let with_kind = format!("{wanted}_{kind}");
         let numbered = (2..).map(|number| format!("{with_kind}_{number}"));
@@ -110,7 +110,7 @@ fn is_reserved(name: &str) -> bool {
     RESERVED.contains(&name)
 }
 
-/// Letters, digits and underscores, and no digit first.
+/// Letters, digits and underscores, not starting with a digit.
 fn valid(original: &str, kind: &str) -> String {
     let allowed = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let name: String = original.chars().map(allowed).collect();

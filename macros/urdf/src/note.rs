@@ -1,4 +1,4 @@
-//! What a declaration does not say, or says in another way than the file.
+//! Differences between a declaration and its file.
 
 use std::fmt;
 
@@ -8,16 +8,16 @@ use crate::error::{of_links, three};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
-    /// An element that has no meaning in a mechanism: a picture, a stop, a motor.
+    /// An element without meaning in a mechanism, such as a picture, a stop or a motor.
     Ignored {
         /// The element, such as `limit`.
         element: String,
-        /// What has it: `links`, `joints` or `the robot`.
+        /// Its owners: `links`, `joints` or `the robot`.
         of: &'static str,
-        /// Their names in the file.
+        /// The owners' names in the file.
         names: Vec<String>,
     },
-    /// Links that fixed joints weld together: one body, the other links are points of it.
+    /// Links welded together by fixed joints: they form one body, and all but one become points of it.
     Welded {
         /// The body, or `ground`.
         body: String,
@@ -28,17 +28,17 @@ pub enum Note {
     Replaced {
         /// The links that are welded together.
         links: Vec<String>,
-        /// Principal moments before, kg m^2.
+        /// Original principal moments, kg m^2.
         principal: [f64; 3],
-        /// And after.
+        /// New principal moments, kg m^2.
         nearest: [f64; 3],
     },
-    /// A joint that follows one that stands still, or that has a multiplier of zero.
+    /// A joint that cannot move because the joint that it follows cannot, or because its multiplier is zero.
     Held {
         /// Its name in the file.
         joint: String,
     },
-    /// `mimic` of a joint that is fixed says nothing.
+    /// The `mimic` of a fixed joint has no effect.
     FixedMimic {
         /// Its name in the file.
         joint: String,
@@ -47,7 +47,7 @@ pub enum Note {
     Driven {
         /// The coordinate in the declaration.
         coordinate: String,
-        /// Why.
+        /// The reason.
         why: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! What a user may choose.
+//! Options of an import.
 
 /// How a file becomes a declaration.
 ///
@@ -15,13 +15,13 @@
 pub struct Options {
     /// How the root of the robot is held.
     pub base: Base,
-    /// What resists the joints.
+    /// Resistance of the joints.
     pub resistance: Resistance,
-    /// Joints have the viscous damping of the file (`dynamics`).
+    /// Whether joints get the viscous damping of the file (`dynamics`).
     pub damping: bool,
-    /// An inertia that no body can have is replaced by the nearest possible one; otherwise it is a mistake.
+    /// Whether an inertia that no body can have is replaced by the nearest possible one; otherwise it is a mistake.
     pub nearest_inertias: bool,
-    /// Name of the mechanism; otherwise that of the robot in `CamelCase`.
+    /// Name of the mechanism; by default, the robot's name in `CamelCase`.
     pub name: Option<String>,
 }
 
@@ -38,28 +38,28 @@ pub enum Base {
     Planar,
 }
 
-/// What resists the joints, so that the robot has an equilibrium and modes.
+/// Resistance of the joints, so that the robot has an equilibrium and modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resistance {
-    /// A spring and a damper on every coordinate, at rest where the coordinate is zero.
+    /// A spring and a damper on every coordinate; the springs are relaxed where the coordinate is zero.
     Springs {
-        /// Of angles, N m/rad.
+        /// For angles, N m/rad.
         stiffness: f64,
-        /// Of angles, N m s/rad.
+        /// For angles, N m s/rad.
         damping: f64,
-        /// Of displacements, N/m.
+        /// For displacements, N/m.
         linear_stiffness: f64,
-        /// Of displacements, N s/m.
+        /// For displacements, N s/m.
         linear_damping: f64,
     },
     /// Joints that nothing resists, not even gravity, are driven at 0; so are those that move no mass.
     Drives,
-    /// Nothing: the declaration is for its kernels alone.
+    /// No resistance: the declaration is only for its kernels.
     KernelsOnly,
 }
 
 impl Default for Resistance {
-    /// 50 N m/rad, 0.5 N m s/rad, 50 N/m, 0.5 N s/m.
+    /// Defaults: 50 N m/rad, 0.5 N m s/rad, 50 N/m, 0.5 N s/m.
     fn default() -> Self {
         Self::Springs {
             stiffness: 50.0,
@@ -71,7 +71,7 @@ impl Default for Resistance {
 }
 
 impl Default for Options {
-    /// A fixed base, springs, the dampers of the file, inertias as they are.
+    /// Defaults: a fixed base, springs, the dampers of the file, and unchanged inertias.
     fn default() -> Self {
         Self {
             base: Base::default(),
@@ -84,35 +84,35 @@ impl Default for Options {
 }
 
 impl Options {
-    /// How the root is held.
+    /// Sets how the root is held.
     #[must_use]
     pub fn base(mut self, base: Base) -> Self {
         self.base = base;
         self
     }
 
-    /// What resists the joints.
+    /// Sets the resistance of the joints.
     #[must_use]
     pub fn resistance(mut self, resistance: Resistance) -> Self {
         self.resistance = resistance;
         self
     }
 
-    /// Whether joints have the viscous damping of the file.
+    /// Sets whether joints get the viscous damping of the file.
     #[must_use]
     pub fn damping(mut self, damping: bool) -> Self {
         self.damping = damping;
         self
     }
 
-    /// Whether impossible inertias are replaced.
+    /// Sets whether impossible inertias are replaced.
     #[must_use]
     pub fn nearest_inertias(mut self, replace: bool) -> Self {
         self.nearest_inertias = replace;
         self
     }
 
-    /// The name of the mechanism.
+    /// Sets the name of the mechanism.
     #[must_use]
     pub fn name(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());

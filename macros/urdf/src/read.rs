@@ -1,4 +1,4 @@
-//! XML to robot. A wrong element is reported, and reading goes on after it.
+//! From XML to a robot. A wrong element is reported, and reading continues after it.
 
 use std::collections::BTreeMap;
 
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         self.mistakes.push(mistake);
     }
 
-    /// Elements that mean nothing here.
+    /// Records elements that have no meaning here.
     fn ignore_others(&mut self, node: Node, of: &'static str, name: &str, known: &[&str]) {
         for other in node.children().filter(Node::is_element) {
             let tag = other.tag_name().name();
@@ -304,7 +304,7 @@ impl<'a> Reader<'a> {
         let found = names.iter().position(|known| *known == name);
         if found.is_none() {
             let near = nearest(name, names.iter().copied());
-            // A prefix that a copied limb has, and its `mimic` has not.
+            // A copied limb may have a prefix that its `mimic` lacks.
             let longer = || names.iter().copied().find(|known| known.ends_with(name));
             let reason = Reason::Unknown {
                 what: "joint",
@@ -320,7 +320,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The viscous damping; dry friction is left out.
+    /// The viscous damping; dry friction is ignored.
     fn dynamics(&mut self, joint: Node<'a, 'a>, name: &str) -> Option<f64> {
         let Some(node) = child(joint, "dynamics") else {
             return Some(0.0);
@@ -333,7 +333,8 @@ impl<'a> Reader<'a> {
         self.number(node, "damping", 0.0)
     }
 
-    /// `xyz` and `rpy`: roll about x, pitch about y, yaw about z of the outer frame, that is, yaw first along the axes as turned.
+    /// Reads `xyz` and `rpy`: roll about x, pitch about y, yaw about z of the outer frame, or equivalently yaw first, each
+    /// about the axes as turned.
     fn origin(&mut self, node: Node<'a, 'a>) -> Option<Pose> {
         let Some(origin) = child(node, "origin") else {
             return Some(Pose::default());

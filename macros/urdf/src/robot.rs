@@ -1,4 +1,4 @@
-//! A robot as its file describes it; links and joints by their places in the lists.
+//! A robot as described by its file; links and joints are referred to by their indices in the lists.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ pub(crate) struct Robot {
     pub(crate) at: Place,
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
-    /// What the file says that is not in this type: of what (`joints`), element, and the names of those who have it.
+    /// Elements of the file that this type does not represent, by kind of owner (`joints`) and element, with the owners' names.
     pub(crate) ignored: BTreeMap<(&'static str, String), Vec<String>>,
 }
 
@@ -22,7 +22,7 @@ pub(crate) struct Link {
     pub(crate) inertial: Option<Inertial>,
 }
 
-/// About the centre of mass, along the axes of `pose`.
+/// Mass and inertia, about the centre of mass and in the axes of `pose`.
 #[derive(Clone, Debug)]
 pub(crate) struct Inertial {
     pub(crate) pose: Pose,
@@ -39,7 +39,7 @@ pub(crate) struct Joint {
     pub(crate) kind: JointKind,
     pub(crate) parent: usize,
     pub(crate) child: usize,
-    /// Of the child in the parent, where the coordinate is zero.
+    /// Pose of the child in the parent where the coordinate is zero.
     pub(crate) pose: Pose,
     pub(crate) axis: Vector,
     pub(crate) mimic: Option<Mimic>,
@@ -70,7 +70,7 @@ pub(crate) struct Mimic {
     pub(crate) offset: f64,
 }
 
-/// Where a frame is in another: `xyz`, then rotations, each about the axes left by the one before.
+/// Pose of a frame in another: `xyz`, then rotations, each about the axes left by the previous one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Pose {
     /// m.
@@ -79,7 +79,7 @@ pub(crate) struct Pose {
     pub(crate) rotations: Vec<(Vector, f64)>,
 }
 
-/// Line and column, from 1.
+/// Position in the file: line and column, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place {
     pub(crate) line: u32,

@@ -1,4 +1,4 @@
-//! Coordinates that nothing resists: only the equations tell which.
+//! Finds coordinates that nothing resists, from the equations.
 
 use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_compiler::{Compilation, compile};
@@ -8,13 +8,13 @@ use crate::error::{ImportError, Mistake, Reason};
 use crate::note::Note;
 use crate::write::declaration;
 
-/// Nothing that only a solver needs.
+/// Leaves out everything that only a solver needs.
 const LIMITS: Limits = Limits {
     explicit_partials: 0,
     motion_linear: 0,
 };
 
-/// Drives at 0 what nothing resists. What is held may have been all that made something else heavy: the rest is asked again.
+/// Drives coordinates at 0 if nothing resists them. This may leave other coordinates without weight, so the search is repeated.
 pub(crate) fn drive(assembly: &mut Assembly) -> Result<(), ImportError> {
     loop {
         let undetermined = undetermined(&declaration(assembly, true))?;
@@ -67,10 +67,10 @@ fn undetermined(declaration: &str) -> Result<Vec<String>, ImportError> {
     Ok(names)
 }
 
-/// Share of the largest stiffness. An axis that a file turns upright by `3.14159265359` is not quite upright.
+/// Fraction of the largest stiffness. An axis that a file turns upright by `3.14159265359` is not quite upright.
 const NEARLY_NOTHING: f64 = 1e-10;
 
-/// By unknown, how much the residual at rest changes with it at a few states, as a share of the largest such change.
+/// By unknown, the largest change of the residual at rest over a few states, as a fraction of the largest of all.
 fn stiffness(compiled: &Compilation) -> Vec<f64> {
     let n = compiled.functions.unknowns.len();
     let mut columns = vec![0.0_f64; n];

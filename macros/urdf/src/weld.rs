@@ -1,17 +1,17 @@
-//! Links that fixed joints weld together are one body.
+//! Combines links that are welded together by fixed joints into one body.
 
 use crate::error::{ImportError, Mistake, Reason};
 use crate::robot::{JointKind, Pose, Robot};
 
-/// How the links of a robot hang together.
+/// The tree of a robot's links.
 pub(crate) struct Tree {
-    /// By link: the group it is welded to, and where it is in the frame of the first link of that.
+    /// By link: its group, and its pose in the frame of the group's first link.
     pub(crate) place: Vec<(usize, Pose)>,
-    /// The links of each group, the first of them the one that its joint moves. Group 0 has the root.
+    /// The links of each group, starting with the one that its joint moves. Group 0 contains the root.
     pub(crate) groups: Vec<Vec<usize>>,
-    /// Joints that move groups, parents first; a joint that follows one that stands still is none.
+    /// Joints that move groups, parents first; this excludes joints that follow one that cannot move.
     pub(crate) moving: Vec<usize>,
-    /// Joints that could move but follow one that stands still.
+    /// Joints that could move but follow one that cannot.
     pub(crate) held: Vec<usize>,
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn weld(robot: &Robot) -> Result<Tree, ImportError> {
     for (index, joint) in robot.joints.iter().enumerate() {
         joints_from[joint.parent].push(index);
     }
-    // A stack: the joints of a limb stay together, in the order of the file.
+    // A stack keeps the joints of a limb together, in the order of the file.
     let mut waiting: Vec<usize> = joints_from[root].iter().rev().copied().collect();
     while let Some(index) = waiting.pop() {
         let joint = &robot.joints[index];
@@ -57,7 +57,7 @@ pub(crate) fn weld(robot: &Robot) -> Result<Tree, ImportError> {
     Ok(tree)
 }
 
-/// Where a joint with one coordinate takes its child.
+/// Pose of the child of a joint with one coordinate.
 fn displaced(kind: JointKind, axis: [f64; 3], at: f64) -> Pose {
     let length = crate::geometry::norm(axis);
     match kind {
@@ -73,7 +73,7 @@ fn displaced(kind: JointKind, axis: [f64; 3], at: f64) -> Pose {
     }
 }
 
-/// By link, the joint that it hangs on.
+/// By link, the joint to its parent.
 fn joints_to_links(robot: &Robot) -> Result<Vec<Option<usize>>, ImportError> {
     let mut joint_to: Vec<Option<usize>> = vec![None; robot.links.len()];
     let mut mistakes = Vec::new();
@@ -90,7 +90,7 @@ fn joints_to_links(robot: &Robot) -> Result<Vec<Option<usize>>, ImportError> {
     none_or(mistakes, joint_to)
 }
 
-/// The link that hangs on nothing; all others hang on it.
+/// The only link without a parent, from which all others descend.
 fn root(robot: &Robot, joint_to: &[Option<usize>]) -> Result<usize, ImportError> {
     let name = |link: usize| robot.links[link].name.clone();
     let mut roots = (0..robot.links.len()).filter(|&link| joint_to[link].is_none());
@@ -109,7 +109,7 @@ fn root(robot: &Robot, joint_to: &[Option<usize>]) -> Result<usize, ImportError>
             })
         })
         .collect();
-    // Towards the root in as many steps as there are links, or never.
+    // A link reaches the root in at most as many steps as there are links, or never.
     let in_circle = (0..robot.links.len()).find(|&link| {
         let mut at = link;
         (0..robot.links.len()).all(|_| match joint_to[at] {
@@ -124,7 +124,7 @@ fn root(robot: &Robot, joint_to: &[Option<usize>]) -> Result<usize, ImportError>
     none_or(mistakes, root)
 }
 
-/// By joint, the coordinate at which it stands because what it follows does.
+/// By joint, the fixed coordinate that results from a leader that cannot move.
 fn held(robot: &Robot) -> Result<Vec<Option<f64>>, ImportError> {
     let mut mistakes = Vec::new();
     let mut held = vec![None; robot.joints.len()];

@@ -8,7 +8,7 @@ use crate::geometry::Vector;
 use crate::options::Resistance;
 use crate::robot::Pose;
 
-/// The declaration and what goes with it.
+/// The declaration, with its names and notes.
 pub(crate) fn write(assembly: &Assembly) -> Import {
     let kernels_only = assembly.resistance == Resistance::KernelsOnly;
     Import {
@@ -18,7 +18,7 @@ pub(crate) fn write(assembly: &Assembly) -> Import {
     }
 }
 
-/// The text, for its kernels alone or not.
+/// The text of the declaration; `kernels_only` declares only its kernels.
 pub(crate) fn declaration(assembly: &Assembly, kernels_only: bool) -> String {
     let mut text = format!(
         "/// The robot `{}`, from a URDF file.\npub mechanism {} {{\n",
@@ -72,15 +72,15 @@ pub(crate) fn declaration(assembly: &Assembly, kernels_only: bool) -> String {
     text
 }
 
-/// Without what would end a comment or a line.
+/// Removes characters that would end a comment or a line.
 fn printable(name: &str) -> String {
     let printable = |c: char| if c.is_control() || c == '`' { ' ' } else { c };
     name.chars().map(printable).collect()
 }
 
-/// So that it is read back as the same number.
+/// Writes a number so that it is read back unchanged.
 fn number(value: f64) -> String {
-    // No negative zero.
+    // Avoids negative zero.
     format!("{:?}", value + 0.0)
 }
 

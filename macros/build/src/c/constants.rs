@@ -1,4 +1,4 @@
-//! Sizes of arrays, and places in them by name.
+//! Sizes of arrays, and named indices into them.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use proc_macro2::Ident;
 
 use super::Names;
 
-/// Constants: how long each array is, and where a quantity stands in it.
+/// The constants: the length of each array, and the index of each quantity.
 pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
     let (mechanism, unknowns) = (&compilation.mechanism, &compilation.functions.unknowns);
     let mut list = Constants {
@@ -39,7 +39,7 @@ pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
     list.text + "\n"
 }
 
-/// The symbol of an SI unit.
+/// The symbol of a unit, `1` for a plain number.
 fn one(symbol: &str) -> String {
     match symbol {
         "" => "1".to_owned(),
@@ -47,7 +47,7 @@ fn one(symbol: &str) -> String {
     }
 }
 
-/// What to multiply a value in the declared unit by.
+/// The declared unit, with its SI value if it is not an SI unit.
 fn si(unit: &Unit) -> String {
     let symbol = one(&unit.symbol);
     match unit.scale == 1.0 {
@@ -74,7 +74,7 @@ impl Constants<'_> {
     fn place(&mut self, list: &str, name: &Ident, docs: &[String], unit: &str, k: usize) {
         let Self { text, prefix } = self;
         for line in docs.iter().flat_map(|docs| docs.lines()) {
-            // It would end the comment of C.
+            // It would end the comment in C.
             let line = line.trim().replace("*/", "* /");
             let _ = writeln!(text, "/// {line}");
         }

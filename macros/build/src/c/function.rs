@@ -6,7 +6,7 @@ use eigentol_compiler::Compilation;
 
 use super::Names;
 
-/// How many unknowns, inputs, design variables and outputs there are.
+/// Numbers of unknowns, inputs, design variables and outputs.
 #[derive(Clone, Copy)]
 pub(super) struct Sizes {
     coordinates: usize,
@@ -26,7 +26,7 @@ pub(super) enum Size {
     P,
     /// Outputs.
     O,
-    /// This many.
+    /// A fixed number.
     Exactly(usize),
 }
 
@@ -52,7 +52,7 @@ impl Sizes {
     }
 }
 
-/// What C hands over.
+/// An argument of a C function.
 #[derive(Clone, Copy)]
 pub(super) enum Argument {
     /// An array.
@@ -61,21 +61,21 @@ pub(super) enum Argument {
     Number(&'static str),
 }
 
-/// What C gets back.
+/// A result of a C function.
 #[derive(Clone, Copy)]
 pub(super) struct Answer {
     pub(super) name: &'static str,
     pub(super) shape: &'static [Size],
-    /// The part of the kernel's `result` as a slice of numbers, or, of a list of matrices, each of these.
+    /// The part of the kernel's `result` as a slice of numbers; for a list of matrices, one slice per matrix.
     pub(super) part: Part,
 }
 
-/// Where a part of a kernel's `result` is.
+/// The location of a part of a kernel's `result`.
 #[derive(Clone, Copy)]
 pub(super) enum Part {
     /// An expression for a slice.
     Slice(&'static str),
-    /// A list of records of matrices, and a field of these.
+    /// A list of records of matrices, and the field to take from each.
     Matrices(&'static str, &'static str),
 }
 
@@ -158,7 +158,7 @@ impl Function {
         passed.collect()
     }
 
-    /// The length of each array, in words of C.
+    /// The length of each array, as text for the C documentation.
     fn lengths(&self, sizes: Sizes) -> [String; 2] {
         let arguments = self.arguments.iter().map(|argument| match argument {
             Argument::Array(name, size) => format!("`{name}[{}]`", sizes.number(*size)),

@@ -1,4 +1,4 @@
-//! Which kernels C gets, and what is said about them there.
+//! The kernels available in C, and their documentation there.
 
 use eigentol_compiler::Compilation;
 

@@ -4,8 +4,8 @@
 //! int32_t rotor_residual(const double *q, const double *u, const double *b, double *residual);
 //! ```
 //!
-//! They read their arguments before they write a result, by value, so that no reference to memory of C ever exists: arrays may
-//! overlap. What remains for the caller to ensure are the lengths. All of the unsafe code is in the text that is generated here,
+//! They read their arguments by value before they write a result. No reference to C memory ever exists, so arrays may
+//! overlap; the caller is only responsible for the lengths. All of the unsafe code is in the text that is generated here,
 //! in a module of the user's crate.
 
 mod constants;
@@ -18,7 +18,7 @@ use eigentol_compiler::Compilation;
 use heck::{ToShoutySnakeCase as _, ToSnakeCase as _};
 use proc_macro2::Ident;
 
-/// What reads and writes arrays of C.
+/// Functions that read and write C arrays.
 const HELPERS: &str = include_str!("helpers.rs");
 
 /// The functions of a mechanism.
@@ -29,18 +29,18 @@ pub(crate) struct Interface {
     conditions: String,
 }
 
-/// What a mechanism is called.
+/// The name of a mechanism in several forms.
 pub(crate) struct Names {
     /// In Rust.
     rust: String,
-    /// Before the name of each function.
+    /// Prefix of each function's name.
     prefix: String,
-    /// Before the name of each constant.
+    /// Prefix of each constant's name.
     shouted: String,
 }
 
 impl Interface {
-    /// `None` where C cannot spell the name of the mechanism.
+    /// Creates the functions; `None` if C cannot spell the name of the mechanism.
     pub(crate) fn of(compilation: &Compilation) -> Option<Self> {
         let mechanism = &compilation.mechanism;
         let names = Names::of(&mechanism.name)?;

@@ -1,4 +1,4 @@
-//! Functions that are no kernels of numbers alone.
+//! Functions that are not purely numerical kernels.
 
 use std::fmt::Write;
 

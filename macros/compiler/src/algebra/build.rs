@@ -1,4 +1,4 @@
-//! Building expressions: every new one is simplified by the rules.
+//! Building expressions: every new node is simplified by the rules.
 
 use super::graph::Graph;
 use super::node::Node;
@@ -46,20 +46,20 @@ impl Graph {
             .fold(zero, |sum, term| self.add(sum, term))
     }
 
-    /// An operator of one operand, simplified.
+    /// A unary operator, simplified.
     pub fn unary(&mut self, operator: Unary, a: ExprId) -> ExprId {
         rules::simplify_unary(self, operator, a)
             .unwrap_or_else(|| self.intern(Node::Unary(operator, a)))
     }
 
-    /// An operator of two operands, simplified.
+    /// A binary operator, simplified.
     pub fn binary(&mut self, operator: Operator, a: ExprId, b: ExprId) -> ExprId {
         let (first, second) = match operator {
             Operator::Add | Operator::Multiply if b < a => (b, a),
             _ => (a, b),
         };
         let node = Node::Binary(operator, first, second);
-        // what is known could not be simplified
+        // a node that already exists could not be simplified
         if let Some(known) = self.find(node) {
             return known;
         }

@@ -1,32 +1,32 @@
-//! What an evaluation costs.
+//! The cost of an evaluation.
 
 use super::graph::Graph;
 use super::node::Node;
 use crate::base::ids::ExprId;
 use crate::base::operators::{Operator, Unary};
 
-/// Operations of a straight line of code.
+/// Operations in straight-line code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// Additions, subtractions and multiplications.
     pub operations: usize,
     /// Divisions, roots, powers and elementary functions.
     pub functions: usize,
-    /// Changes of sign that no addition or subtraction takes up.
+    /// Sign changes that are not absorbed by an addition or subtraction.
     pub negations: usize,
 }
 
-/// The nodes that `roots` need, operands first.
+/// The nodes that `roots` depend on, operands first.
 pub fn reachable(graph: &Graph, roots: &[ExprId]) -> Vec<ExprId> {
     gathered(graph, roots, |_| true)
 }
 
-/// Of the nodes that `roots` need those that may depend on a symbol of `mask`, operands first.
+/// The nodes that `roots` depend on and that may themselves depend on a symbol of `mask`, operands first.
 pub(super) fn dependent(graph: &Graph, roots: &[ExprId], mask: u128) -> Vec<ExprId> {
     gathered(graph, roots, |id| graph.may_depend(id, mask))
 }
 
-/// The work is by the number of nodes found, not by the size of the graph.
+/// The work grows with the number of nodes found, not with the size of the graph.
 fn gathered(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) -> Vec<ExprId> {
     let mut seen = vec![0_u64; graph.len() / 64 + 1];
     let mut found = Vec::new();
@@ -55,7 +55,8 @@ fn gathered(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) ->
     in_order(&seen, found)
 }
 
-/// `found` in order of the ids, which `seen` has a bit for. Sorting takes a fifth of the macro's time where nothing optimises it.
+/// `found` in order of ids, for each of which `seen` has a bit set. Sorting would take a fifth of the macro's time if it is
+/// compiled without optimisation.
 fn in_order(seen: &[u64], mut found: Vec<ExprId>) -> Vec<ExprId> {
     let mut next = 0;
     for (word, &bits) in seen.iter().enumerate() {
@@ -69,7 +70,7 @@ fn in_order(seen: &[u64], mut found: Vec<ExprId>) -> Vec<ExprId> {
     found
 }
 
-/// Cost of evaluating `roots` together, each shared node once.
+/// Cost of evaluating `roots` together, counting each shared node once.
 pub fn cost(graph: &Graph, roots: &[ExprId]) -> Cost {
     let mut cost = Cost::default();
     for id in reachable(graph, roots) {

@@ -20,7 +20,7 @@ pub fn evaluate_with_error(
     roots: &[ExprId],
     symbol: impl Fn(SymbolId) -> f64,
 ) -> Vec<Evaluation> {
-    // of zeros, which take no time to make
+    // zeroed memory, which costs nothing to allocate
     let (mut values, mut errors) = (vec![0.0; graph.len()], vec![0.0; graph.len()]);
     let read = |values: &[f64], errors: &[f64], id: ExprId| Evaluation {
         value: values[id.index()],

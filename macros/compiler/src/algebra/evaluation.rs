@@ -6,18 +6,18 @@ use crate::base::operators::{Operator, Unary};
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// A value and a first-order bound on its rounding error (running error analysis; Higham, Accuracy and Stability of
-/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, they stand for rounded numbers, or were computed from
-/// such.
+/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, because they are rounded numbers or were computed
+/// from rounded numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     /// The value.
     pub value: f64,
-    /// How far rounding may have moved it.
+    /// Bound on the rounding error.
     pub error: f64,
 }
 
 impl Evaluation {
-    /// Whether nothing but rounding keeps the value from zero.
+    /// Whether rounding alone can explain that the value is not zero.
     pub fn is_negligible(self) -> bool {
         self.value.abs() <= 16.0 * self.error
     }
@@ -44,7 +44,7 @@ impl Evaluation {
 /// `operator a`.
 pub(super) fn unary(operator: Unary, a: Evaluation) -> Evaluation {
     let value = operator.apply(a.value);
-    // What has vanished by underflow proves nothing.
+    // A value that has underflowed to zero proves nothing.
     if value == 0.0 && matches!(operator, Unary::Exp | Unary::PowerInteger(_)) && a.value != 0.0 {
         return Evaluation {
             value: f64::NAN,
@@ -74,7 +74,7 @@ pub(super) fn unary(operator: Unary, a: Evaluation) -> Evaluation {
         slope.abs() * a.error
     };
     if let Unary::Spline(spline, derivative) = operator {
-        // Seven operations, the difference from the start of the piece among them.
+        // Seven operations, including the difference from the start of the piece.
         let terms = spline.magnitude(a.value, derivative);
         let shift = slope.abs() * a.value.abs();
         return Evaluation {

@@ -7,7 +7,7 @@ use super::node_map::NodeMap;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::base::operators::{Operator, Unary};
 
-/// A direction in the space of symbols: each listed symbol moves at the given rate, the others stand still.
+/// A direction in the space of symbols: each listed symbol changes at the given rate, the others are constant.
 #[derive(Clone, Debug, Default)]
 pub struct Direction {
     rates: Vec<(SymbolId, ExprId)>,
@@ -15,7 +15,7 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// A direction; names of differentiated nodes get `suffix` appended.
+    /// A direction; `suffix` is appended to the names of differentiated nodes.
     pub fn new(suffix: impl Into<String>, rates: Vec<(SymbolId, ExprId)>) -> Self {
         Self {
             rates,
@@ -65,7 +65,7 @@ pub fn derivatives_along(
                 binary_tangent(graph, operator, id, (a, da), (b, db))
             }
         };
-        // What existed before has a meaning of its own.
+        // Nodes that existed before have a meaning of their own.
         if tangent.index() >= known && graph.name(id).is_some() {
             let name = format!("{}{}", graph.name(id).unwrap_or_default(), direction.suffix);
             graph.set_name(tangent, || name);

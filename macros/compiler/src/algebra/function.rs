@@ -20,9 +20,9 @@ pub struct Function {
 pub struct Parameter {
     /// Name of the argument.
     pub name: &'static str,
-    /// What its entries stand for.
+    /// The symbols that its entries stand for.
     pub symbols: Vec<SymbolId>,
-    /// The argument is a number rather than an array.
+    /// Whether the argument is a number rather than an array.
     pub scalar: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The expression graph: equal expressions are one node, and operands are always older than what uses them.
+//! The expression graph: equal expressions are one node, and operands are always older than the nodes that use them.
 
 use super::evaluation::Evaluation;
 use super::interner::Interner;
@@ -6,7 +6,7 @@ use super::node::Node;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::base::operators::Unary;
 
-/// When a symbol's value becomes known: an evaluation redoes only what comes after the stage that moved.
+/// When a symbol's value becomes known: an evaluation redoes only the stages after the one that changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
     /// Known to the compiler.
@@ -34,13 +34,13 @@ pub struct Symbol {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    /// Which symbols a node depends on: one bit per symbol modulo 128, so a clear bit is a proof of independence.
+    /// The symbols a node depends on: one bit per symbol modulo 128, so a clear bit proves independence.
     support: Vec<u128>,
     interned: Interner,
     symbols: Vec<Symbol>,
     names: Vec<Option<Box<str>>>,
-    /// How far rounding may have moved a constant that was computed from others. What is left of larger ones that should cancel
-    /// looks like any other number.
+    /// Bound on the rounding error of each constant computed from others. Otherwise the remainder of larger constants that should
+    /// cancel would look like any other number.
     rounding: Vec<Option<f64>>,
 }
 
@@ -87,8 +87,8 @@ impl Graph {
             .fold(0, |mask, symbol| mask | bit(symbol))
     }
 
-    /// Gives a node a name for readers of the generated code; the first name stays, and constants and symbols keep
-    /// theirs. What is negated to make `name` becomes `minus_name`, because signs have no statement of their own.
+    /// Gives a node a name for readers of the generated code. The first name stays, and constants and symbols keep
+    /// theirs. The operand of a negation called `name` becomes `minus_name`, because signs have no statement of their own.
     pub fn set_name(&mut self, id: ExprId, name: impl FnOnce() -> String) {
         match self.node(id) {
             Node::Constant(_) | Node::Symbol(_) => {}
@@ -108,7 +108,7 @@ impl Graph {
         }
     }
 
-    /// The name given to a node, or a symbol's own.
+    /// The name given to a node, or the name of a symbol.
     pub fn name(&self, id: ExprId) -> Option<&str> {
         match self.node(id) {
             Node::Symbol(symbol) => Some(&self.symbols[symbol.index()].name),
@@ -145,7 +145,7 @@ impl Graph {
         id
     }
 
-    /// A number computed from others. Of several ways to the same number the best counts.
+    /// A number computed from others. If several computations give the same number, the smallest error bound is kept.
     pub(super) fn computed(&mut self, number: Evaluation) -> ExprId {
         let known = self.len();
         let id = self.intern(Node::Constant((number.value + 0.0).to_bits()));
@@ -187,12 +187,12 @@ impl Graph {
         stages
     }
 
-    /// The id of a node that exists already.
+    /// The id of a node, if it exists.
     pub(super) fn find(&self, node: Node) -> Option<ExprId> {
         self.interned.find(&self.nodes, node)
     }
 
-    /// The node, made if there is none yet. Nothing is simplified.
+    /// The id of a node, created if necessary without simplification.
     pub(super) fn intern(&mut self, node: Node) -> ExprId {
         if let Some(id) = self.find(node) {
             return id;

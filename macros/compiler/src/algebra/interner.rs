@@ -1,12 +1,12 @@
-//! Finding equal nodes.
+//! Lookup of equal nodes.
 
 use super::node::Node;
 use crate::base::ids::ExprId;
 
-/// A hash table with open addressing: where nothing optimises the macro, that of the standard library takes a quarter of its time.
+/// A hash table with open addressing: in unoptimised builds of the macro, the standard library's takes a quarter of its time.
 #[derive(Clone, Debug)]
 pub(super) struct Interner {
-    /// A power of two of them, at most half of them taken: the number of a node, counted from one, or zero.
+    /// The number of a node, counted from one, or zero. The length is a power of two, and at most half of the slots are taken.
     slots: Vec<u32>,
     taken: usize,
 }
@@ -21,7 +21,7 @@ impl Default for Interner {
 }
 
 impl Interner {
-    /// The node that is equal to this one.
+    /// The existing node equal to this one.
     pub(super) fn find(&self, nodes: &[Node], node: Node) -> Option<ExprId> {
         match self.slots[self.place(nodes, node)] {
             0 => None,
@@ -29,7 +29,7 @@ impl Interner {
         }
     }
 
-    /// Enters the last of the nodes, which equals none before it.
+    /// Enters the last of the nodes, which must differ from all before it.
     pub(super) fn enter_last(&mut self, nodes: &[Node]) {
         self.taken += 1;
         if 2 * self.taken > self.slots.len() {
@@ -47,7 +47,7 @@ impl Interner {
         self.slots[place] = ExprId::new(index).0 + 1;
     }
 
-    /// The slot of an equal node, or the free one for it.
+    /// The slot of an equal node, or the free slot for it.
     fn place(&self, nodes: &[Node], node: Node) -> usize {
         let last = self.slots.len() - 1;
         let mut place = (hash(node) >> self.slots.len().leading_zeros() >> 1) as usize;
@@ -61,8 +61,8 @@ impl Interner {
     }
 }
 
-/// Multiplication by a large odd number spreads the bits upwards: the first ones count (Knuth, The Art of Computer Programming,
-/// volume 3, section 6.4).
+/// Multiplication by a large odd number spreads the bits upwards, so the leading ones are used (Knuth, The Art of Computer
+/// Programming, volume 3, section 6.4).
 fn hash(node: Node) -> u64 {
     const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
     let (kind, operands) = match node {

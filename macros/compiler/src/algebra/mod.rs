@@ -1,6 +1,6 @@
 //! Symbolic scalars: one hash-consed graph, simplified as it grows, differentiated without ever being expanded.
 //!
-//! Architecture invariant: this wing knows no mechanics and imports only `base`.
+//! Architecture invariant: this module knows no mechanics and imports only `base`.
 
 mod build;
 mod count;

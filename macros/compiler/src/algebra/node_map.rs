@@ -1,16 +1,16 @@
-//! Nodes by node.
+//! A map from nodes to nodes.
 
 use crate::base::ids::ExprId;
 
-/// A node for some of the nodes of a graph. Memory of zeros costs nothing until it is used, so that a walk over a part of a large
-/// graph pays for this part only.
+/// Maps some nodes of a graph to nodes. Zeroed memory costs nothing until it is used, so a walk over part of a large graph
+/// pays only for this part.
 pub(super) struct NodeMap {
     /// By node: the number of its image, counted from one, or zero.
     images: Vec<u32>,
 }
 
 impl NodeMap {
-    /// No node for any of the first `size` nodes.
+    /// An empty map for the first `size` nodes.
     pub(super) fn new(size: usize) -> Self {
         Self {
             images: vec![0; size],

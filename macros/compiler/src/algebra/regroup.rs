@@ -1,5 +1,5 @@
-//! Fewer operations by another grouping of sums and products: factors common to terms are taken out, and products that
-//! share pairs of factors share their product.
+//! Regroups sums and products to need fewer operations: common factors are taken out of sums, and products that
+//! share a pair of factors share its product.
 
 mod products;
 mod rebuild;
@@ -15,8 +15,8 @@ use super::graph::Graph;
 use crate::base::census::taken;
 use crate::base::ids::ExprId;
 
-/// The same results for fewer operations, where sums and products can be grouped so. What several of the functions return
-/// is computed alike by all of them, to the last bit.
+/// The same functions with sums and products regrouped where that needs fewer operations. Results that several of the functions
+/// return are computed in the same way by all of them, so they agree to the last bit.
 pub fn regrouped(graph: &mut Graph, functions: &[Function]) -> Vec<Function> {
     let roots: Vec<ExprId> = functions.iter().flat_map(Function::roots).collect();
     let mut values = regroup(graph, &roots).into_iter();
@@ -30,7 +30,7 @@ pub fn regrouped(graph: &mut Graph, functions: &[Function]) -> Vec<Function> {
     functions
 }
 
-/// `roots` regrouped, or as they are where that is no cheaper. Values change by rounding only.
+/// `roots` regrouped, or unchanged if that is no cheaper. Values change by rounding only.
 pub fn regroup(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
     let factored = factor_sums(graph, roots);
     let shared = share_products(graph, &factored);

@@ -1,4 +1,4 @@
-//! Reverse differentiation: the derivatives of one expression by many symbols, for a small multiple of its cost.
+//! Reverse differentiation: the derivatives of one expression by many symbols, at a small multiple of its cost.
 
 use super::count::dependent;
 use super::forward::{slope, slopes};

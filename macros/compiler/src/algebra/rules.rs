@@ -1,7 +1,7 @@
-//! The rewrite rules: a named table with side conditions. The right side is never dearer than the left.
+//! The rewrite rules: a named table with side conditions. The right side never costs more than the left.
 //!
-//! A rule sees the operands of a node about to be built and may answer with something simpler. Every rule is sampled
-//! numerically by a test that also checks that it fires.
+//! A rule sees the operands of a node about to be built and may return something simpler. A test samples every rule
+//! numerically and checks that it fires.
 
 use super::evaluation::{Evaluation, combined, folded};
 use super::graph::Graph;
@@ -9,11 +9,11 @@ use super::node::Node;
 use crate::base::ids::ExprId;
 use crate::base::operators::{Operator, Unary};
 
-/// One rewrite rule for `a op b`; operators of one operand ignore `b`.
+/// One rewrite rule for `a op b`; unary operators ignore `b`.
 pub struct Rule {
-    /// What it does, left to right.
+    /// The rewrite, left to right.
     pub name: &'static str,
-    /// Where both sides are equal; empty when everywhere.
+    /// Where both sides are equal; empty if everywhere.
     pub condition: &'static str,
     /// The simpler form, if the rule applies.
     pub apply: fn(&mut Graph, ExprId, ExprId) -> Option<ExprId>,
@@ -21,16 +21,16 @@ pub struct Rule {
 
 /// The rules of one operator, tried in order.
 pub struct Table {
-    /// The operator they are for.
+    /// The operator that the rules apply to.
     pub operator: TableOperator,
     /// The rules.
     pub rules: &'static [Rule],
 }
 
-/// What a table is for.
+/// The operator of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableOperator {
-    /// An operator of two operands.
+    /// A binary operator.
     Binary(Operator),
     /// Negation.
     Negate,
@@ -323,7 +323,7 @@ pub(super) fn simplify_binary(
     rules.iter().find_map(|rule| (rule.apply)(g, a, b))
 }
 
-/// Simplifies an operator of one operand, if a rule applies.
+/// Simplifies a unary operator, if a rule applies.
 pub(super) fn simplify_unary(g: &mut Graph, operator: Unary, a: ExprId) -> Option<ExprId> {
     if let Some(x) = g.number(a) {
         let number = folded(operator, x);
@@ -364,7 +364,7 @@ fn small_power(g: &mut Graph, a: ExprId, exponent: i32) -> Option<ExprId> {
     }
 }
 
-/// `x` when the node is `-x`, or `c` when it is the negative constant `-c`.
+/// `x` if the node is `-x`, or `c` if it is the negative constant `-c`.
 fn negated(g: &mut Graph, a: ExprId) -> Option<ExprId> {
     match g.node(a) {
         Node::Unary(Unary::Negate, x) => Some(x),
@@ -416,7 +416,7 @@ fn times(g: &mut Graph, factor: Evaluation, a: ExprId) -> ExprId {
     g.mul(factor, a)
 }
 
-/// The node that `a` is the square of.
+/// The node whose square is `a`.
 fn square(g: &Graph, a: ExprId) -> Option<Node> {
     product(g, a)
         .filter(|(x, y)| x == y)

@@ -1,4 +1,4 @@
-//! Replacing symbols: the graph is rebuilt above them and simplifies as it goes.
+//! Replaces symbols: the graph above them is rebuilt and simplified on the way.
 
 use super::count::dependent;
 use super::graph::Graph;

@@ -1,10 +1,10 @@
-//! The graph against plain numbers: rules, derivatives in both directions, substitution.
+//! Compares the graph with plain numbers: rules, derivatives in both directions, substitution.
 
 use super::rules::TableOperator;
 use super::*;
 use crate::base::ids::{ExprId, SymbolId};
 
-/// A small deterministic generator: tests of this crate need no library for it.
+/// A small deterministic generator, so that the tests of this crate need no library.
 struct Random(u64);
 
 impl Random {
@@ -28,7 +28,7 @@ fn symbols(g: &mut Graph, n: usize) -> (Vec<SymbolId>, Vec<ExprId>) {
         .unzip()
 }
 
-/// A random expression that is positive and of moderate size wherever its symbols are.
+/// A random expression that is positive and of moderate size if its symbols are.
 fn expression(g: &mut Graph, random: &mut Random, leaves: &[ExprId], depth: usize) -> ExprId {
     if depth == 0 || random.below(4) == 0 {
         return if random.below(4) == 0 {
@@ -86,7 +86,7 @@ fn every_rule_fires_and_keeps_the_value() {
                     1 => b = g.unary(Unary::Sqrt, a),
                     2 => a = g.div(leaves[0], b),
                     3 => _ = g.sub(b, a),
-                    // of the same angle or not
+                    // of the same angle or of two
                     4 => {
                         let angles = [0, 1].map(|_| leaves[random.below(2)]);
                         a = g.unary(Unary::Sin, angles[0]);
@@ -237,7 +237,7 @@ fn rotation_about_an_axis_has_unit_columns() {
     }
 }
 
-/// `R S R^T` against the sum that defines it, for turns about axes between right angles, and for any rotation.
+/// `R S R^T` against the sum that defines it, for turns about axes between right angles, and for arbitrary rotations.
 #[test]
 fn rotations_turn_symmetric_matrices() {
     let mut random = Random(77);
@@ -290,7 +290,7 @@ fn rotations_turn_symmetric_matrices() {
     }
 }
 
-/// Known savings, and random expressions: the values stay, the cost does not grow.
+/// Known savings, and random expressions: values are preserved and the cost does not grow.
 #[test]
 fn regrouping_keeps_values_and_saves_operations() {
     let g = &mut Graph::new();
@@ -334,7 +334,7 @@ fn regrouping_keeps_values_and_saves_operations() {
     assert!(saved > 20, "{saved}");
 }
 
-/// What rounding leaves of constants that cancel is not told from a number by its value alone.
+/// The rounding residue of constants that cancel cannot be recognised by its value alone.
 #[test]
 fn folded_constants_keep_their_rounding() {
     let g = &mut Graph::new();

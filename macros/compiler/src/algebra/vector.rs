@@ -20,7 +20,7 @@ impl Vector3 {
         self.0.iter().all(|&x| g.is(x, 0.0))
     }
 
-    /// The frame axis that it lies on, of length one: exactly, since the sine of nearly a right angle rounds to one while
+    /// The frame axis that it is a unit vector along. The test is exact: the sine of nearly a right angle rounds to one, but
     /// its cosine is not zero.
     fn unit(self, g: &Graph) -> Option<usize> {
         let along = |k: usize| g.is(self.0[k], 1.0) || g.is(self.0[k], -1.0);
@@ -109,9 +109,9 @@ impl Matrix3 {
         Self(other.0.map(|column| self.apply(g, column)))
     }
 
-    /// `self s self^T` of a rotation and a symmetric matrix, which comes out symmetric.
+    /// `self s self^T` for a rotation and a symmetric matrix; the result is symmetric.
     ///
-    /// A rotation about an axis, whatever right angles come before and after, turns the plane across by rows `(p, q)` and
+    /// A rotation about an axis, possibly with right angles before and after, turns the perpendicular plane by rows `(p, q)` and
     /// `sign (-q, p)`: with `v = p (s11 - s22) + 2 q s12` the plane becomes `[s22 + p v, sign (s12 - q v)]`,
     /// `[sign (s12 - q v), s11 - p v]`.
     pub fn turn_symmetric(self, g: &mut Graph, s: [[ExprId; 3]; 3]) -> [[ExprId; 3]; 3] {
@@ -164,7 +164,7 @@ impl Matrix3 {
         turned
     }
 
-    /// The plane that a rotation about an axis turns, if it is one.
+    /// The plane in which the rotation turns, if it is about an axis.
     fn plane(self, g: &mut Graph) -> Option<Plane> {
         let entry = |i: usize, j: usize| self.0[j].0[i];
         for c in 0..3 {
@@ -195,7 +195,7 @@ impl Matrix3 {
         None
     }
 
-    /// The transpose: of a rotation, its inverse.
+    /// The transpose, which is the inverse of a rotation.
     pub fn transpose(self) -> Self {
         Self(std::array::from_fn(|j| {
             Vector3(std::array::from_fn(|i| self.0[i].0[j]))
@@ -224,10 +224,10 @@ impl Matrix3 {
     }
 }
 
-/// Rows and columns of a rotation about an axis: the axis, then the plane across.
+/// Rows and columns of a rotation about an axis: the axis, then the perpendicular plane.
 struct Plane {
     rows: [usize; 3],
     columns: [usize; 3],
-    /// The plane's second row is `(q, -p)`, not `(-q, p)`.
+    /// Whether the plane's second row is `(q, -p)` instead of `(-q, p)`.
     mirrored: bool,
 }

@@ -1,4 +1,4 @@
-//! Which special cases a derivation takes. Special code that no test mechanism reaches is untested code, so tests count.
+//! Counts the special cases that a derivation takes: special code that no test mechanism reaches is untested.
 
 #[cfg(feature = "census")]
 use std::{cell::RefCell, collections::BTreeMap};
@@ -8,7 +8,7 @@ thread_local! {
     static TAKEN: RefCell<BTreeMap<String, u64>> = const { RefCell::new(BTreeMap::new()) };
 }
 
-/// Notes that a special case was taken; nothing without the feature `census`.
+/// Records that a special case was taken; does nothing without the feature `census`.
 #[inline(always)]
 pub(crate) fn taken(_case: impl FnOnce() -> String) {
     #[cfg(feature = "census")]

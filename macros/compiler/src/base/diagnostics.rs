@@ -7,14 +7,14 @@ use proc_macro2::{Ident, TokenStream};
 
 use super::span::Extent;
 
-/// One mistake: what is wrong, where, and what to do about it.
+/// One mistake: the problem, its place, and how to fix it.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
     /// The offending tokens.
     pub span: Extent,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
-    /// What to do.
+    /// How to fix it.
     pub help: Option<String>,
 }
 
@@ -28,13 +28,13 @@ impl Diagnostic {
         }
     }
 
-    /// Adds what to do.
+    /// Adds advice on how to fix the mistake.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// The message and, on a line of its own, the help.
+    /// The message, with the help on a separate line.
     pub fn text(&self) -> String {
         match &self.help {
             Some(help) => format!("{}\nhelp: {help}", self.message),
@@ -43,8 +43,8 @@ impl Diagnostic {
     }
 }
 
-/// A collector of mistakes. Dropping one that holds mistakes nobody has looked at is a bug of the compiler: it would
-/// accept a wrong declaration. Debug builds panic on it.
+/// A collector of mistakes. Dropping a collector whose mistakes were never read is a bug in the compiler, which would then
+/// accept a wrong declaration; debug builds panic.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
@@ -62,7 +62,7 @@ impl Diagnostics {
         self.push(Diagnostic::new(span, message));
     }
 
-    /// Records a mistake and what to do about it.
+    /// Records a mistake with advice on how to fix it.
     pub fn error_with_help(
         &mut self,
         span: impl Into<Extent>,
@@ -72,7 +72,7 @@ impl Diagnostics {
         self.push(Diagnostic::new(span, message).with_help(help));
     }
 
-    /// Records a mistake with help where there is any.
+    /// Records a mistake, with its help if there is any.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.looked_at.set(false);
         self.list.push(diagnostic);
@@ -83,7 +83,7 @@ impl Diagnostics {
         self.extend(other.list.drain(..));
     }
 
-    /// No mistake was recorded.
+    /// Whether no mistake was recorded.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
@@ -93,7 +93,7 @@ impl Diagnostics {
         self.list.len()
     }
 
-    /// The value when there is no mistake, the mistakes otherwise.
+    /// The value if there are no mistakes, otherwise the mistakes.
     pub fn into_result<T>(self, value: T) -> Result<T, Diagnostics> {
         if self.is_empty() {
             Ok(value)

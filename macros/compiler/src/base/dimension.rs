@@ -10,7 +10,7 @@ pub struct Dimension {
     time: Exponent,
 }
 
-/// An exact exponent: a root leaves halves and thirds.
+/// An exact exponent: roots produce halves and thirds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Exponent {
     numerator: i16,
@@ -25,7 +25,7 @@ impl Exponent {
         }
     }
 
-    /// In lowest terms with a positive denominator; nothing when it does not fit.
+    /// In lowest terms with a positive denominator; `None` if it does not fit.
     fn reduced(numerator: i64, denominator: i64) -> Option<Self> {
         let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
         let divisor = i64::try_from(divisor).ok().filter(|&d| d != 0)?;
@@ -101,22 +101,22 @@ impl Dimension {
         }
     }
 
-    /// Plain number or angle.
+    /// Whether this is a plain number or an angle.
     pub fn is_none(self) -> bool {
         self == Self::NONE
     }
 
-    /// Dimension of a product; nothing when an exponent grows out of range.
+    /// Dimension of a product; `None` if an exponent is out of range.
     pub fn times(self, other: Self) -> Option<Self> {
         self.combine(other, 1)
     }
 
-    /// Dimension of a quotient; nothing when an exponent grows out of range.
+    /// Dimension of a quotient; `None` if an exponent is out of range.
     pub fn over(self, other: Self) -> Option<Self> {
         self.combine(other, -1)
     }
 
-    /// Dimension of the power `numerator / denominator`; nothing when an exponent grows out of range.
+    /// Dimension of the power `numerator / denominator`; `None` if an exponent is out of range.
     pub fn power(self, numerator: i32, denominator: i32) -> Option<Self> {
         Some(Self {
             length: self.length.times(numerator, denominator)?,
@@ -133,7 +133,7 @@ impl Dimension {
         })
     }
 
-    /// What engineers call it, with an article and the SI unit: `a length (m)`.
+    /// The name that engineers use, with an article and the SI unit: `a length (m)`.
     pub fn describe(self) -> String {
         match self.common_name() {
             Some((name, _)) if self.is_none() => name.to_string(),

@@ -1,4 +1,4 @@
-//! What every stage shares: typed ids, source positions, diagnostics, units and dimensions.
+//! Shared by all stages: typed ids, source positions, diagnostics, units and dimensions.
 
 pub mod census;
 pub mod diagnostics;

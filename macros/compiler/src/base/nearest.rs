@@ -1,6 +1,6 @@
-//! A misspelt name is answered with the nearest known one.
+//! Suggests the nearest known name for a misspelt one.
 
-/// What is probably meant: the known word that another tool calls `name`, else the nearest known one.
+/// The probable meaning of `name`: the known word for another tool's `name`, otherwise the nearest known word.
 pub fn suggestion<'a>(
     name: &str,
     known: impl IntoIterator<Item = &'a str> + Clone,
@@ -13,7 +13,7 @@ pub fn suggestion<'a>(
     translated.or_else(|| nearest(name, known))
 }
 
-/// The candidate nearest to `name`, when one is near enough to be meant. The first of equals wins.
+/// The candidate nearest to `name`, if it is near enough to be meant. In a tie, the first wins.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = match name.chars().count() {
         0..=3 => 1,
@@ -27,7 +27,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         } else {
             distance(name, candidate)
         };
-        // A name of which every letter would change is not a misspelling.
+        // If every letter would change, the name is not a misspelling.
         let longest = name.chars().count().max(candidate.chars().count());
         let near = distance <= allowed && distance < longest;
         if near && best.is_none_or(|(least, _)| distance < least) {

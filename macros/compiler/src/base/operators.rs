@@ -2,7 +2,7 @@
 
 use super::spline::Spline;
 
-/// Operators of two operands.
+/// Binary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Operator {
     /// `a + b`.
@@ -19,7 +19,7 @@ pub enum Operator {
     Atan2,
 }
 
-/// Operators of one operand.
+/// Unary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Unary {
     /// `-a`.
@@ -42,7 +42,7 @@ pub enum Unary {
     Ln,
     /// `a ^ n`.
     PowerInteger(i32),
-    /// A curve, or the derivative of it of this order.
+    /// A curve, or its derivative of the given order.
     Spline(Spline, u8),
 }
 
@@ -73,12 +73,12 @@ impl Operator {
 }
 
 impl Unary {
-    /// The function of a name.
+    /// The function with the given name.
     pub fn named(name: &str) -> Option<Self> {
         NAMED.into_iter().find(|function| function.name() == name)
     }
 
-    /// What it is called: of a function its name in the language and in Rust.
+    /// The name of the operator; for functions, the name in the language and in Rust.
     pub fn name(self) -> &'static str {
         match self {
             Self::Negate => "minus",

@@ -1,10 +1,10 @@
-//! Where something stands in the user's source: every message points at tokens that the user typed.
+//! Positions in the user's source: every message points at tokens that the user typed.
 
 use proc_macro2::{Ident, Span};
 
 /// A run of tokens. Stable compilers cannot join two spans into one, so both ends are kept.
 ///
-/// Two extents are always equal: position does not distinguish two declarations, so that trees can be compared.
+/// Two extents are always equal: position does not distinguish declarations, so that trees can be compared.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
     /// The first token.

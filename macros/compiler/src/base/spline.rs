@@ -1,23 +1,24 @@
 //! Natural cubic splines: curves through points, with two continuous derivatives.
 //!
-//! An operator of an expression is a small value that is copied and compared. The points of a curve are therefore kept once, for as long
-//! as the program runs, as compilers keep the names they have read: the same curve twice takes no room twice.
+//! Operators of expressions are small values that are copied and compared. The points of a curve are therefore stored once and
+//! kept for the lifetime of the program, as compilers do with interned names: the same curve takes no extra memory when it is
+//! used again.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::{Mutex, PoisonError};
 
-/// Where a piece starts, and its coefficients: `c0 + c1 t + c2 t^2 + c3 t^3` with `t = x - start`.
+/// Start and coefficients of a piece: `c0 + c1 t + c2 t^2 + c3 t^3` with `t = x - start`.
 pub type Piece = [f64; 5];
 
-/// A natural cubic spline through points. Before the first and behind the last it goes on straight, so that two derivatives are continuous
-/// everywhere.
+/// A natural cubic spline through points. It continues as a straight line before the first and after the last point, so two
+/// derivatives are continuous everywhere.
 #[derive(Clone, Copy)]
 pub struct Spline(&'static Data);
 
 struct Data {
-    /// Of the curve and its derivatives.
+    /// Names of the curve and its derivatives.
     names: [String; 4],
     pieces: Vec<Piece>,
 }
@@ -25,7 +26,7 @@ struct Data {
 static KNOWN: Mutex<Vec<&'static Data>> = Mutex::new(Vec::new());
 
 impl Spline {
-    /// The spline through points: at least two, whose arguments `x` grow.
+    /// The spline through at least two points with increasing arguments `x`.
     pub fn through(name: &str, x: &[f64], y: &[f64]) -> Self {
         Self::kept(name, pieces(x, y))
     }
@@ -52,7 +53,7 @@ impl Spline {
         &self.0.names[usize::from(derivative).min(3)]
     }
 
-    /// Its pieces: the straight line before the first point, the cubics, the straight line behind the last point.
+    /// Its pieces: the straight line before the first point, the cubics, and the straight line after the last point.
     pub fn pieces(self) -> &'static [Piece] {
         &self.0.pieces
     }
@@ -68,7 +69,7 @@ impl Spline {
         coefficients.all(|&coefficient| coefficient == 0.0)
     }
 
-    /// A derivative at `x`.
+    /// The value of a derivative at `x`.
     pub fn at(self, x: f64, derivative: u8) -> f64 {
         let (t, [c0, c1, c2, c3]) = self.shifted(x);
         match derivative {
@@ -80,7 +81,7 @@ impl Spline {
         }
     }
 
-    /// The sum of the terms of a derivative, each without its sign: what bounds its rounding error.
+    /// The sum of the magnitudes of a derivative's terms, which bounds its rounding error.
     pub fn magnitude(self, x: f64, derivative: u8) -> f64 {
         let (t, c) = self.shifted(x);
         let (t, [c0, c1, c2, c3]) = (t.abs(), c.map(f64::abs));
@@ -102,8 +103,8 @@ impl Spline {
     }
 }
 
-/// Second derivatives at the points by the three-term equations of the spline (de Boor, A Practical Guide to Splines, chapter IV), then
-/// the pieces.
+/// Solves the three-term equations of the spline (de Boor, A Practical Guide to Splines, chapter IV) for the second
+/// derivatives at the points, then builds the pieces.
 fn pieces(x: &[f64], y: &[f64]) -> Vec<Piece> {
     let last = x.len() - 1;
     let h: Vec<f64> = x.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -150,7 +151,7 @@ impl PartialOrd for Spline {
     }
 }
 
-/// By what they are, not by when they were met.
+/// Ordered by content, not by order of creation.
 impl Ord for Spline {
     fn cmp(&self, other: &Self) -> Ordering {
         let bits = |spline: &Self| -> Vec<u64> {
@@ -172,7 +173,7 @@ impl fmt::Debug for Spline {
 mod tests {
     use super::Spline;
 
-    /// Through its points, with two continuous derivatives, straight beyond the ends.
+    /// The spline passes through its points, has two continuous derivatives and is straight beyond the ends.
     #[test]
     fn a_spline_is_smooth() {
         let (x, y) = ([0.0, 1.0, 2.5, 3.0, 7.0], [1.0, -2.0, 4.0, 4.0, 0.5]);
@@ -195,7 +196,7 @@ mod tests {
         assert_ne!(spline, Spline::through("other", &x, &y));
     }
 
-    /// `x^3` up to one, `(2 - x)^3 + 6 x - 6` from there: curvature grows from zero and falls back to it. Two points give a line.
+    /// `x^3` up to one, then `(2 - x)^3 + 6 x - 6`: the curvature grows from zero and falls back to it. Two points give a line.
     #[test]
     fn known_splines_come_back() {
         let spline = Spline::through("hat", &[0.0, 1.0, 2.0], &[0.0, 1.0, 6.0]);

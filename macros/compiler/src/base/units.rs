@@ -14,7 +14,7 @@ pub struct NamedUnit {
     pub scale: f64,
 }
 
-/// Units that take the decimal prefixes, each as a factor times a power of ten.
+/// Units that take decimal prefixes, each as a factor times a power of ten.
 const PREFIXED: [(&str, Dimension, f64, i32); 9] = [
     ("m", Dimension::LENGTH, 1.0, 0),
     ("g", Dimension::MASS, 1.0, -3),
@@ -23,7 +23,7 @@ const PREFIXED: [(&str, Dimension, f64, i32); 9] = [
     ("Pa", Dimension::PRESSURE, 1.0, 0),
     ("J", Dimension::MOMENT, 1.0, 0),
     ("W", Dimension::POWER, 1.0, 0),
-    // A cycle per second of a rotation or a vibration, so that `50 Hz` can be given where rad/s are computed with.
+    // One cycle per second of a rotation or vibration, so that `50 Hz` can be given where rad/s are needed.
     ("Hz", Dimension::RATE, 2.0 * PI, 0),
     ("rad", Dimension::NONE, 1.0, 0),
 ];
@@ -72,12 +72,12 @@ pub fn find(name: &str) -> Option<NamedUnit> {
     })
 }
 
-/// The double nearest to the power, which repeated multiplication misses.
+/// The double nearest to the power of ten, which repeated multiplication misses.
 fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// What others write for a unit, and what to write here.
+/// Common spellings of units, and the symbol to write instead.
 const WORDS: [(&str, &str); 50] = [
     ("metre", "m"),
     ("meter", "m"),
@@ -131,7 +131,7 @@ const WORDS: [(&str, &str); 50] = [
     ("mm2", "mm^2"),
 ];
 
-/// What to write for words of a hundredth, which is no unit.
+/// Advice for words that mean a hundredth, which is not a unit.
 pub fn per_cent(name: &str) -> Option<String> {
     let words = ["percent", "per", "pct", "procent", "percentage"];
     let is_one = words.iter().any(|word| word.eq_ignore_ascii_case(name));
@@ -141,7 +141,7 @@ pub fn per_cent(name: &str) -> Option<String> {
     })
 }
 
-/// What is meant by a unit with a power or a sign that the language writes otherwise: `m3`, `µm`, `N·m`.
+/// The intended unit if a power or a sign is spelt differently in this language: `m3`, `µm`, `N·m`.
 pub fn respelt(name: &str) -> Option<String> {
     let plain = name.replace(['µ', 'μ'], "u").replace('·', "*");
     let parts = plain.split('*').map(|part| {
@@ -156,7 +156,7 @@ pub fn respelt(name: &str) -> Option<String> {
     (text != name).then_some(text)
 }
 
-/// What is probably meant by an unknown unit: the symbol for a word, in singular or plural, else the nearest symbol.
+/// The probable meaning of an unknown unit: the symbol for a word, in singular or plural, otherwise the nearest symbol.
 pub fn suggestion(name: &str) -> Option<&'static str> {
     let singular = name.strip_suffix('s').unwrap_or(name);
     let word = |name: &str| {
@@ -170,7 +170,7 @@ pub fn suggestion(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Names to suggest for a misspelt unit, the usual ones first.
+/// Names to suggest for a misspelt unit, the most common first.
 fn names() -> impl Iterator<Item = &'static str> {
     const PREFIXED_IN_USE: [&str; 22] = [
         "kg", "mm", "cm", "um", "km", "mg", "ms", "us", "kN", "mN", "MN", "kPa", "MPa", "GPa",

@@ -9,22 +9,22 @@ use super::expression::Text;
 use super::names::{Names, local, wanted};
 use super::sines::{Group, groups};
 
-/// Statements in one block. A long chain of plain `let`s nests one scope per statement, which rustc cannot take beyond a
-/// few thousand; longer bodies declare the names of each block at once and assign them in turn.
+/// Number of statements per block. A long chain of plain `let`s nests one scope per statement, which rustc cannot handle beyond
+/// a few thousand; longer bodies declare the names of each block at once and then assign them.
 const BLOCK: usize = 256;
 
-/// Operations that an unnamed value used once may have to be written where it is used.
+/// Maximum number of operations that an unnamed value used once may contain to be written inline where it is used.
 const INLINE: usize = 6;
 
-/// Names that the emitter writes itself around the statements.
+/// Names that the emitter itself uses around the statements.
 const RESERVED: [&str; 8] = [
     "zero", "result", "value", "volume", "margin", "smaller", "least", "known",
 ];
 
-/// A method body: statements, and the text of every operand that results refer to.
+/// A method body: statements, and the text of every operand that the results refer to.
 pub(super) struct Body<'a> {
     kernel: &'a Kernel,
-    /// Where each value is stored as soon as it is known.
+    /// For each instruction, the places where its value is stored as soon as it is known.
     places: Vec<Vec<String>>,
     texts: Vec<Option<Text>>,
     entries: Vec<Vec<String>>,
@@ -32,9 +32,9 @@ pub(super) struct Body<'a> {
 }
 
 enum Statement {
-    /// Local variables, a pattern of them, and its value.
+    /// Local variables, the pattern that binds them, and its value.
     Let(Vec<String>, String, String),
-    /// A place in a result gets its value.
+    /// A place in a result, and its value.
     Store(String, String),
 }
 
@@ -44,7 +44,7 @@ impl<'a> Body<'a> {
         Self::storing(kernel, vec![Vec::new(); kernel.instructions.len()])
     }
 
-    /// Writes the statements of a kernel, and behind each instruction that its value goes to the places given for it.
+    /// Writes the statements of a kernel; after each instruction, its value is stored at the places given for it.
     pub(super) fn storing(kernel: &'a Kernel, places: Vec<Vec<String>>) -> Self {
         let mut names = Names::new(kernel.parameters.iter().map(|p| p.name).chain(RESERVED));
         let mut this = Self {
@@ -190,7 +190,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Stores a value where results want it.
+    /// Stores a value at its places in the results.
     fn store(&mut self, index: usize) {
         let places = std::mem::take(&mut self.places[index]);
         for place in places {
@@ -199,7 +199,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// How often each value is written; a sign passes the count on to its operand, because signs are never stored.
+    /// How often each value is written. A sign passes its count on to its operand, because signs are never stored.
     fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.kernel.instructions.len()];
         for array in &self.kernel.results {

@@ -9,8 +9,8 @@ use super::form::Form;
 use super::results::Results;
 use super::signature::{call, head, signature};
 
-/// Kernels that loops over vector lanes call: their bodies are written where they are called, because the instructions of
-/// such a loop reach only what is inlined into it.
+/// Kernels that loops over vector lanes call. Their bodies are inlined at the call, because the instruction set of such a loop
+/// applies only to code inlined into it.
 const INLINED: [KernelName; 7] = [
     KernelName::ResidualParts,
     KernelName::ResidualAndStiffness,
@@ -21,8 +21,8 @@ const INLINED: [KernelName; 7] = [
     KernelName::ResidualGradient,
 ];
 
-/// Kernels for which `Real::run` chooses the instructions of the processor, at any length: their values are needed again and again,
-/// and they take three quarters to nine tenths of the time.
+/// Kernels of any length for which `Real::run` selects the processor's instruction set: their values are needed repeatedly and
+/// take three quarters to nine tenths of the time.
 const CHOSEN: [KernelName; 4] = [
     KernelName::LinearPartials,
     KernelName::ModeGradient,
@@ -30,8 +30,8 @@ const CHOSEN: [KernelName; 4] = [
     KernelName::ResidualGradient,
 ];
 
-/// Instructions that any other kernel has if it is worth it: shorter ones are slower with AVX by up to a quarter, and as a kernel is
-/// compiled once for each choice, longer ones would take too long.
+/// Numbers of instructions for which selection pays in any other kernel: shorter kernels are up to a quarter slower with AVX, and
+/// since a kernel is compiled once per choice, longer ones would take too long to compile.
 const LONG: RangeInclusive<usize> = 1024..=2048;
 
 fn is_one_of(kernel: &Kernel, names: &[KernelName]) -> bool {
@@ -60,7 +60,7 @@ pub(super) fn method(kernel: &Kernel, form: Form) -> String {
     text
 }
 
-/// A body that runs with the instructions of the processor that suit it, where that pays.
+/// A body that runs with a suitable instruction set of the processor where that pays.
 fn run(kernel: &Kernel, body: &str) -> String {
     let count = kernel.instructions.len();
     let chosen = is_one_of(kernel, &CHOSEN) || LONG.contains(&count);
@@ -70,7 +70,7 @@ fn run(kernel: &Kernel, body: &str) -> String {
     }
 }
 
-/// A method that is written where it is called.
+/// A method that is always inlined.
 fn inlined(head: &str, body: &str) -> String {
     format!("#[doc(hidden)]\n#[inline(always)]\n{head}{{\n{body}\n}}\n")
 }

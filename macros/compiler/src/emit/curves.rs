@@ -1,4 +1,4 @@
-//! The pieces of curves, as constants beside the methods.
+//! The pieces of curves, as constants next to the methods.
 //!
 //! ```text
 //! const PIECES_OF_kxx: [[f64; 5]; 4] = [[..], ..];
@@ -12,7 +12,7 @@ use crate::program::{Operation, Program};
 
 use super::expression::pieces_of;
 
-/// A constant for each curve that some kernel uses.
+/// One constant for each curve that some kernel uses.
 pub(super) fn constants(program: &Program) -> String {
     let mut text = String::new();
     for spline in used(program) {
@@ -27,7 +27,7 @@ pub(super) fn constants(program: &Program) -> String {
     text
 }
 
-/// In the order of their names.
+/// The curves in use, ordered by name.
 fn used(program: &Program) -> Vec<Spline> {
     let kernels = program.kernels.iter();
     let mut used: Vec<Spline> = kernels

@@ -75,7 +75,7 @@ pub(super) fn description(
     }
 }
 
-/// One constant per name of the declaration, spelled as declared and at its span, so that editors complete it and jump
+/// One constant per name of the declaration, spelled as declared and with its span, so that editors can complete it and jump
 /// to it.
 pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStream {
     let visibility = &mechanism.visibility;
@@ -141,8 +141,8 @@ fn unit(unit: &Unit) -> TokenStream {
     quote! { ::eigentol::Unit { symbol: ::eigentol::Shared::Static(#symbol), scale: #scale } }
 }
 
-/// A variable that nothing reads for every design variable that nothing refers to: rustc warns where that is declared, and can
-/// be told not to, as of its own variables. The functions hide constants of the same names, which `let` would mean.
+/// An unread local variable for every design variable that nothing refers to: rustc warns at its declaration, and the usual
+/// attributes silence the warning. The functions shadow constants of the same names, which `let` would otherwise match.
 pub(super) fn unused(mechanism: &Mechanism) -> TokenStream {
     let unused = mechanism.unused_design();
     let names: Vec<_> = unused.map(|variable| &variable.name).collect();

@@ -3,12 +3,12 @@
 use crate::algebra::{Operator, Unary};
 use crate::base::spline::Spline;
 
-/// The constant that holds the pieces of a curve. Local variables end in an underscore; it does not.
+/// The constant that holds the pieces of a curve. Unlike local variables, it does not end in an underscore.
 pub(super) fn pieces_of(spline: Spline) -> String {
     format!("PIECES_OF_{}", spline.name().trim_start_matches("r#"))
 }
 
-/// How tightly a piece of text holds together.
+/// How tightly a piece of text binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Binding {
     Sum,
@@ -46,7 +46,7 @@ impl Text {
         }
     }
 
-    /// An operator of one operand.
+    /// A unary operator.
     pub(super) fn unary(operator: Unary, a: &Self) -> Self {
         match operator {
             Unary::Negate => Self {
@@ -66,7 +66,7 @@ impl Text {
         }
     }
 
-    /// Sine and cosine at once.
+    /// Sine and cosine together.
     pub(super) fn sin_cos(a: &Self) -> Self {
         Self::atom(format!("{}.sin_cos()", a.within(Binding::Atom)))
     }
@@ -77,7 +77,7 @@ impl Text {
         Self::atom(format!("T::sin_cos_all([{}])", angles.join(", ")))
     }
 
-    /// An operator of two operands. The order of evaluation is the graph's: the right operand keeps its parentheses.
+    /// A binary operator. The order of evaluation follows the graph: the right operand keeps its parentheses.
     pub(super) fn binary(operator: Operator, a: &Self, b: &Self) -> Self {
         let infix = |sign, left, right, binding| Self {
             text: format!("{} {sign} {}", a.within(left), b.within(right)),

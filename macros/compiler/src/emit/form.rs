@@ -7,15 +7,15 @@ use crate::mechanics::KernelName;
 pub(super) enum Form {
     /// One array.
     Single,
-    /// Arrays side by side.
+    /// A tuple of arrays.
     Tuple,
-    /// A struct of the runtime with one field per array, generic over the types of the first so many.
+    /// A struct of the runtime with one field per array, generic over the types of the given number of leading arrays.
     Record(&'static str, usize),
     /// `LinearPartials`: three lists of three matrices.
     Partials,
 }
 
-/// The form of a kernel of the contract; `None` for requirements and poses, which have methods of their own kind.
+/// The form of a kernel of the contract; `None` for requirements and poses, whose methods are generated separately.
 pub(super) fn form(kernel: KernelName) -> Option<Form> {
     Some(match kernel {
         KernelName::Residual

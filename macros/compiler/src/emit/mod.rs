@@ -1,4 +1,4 @@
-//! From a program to Rust items that a person can read.
+//! From a program to Rust items that people can read.
 //!
 //! ```text
 //! pub struct Pendulum;
@@ -18,7 +18,7 @@
 //! }
 //! ```
 //!
-//! Method bodies are written as text and lexed once: building them token by token costs more than the algebra.
+//! Method bodies are written as text and lexed once: building them token by token would cost more than the algebra.
 
 mod body;
 mod contract;

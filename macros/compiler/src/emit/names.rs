@@ -1,4 +1,4 @@
-//! Names of local variables: those the derivation gave, or made from what is computed.
+//! Names of local variables: given by the derivation, or built from the operation.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,14 @@ use crate::program::{Instruction, Operand, Operation};
 /// Longest name that is built from the names of two operands.
 const COMPOUND: usize = 28;
 
-/// The local variable of a name. Rust takes a variable spelt like a constant, a static or a unit struct of the user's module
-/// for that item, which may have any name that a person writes: nobody's ends like this. No keyword does either.
+/// The local variable for a name. Rust reads a variable spelt like a constant, a static or a unit struct of the user's module
+/// as that item, and such an item may have any name. The trailing underscore avoids collisions: people do not write such names,
+/// and no keyword ends like this either.
 pub(super) fn local(name: &str) -> String {
     format!("{name}_")
 }
 
-/// Hands out names of local variables, each once.
+/// Hands out names of local variables, each only once.
 pub(super) struct Names {
     taken: BTreeMap<String, usize>,
 }
@@ -29,7 +30,7 @@ impl Names {
         Self { taken }
     }
 
-    /// The local variable of the name wanted, in lower case and with a number behind it when it is taken already.
+    /// The local variable for the wanted name, in lower case and with a number appended if the name is already taken.
     pub(super) fn unique(&mut self, wanted: &str) -> String {
         let base = wanted.to_lowercase();
         let count = self.taken.entry(base.clone()).or_insert(0);
@@ -50,7 +51,7 @@ impl Names {
     }
 }
 
-/// What to call the value of an instruction whose operands have the given names, if they have any.
+/// A name for the value of an instruction, built from the names of its operands if these have any.
 pub(super) fn wanted(
     instruction: &Instruction,
     operand: impl Fn(Operand) -> Option<String>,

@@ -1,4 +1,4 @@
-//! How the numbers of a picture are read, for the runtime.
+//! How to interpret the numbers of a picture, for the runtime.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;

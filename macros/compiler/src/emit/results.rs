@@ -1,9 +1,10 @@
-//! What a method returns, put together at the end, or, where it is many matrices, stored entry by entry.
+//! The result of a method, assembled at the end or, if it consists of many matrices, stored entry by entry.
 //!
-//! Entries that wait for the end have to be held somewhere and copied; a variable to store them in has to be set to zero first.
-//! Measured with 600 entries both take the same time, with 5000 of a chain of eight bars storing takes half, and a fifth of that
-//! is the zeros, which a caller who passes the same variable on need not write again. rustc checks a statement that stores in a
-//! quarter of a millisecond, though, so that it is for partial derivatives only, which are generated for small mechanisms.
+//! Entries that are assembled at the end must be held somewhere and copied; a variable that they are stored into must first be
+//! set to zero. Measured with 600 entries, both take the same time; with 5000 entries of a chain of eight bars, storing takes
+//! half the time. A fifth of that is the zeros, which a caller who reuses the variable need not write again. However, rustc
+//! needs a quarter of a millisecond to check each storing statement, so only partial derivatives are stored: they are generated
+//! for small mechanisms.
 
 use std::fmt::Write;
 
@@ -20,7 +21,7 @@ pub(super) struct Results<'a> {
     at_once: bool,
 }
 
-/// Entries of a result that is put together at the end.
+/// Maximum number of entries of a result that is assembled at the end.
 const MOST_AT_ONCE: usize = 4096;
 
 /// Lists of [`Form::Partials`].
@@ -36,7 +37,7 @@ impl<'a> Results<'a> {
         }
     }
 
-    /// The type.
+    /// The type of the result.
     pub(super) fn kind(&self) -> String {
         let arrays = self.kernel.results.iter();
         let types: Vec<String> = arrays.map(|array| filled("T", &array.shape)).collect();
@@ -61,7 +62,7 @@ impl<'a> Results<'a> {
         }
     }
 
-    /// The statements that compute the result, and the result.
+    /// The statements that compute the result, followed by the result.
     pub(super) fn body(&self) -> String {
         if self.at_once {
             let body = Body::new(self.kernel);
@@ -75,14 +76,13 @@ impl<'a> Results<'a> {
         )
     }
 
-    /// The statements that store every entry that can differ from zero into `result`; nothing where it is put together at the
-    /// end.
+    /// The statements that store every entry that can be nonzero into `result`; `None` if the result is assembled at the end.
     pub(super) fn stores(&self) -> Option<String> {
         let body = (!self.at_once).then(|| Body::storing(self.kernel, self.places()))?;
         Some(format!("{}{}", body.statements(), self.rest(&body)))
     }
 
-    /// The whole result, every entry given.
+    /// The whole result as a literal.
     fn literal(&self, body: &Body) -> String {
         let array = |array: &Array| literal(body, &array.shape, &array.values);
         self.put_together(array, |arrays| {
@@ -101,7 +101,7 @@ impl<'a> Results<'a> {
         })
     }
 
-    /// The whole result set to `zero`.
+    /// The whole result with all entries equal to `zero`.
     fn zero(&self) -> String {
         let array = |array: &Array| filled("zero_", &array.shape);
         self.put_together(array, |arrays| {
@@ -110,7 +110,7 @@ impl<'a> Results<'a> {
         })
     }
 
-    /// The result from the text of its arrays, or of its lists of matrices.
+    /// The result, assembled from the text of its arrays or of its lists of matrices.
     fn put_together(
         &self,
         array: impl Fn(&Array) -> String,
@@ -135,7 +135,7 @@ impl<'a> Results<'a> {
         }
     }
 
-    /// The places of each instruction's value.
+    /// For each instruction, the places of its value in the result.
     fn places(&self) -> Vec<Vec<String>> {
         let mut places = vec![Vec::new(); self.kernel.instructions.len()];
         for (array, result) in self.kernel.results.iter().enumerate() {
@@ -148,7 +148,7 @@ impl<'a> Results<'a> {
         places
     }
 
-    /// Statements for entries that nothing computes: numbers other than zero, and arguments.
+    /// Statements for entries that no instruction computes: nonzero numbers, and arguments.
     fn rest(&self, body: &Body) -> String {
         let mut text = String::new();
         for (array, result) in self.kernel.results.iter().enumerate() {

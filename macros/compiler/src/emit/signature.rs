@@ -1,4 +1,4 @@
-//! Signatures of methods, their documentation, and calls of them.
+//! Signatures of methods, their documentation, and calls to them.
 
 use std::fmt::Write;
 
@@ -7,13 +7,13 @@ use crate::program::Kernel;
 
 use super::names::local;
 
-/// Documentation and signature of a method; `bound` is added to the scalar's.
+/// Documentation and signature of a method; `bound` is added to the bound on the scalar type.
 pub(super) fn signature(kernel: &Kernel, returned: &str, bound: &str) -> String {
     let head = head(kernel, kernel.name, "", returned, bound);
     format!("#[doc = {:?}]\n{head}", documentation(kernel))
 }
 
-/// A signature with one more parameter or none.
+/// A signature, with an optional additional parameter.
 pub(super) fn head(kernel: &Kernel, name: &str, last: &str, returned: &str, bound: &str) -> String {
     let mut parameters = String::new();
     for parameter in &kernel.parameters {
@@ -64,7 +64,7 @@ fn documentation(kernel: &Kernel) -> String {
     text
 }
 
-/// A call of a variant of the kernel's method, with one more argument or none.
+/// A call of a variant of the kernel's method, with an optional additional argument.
 pub(super) fn call(kernel: &Kernel, method: &str, last: &str) -> String {
     let names = kernel.parameters.iter().map(|p| local(p.name));
     let last = (!last.is_empty()).then(|| last.to_owned());

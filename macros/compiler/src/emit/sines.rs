@@ -3,19 +3,19 @@
 use crate::algebra::Unary;
 use crate::program::{Kernel, Operand, Operation};
 
-/// Angles whose sines and cosines need no other of the group; a single one in long kernels.
+/// Angles whose sines and cosines do not depend on others of the group; in long kernels a single angle.
 pub(super) struct Group {
-    /// Each angle with the instructions that take its sine and its cosine.
+    /// Each angle with the instructions for its sine and its cosine.
     pub(super) angles: Vec<(Operand, [Option<usize>; 2])>,
-    /// The last of these instructions: no other uses one of them before.
+    /// The last of these instructions; nothing before it uses any of them.
     pub(super) last: usize,
 }
 
-/// Instructions of a kernel whose angles are worth it: among more, sines and cosines are nothing, and the code of two at a time
-/// is longer.
+/// Maximum number of instructions of a kernel for which grouping pays: in longer kernels the cost of sines and cosines is
+/// negligible, and code that computes two at a time is longer.
 const FEW: usize = 2048;
 
-/// The groups, and of every instruction the group that it is in. A single function of a single angle is left alone.
+/// The groups, and the group of every instruction, if any. A single function of a single angle is not grouped.
 pub(super) fn groups(kernel: &Kernel) -> (Vec<Group>, Vec<Option<usize>>) {
     let mut groups: Vec<Group> = Vec::new();
     let mut depth = vec![0; kernel.instructions.len()];

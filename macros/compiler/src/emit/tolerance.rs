@@ -1,4 +1,4 @@
-//! Tolerances for the runtime, and in words for the documentation.
+//! Tolerances, for the runtime and in words for the documentation.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -39,12 +39,12 @@ pub(super) fn info(tolerance: &Tolerance) -> TokenStream {
     }
 }
 
-/// Without the last digits, which units and percentages have cost.
+/// Drops the last digits, which unit conversions and percentages have spoiled.
 fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
 
-/// What follows the value: ", tolerance 0.1 mm either way, uniform"; nothing where the value does not vary.
+/// The text after the value: ", tolerance 0.1 mm either way, uniform"; empty if the value does not vary.
 pub(super) fn doc(tolerance: &Tolerance, unit: &str, scale: f64) -> String {
     if !tolerance.varies() {
         return String::new();

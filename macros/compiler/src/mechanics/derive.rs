@@ -1,4 +1,4 @@
-//! The recipe from a mechanism to its functions.
+//! Derives all functions of a mechanism, step by step.
 
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
@@ -16,8 +16,8 @@ use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::setup::{Context, Runs, Symbols, Values};
 
-/// Derives every function of a mechanism. Fails where no steady state exists, where a coordinate has no inertia, and
-/// where nothing resists one: what only the equations can tell about a declaration.
+/// Derives every function of a mechanism. Fails if no steady state exists, if a coordinate has no inertia, or if nothing
+/// resists a coordinate: errors that only the equations reveal.
 pub fn derive(
     mechanism: &Mechanism,
     topology: &Topology,
@@ -77,7 +77,7 @@ pub fn derive(
     })
 }
 
-/// What the entries of `q` are.
+/// The meaning of each entry of `q`.
 fn unknowns(context: &Context) -> Vec<Unknown> {
     let (mechanism, topology) = (context.mechanism, context.topology);
     let of = |id: CoordinateId, per_second: &str, role: fn(CoordinateId) -> Role| {

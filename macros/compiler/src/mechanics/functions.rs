@@ -10,34 +10,35 @@ use super::picture::Picture;
 pub struct Functions {
     /// The unknowns, in the order of `q`.
     pub unknowns: Vec<Unknown>,
-    /// Holds every expression.
+    /// The graph that holds every expression.
     pub graph: Graph,
     /// The kernels, in the order of the runtime's contract.
     pub functions: Vec<Function>,
     /// Physical requirements on inputs and design variables.
     pub requirements: Vec<Requirement>,
-    /// Joints whose coordinates fail in some pose.
+    /// Joints whose coordinates become singular in some pose.
     pub poses: Vec<Pose>,
-    /// What there is to see.
+    /// The visible parts of the mechanism.
     pub picture: Picture,
-    /// What holds for every design, input and position.
+    /// Properties that hold for every design, input and position.
     pub properties: Properties,
-    /// Coordinates that nothing resists, and the last of those that together move no mass: only where `kernels only` allows it.
+    /// Coordinates that nothing resists, and the last coordinate of a motion that moves no mass; empty unless the
+    /// declaration says `kernels only`.
     pub undetermined: Vec<CoordinateId>,
 }
 
 /// An unknown of the steady motion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unknown {
-    /// Declared name; of a reaction the constraint's, with the component where it has several.
+    /// Declared name; for a reaction the name of the constraint, with the component if it has several.
     pub name: String,
     /// SI unit.
     pub unit: String,
-    /// What it is.
+    /// The kind of unknown.
     pub role: Role,
 }
 
-/// What an unknown is: see the runtime's contract.
+/// The kind of an unknown: see the runtime's contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// A free coordinate.
@@ -50,7 +51,7 @@ pub enum Role {
     VelocityReaction,
 }
 
-/// Bounds on what is generated.
+/// Limits on the size of the generated code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Maximum number of entries, `3 n^2 (n + inputs + design)`, up to which the partial derivatives of the linearised matrices
@@ -58,12 +59,12 @@ pub struct Limits {
     /// code would grow with the cube of their size.
     pub explicit_partials: usize,
     /// Maximum number of operations up to which the three matrices linearised along any motion are written out; a robot with 32
-    /// joints takes 40,000. Above it they are differentiated one column at a time.
+    /// joints takes 40,000. Above this limit they are differentiated one column at a time.
     pub motion_linear: usize,
 }
 
 impl Limits {
-    /// Everything is written out.
+    /// No limit: everything is written out.
     pub const NONE: Self = Self {
         explicit_partials: usize::MAX,
         motion_linear: usize::MAX,
@@ -82,33 +83,33 @@ impl Default for Limits {
 /// A value that must be positive.
 #[derive(Clone, Debug)]
 pub struct Requirement {
-    /// What it is, for example `mass of bar1`.
+    /// The quantity, for example `mass of bar1`.
     pub quantity: String,
-    /// What it has to be, in words.
+    /// The requirement in words.
     pub requirement: &'static str,
     /// The value.
     pub value: ExprId,
 }
 
-/// A joint of three turns. Where its axes lie in one plane, two of its coordinates describe the same motion.
+/// A joint with three turns. Where its axes lie in one plane, two of its coordinates describe the same motion.
 #[derive(Clone, Debug)]
 pub struct Pose {
     /// Name of the joint.
     pub joint: String,
-    /// Volume spanned by the three unit axes, with either sign: zero in the singular pose, one when they are perpendicular.
+    /// Signed volume spanned by the three unit axes: zero in the singular pose, one in magnitude when they are perpendicular.
     pub volume: ExprId,
 }
 
-/// What the compiler established: structurally, or at random states up to rounding.
+/// Properties established by the compiler: structurally, or up to rounding at random states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Properties {
     /// `Khat` is symmetric.
     pub symmetric_stiffness: bool,
-    /// What `Chat` can be.
+    /// The form of `Chat`.
     pub damping: Damping,
 }
 
-/// What `Chat` can be.
+/// The form of `Chat`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Damping {
     /// Zero.

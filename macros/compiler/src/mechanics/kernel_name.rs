@@ -58,7 +58,7 @@ kernel_names! {
     LinearPartials "linear_partials",
     /// The direction in which a vibration whirls.
     Whirl "whirl",
-    /// Where bodies are and what they look like.
+    /// Poses and shapes of the bodies.
     Picture "picture",
     /// The first physical requirement that is violated.
     Violation "violation",

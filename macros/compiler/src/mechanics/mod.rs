@@ -1,7 +1,7 @@
-//! From bodies and joints to equations: recursive kinematics and Newton-Euler on the expression graph, linearised by
-//! differentiating the graph.
+//! From bodies and joints to equations: recursive kinematics and Newton-Euler equations on the expression graph,
+//! linearised by differentiating the graph.
 //!
-//! The only bridge between the part that knows mechanisms and the part that knows expressions.
+//! This is the only bridge between the modules that know mechanisms and those that know expressions.
 
 mod checks;
 mod derive;

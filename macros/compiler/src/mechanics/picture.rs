@@ -1,27 +1,27 @@
-//! How the numbers of a picture are read; the order of the numbers is that of the runtime's contract.
+//! How to interpret the numbers of a picture; their order is defined by the runtime's contract.
 
 use crate::base::ids::PointId;
 use crate::model::elements::Element;
 use crate::model::mechanism::Frame;
 
-/// What there is to see of a mechanism.
+/// The visible parts of a mechanism.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Bodies.
     pub bodies: Vec<PictureBody>,
     /// Joints.
     pub joints: Vec<PictureJoint>,
-    /// Points, and what they are fixed in.
+    /// Points, and the frame that each is fixed in.
     pub points: Vec<(String, Frame)>,
     /// Forces and constraints between two points.
     pub links: Vec<PictureLink>,
-    /// What rolls: name, centre, point of the plane.
+    /// Rolling bodies: name, centre, and a point of the plane.
     pub wheels: Vec<(String, [PointId; 2])>,
-    /// What acts and what binds, in words.
+    /// Forces and constraints, in words.
     pub elements: Vec<Element>,
-    /// All numbers; zero in the places of those that are computed.
+    /// All numbers, with zeros in place of those that are computed.
     pub numbers: Vec<f64>,
-    /// The places of the numbers that are computed.
+    /// Positions of the computed numbers.
     pub computed: Vec<u32>,
 }
 
@@ -30,7 +30,7 @@ pub struct Picture {
 pub struct PictureBody {
     /// Declared name.
     pub name: String,
-    /// Its pieces: what each is, and whether it is missing from the others.
+    /// Its pieces: the kind of each, and whether it is a hole in the others.
     pub solids: Vec<(SolidKind, bool)>,
 }
 
@@ -51,7 +51,7 @@ pub enum SolidKind {
     Box,
     /// A ball.
     Sphere,
-    /// A tensor.
+    /// A body given by its inertia tensor.
     Rigid,
 }
 
@@ -60,13 +60,13 @@ pub enum SolidKind {
 pub struct PictureJoint {
     /// Declared name.
     pub name: String,
-    /// The word it was declared with.
+    /// The keyword it was declared with.
     pub kind: &'static str,
-    /// Its `from` and its `to` side.
+    /// Its `from` side and its `to` side.
     pub sides: [Frame; 2],
-    /// It closes a loop.
+    /// Whether it closes a loop.
     pub cut: bool,
-    /// One of its motions runs at a prescribed speed.
+    /// Whether one of its motions runs at a prescribed speed.
     pub driven: bool,
 }
 
@@ -75,7 +75,7 @@ pub struct PictureJoint {
 pub struct PictureLink {
     /// Declared name.
     pub name: String,
-    /// The word it is declared with.
+    /// The keyword it was declared with.
     pub kind: &'static str,
     /// Its ends.
     pub ends: [PointId; 2],

@@ -1,4 +1,4 @@
-//! What was derived, as text for snapshots: cost and results of each function, requirements and properties.
+//! The derived functions as text for snapshots: cost and results of each, requirements and properties.
 
 use std::fmt::{self, Display, Formatter};
 

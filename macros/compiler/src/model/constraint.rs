@@ -1,4 +1,4 @@
-//! Constraints: tables of what was declared.
+//! Constraints as declared, with names resolved.
 
 use proc_macro2::Ident;
 
@@ -11,7 +11,7 @@ use crate::base::ids::PointId;
 pub struct Constraint {
     /// Declared name.
     pub name: Ident,
-    /// What it demands.
+    /// The condition that it imposes.
     pub law: ConstraintLaw,
 }
 
@@ -24,7 +24,7 @@ pub enum ConstraintLaw {
         from: PointId,
         /// The other.
         to: PointId,
-        /// Which of the axes x, y, z of `from`.
+        /// The selected axes x, y, z of `from`.
         along: [bool; 3],
     },
     /// The axes of two points agree.
@@ -33,7 +33,7 @@ pub enum ConstraintLaw {
         from: PointId,
         /// The other.
         to: PointId,
-        /// Only this direction, a unit vector in the axes of either point; all three axes when not given.
+        /// The only direction that must agree, a unit vector in the axes of either point; all three axes if absent.
         axis: Option<Vector>,
     },
     /// Two points keep a distance.
@@ -45,8 +45,8 @@ pub enum ConstraintLaw {
         /// m.
         length: Expr,
     },
-    /// An expression of coordinates and points is zero. Of coordinates only, it may hold running ones (a gear): then its
-    /// rate is zero.
+    /// An expression of coordinates and points is zero. An expression of coordinates only may contain running ones (a gear);
+    /// then its rate is zero.
     Equation {
         /// The expression.
         zero: Expr,
@@ -57,7 +57,7 @@ pub enum ConstraintLaw {
     Rolling {
         /// The centre of the wheel.
         wheel: PointId,
-        /// The axle, a unit vector in the axes of `wheel`; a ball when not given.
+        /// The axle, a unit vector in the axes of `wheel`; if absent, the wheel is a ball.
         axis: Option<Vector>,
         /// m.
         radius: Expr,

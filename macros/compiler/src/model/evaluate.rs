@@ -1,4 +1,4 @@
-//! Numbers for expressions: what a declaration comes to at given inputs and design variables.
+//! Numerical values of expressions at given inputs and design variables.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -28,12 +28,12 @@ impl<'a> Values<'a> {
         values
     }
 
-    /// The value of an expression; NaN where it depends on the motion or leaves the domain of a function.
+    /// The value of an expression; NaN if it depends on the motion or leaves the domain of a function.
     pub fn of(&self, expr: &Expr) -> f64 {
         self.shared(expr, &mut FxHashMap::default())
     }
 
-    /// Parts that occur several times are computed once: `done` holds them by address.
+    /// Computes repeated parts only once: `done` holds them by address.
     fn shared(&self, expr: &Expr, done: &mut FxHashMap<*const Expr, f64>) -> f64 {
         let address = std::ptr::from_ref(expr);
         if let Some(&value) = done.get(&address) {
@@ -82,7 +82,7 @@ pub fn evaluate(mechanism: &Mechanism, expr: &Expr, u: &[f64], b: &[f64]) -> f64
     Values::new(&mechanism.constants, u, b).of(expr)
 }
 
-/// Constants of a kind that their values do not tell, and what depends on them.
+/// A set of inputs or constants, used to find the expressions that depend on them.
 #[derive(Clone, Debug)]
 pub struct Dependence {
     on_inputs: bool,
@@ -103,7 +103,7 @@ impl Dependence {
         dependence
     }
 
-    /// Dependence on a constant that is not finite.
+    /// Dependence on a constant whose value is not finite.
     pub fn on_constants_without_value(values: &Values) -> Self {
         Self {
             on_inputs: false,
@@ -111,7 +111,7 @@ impl Dependence {
         }
     }
 
-    /// The expression depends on one of them.
+    /// Whether the expression depends on one of them.
     pub fn of(&self, expr: &Expr) -> bool {
         self.shared(expr, &mut FxHashSet::default())
     }

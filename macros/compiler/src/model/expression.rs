@@ -9,7 +9,7 @@ use crate::base::ids::{
 };
 pub use crate::base::operators::Unary as Function;
 
-/// A scalar value in SI; dimensions have been checked and are gone.
+/// A scalar value in SI; dimensions have been checked and are no longer stored.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expr {
     /// A number in SI.
@@ -26,18 +26,18 @@ pub enum Expr {
     Rate(CoordinateId),
     /// Component 0, 1 or 2 of a point's position in the ground frame (in force laws and outputs).
     Position(PointId, usize),
-    /// Distance of the two points of the tension law it stands in.
+    /// Distance of the two points in a tension law.
     Length,
-    /// Rate of that distance.
+    /// Rate of the distance of the two points in a tension law.
     LengthRate,
-    /// Component of what a joint transmits at rest (in outputs): 0 to 2 the force, 3 to 5 the moment at the joint, by
-    /// the `from` side on the `to` side, along the axes of the joint frame on the `from` side.
+    /// Component of the load that a joint transmits at rest (in outputs): 0 to 2 the force, 3 to 5 the moment at the joint, by
+    /// the `from` side on the `to` side, in the axes of the joint frame on the `from` side.
     Reaction(JointId, usize),
-    /// Component of what a constraint exerts at rest (in outputs). Coincident: 0 to 2 the force of `from` on `to`, along the
-    /// axes of `from`. Aligned: 3 to 5 the moment of `from` on `to`, likewise. Distance: 0 the tension, positive when it pulls
-    /// the ends together. Equation: 0 the generalised force in the direction in which the expression grows. Rolling: 0 to 2
-    /// the force of the plane on the wheel, forward (axle cross normal), sideways (normal cross forward) and along the
-    /// normal; of a ball along the axes of `on`, of which z is the normal where that is given as z.
+    /// Component of the load that a constraint exerts at rest (in outputs). Coincident: 0 to 2 the force of `from` on `to`,
+    /// in the axes of `from`. Aligned: 3 to 5 the moment of `from` on `to`, in the axes of `from`. Distance: 0 the tension,
+    /// positive if it pulls the ends together. Equation: 0 the generalised force in the direction in which the expression
+    /// grows. Rolling: 0 to 2 the force of the plane on the wheel, forward (axle cross normal), sideways (normal cross
+    /// forward) and along the normal; for a ball in the axes of `on`, with z the normal if the normal is given as z.
     ConstraintReaction(ConstraintId, usize),
     /// Kinetic energy in steady motion (in outputs).
     KineticEnergy,
@@ -57,14 +57,14 @@ pub enum Expr {
     PowerInteger(Rc<Expr>, i32),
     /// `a ^ b` with a positive base.
     Power(Rc<Expr>, Rc<Expr>),
-    /// An elementary function of one argument; signs and whole powers stand by themselves.
+    /// An elementary function of one argument; signs and integer powers have their own variants.
     Call(Function, Rc<Expr>),
     /// `atan2(y, x)`.
     Atan2(Rc<Expr>, Rc<Expr>),
 }
 
 impl Expr {
-    /// The leaves, each part that occurs several times looked at once.
+    /// The leaves; each repeated part is visited only once.
     pub fn leaves(&self) -> Vec<&Expr> {
         let mut leaves = Vec::new();
         let mut seen = FxHashSet::default();

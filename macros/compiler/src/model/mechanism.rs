@@ -1,4 +1,4 @@
-//! The mechanism: tables of what was declared.
+//! The mechanism: tables of everything declared.
 
 use proc_macro2::Ident;
 
@@ -28,11 +28,11 @@ pub struct Mechanism {
     pub constants: Vec<Constant>,
     /// Curves through points.
     pub curves: Vec<Curve>,
-    /// What curves are asked for and can be checked before the motion is known.
+    /// Arguments of curves that can be checked before the motion is known.
     pub curve_arguments: Vec<CurveArgument>,
     /// Acceleration of gravity in the ground frame, m/s^2; zero when not declared.
     pub gravity: Vector,
-    /// Only the equations are wanted: that they determine a steady motion is not demanded.
+    /// Whether only the equations are wanted, so that they need not determine a steady motion.
     pub kernels_only: bool,
     /// Bodies.
     pub bodies: Vec<Body>,
@@ -51,7 +51,7 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// Forgets what was declared for every coordinate where a joint closes a loop and has none.
+    /// Removes the forces that were declared for every coordinate but belong to a cut joint, which has no coordinates.
     pub fn forget_forces_of(&mut self, cut: &[JointId]) {
         let joint_of = |id: CoordinateId| self.coordinates[id.index()].joint;
         self.forces.retain(|force| match force.law {
@@ -63,7 +63,7 @@ impl Mechanism {
         });
     }
 
-    /// Whether a joint is a planar one that coasts: its speeds are those along its turned axes.
+    /// Whether a joint is planar and coasting, so that its speeds are those along its turned axes.
     pub fn glides(&self, joint: &Joint) -> bool {
         let coasts =
             |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
@@ -83,7 +83,7 @@ pub struct Input {
     pub name: Ident,
     /// Doc comments.
     pub docs: Vec<String>,
-    /// Declared unit.
+    /// Tolerance about the value given at run time.
     pub unit: Unit,
     /// How it varies about the value it is given.
     pub tolerance: Tolerance,
@@ -100,9 +100,9 @@ pub struct DesignVariable {
     pub unit: Unit,
     /// Nominal value, SI.
     pub nominal: f64,
-    /// How it varies about the nominal value, SI.
+    /// Tolerance about the nominal value, SI.
     pub tolerance: Tolerance,
-    /// Something refers to it.
+    /// Whether anything refers to it.
     pub is_used: bool,
 }
 
@@ -118,7 +118,7 @@ pub struct Constant {
 /// A curve through points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Its pieces, arguments and values in SI; it has the name that was declared.
+    /// Its pieces, with arguments and values in SI; it carries the declared name.
     pub spline: Spline,
     /// Dimension of its arguments.
     pub argument: Dimension,
@@ -136,14 +136,14 @@ impl Curve {
         [start(pieces.first()), start(pieces.last())]
     }
 
-    /// The range, and a little more: rounding must not take its ends away.
+    /// The range, slightly extended so that rounding does not exclude its ends.
     pub fn range_with_ends(&self) -> [f64; 2] {
         let [first, last] = self.range();
         let slack = 1e-9 * (last - first);
         [first - slack, last + slack]
     }
 
-    /// An argument, SI, in the declared unit.
+    /// An SI argument, in the declared unit with its symbol.
     pub fn with_unit(&self, argument: f64) -> String {
         let number = self.in_unit(argument);
         match self.unit.symbol.as_str() {
@@ -152,14 +152,14 @@ impl Curve {
         }
     }
 
-    /// The number before the declared unit, with nine digits: rounding leaves these of what was declared.
+    /// The number before the declared unit, to nine digits: these survive rounding.
     pub fn in_unit(&self, argument: f64) -> String {
         let number = argument / self.unit.scale;
         let rounded = format!("{number:.8e}").parse::<f64>();
         rounded.unwrap_or(number).to_string()
     }
 
-    /// Whether an argument, SI, is on the curve.
+    /// Whether the curve covers an SI argument.
     pub fn reaches(&self, argument: f64) -> bool {
         let [low, high] = self.range_with_ends();
         low < argument && argument < high
@@ -171,11 +171,11 @@ impl Curve {
 pub struct CurveArgument {
     /// The curve.
     pub curve: Curve,
-    /// What it is asked for, SI.
+    /// Its argument, SI.
     pub argument: Expr,
 }
 
-/// What a body frame can belong to.
+/// Frames that points and joints can be fixed in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Frame {
     /// The inertial frame.
@@ -189,22 +189,22 @@ pub enum Frame {
 pub struct Body {
     /// Declared name.
     pub name: Ident,
-    /// What its mass is made of; nothing when massless.
+    /// The pieces that make up its mass; none if massless.
     pub parts: Vec<Part>,
 }
 
 /// One piece of a body's mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// The piece is missing from the others: a hole.
+    /// Whether the piece is a hole, cut out of the others.
     pub hole: bool,
     /// Its mass distribution in the frame of the piece.
     pub shape: Shape,
-    /// Where that frame is in the body frame.
+    /// Placement of that frame in the body frame.
     pub placement: Placement,
 }
 
-/// A fixed placement in a body frame: first the offset, then the rotations, each about the axes left by the one before.
+/// A fixed placement in a body frame: first the offset, then the rotations, each about the axes left by the previous one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// Origin.
@@ -219,12 +219,12 @@ pub struct Placement {
 pub struct Joint {
     /// Declared name.
     pub name: Ident,
-    /// The word it was declared with, for example `universal`.
+    /// The keyword it was declared with, for example `universal`.
     pub word: &'static str,
-    /// How it is written as equations where it closes a loop; `None` where it cannot be.
+    /// How it is written as equations if it closes a loop; `None` if it cannot be.
     pub closing: Option<Closing>,
-    /// Elementary motions from the `from` side to the `to` side, each about or along an axis of the frame that the
-    /// ones before have left; none for a fixed joint.
+    /// Elementary motions from the `from` side to the `to` side, each about or along an axis of the frame left by the
+    /// previous ones; none for a fixed joint.
     pub steps: Vec<JointStep>,
     /// Inboard side as declared.
     pub from: Frame,
@@ -234,11 +234,11 @@ pub struct Joint {
     pub from_placement: Placement,
     /// Joint frame in `to`.
     pub to_placement: Placement,
-    /// Declared as the one that closes a loop: it has no coordinates, its motions become equations.
+    /// Whether it is declared as the joint that closes a loop: it has no coordinates, and its motions become equations.
     pub cut: bool,
 }
 
-/// Joints that can be written as equations, by what they leave free.
+/// Joints that can be written as equations, by the motions they leave free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closing {
     /// Nothing.
@@ -264,7 +264,7 @@ pub struct JointStep {
     pub motion: StepMotion,
     /// Unit vector.
     pub axis: Vector,
-    /// How far it has gone.
+    /// The amount of motion.
     pub coordinate: CoordinateId,
 }
 
@@ -285,7 +285,7 @@ pub enum StepMotion {
 /// A joint coordinate.
 #[derive(Clone, Debug)]
 pub struct Coordinate {
-    /// Name: the joint's when it is the only one, else its own.
+    /// Name: the joint's if it is the only one, otherwise its own.
     pub name: Ident,
     /// The joint it belongs to.
     pub joint: JointId,
@@ -295,7 +295,7 @@ pub struct Coordinate {
     pub motion: Motion,
 }
 
-/// What a coordinate measures.
+/// The quantity that a coordinate measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoordinateQuantity {
     /// An angle, rad.
@@ -326,7 +326,7 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// The coordinate keeps moving in steady motion: coasting, or driven and not held at zero.
+    /// Whether the coordinate keeps moving in steady motion: coasting, or driven and not held at zero.
     pub fn runs(&self) -> bool {
         match self {
             Motion::Free => false,
@@ -343,7 +343,7 @@ pub struct Point {
     pub name: Ident,
     /// The frame it is fixed in.
     pub frame: Frame,
-    /// Its position there, and how its axes are turned.
+    /// Its position and the rotation of its axes in that frame.
     pub placement: Placement,
 }
 
@@ -354,7 +354,7 @@ pub struct Force {
     pub name: Ident,
     /// The law.
     pub law: ForceLaw,
-    /// Declared for every coordinate: it neither keeps a joint from being cut nor outlives one that is.
+    /// Whether it was declared for every coordinate: it does not keep its joint from being cut, and disappears if that happens.
     pub of_every: bool,
 }
 
@@ -411,9 +411,9 @@ pub enum ForceLaw {
         /// The energy.
         energy: Expr,
     },
-    /// Elastic connection between two frames, written along the axes of `from`: force `-stiffness d - damping d'` and
-    /// moment `-turning_stiffness r - turning_damping r'` on `to`, opposite on `from` at the place of `to`; `d` the displacement of `to`,
-    /// `r` half the antisymmetric part of its rotation (the rotation vector while small).
+    /// Elastic connection between two frames, in the axes of `from`: force `-stiffness d - damping d'` and
+    /// moment `-turning_stiffness r - turning_damping r'` on `to`, opposite on `from` at the place of `to`, where `d` is the
+    /// displacement of `to` and `r` half the antisymmetric part of its rotation (the rotation vector while small).
     Bushing {
         /// One frame.
         from: PointId,
@@ -430,19 +430,19 @@ pub enum ForceLaw {
     },
     /// A force and a moment on a body at a point.
     Load {
-        /// Where.
+        /// The point of application.
         point: PointId,
         /// N.
         force: Vector,
         /// N m.
         moment: Vector,
-        /// The components are along the axes of the point and follow it; else along the ground's.
+        /// Whether the components are in the axes of the point and follow it; otherwise they are in the ground's axes.
         following: bool,
     },
     /// Resistance of a medium at rest: force `-damping v` and moment `-turning_damping omega`, absolute velocities. The
     /// external, non-rotating damping of rotor dynamics.
     Drag {
-        /// Where.
+        /// The point of application.
         point: PointId,
         /// N s/m.
         damping: Expr,

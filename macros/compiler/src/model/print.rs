@@ -1,4 +1,4 @@
-//! A mechanism as text, for snapshots: every value in SI with its names resolved.
+//! A mechanism as text, for snapshots: every value in SI, with names resolved.
 
 mod constraint;
 mod elements;
@@ -15,7 +15,7 @@ use super::simplify::diagonal_of;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Text of values, with the names of the mechanism they belong to.
+/// Converts values to text, using the names of their mechanism.
 struct Names<'a>(&'a Mechanism);
 
 impl Display for Mechanism {
@@ -157,7 +157,7 @@ impl Names<'_> {
         format!("[{}]", components.join(", "))
     }
 
-    /// The rows; of a diagonal matrix its diagonal.
+    /// The rows of a matrix, or only the diagonal of a diagonal one.
     fn matrix(&self, matrix: &Matrix) -> String {
         if let Some(diagonal) = diagonal_of(matrix) {
             return self.vector(&diagonal);
@@ -189,7 +189,7 @@ impl Names<'_> {
         rotations.collect()
     }
 
-    /// The word with its axes; several coordinates have names of their own.
+    /// The keyword with its axes; if there are several coordinates, each with its own name.
     fn joint(&self, joint: &Joint) -> String {
         let several = joint.steps.len() > 1;
         let arguments = joint.steps.iter().map(|step| {
@@ -209,7 +209,7 @@ impl Names<'_> {
     }
 }
 
-/// Limits, SI or as factors of the value, and any law but the normal one.
+/// Limits, in SI or as factors of the value, and the law unless it is normal.
 fn tolerance(tolerance: &Tolerance) -> String {
     let Tolerance { lower, upper, .. } = tolerance;
     let mut text = match tolerance.is_symmetric() {

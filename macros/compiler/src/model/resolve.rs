@@ -1,5 +1,5 @@
-//! Tree to mechanism: every name becomes an id, every value SI. A wrong item still declares its name, and a wrong value
-//! is silent where it is used, so that each mistake is reported once.
+//! From the syntax tree to the mechanism: every name becomes an id, every value is converted to SI. A wrong item still declares
+//! its name, and a wrong value causes no further errors where it is used, so that each mistake is reported once.
 
 mod arguments;
 mod bare;
@@ -42,15 +42,15 @@ use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
 use crate::syntax::ast::{Ast, ItemKind, Unread};
 
-/// What became of a declaration.
+/// The outcome of resolving a declaration.
 #[derive(Debug)]
 pub struct Resolution {
-    /// What could be resolved.
+    /// The parts that could be resolved.
     pub mechanism: Mechanism,
-    /// What could not.
+    /// The mistakes in the other parts.
     pub mistakes: Diagnostics,
-    /// Every body, joint and constraint is there, and none is meant by the name of another: it can be told what hangs on
-    /// what.
+    /// Whether every body, joint and constraint is present and none is used under the name of another, so that the connections
+    /// are known.
     pub is_connected: bool,
 }
 
@@ -60,7 +60,7 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
     resolution.mistakes.into_result(resolution.mechanism)
 }
 
-/// Resolves what is right of a declaration, and checks that.
+/// Resolves and checks the correct parts of a declaration.
 pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     let mut diagnostics = Diagnostics::new();
     let coordinates = coordinates::declared(ast);
@@ -114,7 +114,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     };
     let is_whole = ast.unread.is_empty();
     if resolver.diagnostics.is_empty() && is_whole && !is_complete(ast, &mechanism) {
-        // A value was given up without a message.
+        // A value was dropped without a message.
         let message = "this declaration cannot be compiled, and eigentol does not know why";
         let help = "this is a bug of eigentol: please report it with the declaration";
         resolver
@@ -128,7 +128,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     }
 }
 
-/// Every declared item has become an entry.
+/// Whether every declared item has become an entry.
 fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
     mechanism.inputs.len() == count(ast, |kind| matches!(kind, ItemKind::Input(_)))
         && mechanism.design.len() == count(ast, |kind| matches!(kind, ItemKind::Design(_)))
@@ -145,7 +145,7 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
         && is_connected(ast, mechanism)
 }
 
-/// Every declared body, joint and constraint has become an entry.
+/// Whether every declared body, joint and constraint has become an entry.
 fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
     !ast.unread.iter().any(Unread::may_connect)
         && mechanism.bodies.len() == count(ast, |kind| matches!(kind, ItemKind::Body(_)))
@@ -164,7 +164,7 @@ mod tests {
     use super::{bodies, constraints, forces, joints::kinds::Kind};
     use crate::syntax::parse::INSIDE;
 
-    /// The parser tells a misplaced word from an unknown one; `point` starts an item too.
+    /// The parser distinguishes a misplaced word from an unknown one; `point` also starts an item.
     #[test]
     fn the_parser_knows_the_words_inside_items() {
         fn words<R>(table: &[Signature<R>]) -> Vec<&'static str> {

@@ -1,11 +1,12 @@
-//! The shapes, and all that later stages ask of one: its arguments, what of it has to be positive, how its mass is spread.
+//! The shapes, and everything that later stages need from one: its arguments, the values that must be positive, and its mass
+//! distribution.
 
 use std::rc::Rc;
 
 use super::expression::{Expr, Vector};
 
-/// A mass distribution in a frame. Directions are unit vectors; lengths m, masses kg, inertias kg m^2. A density has been
-/// multiplied by the volume.
+/// A mass distribution in a frame. Directions are unit vectors; lengths are in m, masses in kg, inertias in kg m^2. Densities
+/// have already been multiplied by the volume.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A point mass.
@@ -56,7 +57,7 @@ pub enum Shape {
         mass: Expr,
         /// Radius of the bore.
         inner: Expr,
-        /// Radius of the outside.
+        /// Outer radius.
         outer: Expr,
         /// Length.
         length: Expr,
@@ -89,28 +90,28 @@ pub enum Shape {
         mass: Expr,
         /// Centre of mass.
         center: Vector,
-        /// Inertia tensor along the axes of the frame: xx, yy, zz, xy, yz, xz; the products are the tensor's entries,
+        /// Inertia tensor in the axes of the frame: xx, yy, zz, xy, yz, xz; the products are entries of the tensor,
         /// `Jxy = -integral x y dm`.
         inertia: [Expr; 6],
-        /// The point that the inertia is about; the centre of mass unless given.
+        /// The reference point of the inertia; the centre of mass unless given.
         about: Option<Vector>,
     },
 }
 
-/// A shape as later stages see it: they know of no kinds of shape, only of kinds of [`Spread`].
+/// A shape as later stages see it: they know only the kinds of [`Spread`], not the kinds of shape.
 #[derive(Clone, Debug)]
 pub struct Reduced<'a> {
-    /// The word it is shown with.
+    /// The keyword for display.
     pub word: &'static str,
-    /// What was declared, in the order in which it is shown.
+    /// The declared arguments, in display order.
     pub arguments: Vec<(&'static str, Argument<'a>)>,
     /// Mass.
     pub mass: &'a Expr,
     /// Centre of mass.
     pub center: &'a Vector,
-    /// How the mass is spread about its centre.
+    /// The distribution of the mass about its centre.
     pub spread: Spread<'a>,
-    /// What has to be positive besides the mass, in words.
+    /// Quantities that must be positive besides the mass, with their names.
     pub positive: Vec<(&'static str, Expr)>,
 }
 
@@ -125,10 +126,10 @@ pub enum Argument<'a> {
     Tensor(&'a [Expr; 6]),
 }
 
-/// How mass is spread about its centre.
+/// The distribution of mass about its centre.
 #[derive(Clone, Debug)]
 pub enum Spread<'a> {
-    /// Not at all.
+    /// Concentrated at the centre.
     Point,
     /// Evenly along a line.
     Line {
@@ -137,13 +138,13 @@ pub enum Spread<'a> {
         /// Direction, a unit vector.
         along: &'a Vector,
     },
-    /// Alike in all directions across an axis.
+    /// Axially symmetric.
     Round {
         /// The axis, a unit vector.
         axis: &'a Vector,
-        /// Along any diameter.
+        /// Mean square along any diameter.
         across: MeanSquare<'a>,
-        /// Along the axis.
+        /// Mean square along the axis.
         along: MeanSquare<'a>,
     },
     /// Evenly over a box.
@@ -151,24 +152,24 @@ pub enum Spread<'a> {
         /// Edge lengths along the axes of the frame.
         size: &'a Vector,
     },
-    /// Alike in all directions.
+    /// Equal in all directions.
     Ball(MeanSquare<'a>),
-    /// As an inertia tensor tells; its entries as in [`Shape::Rigid`].
+    /// Given by an inertia tensor, with entries as in [`Shape::Rigid`].
     Tensor {
         /// The tensor.
         inertia: &'a [Expr; 6],
-        /// The point that it is about; the centre of mass unless given.
+        /// The reference point of the tensor; the centre of mass unless given.
         about: Option<&'a Vector>,
     },
 }
 
-/// The mean square of the distances from the centre in one direction: a sum of squares of lengths, each with a factor.
+/// The mean square distance from the centre in one direction: a sum of squared lengths, each with a factor.
 pub type MeanSquare<'a> = Vec<(f64, &'a Expr)>;
 
 use Argument::{Scalar, Tensor, Vector as Triple};
 
 impl Shape {
-    /// What each kind of shape comes to.
+    /// The reduced form of each kind of shape.
     pub fn reduced(&self) -> Reduced<'_> {
         match self {
             Self::Point { mass, center } => Reduced {

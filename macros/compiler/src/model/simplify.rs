@@ -1,4 +1,4 @@
-//! Building expressions: numbers are combined at once, so that a constant value is recognised as one.
+//! Building expressions: numbers are combined immediately, so that constant values are recognised.
 
 use std::rc::Rc;
 
@@ -111,7 +111,7 @@ pub(super) fn dot(a: &Vector, b: &Vector) -> Expr {
     add(add(x, y), z)
 }
 
-/// Euclidean length. The square of a component is written as a power, so that it is seen to be no negative number.
+/// Euclidean length. The square of a component is written as a power, so that it is known to be non-negative.
 pub(super) fn norm(a: &Vector) -> Expr {
     let [x, y, z] = a.clone().map(|component| power_integer(component, 2));
     call(Function::Sqrt, add(add(x, y), z))
@@ -128,12 +128,12 @@ pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
     [entry(1, 2), entry(2, 0), entry(0, 1)]
 }
 
-/// The angle between two vectors, from 0 to pi: `atan2(|a x b|, a . b)`, exact near 0 and pi where an arc cosine is not.
+/// The angle between two vectors, from 0 to pi: `atan2(|a x b|, a . b)`, accurate near 0 and pi where an arc cosine is not.
 pub(super) fn angle(a: &Vector, b: &Vector) -> Expr {
     atan2(norm(&cross(a, b)), dot(a, b))
 }
 
-/// The matrix with this diagonal and zeros beside it.
+/// The matrix with this diagonal and zeros elsewhere.
 pub(super) fn diagonal(entries: Vector) -> Matrix {
     let mut matrix = [(); 3].map(|()| [0.0; 3].map(Number));
     for (i, entry) in entries.into_iter().enumerate() {
@@ -142,7 +142,7 @@ pub(super) fn diagonal(entries: Vector) -> Matrix {
     matrix
 }
 
-/// The diagonal of a matrix that has zeros beside it.
+/// The diagonal of a matrix whose other entries are zero.
 pub(super) fn diagonal_of(matrix: &Matrix) -> Option<Vector> {
     let entries = std::array::from_fn(|i| matrix[i][i].clone());
     (diagonal(entries) == *matrix).then(|| std::array::from_fn(|i| matrix[i][i].clone()))

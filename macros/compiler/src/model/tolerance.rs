@@ -1,15 +1,15 @@
-//! How values vary.
+//! Tolerances and distributions of values.
 
 use std::fmt::{self, Display, Formatter};
 
 /// Limits about a value, and the distribution between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Lower limit less the value, SI or a fraction of the value.
+    /// Lower limit minus the value, SI or a fraction of the value.
     pub lower: f64,
-    /// Upper limit less the value, SI or a fraction of the value; not below the lower one.
+    /// Upper limit minus the value, SI or a fraction of the value; not below the lower one.
     pub upper: f64,
-    /// The limits are fractions of the value.
+    /// Whether the limits are fractions of the value.
     pub relative: bool,
     /// The distribution.
     pub law: Law,
@@ -24,36 +24,36 @@ impl Tolerance {
         law: Law::Normal,
     };
 
-    /// The value is not always the nominal one.
+    /// Whether the value can differ from the nominal one.
     pub fn varies(&self) -> bool {
         self.lower != 0.0 || self.upper != 0.0
     }
 
-    /// Either limit is as far from the value as the other.
+    /// Whether both limits are equally far from the value.
     pub fn is_symmetric(&self) -> bool {
         self.lower == -self.upper
     }
 
-    /// The middle between the limits, less the value.
+    /// The midpoint between the limits, minus the value.
     pub fn middle(&self) -> f64 {
         0.5 * self.lower + 0.5 * self.upper
     }
 }
 
-/// How values are distributed.
+/// The distribution of values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Law {
     /// Normal.
     Normal,
-    /// Normal, without what lies beyond the limits.
+    /// Normal, truncated at the limits.
     TruncatedNormal,
     /// Uniform between the limits.
     Uniform,
-    /// Triangular, highest midway between the limits.
+    /// Triangular, with the peak midway between the limits.
     Triangular,
     /// Lognormal.
     Lognormal,
-    /// Weibull in two parameters.
+    /// Two-parameter Weibull.
     Weibull,
     /// Beta between the limits, with density `x^(alpha - 1) (1 - x)^(beta - 1)` over them.
     Beta {
@@ -62,7 +62,7 @@ pub enum Law {
         /// Second shape, positive.
         beta: f64,
     },
-    /// One of some values: how far each is from the lower to the upper limit, from 0 to 1, and a weight.
+    /// One of several values: the position of each between the lower and the upper limit, from 0 to 1, and its weight.
     OneOf(Vec<(f64, f64)>),
 }
 

@@ -12,7 +12,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// A unit whose value in SI is one.
+    /// A unit whose SI value is one.
     pub fn one(symbol: &str) -> Self {
         Self {
             symbol: symbol.to_string(),

@@ -1,4 +1,4 @@
-//! Bodies that fixed joints hold together: they move as one.
+//! Bodies held together by fixed joints: they move as one.
 
 use std::collections::VecDeque;
 
@@ -7,16 +7,16 @@ use super::simplify::negate;
 use crate::base::ids::BodyId;
 use crate::model::expression::Expr;
 
-/// A body among those welded together.
+/// One of the bodies welded together.
 #[derive(Clone, Debug)]
 pub struct Member {
     /// The body.
     pub body: BodyId,
-    /// Where its frame is in the frame of the first: placements one around the other, the innermost first.
+    /// Placement of its frame in the frame of the first body: nested placements, the innermost first.
     pub placements: Vec<Placement>,
 }
 
-/// All bodies but those welded to the ground, which never move, in groups that move as one: most are of one body.
+/// All bodies except those welded to the ground, which never move, in groups that move as one: most contain a single body.
 pub fn groups(bodies: usize, joints: &[Joint]) -> Vec<Vec<Member>> {
     let welds: Vec<&Joint> = joints
         .iter()
@@ -35,7 +35,7 @@ pub fn groups(bodies: usize, joints: &[Joint]) -> Vec<Vec<Member>> {
     groups
 }
 
-/// The bodies welded to a frame, itself included, that have not been seen yet.
+/// The bodies welded to a frame, including its own, that have not been visited yet.
 fn reach(start: Frame, welds: &[&Joint], seen: &mut [bool]) -> Vec<Member> {
     let mut reached = Vec::new();
     let mut waiting = VecDeque::from([(start, Vec::new())]);
@@ -63,7 +63,7 @@ fn reach(start: Frame, welds: &[&Joint], seen: &mut [bool]) -> Vec<Member> {
     reached
 }
 
-/// The placement undone: first the offset, then the rotations from the last to the first.
+/// The inverse of a placement: first the offset, then the rotations from the last to the first.
 fn inverse(placement: &Placement) -> [Placement; 2] {
     let rotations = placement.rotations.iter().rev();
     [

@@ -1,21 +1,21 @@
-//! Running a program without compiling it: for tests, and for tools that read mechanisms at run time.
+//! Runs a program without compiling it: for tests, and for tools that read mechanisms at run time.
 
 use super::{Kernel, Operand, Operation, Program};
 
 impl Program {
-    /// Evaluates a kernel; `None` when there is none of this name. See [`Kernel::evaluate`].
+    /// Evaluates a kernel; `None` if there is no kernel of this name. See [`Kernel::evaluate`].
     pub fn evaluate(&self, kernel: &str, arguments: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
         self.kernel(kernel).map(|kernel| kernel.evaluate(arguments))
     }
 }
 
 impl Kernel {
-    /// Values of the results for the given arguments, arrays flattened with the first index outermost. Elementary functions
-    /// are those of the standard library: of the runtime's sine and cosine the last digit may differ.
+    /// Values of the results for the given arguments; arrays are flattened with the first index outermost. Elementary functions
+    /// are those of the standard library, so sines and cosines may differ from the runtime's in the last digit.
     ///
     /// # Panics
     ///
-    /// When the number or the lengths of the arguments are not those of [`Kernel::parameters`].
+    /// If the number or the lengths of the arguments do not match [`Kernel::parameters`].
     pub fn evaluate(&self, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
         assert_eq!(
             arguments.len(),

@@ -59,7 +59,7 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
 struct Lowering<'a> {
     graph: &'a Graph,
     symbols: Vec<Option<(usize, usize)>>,
-    /// By node: the number of its instruction, counted from one, or zero.
+    /// By node: the number of its instruction, counted from one, or zero if there is none yet.
     done: Vec<u32>,
     count: u32,
 }

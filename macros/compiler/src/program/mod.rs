@@ -1,7 +1,7 @@
-//! Straight-line code: what is computed, in which order, and nothing that is not needed.
+//! Straight-line code: the operations, their order, and nothing that is not needed.
 //!
-//! Dead code and common subexpressions are gone by construction: a kernel is made from the nodes that its results reach,
-//! and equal expressions are one node. This wing knows no mechanics.
+//! Dead code and common subexpressions are eliminated by construction: a kernel is made from the nodes that its results reach,
+//! and equal expressions are one node. This module knows no mechanics.
 
 mod interpret;
 mod lower;
@@ -26,7 +26,7 @@ pub struct Kernel {
     pub name: &'static str,
     /// Arguments.
     pub parameters: Vec<Parameter>,
-    /// Every operand is an earlier instruction.
+    /// Instructions; their operands are arguments, constants and earlier instructions.
     pub instructions: Vec<Instruction>,
     /// Results.
     pub results: Vec<Array>,
@@ -41,7 +41,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// Names of its entries.
     pub entries: Vec<String>,
-    /// A number rather than an array.
+    /// Whether it is a number rather than an array.
     pub scalar: bool,
 }
 
@@ -52,25 +52,25 @@ pub struct Instruction {
     pub name: Option<String>,
     /// The latest stage of its operands.
     pub stage: Stage,
-    /// What it computes.
+    /// The operation.
     pub operation: Operation,
 }
 
-/// What an instruction computes.
+/// The operation of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
-    /// An operator of one operand.
+    /// A unary operator.
     Unary(Unary, Operand),
-    /// An operator of two operands.
+    /// A binary operator.
     Binary(Operator, Operand, Operand),
 }
 
-/// Where a value comes from.
+/// The source of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operand {
     /// A number.
     Constant(f64),
-    /// Entry of an argument: its position among the arguments, and the entry.
+    /// Entry of an argument: index of the argument, and index of the entry.
     Parameter(usize, usize),
     /// The result of an instruction.
     Instruction(usize),
@@ -99,14 +99,14 @@ impl Operation {
 }
 
 impl Program {
-    /// The kernel of a name.
+    /// The kernel with the given name.
     pub fn kernel(&self, name: &str) -> Option<&Kernel> {
         self.kernels.iter().find(|kernel| kernel.name == name)
     }
 }
 
 impl Kernel {
-    /// Operations of each stage that occurs, signs not counted: what is saved when only later stages move.
+    /// Number of operations in each stage that occurs, not counting signs: the savings when only later stages change.
     pub fn cost_by_stage(&self) -> Vec<(Stage, usize)> {
         let mut counts: Vec<(Stage, usize)> = Vec::new();
         for instruction in &self.instructions {

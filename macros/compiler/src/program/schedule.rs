@@ -1,8 +1,8 @@
 //! The order of the operations.
 //!
-//! A processor has sixteen registers, and what does not fit is written to memory and read again. Values are therefore
-//! computed where they are needed: depth first from the results, the operand that takes more registers first. Sines and
-//! cosines come before: nothing else has to survive the branch that they hold, and several are taken at once.
+//! A processor has sixteen registers, and values that do not fit are written to memory and read again. Values are therefore
+//! computed where they are needed: depth first from the results, starting with the operand that needs more registers. Sines and
+//! cosines come first: no other value then has to survive the branch that they contain, and several are computed at once.
 
 use crate::algebra::{Graph, Node, Unary, reachable};
 use crate::base::ids::ExprId;
@@ -23,7 +23,7 @@ pub(super) fn schedule(graph: &Graph, results: &[ExprId]) -> Vec<ExprId> {
     schedule.order
 }
 
-/// Sines and cosines, those first that need no other: what can be computed side by side comes in a row.
+/// Sines and cosines, starting with those that need no others: those that can be computed side by side become neighbours.
 fn sines(graph: &Graph, needed: &[ExprId]) -> Vec<ExprId> {
     let mut depth = vec![0; graph.len()];
     let mut sines = Vec::new();
@@ -48,7 +48,7 @@ fn is_leaf(graph: &Graph, id: ExprId) -> bool {
 
 struct Schedule<'a> {
     graph: &'a Graph,
-    /// Registers that a tree of this value takes (Sethi and Ullman 1970); zero for what is not needed.
+    /// Registers that the tree of each value needs (Sethi and Ullman 1970); zero for unneeded nodes.
     registers: Vec<u32>,
     placed: Vec<bool>,
     order: Vec<ExprId>,
@@ -77,7 +77,7 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// Places a value behind all it needs.
+    /// Places a value after everything that it needs.
     fn place(&mut self, id: ExprId) {
         self.pending.push((id, false));
         while let Some((id, ready)) = self.pending.pop() {

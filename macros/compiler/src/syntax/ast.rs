@@ -1,4 +1,4 @@
-//! The tree of a declaration, item by item in the user's order, every leaf with its position.
+//! The syntax tree of a declaration: items in the user's order, every leaf with its position.
 
 use proc_macro2::Ident;
 
@@ -19,20 +19,20 @@ pub struct Ast {
     pub unread: Vec<Unread>,
 }
 
-/// The words that start an item without a name.
+/// Keywords of items without a name.
 const NAMELESS: [&str; 3] = ["gravity", "kernels", "every"];
 
-/// What is known of an item that could not be read.
+/// The known parts of an item that could not be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unread {
-    /// The word it starts with.
+    /// The word that the item starts with.
     pub keyword: Option<Ident>,
-    /// The names it would have declared, as far as they could be read.
+    /// The names that the item would have declared, as far as they could be read.
     pub names: Vec<Ident>,
 }
 
 impl Unread {
-    /// Unless its keyword says otherwise, it may be a body, a joint or a constraint.
+    /// Whether it may be a body, a joint or a constraint; false only if its keyword says otherwise.
     pub fn may_connect(&self) -> bool {
         const OTHERS: [&str; 10] = [
             "input", "design", "let", "curve", "gravity", "kernels", "point", "force", "every",
@@ -41,7 +41,7 @@ impl Unread {
         !self.starts_with(&OTHERS)
     }
 
-    /// Its keyword says that it declares no name.
+    /// Whether its keyword implies that it declares no name.
     pub fn is_nameless(&self) -> bool {
         self.starts_with(&NAMELESS)
     }
@@ -57,11 +57,11 @@ impl Unread {
 pub struct Item {
     /// Lines of doc comments.
     pub docs: Vec<String>,
-    /// What it declares.
+    /// The kind of the item, with its content.
     pub kind: ItemKind,
 }
 
-/// What an item declares.
+/// The kind of an item, with its content.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ItemKind {
     /// `input NAME: UNIT [TOLERANCE];`
@@ -93,7 +93,7 @@ pub enum ItemKind {
 }
 
 impl ItemKind {
-    /// The declared name, where there is one.
+    /// The declared name, if there is one.
     pub fn name(&self) -> Option<&Ident> {
         match self {
             ItemKind::Input(input) => Some(&input.name),
@@ -117,7 +117,7 @@ pub struct Input {
     pub name: Ident,
     /// Unit in which a user gives it.
     pub unit: Unit,
-    /// How it varies about the value it is given.
+    /// Tolerance about the value given at run time.
     pub tolerance: Option<Tolerance>,
 }
 
@@ -128,7 +128,7 @@ pub struct Design {
     pub name: Ident,
     /// Nominal value.
     pub nominal: Value,
-    /// How it varies about the nominal value.
+    /// Tolerance about the nominal value.
     pub tolerance: Option<Tolerance>,
 }
 
@@ -137,45 +137,45 @@ pub struct Design {
 pub struct Tolerance {
     /// The limits.
     pub limits: Limits,
-    /// The numbers of the limits with their units, not the `+/-`; or the whole list of values.
+    /// The numbers of the limits with their units, without the `+/-`; for a list of values, the whole list.
     pub extent: Extent,
-    /// The distribution; normal when absent.
+    /// The distribution; normal if absent.
     pub law: Option<Law>,
 }
 
-/// Limits as they are written.
+/// Limits as written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Limits {
-    /// `+/- 3%`: the same on either side, in percent of the value.
+    /// `+/- 3%`: the same on both sides, in percent of the value.
     Percent(f64),
-    /// `+/- 1 mm`: the same on either side.
+    /// `+/- 1 mm`: the same on both sides.
     HalfWidth(Value),
-    /// `+0.1 -0.05 mm`: unequal ones.
+    /// `+0.1 -0.05 mm`: different on each side.
     Deviations(Box<Deviations>),
-    /// `one of [1.9, 2.0, 2.1] mm`: what it may be.
+    /// `one of [1.9, 2.0, 2.1] mm`: the possible values.
     Values(Box<Values>),
 }
 
-/// What a value may be.
+/// A list of possible values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values {
-    /// A list of values.
+    /// The values, as a list.
     pub values: Value,
-    /// A list of how often each occurs, to some scale; all alike when absent.
+    /// A list of relative frequencies, on any scale; all equal if absent.
     pub weights: Option<Value>,
 }
 
-/// The limits less the value.
+/// The limits minus the value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviations {
-    /// The first.
+    /// The first deviation.
     pub upper: Deviation,
-    /// The second.
+    /// The second deviation.
     pub lower: Deviation,
 }
 
 impl Deviations {
-    /// What the upper number is measured in: where nothing follows it, in what follows the lower one.
+    /// The measure of the upper number: if nothing follows it, the measure of the lower one.
     pub fn upper_measure(&self) -> &Measure {
         if self.shares_measure() {
             &self.lower.measure
@@ -184,38 +184,38 @@ impl Deviations {
         }
     }
 
-    /// What the numbers are measured in stands once for both: `+0.1 -0.05 mm`.
+    /// Whether both numbers share one measure: `+0.1 -0.05 mm`.
     pub fn shares_measure(&self) -> bool {
         self.upper.measure == Measure::Bare && self.lower.measure != Measure::Bare
     }
 }
 
-/// A number with its sign; a zero may have none.
+/// A signed number; a zero may lack the sign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviation {
     /// The number.
     pub number: f64,
-    /// What follows it.
+    /// The measure that follows the number.
     pub measure: Measure,
     /// From its sign to its last token.
     pub extent: Extent,
 }
 
-/// What a number is measured in.
+/// The measure of a number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
     /// Nothing follows the number.
     Bare,
-    /// In percent.
+    /// Percent.
     Percent,
-    /// In a unit.
+    /// A unit.
     Unit(Unit),
 }
 
 /// A distribution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
-    /// What it is.
+    /// The kind of distribution.
     pub kind: LawKind,
     /// From its first to its last token.
     pub extent: Extent,
@@ -254,9 +254,9 @@ pub struct Named {
 pub struct Curve {
     /// Name.
     pub name: Ident,
-    /// Arguments, growing.
+    /// Arguments, in increasing order.
     pub arguments: Value,
-    /// The value at each.
+    /// The value at each argument.
     pub values: Value,
 }
 
@@ -265,7 +265,7 @@ pub struct Curve {
 pub struct Gravity {
     /// The item's keyword.
     pub keyword: Extent,
-    /// Magnitude, or the whole vector when no direction is given.
+    /// Magnitude, or the whole vector if no direction is given.
     pub value: Value,
     /// Direction.
     pub along: Option<Value>,
@@ -276,18 +276,18 @@ pub struct Gravity {
 pub struct Body {
     /// Name.
     pub name: Ident,
-    /// What it is made of, in order: `disk(...) + rod(...) at [0, 0, 10 cm] - cylinder(...)`.
+    /// The terms that it consists of, in order: `disk(...) + rod(...) at [0, 0, 10 cm] - cylinder(...)`.
     pub terms: Vec<Term>,
 }
 
-/// A shape that adds to a body, or that is missing from it.
+/// A shape that is added to a body or cut out of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// It follows a minus.
+    /// Whether it follows a minus sign.
     pub hole: bool,
     /// `massless`, or a shape with its arguments.
     pub shape: NamedCall,
-    /// Where its frame is in the body frame.
+    /// Placement of its frame in the body frame.
     pub placement: Option<Placement>,
 }
 
@@ -296,7 +296,7 @@ pub struct Term {
 pub struct NamedCall {
     /// The word.
     pub word: Ident,
-    /// The arguments; nothing when there are no parentheses.
+    /// The arguments; `None` if there are no parentheses.
     pub arguments: Option<Vec<Argument>>,
 }
 
@@ -316,33 +316,33 @@ pub struct Joint {
     pub name: Ident,
     /// A word such as `revolute`.
     pub kind: Ident,
-    /// What stands in parentheses after the kind.
+    /// The arguments in parentheses after the kind.
     pub arguments: Option<Vec<JointArgument>>,
     /// Frame before `to`.
     pub from: Ident,
     /// Frame after `to`.
     pub to: Ident,
-    /// Placements, drives and what else is said of the joint, in order.
+    /// Placements, drives and other clauses of the joint, in order.
     pub clauses: Vec<JointClause>,
 }
 
-/// An axis, or something else that a joint needs: `z`, `turn: z`, `lead: 5 mm`.
+/// An axis, or another value that a joint needs: `z`, `turn: z`, `lead: 5 mm`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointArgument {
     /// The name before the colon.
     pub name: Option<Ident>,
-    /// What it is.
+    /// The value.
     pub value: Value,
 }
 
-/// What may follow the two frames of a joint.
+/// A clause after the two frames of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JointClause {
     /// `at VECTOR rotated(DIRECTION, ANGLE) on BODY`.
     Placement {
-        /// Where the joint's frame is.
+        /// Placement of the joint's frame.
         placement: Placement,
-        /// `on BODY`; the `from` side when absent.
+        /// `on BODY`; the `from` side if absent.
         on: Option<Ident>,
     },
     /// `COORDINATE driven at SPEED`.
@@ -353,10 +353,10 @@ pub enum JointClause {
     Cut(Extent),
 }
 
-/// A coordinate that runs at a speed of its own.
+/// A coordinate that coasts at a speed of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coast {
-    /// Its name; all coordinates of the joint when absent.
+    /// Name of the coordinate; if absent, all coordinates of the joint.
     pub coordinate: Option<Ident>,
     /// The word `coasting`.
     pub keyword: Extent,
@@ -365,7 +365,7 @@ pub struct Coast {
 /// A coordinate whose motion is prescribed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// Its name; the joint's only one when absent.
+    /// Name of the coordinate; if absent, the joint's only one.
     pub coordinate: Option<Ident>,
     /// The word `driven`.
     pub keyword: Extent,
@@ -373,7 +373,7 @@ pub struct Drive {
     pub speed: Value,
 }
 
-/// Where a frame is in another.
+/// Placement of one frame in another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// `at VECTOR`.
@@ -391,7 +391,7 @@ pub struct Point {
     pub name: Ident,
     /// The frame it is fixed in.
     pub frame: Ident,
-    /// Where it is there; at the origin when absent.
+    /// Placement in that frame; at the origin if absent.
     pub placement: Option<Placement>,
 }
 
@@ -425,11 +425,11 @@ pub struct Constraint {
 /// A value with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
-    /// What it is.
+    /// The kind of value.
     pub kind: ValueKind,
     /// From its first to its last token.
     pub extent: Extent,
-    /// Levels of values below it: bounded by the parser for the sake of every recursion over the tree.
+    /// Number of levels below it; the parser bounds it, so that recursion over the tree is safe.
     pub height: u16,
 }
 
@@ -450,16 +450,16 @@ pub enum ValueKind {
     Call(Ident, Vec<Value>),
     /// `a.x`.
     Component(Box<Value>, Ident),
-    /// `(a)`: kept, because `(3 kg) * m` is not `3 kg * m`.
+    /// `(a)`: kept in the tree because `(3 kg) * m` is not `3 kg * m`.
     Parenthesised(Box<Value>),
 }
 
 /// An operation on two values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Binary {
-    /// The operation.
+    /// The operator.
     pub operator: Operator,
-    /// Its sign.
+    /// The position of its sign.
     pub sign: Extent,
     /// The value before the sign.
     pub left: Value,
@@ -533,7 +533,7 @@ impl Value {
         }
     }
 
-    /// Every name in it that stands for a value, in order.
+    /// Every name in the value that stands for a value, in order.
     pub fn names(&self) -> Vec<&Ident> {
         let names = self.parts().into_iter().map(|part| match &part.kind {
             ValueKind::Name(name) => Some(name),
@@ -542,7 +542,7 @@ impl Value {
         names.flatten().collect()
     }
 
-    /// Every unit in it with the number before it, none before that of a vector, in order.
+    /// Every unit in the value with the number before it, in order; units of vectors have no number.
     pub fn units(&self) -> Vec<(Option<f64>, &Unit)> {
         let units = self.parts().into_iter().map(|part| match &part.kind {
             ValueKind::Number(number, Some(unit)) => Some((Some(*number), unit)),
@@ -552,7 +552,7 @@ impl Value {
         units.flatten().collect()
     }
 
-    /// It and every value in it, in order.
+    /// The value and all values in it, in order.
     fn parts(&self) -> Vec<&Value> {
         let mut parts = Vec::new();
         let mut rest = vec![self];

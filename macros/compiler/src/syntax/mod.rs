@@ -1,4 +1,4 @@
-//! The declaration as written: its tree, its parser and its printer. Nothing here knows what a name means.
+//! The declaration as written: its tree, its parser and its printer. No code here knows what a name means.
 
 pub mod ast;
 pub mod parse;

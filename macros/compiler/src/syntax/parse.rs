@@ -1,5 +1,5 @@
-//! Tokens to tree. A syntax error ends its item, not the declaration: reading goes on after the next semicolon, and of the
-//! item its names are kept.
+//! From tokens to the syntax tree. A syntax error ends its item, not the declaration: parsing resumes after the next semicolon,
+//! and the names of the item are kept.
 
 mod body;
 mod item;
@@ -33,7 +33,7 @@ pub fn parse(tokens: TokenStream) -> Result<Ast, Diagnostics> {
     }
 }
 
-/// Reads what can be read of a declaration; nothing when there is no mechanism.
+/// Reads as much of a declaration as possible; `None` if there is no mechanism.
 pub fn parse_what_can_be_read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Option<Ast> {
     let buffer = TokenBuffer::new2(tokens);
     let mut tokens = Tokens::top(buffer.begin());
@@ -52,7 +52,7 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     let mut head = TokenStream::new();
     while !tokens.is_empty() && !tokens.peek_word("mechanism") {
         match tokens.cursor.token_tree() {
-            // An item where the declaration should start: nothing further on is worth reporting.
+            // An item where the declaration should start: nothing after it is worth reporting.
             Some((proc_macro2::TokenTree::Ident(ident), _)) if ident != "pub" => break,
             Some((token, _)) => head.extend([token]),
             None => break,
@@ -80,7 +80,7 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
         Err(diagnostic) if tokens.peek_sign('!') => {
             return Err(Box::new(diagnostic.with_help(ALONE)));
         }
-        // What stands in braces can be read all the same.
+        // The items in braces can be read anyway.
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);
             if tokens.peek_ident().is_some() {
@@ -117,7 +117,7 @@ fn attributes_and_visibility(
 fn items(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> (Vec<Item>, Vec<Unread>) {
     let (mut items, mut unread) = (Vec::new(), Vec::new());
     while !tokens.is_empty() {
-        // A stray semicolon does no harm.
+        // A stray semicolon is harmless.
         if tokens.sign(';').is_some() {
             continue;
         }
@@ -139,7 +139,7 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> 
     let kind = item::item(tokens)?;
     if tokens.sign(';').is_none() {
         if tokens.is_empty() || starts_item(tokens) {
-            // The item itself is whole: go on with the next.
+            // The item itself is complete: continue with the next.
             diagnostics.error(tokens.last, "expected `;` after this");
         } else {
             return tokens.expected("`;`").map_err(|error| match kind {
@@ -158,7 +158,7 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> 
     Ok(kind)
 }
 
-/// Doc comments; other attributes mean nothing inside a declaration.
+/// Reads doc comments; other attributes have no meaning inside a declaration.
 fn docs(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<String> {
     let mut docs = Vec::new();
     while let Some(sign) = tokens.sign('#') {
@@ -216,7 +216,7 @@ fn what_is_known(mut tokens: Tokens) -> Unread {
     item
 }
 
-/// Skips the rest of a wrong item: past the next semicolon, or to what is clearly the next item.
+/// Skips the rest of a wrong item: past the next semicolon, or up to the clear start of the next item.
 fn skip_item(tokens: &mut Tokens) {
     let mut first = true;
     while !tokens.is_empty() {
@@ -231,7 +231,7 @@ fn skip_item(tokens: &mut Tokens) {
     }
 }
 
-/// A keyword and a name and `:` or `=` follow, or a doc comment.
+/// Whether a doc comment follows, or a keyword and a name and `:` or `=`.
 fn starts_item(tokens: &Tokens) -> bool {
     let mut ahead = *tokens;
     if ahead.sign('#').is_some() {

@@ -1,4 +1,5 @@
-//! Tree to canonical text: one item a line, one way to write each thing. Parsing the text gives the tree back.
+//! From the syntax tree to canonical text: one item per line, one spelling for each construct. Parsing the text gives the same
+//! tree.
 
 use std::fmt::Write as _;
 
@@ -53,7 +54,7 @@ fn documentation(attribute: &syn::Attribute) -> Option<String> {
     }
 }
 
-/// A doc comment, or an attribute where a comment would lose a line break or become `////`.
+/// A doc comment, or an attribute if a comment would lose a line break or become `////`.
 fn doc_line(doc: &str, indent: &str, text: &mut String) {
     if doc.contains(['\n', '\r']) || doc.starts_with('/') {
         line(text, indent, &format!("#[doc = {doc:?}]"));
@@ -105,7 +106,7 @@ fn item(kind: &ItemKind) -> String {
     }
 }
 
-/// A tolerance with a space before it.
+/// A tolerance, preceded by a space.
 fn tolerance(tolerance: Option<&Tolerance>) -> String {
     let Some(tolerance) = tolerance else {
         return String::new();
@@ -208,7 +209,7 @@ fn joint_argument(argument: &JointArgument) -> String {
     }
 }
 
-/// A placement with a space before each of its words.
+/// A placement, with a space before each of its words.
 fn placed(placement: Option<&Placement>) -> String {
     let mut text = String::new();
     let Some(placement) = placement else {
@@ -280,7 +281,7 @@ pub fn unit(unit: &Unit) -> String {
         several if several.iter().all(|factor| factor.exponent < 0) => {
             text.push_str(&format!("/({})", product(several)));
         }
-        // Factors above and below the line alternate: the order is part of the tree.
+        // Factors above and below the line alternate; keep the order, which is part of the tree.
         mixed => {
             for factor in mixed {
                 text.push(if factor.exponent < 0 { '/' } else { '*' });

@@ -1,5 +1,5 @@
-//! Reading tokens one by one with a memory of the last: an error can point behind what was read, and parsing can go on
-//! after it, which syn's own stream does not allow.
+//! A token reader that remembers the last token, so that an error can point behind it and parsing can continue
+//! afterwards; syn's own stream does not allow this.
 
 use proc_macro2::{Delimiter, Ident, Literal, Span};
 use quote::ToTokens as _;
@@ -8,7 +8,7 @@ use syn::buffer::Cursor;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
-/// What parsing yields; the error is boxed to keep the good case small.
+/// The result of parsing; the error is boxed to keep the success case small.
 pub(super) type Parsed<T> = Result<T, Box<Diagnostic>>;
 
 /// A position in a list of tokens.
@@ -19,12 +19,12 @@ pub(super) struct Tokens<'a> {
     pub(super) last: Span,
     /// The closing delimiter, where an error about a missing token points.
     end: Option<Span>,
-    /// Words that may follow a number here and are then no units.
+    /// Words that may follow a number here and are therefore not units.
     pub(super) no_units: &'static [&'static str],
 }
 
 impl<'a> Tokens<'a> {
-    /// Everything the macro was given.
+    /// The whole input of the macro.
     pub(super) fn top(cursor: Cursor<'a>) -> Self {
         Self {
             cursor,
@@ -34,9 +34,9 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// Nothing is left.
+    /// Whether nothing is left.
     pub(super) fn is_empty(&self) -> bool {
-        // An empty group without delimiters, left by a macro, is nothing too.
+        // An empty group without delimiters, left by a macro, also counts as nothing.
         self.peek_ident().is_none()
             && self.cursor.punct().is_none()
             && self.cursor.literal().is_none()
@@ -52,7 +52,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// An error: something else was expected at the next token.
+    /// An error at the next token, where something else was expected.
     pub(super) fn expected<T>(&self, what: &str) -> Parsed<T> {
         let message = match self.describe_next() {
             Some(found) => format!("expected {what}, found `{found}`"),
@@ -93,7 +93,7 @@ impl<'a> Tokens<'a> {
             .is_some_and(|(punct, _)| punct.as_char() == sign)
     }
 
-    /// The next three signs are `+/-`.
+    /// Whether the next three signs are `+/-`.
     pub(super) fn peek_plus_minus(&self) -> bool {
         let mut copy = *self;
         ['+', '/', '-']
@@ -101,19 +101,19 @@ impl<'a> Tokens<'a> {
             .all(|sign| copy.sign(sign).is_some())
     }
 
-    /// `->` is next.
+    /// Whether `->` is next.
     pub(super) fn peek_arrow(&self) -> bool {
         let mut copy = *self;
         copy.sign('-').is_some() && copy.sign('>').is_some()
     }
 
-    /// A name and a colon are next.
+    /// Whether a name and a colon are next.
     pub(super) fn peek_named(&self) -> bool {
         let mut ahead = *self;
         ahead.ident().is_some() && ahead.peek_sign(':')
     }
 
-    /// A sign and a shape with named arguments are next: the next term of a body, not of a sum.
+    /// Whether a sign and a shape with named arguments are next: the next term of a body, not of a sum.
     pub(super) fn peek_shape(&self) -> bool {
         let mut ahead = *self;
         (ahead.sign('+').is_some() || ahead.sign('-').is_some())
@@ -156,7 +156,7 @@ impl<'a> Tokens<'a> {
         self.ident().map(|ident| ident.span().into())
     }
 
-    /// Enters a group if it is next: its opening delimiter, its content, its closing delimiter.
+    /// Enters a group if one is next; returns its opening delimiter, its content and its closing delimiter.
     pub(super) fn group(&mut self, delimiter: Delimiter) -> Option<(Span, Tokens<'a>, Span)> {
         let (content, span, rest) = self.cursor.group(delimiter)?;
         self.cursor = rest;
@@ -170,8 +170,8 @@ impl<'a> Tokens<'a> {
         Some((span.open(), content, span.close()))
     }
 
-    /// What a `macro_rules!` fragment such as `$v:expr` has put in place of itself, when that is more than one token: it
-    /// belongs together although no parenthesis is seen.
+    /// The expansion of a `macro_rules!` fragment such as `$v:expr`, if it is more than one token: it belongs together
+    /// although it has no visible parentheses.
     pub(super) fn fragment(&mut self) -> Option<(Span, Tokens<'a>, Span)> {
         let (content, ..) = self.cursor.group(Delimiter::None)?;
         let (_, rest) = content.token_tree()?;
@@ -196,20 +196,20 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// A comma and a number are next: where no list goes on, it is a decimal comma.
+    /// Whether a comma and a number are next: outside a list, this is a decimal comma.
     pub(super) fn peek_decimal_comma(&self) -> bool {
         let mut ahead = *self;
         ahead.sign(',').is_some() && ahead.literal().is_some()
     }
 
-    /// A name that can be declared or referred to.
+    /// Reads a name that can be declared or referred to.
     pub(super) fn name(&mut self, what: &str) -> Parsed<Ident> {
         let Some(ident) = self.peek_ident() else {
             return self.expected(what);
         };
         let text = ident.to_string();
         let is_free = syn::parse2::<Ident>(ident.to_token_stream()).is_ok();
-        // The word of edition 2024 that syn still takes for a name.
+        // This keyword of edition 2024 is still a name for syn.
         if !is_free || text.starts_with("r#") || text == "gen" {
             let message = format!("`{text}` cannot be a name: Rust reserves it");
             return Err(Box::new(Diagnostic::new(&ident, message)));

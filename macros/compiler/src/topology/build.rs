@@ -1,4 +1,4 @@
-//! Joints to spanning forest; joints that close loops are cut.
+//! From joints to a spanning forest; joints that close loops are cut.
 
 use std::collections::VecDeque;
 
@@ -7,7 +7,7 @@ use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::model::mechanism::{Frame, Mechanism, Motion};
 
-/// Finds how every body hangs on the ground.
+/// Finds how every body is connected to the ground.
 pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let (graph, cut) = Graph::new(mechanism, &mut diagnostics);
@@ -44,7 +44,7 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
             );
         }
     }
-    // Where loops close, a massless link may carry masses through the constraint.
+    // If loops close, a massless link may carry masses through the constraint.
     let open = topology.cut.is_empty() && mechanism.constraints.is_empty();
     if diagnostics.is_empty() && open && !mechanism.kernels_only {
         massless::check(mechanism, &topology, &mut diagnostics);
@@ -52,9 +52,9 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     diagnostics.into_result(topology)
 }
 
-/// Frames and the joints that keep them a forest. The ground is node 0, body `i` node `i + 1`.
+/// A graph of frames and joints, kept a forest. The ground is node 0, body `i` is node `i + 1`.
 struct Graph {
-    /// Joints at each node in order of declaration: joint, other node, declared from the other node.
+    /// Joints at each node in order of declaration: the joint, the other node, and whether it is declared from the other node.
     joints: Vec<Vec<(JointId, usize, bool)>>,
 }
 
@@ -73,7 +73,7 @@ fn frame(node: usize) -> Frame {
 }
 
 impl Graph {
-    /// Takes joints in order of declaration, and of every loop cuts one: the forest and the joints that are not in it.
+    /// Adds joints in order of declaration and cuts one in every loop; returns the forest and the cut joints.
     fn new(mechanism: &Mechanism, diagnostics: &mut Diagnostics) -> (Self, Vec<JointId>) {
         let mut graph = Self {
             joints: vec![Vec::new(); mechanism.bodies.len() + 1],
@@ -114,7 +114,7 @@ impl Graph {
         }
     }
 
-    /// The joints between two nodes, when they are connected.
+    /// The joints between two nodes, if these are connected.
     fn path(&self, from: usize, to: usize) -> Option<Vec<JointId>> {
         let mut reached: Vec<Option<(JointId, usize)>> = vec![None; self.joints.len()];
         let mut waiting = VecDeque::from([from]);
@@ -139,7 +139,7 @@ impl Graph {
         None
     }
 
-    /// The bodies that hang on a node, parents before children, nearest first.
+    /// The bodies connected to a node, parents before children, nearest first.
     fn branches_from(&self, root: usize) -> Vec<Branch> {
         let mut branches = Vec::new();
         let mut seen = vec![false; self.joints.len()];
@@ -166,7 +166,7 @@ impl Graph {
     }
 }
 
-/// A body that nothing holds to the ground has no equilibrium. Bodies joined to each other are one mistake.
+/// Reports bodies that nothing holds to the ground: they have no equilibrium. Bodies joined to each other count as one mistake.
 fn report_unreached(
     mechanism: &Mechanism,
     graph: &Graph,

@@ -5,7 +5,7 @@ use crate::base::ids::JointId;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{ConstraintLaw, ForceLaw, Mechanism, Motion};
 
-/// The joints, by id, whose coordinates something else in the declaration uses: cutting would take them away.
+/// The joints, by id, whose coordinates are used elsewhere in the declaration: cutting would remove them.
 pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     let mut needed = vec![false; mechanism.joints.len()];
     let mut of_coordinate = |id: crate::base::ids::CoordinateId| {
@@ -54,7 +54,7 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     needed
 }
 
-/// The joint of a loop that leaves most freedom, and with it fewest equations; of equals the last declared.
+/// The joint of a loop that leaves the most freedom and thus the fewest equations; in a tie, the last declared.
 pub(super) fn choose(
     mechanism: &Mechanism,
     joints: &[JointId],

@@ -7,7 +7,7 @@ use crate::model::mechanism::{Frame, Mechanism, Motion};
 /// Reports free coordinates beyond which everything is massless.
 pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mut Diagnostics) {
     let mut carries_mass = vec![false; mechanism.bodies.len()];
-    // Children come after their parents, so that backwards every body knows what hangs on it.
+    // Children come after their parents, so in reverse order the mass beyond each body is already known.
     for branch in topology.branches.iter().rev() {
         let body = branch.body.index();
         if !mechanism.bodies[body].parts.is_empty() {

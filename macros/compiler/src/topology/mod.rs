@@ -1,5 +1,5 @@
-//! The computed spanning forest: which body hangs on which, in an order that visits parents first, and which joints close
-//! loops on it.
+//! The computed spanning forest: the parent of each body, in an order that visits parents first, and the joints that close
+//! loops in it.
 
 pub mod build;
 mod cut;
@@ -20,7 +20,7 @@ pub struct Topology {
     pub coasting: Vec<CoordinateId>,
     /// Driven coordinates in order of declaration.
     pub driven: Vec<CoordinateId>,
-    /// Joints that close loops, in order of declaration: they are no branches, and have no coordinates.
+    /// Joints that close loops, in order of declaration: they are not branches and have no coordinates.
     pub cut: Vec<JointId>,
 }
 
@@ -31,7 +31,7 @@ impl Topology {
     }
 }
 
-/// How a body hangs on the body nearer to the ground.
+/// How a body is connected to the body nearer to the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch {
     /// The body.
@@ -40,6 +40,6 @@ pub struct Branch {
     pub parent: Frame,
     /// The joint between the two.
     pub joint: JointId,
-    /// The joint was declared from the body to its parent.
+    /// Whether the joint was declared from the body to its parent.
     pub reversed: bool,
 }

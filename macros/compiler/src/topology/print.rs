@@ -1,4 +1,4 @@
-//! The forest as text, for snapshots: each body indented below the one it hangs on.
+//! The forest as text, for snapshots: each body is indented below its parent.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use crate::base::ids::CoordinateId;
 use crate::model::mechanism::{Frame, Mechanism};
 
 impl Topology {
-    /// The forest with the names of the mechanism it belongs to.
+    /// The forest, with the names of its mechanism.
     pub fn describe(&self, mechanism: &Mechanism) -> String {
         let mut text = String::from("ground\n");
         self.describe_below(mechanism, Frame::Ground, 1, &mut text);

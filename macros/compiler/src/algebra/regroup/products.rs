@@ -16,14 +16,14 @@ use crate::base::operators::Operator;
 /// A factor: a node, or a pair of factors.
 type Factor = u32;
 
-/// The products below some roots, and pairs of factors that stand for their product.
+/// The products below some roots, and the pairs of factors that represent partial products.
 #[derive(Default)]
 struct Products {
-    /// Heads of products, and their factors in order.
+    /// Each product: its node and its factors in order.
     lists: Vec<(ExprId, Vec<Factor>)>,
-    /// What stands behind the factors that are no nodes.
+    /// The factors that are not nodes: pairs of factors.
     pairs: Vec<(Factor, Factor)>,
-    /// Products in which two factors may stand.
+    /// For each pair of factors, the products that may contain it.
     users: FxHashMap<(Factor, Factor), Vec<usize>>,
     nodes: usize,
 }
@@ -47,7 +47,7 @@ impl Products {
         this
     }
 
-    /// Whether a product holds both factors, the same one twice if they are equal.
+    /// Whether a product contains both factors, or the same factor twice if they are equal.
     fn holds(&self, list: usize, (a, b): (Factor, Factor)) -> bool {
         let factors = &self.lists[list].1;
         let count = |wanted: Factor| factors.iter().filter(|&&f| f == wanted).count();
@@ -57,7 +57,7 @@ impl Products {
         }
     }
 
-    /// As long as two products share a pair, the pair that most share becomes one factor.
+    /// While two products share a pair, turns the most frequently shared pair into one factor.
     fn share(&mut self) {
         for list in 0..self.lists.len() {
             let factors = self.lists[list].1.clone();

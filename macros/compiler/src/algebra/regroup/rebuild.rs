@@ -1,4 +1,4 @@
-//! Building nodes anew.
+//! Rebuilding nodes.
 
 use super::super::graph::Graph;
 use super::super::node::Node;
@@ -6,7 +6,7 @@ use super::super::node_map::NodeMap;
 use super::uses::Uses;
 use crate::base::ids::ExprId;
 
-/// Rebuilds the nodes below `roots`; `special` may build a node in its own way from the images of older ones.
+/// Rebuilds the nodes below `roots`; `special` may build a node differently, from the images of older ones.
 pub(super) fn rebuild(
     graph: &mut Graph,
     roots: &[ExprId],
@@ -36,7 +36,7 @@ pub(super) fn rebuild(
     roots.iter().map(|&root| image(&images, root)).collect()
 }
 
-/// What has become of an operand.
+/// The rebuilt node of an operand.
 pub(super) fn image(images: &NodeMap, id: ExprId) -> ExprId {
     images.get(id).expect("operands are older than their users")
 }

@@ -43,7 +43,7 @@ struct Term {
     factors: Vec<ExprId>,
 }
 
-/// The factor that occurs in most terms of several factors, if it occurs in two at least.
+/// The factor that occurs in the most terms with several factors, if it occurs in at least two.
 fn most_common(terms: &[Term]) -> Option<ExprId> {
     let mut counts: Vec<(ExprId, u32)> = Vec::new();
     for term in terms.iter().filter(|term| term.factors.len() > 1) {

@@ -1,4 +1,4 @@
-//! How often nodes are used, and in what.
+//! How often nodes are used, and by which operators.
 
 use super::super::count::reachable;
 use super::super::graph::Graph;
@@ -11,7 +11,7 @@ pub(super) struct Uses {
     pub(super) order: Vec<ExprId>,
     /// By node: how often it is an operand or a root.
     pub(super) count: Vec<u32>,
-    /// By node: its only use is as an operand of a sum, of a product.
+    /// By node: whether its only use is as an operand of a sum (or of a product, below).
     pub(super) in_sum: Vec<bool>,
     pub(super) in_product: Vec<bool>,
 }
@@ -47,7 +47,7 @@ impl Uses {
         this
     }
 
-    /// The factors of a product, through products used nowhere else.
+    /// The factors of a product, expanding inner products that are used nowhere else.
     pub(super) fn factors(&self, graph: &Graph, id: ExprId, list: &mut Vec<ExprId>) {
         let Node::Binary(Operator::Multiply, a, b) = graph.node(id) else {
             list.push(id);
@@ -62,7 +62,7 @@ impl Uses {
         }
     }
 
-    /// The terms of a sum, through sums used nowhere else; `true` for those that are subtracted.
+    /// The terms of a sum, expanding inner sums that are used nowhere else; `true` for subtracted terms.
     pub(super) fn terms(
         &self,
         graph: &Graph,

@@ -1,4 +1,4 @@
-//! Whether the equations determine every motion: each must move some mass, and something must resist it.
+//! Checks that the equations determine every motion: each must move some mass, and something must resist it.
 
 use crate::algebra::{Evaluation, Graph};
 use crate::base::diagnostics::Diagnostics;
@@ -7,8 +7,7 @@ use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 
 /// Rejects a mechanism with a singular mass matrix, with a coordinate that nothing resists, or with a constraint that no
-/// coordinate affects. Only the last is wrong where nothing but the equations is wanted: of the others, the coordinates are
-/// returned.
+/// coordinate affects. If only the kernels are wanted, only the last is an error; for the others the coordinates are returned.
 pub(crate) fn require_determinate_motion(
     g: &Graph,
     context: &Context,
@@ -104,8 +103,8 @@ fn listed(names: &[String]) -> String {
 }
 
 /// A motion of free and coasting coordinates that moves no mass at any probed state: the coordinates that change, each with
-/// its amount if that is the same at all states. With constraints, only the motions that they admit must move mass; along all
-/// others `A^T A` takes the place of the mass matrix, with `A` the derivatives of the constraints by the speeds.
+/// its amount if that is the same at all states. With constraints, only admissible motions must move mass; along all others
+/// `A^T A` replaces the mass matrix, where `A` holds the derivatives of the constraints by the speeds.
 fn massless_motion(
     g: &Graph,
     context: &Context,
@@ -157,7 +156,7 @@ fn massless_motion(
     Some(moving.map(|k| (k, share(k))).collect())
 }
 
-/// `M + m sum a a^T / |a|^2`, `m` the greatest mass.
+/// `M + m sum a a^T / |a|^2`, with `m` the largest diagonal entry of `M`.
 fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
     let mut sum = mass.to_vec();
     let most = (0..n).fold(0.0_f64, |most, i| most.max(mass[i * n + i]));

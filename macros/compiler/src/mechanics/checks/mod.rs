@@ -1,4 +1,4 @@
-//! Checks of the equations, and the properties they establish.
+//! Checks of the equations, and the properties that these establish.
 
 mod determinacy;
 mod poses;

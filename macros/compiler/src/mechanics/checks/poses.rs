@@ -1,4 +1,4 @@
-//! How far joints of three turns are from the poses in which their coordinates fail.
+//! How far joints with three turns are from the poses in which their coordinates become singular.
 
 use crate::algebra::{Graph, Vector3};
 use crate::mechanics::functions::Pose;

@@ -1,4 +1,4 @@
-//! What holds for the linearised matrices at every state.
+//! Properties of the linearised matrices that hold at every state.
 
 use crate::algebra::Graph;
 use crate::base::ids::ExprId;

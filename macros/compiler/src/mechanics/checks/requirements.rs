@@ -1,5 +1,5 @@
-//! What bodies and constraints must satisfy at run time, whatever the design values: positive masses and lengths, and inertias
-//! that a body can have.
+//! Requirements on bodies and constraints at run time, for any design values: positive masses and lengths, and physically
+//! possible inertias.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
@@ -11,11 +11,11 @@ use crate::model::mechanism::{Body, ConstraintLaw, CurveArgument, Mechanism};
 use crate::model::shape::{Reduced, Spread};
 use crate::model::welded::{Member, groups};
 
-/// Share of the trace below which a principal second moment counts as zero: a flat body has one that is exactly zero,
+/// Fraction of the trace below which a principal second moment counts as zero: a flat body has one that is exactly zero,
 /// and rounding must not make it negative.
 const FLATNESS: f64 = 1e-9;
 
-/// The requirements that depend on inputs or design variables; constants were checked when the declaration was.
+/// The requirements that depend on inputs or design variables; constants are checked with the declaration.
 pub(crate) fn requirements(
     g: &mut Graph,
     mechanism: &Mechanism,
@@ -70,7 +70,7 @@ pub(crate) fn requirements(
     list
 }
 
-/// Curves are known between their first and their last point.
+/// Requires arguments of curves to lie between the first and the last point.
 fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<Requirement> {
     let mut list: Vec<Requirement> = Vec::new();
     for CurveArgument { curve, argument } in &mechanism.curve_arguments {
@@ -89,9 +89,9 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
             ),
         ];
         for (quantity, value) in ends {
-            // The message shows it beside the end in the declared unit.
+            // The message shows this value next to the end of the curve, in the declared unit.
             let value = g.scale(1.0 / curve.unit.scale, value);
-            // Several curves over one range are asked once.
+            // Curves that share a range and an argument need one check.
             if list.iter().all(|known| known.value != value) {
                 list.push(Requirement {
                     quantity,
@@ -120,7 +120,8 @@ fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
     })
 }
 
-/// The requirements on bodies welded together: none if each has the inertia of a real body, because then so has their sum.
+/// The requirements on bodies welded together. There are none if each has the inertia of a real body, because then so does
+/// their sum.
 fn inertia_together(
     g: &mut Graph,
     mechanism: &Mechanism,
@@ -149,8 +150,8 @@ fn inertia_together(
     inertia_of_a_body(g, &name, second)
 }
 
-/// Mass, and second moments about the centre of mass: rows of `S - F F^T / m`, each diagonal entry raised by a little of
-/// the trace of `S`.
+/// Mass, and second moments about the centre of mass: rows of `S - F F^T / m`, with each diagonal entry raised by a small
+/// fraction of the trace of `S`.
 fn central_moments(g: &mut Graph, pieces: Vec<MassDistribution>) -> (ExprId, [Vector3; 3]) {
     let zero = g.zero();
     let (mut mass, mut first) = (zero, Vector3::zero(g));
@@ -184,7 +185,7 @@ fn central_moments(g: &mut Graph, pieces: Vec<MassDistribution>) -> (ExprId, [Ve
 }
 
 /// The second moment `S = tr(J)/2 1 - J` of an inertia `J` is positive definite exactly when all its principal minors are
-/// positive. Its diagonal entries say by how much two moments exceed the third.
+/// positive. Each diagonal entry is half of the amount by which two moments of inertia exceed the third.
 fn inertia_of_a_body(g: &mut Graph, body: &str, [x, y, z]: [Vector3; 3]) -> Vec<Requirement> {
     let ([a, xy, xz], [_, b, yz], [_, _, c]) = (x.0, y.0, z.0);
     let require = |quantity: &str, unit: &str, value| Requirement {

@@ -1,4 +1,4 @@
-//! A steady state exists only if the equations do not depend on the running coordinates, driven or coasting.
+//! A steady state exists only if the equations do not depend on the running coordinates, whether driven or coasting.
 
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
@@ -21,7 +21,7 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
     let outputs = at_rest(g, context.symbols, &outputs);
     let coordinates: Vec<_> = context.topology.running().collect();
     for (&symbol, id) in context.symbols.running.ids.iter().zip(coordinates) {
-        // Driven at a speed of zero is locked: the equations hold where it stands.
+        // A coordinate driven at zero speed is locked: the equations hold at its position.
         if g.is(kinematics.coordinates[id.index()].velocity, 0.0) {
             continue;
         }
@@ -73,7 +73,7 @@ fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId)
     vanish(g, context, &change).into_iter().any(|zero| !zero)
 }
 
-/// The causes of force, each by itself, that make the equations depend on `symbol`.
+/// The individual causes of force that make the equations depend on `symbol`.
 fn causes(
     g: &mut Graph,
     context: &Context,

@@ -1,4 +1,4 @@
-//! Outputs, with what they may refer to besides coordinates and points.
+//! Outputs, and the quantities that they may refer to besides coordinates and points.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{ConstraintId, ExprId, JointId};
@@ -32,11 +32,11 @@ pub(crate) fn outputs(
         .collect()
 }
 
-/// Everything that an output can use. What no output uses costs nothing: code is generated only for nodes that a result
+/// Everything that an output can use. Unused quantities cost nothing: code is generated only for nodes that a result
 /// depends on.
 struct Everything<'a> {
     kinematics: &'a Kinematics,
-    /// By joint id: force and moment.
+    /// Force and moment, by joint id.
     reactions: Vec<[Vector3; 2]>,
     /// By constraint id.
     constraints: Vec<[ExprId; 6]>,
@@ -62,8 +62,8 @@ impl State for Everything<'_> {
     }
 }
 
-/// What the `from` side of each joint exerts on its `to` side: force and moment at the origin of the joint frame on the
-/// `from` side, along its axes.
+/// The force and moment that the `from` side of each joint exerts on its `to` side, at the origin of the joint frame on the
+/// `from` side and in its axes.
 fn reactions(
     g: &mut Graph,
     context: &Context,
@@ -93,7 +93,7 @@ fn reactions(
     reactions
 }
 
-/// By body id: inertia minus weight of a body and everything it carries, about its origin, in the common frame.
+/// Inertia minus weight of a body and everything it carries, about its origin and in the common frame, by body id.
 fn inertial_wrenches(
     g: &mut Graph,
     context: &Context,
@@ -127,7 +127,7 @@ fn inertial_wrenches(
         .collect()
 }
 
-/// What each constraint exerts; see [`Expr::ConstraintReaction`].
+/// The reaction of each constraint; see [`Expr::ConstraintReaction`].
 fn constraint_reactions(
     g: &mut Graph,
     context: &Context,

@@ -14,7 +14,7 @@ pub(crate) struct Equations {
     /// `g(qddot, qdot, q; u, b)`, and its parts.
     pub(crate) motion: Vec<ExprId>,
     pub(crate) parts: Residual,
-    /// Derivatives of the inertial part by walks over the bodies, if these apply.
+    /// Derivatives of the inertial part by walks over the bodies, if these are applicable.
     pub(crate) variation: Option<Variation>,
     /// `g(qddot, 0, q; u, b)`.
     pub(crate) without_velocity: Vec<ExprId>,

@@ -1,6 +1,6 @@
-//! Bodies augmented by the mass that hangs on them. A joint that turns about its seat passes on the mass it carries as a point
-//! mass at the seat: its inertia force is that mass times the acceleration of the seat, plus a remainder that does not
-//! depend on the motion of the seat. Equations over augmented bodies are shorter, and so are their derivatives.
+//! Bodies augmented by the mass they carry. A joint that turns about its seat passes on the mass it carries as a point mass at
+//! the seat: the inertia force is this mass times the acceleration of the seat, plus a remainder that does not depend on the
+//! motion of the seat. Equations over augmented bodies are shorter, and so are their derivatives.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -11,7 +11,7 @@ use crate::model::mechanism::Frame;
 
 use super::mass_distribution::MassDistribution;
 
-/// A mass distribution about the origin of a body, over its axes: `integral rho dm = first` and
+/// A mass distribution about the origin of a body, in body axes: `integral rho dm = first` and
 /// `integral rho rho^T dm = isotropic 1 + second`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AugmentedBody {
@@ -45,7 +45,7 @@ impl AugmentedBody {
         }
     }
 
-    /// A point mass.
+    /// Adds a point mass.
     fn add_point(&mut self, g: &mut Graph, mass: ExprId, place: Vector3) {
         let share = place.scale(g, mass);
         self.mass = g.add(self.mass, mass);
@@ -53,7 +53,7 @@ impl AugmentedBody {
         self.add_product(g, share, place);
     }
 
-    /// Adds `a b^T`, known to be symmetric in the sum.
+    /// Adds `a b^T`, which becomes symmetric in the sum.
     fn add_product(&mut self, g: &mut Graph, a: Vector3, b: Vector3) {
         for i in 0..3 {
             for j in 0..3 {
@@ -72,7 +72,7 @@ pub(crate) fn rides_on_seat(g: &Graph, motion: &BodyMotion) -> bool {
         && motion.steps.iter().all(|step| step.point.is_zero(g))
 }
 
-/// By body id.
+/// The augmented bodies, by body id.
 pub(crate) fn augmented_bodies(
     g: &mut Graph,
     context: &Context,

@@ -1,4 +1,4 @@
-//! A check for tests: the walks over the bodies against derivatives of the equations.
+//! A check for tests: compares the walks over the bodies with derivatives of the equations.
 
 use crate::algebra::Graph;
 use crate::base::ids::ExprId;
@@ -11,7 +11,7 @@ use crate::topology::Topology;
 use super::newton_euler::inertial_at;
 use super::variation::variation;
 
-/// Compares every entry with the derivative of its equation and counts those that are not zero; `None` if the walks do not
+/// Asserts that every entry equals the derivative of its equation, and counts the nonzero ones; `None` if the walks do not
 /// apply.
 pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let g = &mut Graph::new();

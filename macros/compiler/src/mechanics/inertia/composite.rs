@@ -1,5 +1,5 @@
-//! The mass matrix by composite bodies: each entry follows from the force and moment that accelerate a body together with
-//! everything it carries, as if all of that were rigid.
+//! The mass matrix from composite bodies: each entry follows from the force and moment that accelerate a body together with
+//! everything it carries, as if all of it were one rigid body.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -10,7 +10,7 @@ use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
 
-/// Mass, first and second moment (`integral rho rho^T dm`) about a body's origin, as the body's motion is written.
+/// Mass, first and second moment (`integral rho rho^T dm`) about a body's origin, in the axes of the body's motion.
 #[derive(Clone, Copy)]
 pub(crate) struct Composite {
     pub(crate) mass: ExprId,
@@ -64,7 +64,8 @@ impl Composite {
         add_symmetric(g, &mut self.second, |g, i, j| g.mul(place.0[i], share.0[j]));
     }
 
-    /// As the parent's motion is written, about the parent's origin. Only `mass` is not part of the augmented parent.
+    /// The composite about the parent's origin, in the axes of the parent's motion. Only `mass` is not part of the augmented
+    /// parent.
     fn moved_to_parent(&self, g: &mut Graph, motion: &BodyMotion, mass: ExprId) -> Self {
         let mut moved = Self {
             mass: g.zero(),
@@ -104,7 +105,7 @@ pub(crate) fn add_products(g: &mut Graph, matrix: &mut [[ExprId; 3]; 3], a: Vect
     });
 }
 
-/// Force and moment that a unit acceleration along `step` takes: of a body and of what it carries.
+/// Force and moment needed to accelerate a body and everything it carries by one unit along `step`.
 pub(crate) fn accelerating(
     g: &mut Graph,
     step: &StepAxis,
@@ -118,7 +119,7 @@ pub(crate) fn accelerating(
     let zero = Vector3::zero(g);
     let (mut force, mut moment) = (zero, zero);
     if let Some(axis) = step.turn {
-        // the body's own in its axes, where it is constant
+        // the body's own share in body axes, where it is constant
         let twice = g.scale(2.0, body.isotropic);
         let own_moment = spun(g, body.second, step.own_axis);
         let isotropic = step.own_axis.scale(g, twice);
@@ -155,13 +156,14 @@ pub(crate) fn spun(g: &mut Graph, second: [[ExprId; 3]; 3], axis: Vector3) -> Ve
     }))
 }
 
-/// What a body carries, by body id.
+/// The masses that bodies carry, by body id.
 pub(crate) struct Composites {
-    /// What turns with the body's angle, and what goes on in its run as points: it moves with its seats without turning.
+    /// Everything that turns with the body's angle, with the bodies that continue its run as point masses: these move with
+    /// their seats without turning.
     pub(crate) carried: Vec<Composite>,
-    /// The body with all it carries.
+    /// The body with everything it carries.
     pub(crate) whole: Vec<Composite>,
-    /// Of this mass, what is not part of the augmented parent: it moves to the parent's origin with the rest.
+    /// The mass that is not part of the augmented parent; it moves to the parent's origin with the rest.
     pub(crate) apart: Vec<ExprId>,
 }
 
@@ -179,7 +181,7 @@ impl Composites {
             whole: vec![empty; count],
             apart: vec![empty.mass; count],
         };
-        // what goes on in the body's run, less its points
+        // the bodies that continue the run, without their point masses
         let mut going_on = vec![empty; count];
         for branch in context.topology.branches.iter().rev() {
             let index = branch.body.index();
@@ -215,7 +217,7 @@ impl Composites {
     }
 }
 
-/// The mass matrix with respect to the absolute angles, by columns; zero outside the coordinates that move. Only the
+/// The columns of the mass matrix with respect to the absolute angles; zero outside the moving coordinates. Only the
 /// accelerations of free coordinates have columns.
 pub(crate) fn mass_matrix(
     g: &mut Graph,
@@ -252,7 +254,7 @@ pub(crate) fn mass_matrix(
             };
             set(g, motion, load);
             let mut load = load;
-            // what goes on in the run moves with its seat: no work along this angle, but along those before
+            // a body that continues the run moves with its seat: no work along this angle, but along those before it
             for next in topology.branches.iter().filter(|next| {
                 next.parent == Frame::Body(branch.body)
                     && context.runs.layout.of(next.body).continues_run

@@ -1,12 +1,12 @@
-//! Mass distributions of the shapes, in the form in which the equations of motion are cheapest.
+//! Mass distributions of the shapes, in the form that makes the equations of motion cheapest.
 //!
-//! A body's inertia force and moment need only integrals of `rho` and `rho rho^T` over its mass, `rho` the position from
-//! the body's origin. Written over a few body-fixed vectors, the arms `d_k`:
+//! A body's inertia force and moment need only the integrals of `rho` and `rho rho^T` over its mass, where `rho` is the
+//! position from the body's origin. They are written in terms of a few body-fixed vectors, the arms `d_k`:
 //!
 //! - `integral rho dm = sum_k first_k d_k`,
 //! - `integral rho rho^T dm = isotropic 1 + sum_kj second_kj d_k d_j^T`.
 //!
-//! A bar needs one arm, a disk one and the isotropic part, any body at most three more than its centre of mass.
+//! A bar needs one arm, a disk one arm and the isotropic part, and any body at most three arms besides its centre of mass.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -16,14 +16,14 @@ use crate::model::expression::Vector;
 use crate::model::mechanism::{Body, Placement, Shape};
 use crate::model::shape::{MeanSquare, Reduced, Spread};
 
-/// A mass distribution over arms.
+/// A mass distribution in terms of arms.
 #[derive(Clone, Debug)]
 pub(crate) struct MassDistribution {
     /// Total mass, kg.
     pub(crate) mass: ExprId,
     /// Multiple of the identity in the second moment, kg m^2.
     pub(crate) isotropic: ExprId,
-    /// The vectors everything else is written over.
+    /// The vectors in which the moments are written.
     pub(crate) arms: Vec<Arm>,
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct Arm {
 }
 
 impl MassDistribution {
-    /// The pieces of a body, each about the body's origin; a hole counts negative.
+    /// The pieces of a body, each about the body's origin; holes count negative.
     pub(crate) fn of_body(g: &mut Graph, values: &Values, body: &Body) -> Vec<Self> {
         let several = body.parts.len() > 1;
         body.parts
@@ -111,7 +111,7 @@ impl MassDistribution {
                 let products = [xy, yz, xz].map(|j| g.neg(j));
                 let mut body = Self::point(g, values, mass, center);
                 if let Some(about) = about {
-                    // The given tensor holds the mass at its distance from the point; take that away.
+                    // The given tensor includes the mass at its distance from the point; subtract that part.
                     let (center, about) = (values.vector(g, center), values.vector(g, about));
                     let distance = center.sub(g, about);
                     let (zero, minus) = (g.zero(), g.neg(mass));
@@ -122,7 +122,7 @@ impl MassDistribution {
         }
     }
 
-    /// The negative of a mass distribution: a hole.
+    /// The negative of a mass distribution, for a hole.
     fn negated(mut self, g: &mut Graph) -> Self {
         self.mass = g.neg(self.mass);
         self.isotropic = g.neg(self.isotropic);
@@ -135,8 +135,8 @@ impl MassDistribution {
         self
     }
 
-    /// The distribution seen from a frame in which its own frame is placed: arms turn, and the offset `o` becomes one
-    /// more arm, because `rho = o + R rho'`.
+    /// The distribution seen from a frame in which its own frame is placed: the arms turn, and the offset `o` adds one
+    /// arm, because `rho = o + R rho'`.
     pub(crate) fn placed(mut self, g: &mut Graph, values: &Values, placement: &Placement) -> Self {
         let (offset, rotation) = values.placement(g, placement);
         if let Some(rotation) = rotation {
@@ -156,7 +156,7 @@ impl MassDistribution {
         self
     }
 
-    /// Names the moments for readers.
+    /// Names the moments, for readable code.
     fn set_names(&self, g: &mut Graph, body: &str) {
         g.set_name(self.mass, || format!("{body}_mass"));
         g.set_name(self.isotropic, || format!("{body}_isotropic_moment"));
@@ -220,8 +220,8 @@ impl MassDistribution {
         self
     }
 
-    /// Adds a second-moment tensor over the body axes; `products` are xy, yz, xz. One diagonal entry moves into the
-    /// isotropic part: the choice that leaves fewest arms.
+    /// Adds a second-moment tensor in body axes; `products` are xy, yz, xz. One diagonal entry moves into the
+    /// isotropic part, chosen to leave the fewest arms.
     fn with_tensor(self, g: &mut Graph, diagonal: [ExprId; 3], products: [ExprId; 3]) -> Self {
         let zero = g.zero();
         let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;

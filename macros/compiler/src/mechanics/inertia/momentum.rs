@@ -1,4 +1,4 @@
-//! Momenta of bodies with all they carry, along any motion.
+//! Momenta of bodies with everything they carry, along any motion.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
@@ -9,7 +9,7 @@ use crate::model::mechanism::Frame;
 use super::augmented::AugmentedBody;
 use super::composite::{Composites, add_products, add_symmetric, spun};
 
-/// Rates of the mass distribution about a body's origin, as the body's motion is written.
+/// Rates of the mass distribution about a body's origin, in the axes of the body's motion.
 #[derive(Clone, Copy)]
 pub(crate) struct Momentum {
     pub(crate) linear: Vector3,
@@ -40,7 +40,7 @@ impl Momentum {
         add_symmetric(g, &mut self.second, |_, i, j| other.second[i][j]);
     }
 
-    /// Names the entries for readers.
+    /// Names the entries, for readable code.
     fn set_names(&self, g: &mut Graph, body: &str) {
         self.linear.set_name(g, &format!("{body}_momentum"));
         self.angular
@@ -52,8 +52,8 @@ impl Momentum {
         }
     }
 
-    /// As the parent's motion is written, about the parent's origin, which the body's leaves at `rate`; with the first moment
-    /// and the mass that move along.
+    /// The momentum about the parent's origin, in the axes of the parent's motion. The body's origin moves away from the parent's
+    /// at `rate`, and the first moment and the mass move along with it.
     fn moved_to_parent(
         &self,
         g: &mut Graph,
@@ -82,7 +82,7 @@ impl Momentum {
     }
 }
 
-/// By body id: how fast its origin leaves its parent's, as the parent's motion is written.
+/// Velocity of each body's origin relative to its parent's, in the axes of the parent's motion, by body id.
 pub(crate) fn rates(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<Vector3> {
     let zero = Vector3::zero(g);
     let mut rates = vec![zero; context.mechanism.bodies.len()];
@@ -104,7 +104,7 @@ pub(crate) fn rates(g: &mut Graph, context: &Context, kinematics: &Kinematics) -
     rates
 }
 
-/// By body id: of the body with all it carries.
+/// Momentum of each body with everything it carries, by body id.
 pub(crate) fn momenta(
     g: &mut Graph,
     context: &Context,

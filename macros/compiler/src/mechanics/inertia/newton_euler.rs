@@ -1,4 +1,4 @@
-//! Inertia and weight along every coordinate: the recursion of Newton and Euler over augmented bodies.
+//! Inertia and weight along every coordinate: Newton-Euler recursion over augmented bodies.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
@@ -12,23 +12,23 @@ use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
 pub(crate) struct Inertial {
     /// By coordinate id: along the coordinate, or along the absolute angle if its body continues a run.
     pub(crate) along: Vec<ExprId>,
-    /// By body id: of the body and all it carries, about its origin, as its motion is written.
+    /// By body id: for the body and everything it carries, about its origin, in the axes of its motion.
     pub(crate) wrenches: Vec<Wrench>,
 }
 
-/// What a body has gathered from those it carries.
+/// Contributions that a body has gathered from the bodies it carries.
 #[derive(Clone)]
 struct Gathered {
-    /// Forces that do not ride on a seat, and the rest of those that do.
+    /// Forces of bodies that do not ride on a seat, and the remainders of those that do.
     rest: Vector3,
-    /// By axis of the body: what its arm is crossed with.
+    /// By body axis: the vector with which its arm forms a cross product.
     brackets: [Vector3; 3],
-    /// About the origin: of bodies that do not continue a run with this one, and of those that do.
+    /// About the origin: from bodies that do not continue a run with this one, and from those that do.
     moment: Vector3,
     moment_of_run: Vector3,
 }
 
-/// [`inertial`] while the running coordinates stand at `running`.
+/// [`inertial`] with the running coordinates at `running`.
 pub(crate) fn inertial_at(
     g: &mut Graph,
     context: &Context,
@@ -42,13 +42,14 @@ pub(crate) fn inertial_at(
 /// Sums inertia minus weight from the leaves towards the ground. `kinematics` is written in the layout of runs, with the
 /// ground accelerated against gravity, so that weight needs no terms of its own.
 ///
-/// For a body together with everything it carries on seats, with augmented mass `m`, moments `first` and `second`, seats at `s_c`,
+/// A body and everything it carries on seats has the augmented mass `m`, moments `first` and `second`, and seats at `s_c`.
+/// Integrating `a(rho) = a_O + W rho` over the mass gives
 ///
 /// - `force = m a_O + rest`, `rest = W first + sum rest_c`,
-/// - `moment = 2 isotropic alpha + sum_k e_k x (first_k a_O + sum_j second_kj W e_j + sum_c s_ck rest_c) + sum moment_c`,
+/// - `moment = 2 isotropic alpha + sum_k e_k x (first_k a_O + sum_j second_kj W e_j + sum_c s_ck rest_c) + sum moment_c`.
 ///
-/// from `a(rho) = a_O + W rho` integrated over the mass. The absolute angle of a body turns only this body of its run, so the
-/// moments of the bodies that continue the run do no work along it.
+/// The absolute angle of a body turns only this body of its run, so the moments of the bodies that continue the run do no
+/// work along it.
 pub(crate) fn inertial(
     g: &mut Graph,
     context: &Context,
@@ -121,7 +122,7 @@ pub(crate) fn inertial(
     Inertial { along, wrenches }
 }
 
-/// The part of the force that does not follow from the origin's acceleration, and the moment without contributions handed
+/// The part of the force that does not depend on the origin's acceleration, and the moment without contributions passed
 /// on by other bodies.
 fn own_load(
     g: &mut Graph,

@@ -1,16 +1,17 @@
 //! Derivatives of inertia and weight along every coordinate by positions and velocities, for any motion.
 //!
-//! Suppose that everything a body carries keeps its motion relative to the body. A change of the body's motion, of its angular
-//! velocity by `spin`, of its angular acceleration by `growth - omega x spin`, of the acceleration of its origin by
-//! `acceleration`, changes the acceleration of a particle at `r` by `acceleration + growth x r + 2 spin x dr/dt`. It takes
+//! Suppose that everything a body carries keeps its motion relative to the body. Change the body's angular velocity by `spin`,
+//! its angular acceleration by `growth - omega x spin` and the acceleration of its origin by `acceleration`. The acceleration
+//! of a particle at `r` then changes by `acceleration + growth x r + 2 spin x dr/dt`. This requires
 //!
 //! - `force = m acceleration + growth x h + 2 spin x P`,
 //! - `moment = h x acceleration + I growth + (tr D 1 - D) spin + spin x L`,
 //!
-//! with mass `m`, first moment `h`, inertia `I`, and as rates of a frame that moves with the origin without turning: linear and
-//! angular momentum `P` and `L`, rate `D` of the second moment. Seen from the next body outwards, `spin` and `growth` are the
-//! same and `acceleration` is more by `growth x d + 2 spin x dd/dt`, `d` from origin to origin. Every joint is thus a change
-//! of the motion of what it carries, and every coordinate behind it asks with one covector: one walk towards the ground for each.
+//! with mass `m`, first moment `h` and inertia `I`, and, as rates in a frame that moves with the origin without turning, linear
+//! and angular momentum `P` and `L` and the rate `D` of the second moment. For the next body outwards, `spin` and `growth` are
+//! the same and `acceleration` increases by `growth x d + 2 spin x dd/dt`, where `d` points from origin to origin. Thus each
+//! joint acts as a change of the motion of everything it carries, and each coordinate further out needs only one covector,
+//! obtained in one walk towards the ground.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -26,13 +27,13 @@ use super::composite::{Composite, Composites, accelerating, spun};
 use super::momentum::{Momentum, momenta, rates};
 use super::newton_euler::inertial;
 
-/// Derivatives of inertia minus weight by the unknowns, by columns.
+/// Columns of the derivatives of inertia minus weight by the unknowns.
 pub(crate) struct Variation {
     pub(crate) by_position: Vec<Vec<ExprId>>,
     pub(crate) by_velocity: Vec<Vec<ExprId>>,
 }
 
-/// A change of the motion of a body, or what multiplies each of its parts.
+/// A change of a body's motion, or the covector with the factors of its parts.
 #[derive(Clone, Copy)]
 struct Change {
     spin: Vector3,
@@ -48,7 +49,7 @@ impl Change {
         g.sum([spin, growth, acceleration])
     }
 
-    /// Carries the covector over from a body to its parent; `rate` is the velocity of the body's origin relative to the
+    /// Transfers the covector from a body to its parent; `rate` is the velocity of the body's origin relative to the
     /// parent's.
     fn move_to_parent(&mut self, g: &mut Graph, motion: &BodyMotion, rate: Vector3) {
         if let Some(rotation) = motion.to_parent {
@@ -64,21 +65,21 @@ impl Change {
     }
 }
 
-/// An elementary motion of a free coordinate, and what it does to the motion of the body that it carries.
+/// An elementary motion of a free coordinate, and how it changes the motion of the body that it carries.
 struct Step {
     unknown: usize,
     axis: StepAxis,
     /// The axis, and the velocity of the body's origin per unit rate.
     turn: Vector3,
     velocity: Vector3,
-    /// Change of the body's motion, seen along its axes, per unit of the coordinate.
+    /// Change of the body's motion, in body axes, per unit of the coordinate.
     further: Change,
-    /// The same per unit of the coordinate's rate.
+    /// Change of the body's motion, in body axes, per unit of the coordinate's rate.
     faster: Change,
 }
 
 impl Step {
-    /// A wrench that moves with the body, by position, seen from before the joint.
+    /// Derivative by position of a wrench that moves with the body, seen from before the joint.
     fn carry(&self, g: &mut Graph, wrench: &Wrench) -> Wrench {
         let turned = self.turn.cross(g, wrench.moment);
         let moved = self.velocity.cross(g, wrench.force);
@@ -92,12 +93,13 @@ impl Step {
 /// The free motions of a joint, from the parent to the body.
 ///
 /// Behind an elementary motion with axis `z` and velocity `v` of the body's origin `O`, a frame moves with `omega` and `W` (its
-/// second rate), its point at `O` has the acceleration `a`, and `O` leaves that point at `u`, the rate of the motions that
-/// follow. Further on by one unit, the frame is turned and moved, and what moved it is not: seen from it,
+/// second rate), its point at `O` has the acceleration `a`, and `O` moves away from that point at `u`, the rate of the motions
+/// that follow. If the coordinate increases by one unit, the frame turns and moves relative to everything before it. Seen from
+/// the frame,
 ///
 /// - `spin = omega x z`, `growth = W z`, `acceleration = a x z + W v + 2 spin x u`;
 ///
-/// and faster by one unit, `spin = z`, `growth = 2 omega x z`, `acceleration = 2 omega x v + 2 z x u`.
+/// if the rate increases by one unit, `spin = z`, `growth = 2 omega x z`, `acceleration = 2 omega x v + 2 z x u`.
 fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Vec<Step> {
     let motion = kinematics.of(body);
     let frame = &motion.frame;
@@ -162,14 +164,14 @@ fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId
     steps
 }
 
-/// A body with all it carries, its joints held to their motion.
+/// A body with everything it carries, with the joints' relative motion unchanged.
 struct Carried {
     mass: Composite,
     momentum: Momentum,
 }
 
 impl Carried {
-    /// The wrench that a change of the body's motion takes.
+    /// The wrench that a change of the body's motion requires.
     fn wrench(&self, g: &mut Graph, change: &Change) -> Wrench {
         let Composite {
             mass,
@@ -189,7 +191,7 @@ impl Carried {
         Wrench { force, moment }
     }
 
-    /// What the load along an elementary motion asks of the spin.
+    /// The covector's `spin` part for the load along an elementary motion.
     fn asks_of_spin(&self, g: &mut Graph, step: &Step) -> Vector3 {
         let two = g.constant(2.0);
         let pushed = self.momentum.linear.cross(g, step.velocity);
@@ -200,8 +202,8 @@ impl Carried {
     }
 }
 
-/// Derivatives of inertia minus weight by the unknowns while the running coordinates are at `running`; `None` unless every
-/// body is written along its own axes and no coordinate coasts.
+/// Derivatives of inertia minus weight by the unknowns with the running coordinates at `running`; `None` unless every
+/// body is written in its own axes and no coordinate coasts.
 pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) -> Option<Variation> {
     let topology = context.topology;
     let mut layouts = topology
@@ -269,7 +271,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
 }
 
 impl Variation {
-    /// Entries that couple a motion with the motions nearer to the ground, at the body that carries them.
+    /// Sets the entries that couple a motion with the motions nearer to the ground, at the body that carries them.
     fn meet(
         &mut self,
         g: &mut Graph,

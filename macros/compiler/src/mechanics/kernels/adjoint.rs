@@ -1,12 +1,12 @@
-//! Scalars whose gradients give every design derivative of a mode at once.
+//! Scalars whose gradients contain all design derivatives of a mode.
 
 use crate::algebra::{Array, Direction, Graph, derivatives_along, gradient};
 use crate::base::ids::{ExprId, SymbolId};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::setup::{Symbols, at_rest};
 
-/// `phi^T (Khat - lambda Mhat) phi` without either matrix: the derivative of `phi^T g` along
-/// (`qddot`, `q`) = (`-lambda phi`, `phi`), with the `phi` in front held fixed.
+/// `phi^T (Khat - lambda Mhat) phi` without forming either matrix: the derivative of `phi^T g` along
+/// (`qddot`, `q`) = (`-lambda phi`, `phi`), with the leading `phi` held fixed.
 pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
     let power = weighted_sum(g, &s.phi.values, &e.without_velocity);
     let minus_lambda = g.neg(s.lambda.values[0]);
@@ -25,9 +25,9 @@ pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
     at_rest(g, s, &functional)[0]
 }
 
-/// `left^T (Mhat acceleration + Chat velocity + Khat position)` without any matrix: the derivative of `left^T g` along
-/// (`qddot`, `qdot`, `q`), taken at rest. `Chat` holds products of a velocity and the drives, so the velocities go only
-/// after differentiating.
+/// `left^T (Mhat acceleration + Chat velocity + Khat position)` without forming any matrix: the derivative of `left^T g` along
+/// (`qddot`, `qdot`, `q`), taken at rest. `Chat` contains products of a velocity and the drives, so the velocities are set to
+/// zero only after differentiating.
 pub(crate) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
     let power = weighted_sum(g, &s.pencil.left.values, &e.motion);
     let rates = s

@@ -1,4 +1,4 @@
-//! The kernels that check a state: physical requirements on the design, and the distance from singular poses of joints.
+//! The kernels that check a state: physical requirements on the design, and the distance of joints from singular poses.
 
 use crate::algebra::{Array, Function};
 use crate::base::ids::ExprId;
@@ -8,7 +8,7 @@ use crate::mechanics::setup::Symbols;
 
 use super::parameters::parameter;
 
-/// The function whose results have to be positive.
+/// The function whose results must be positive.
 pub(crate) fn violation(requirements: &[Requirement], symbols: &Symbols) -> Function {
     let values: Vec<ExprId> = requirements.iter().map(|r| r.value).collect();
     Function {

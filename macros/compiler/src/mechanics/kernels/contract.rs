@@ -1,4 +1,4 @@
-//! The kernels of the runtime's contract: which expressions each returns, and in which order.
+//! The kernels of the runtime's contract: the expressions that each returns, and their order.
 
 use crate::algebra::{Array, Function, Graph, Parameter, cost, substitute};
 use crate::base::ids::ExprId;

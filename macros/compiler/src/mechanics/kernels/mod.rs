@@ -1,4 +1,4 @@
-//! The functions that are generated.
+//! The generated functions.
 
 mod adjoint;
 mod conditions;

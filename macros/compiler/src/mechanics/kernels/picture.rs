@@ -1,7 +1,7 @@
-//! Where bodies are, and what they, joints and points look like in the frames that carry them.
+//! Poses of the bodies, and the shapes of bodies, joints and points in the frames that carry them.
 //!
-//! Only the poses of bodies depend on the state. The rest is written in the frames of bodies, so that it depends on the design at
-//! most, and mostly on nothing: such numbers are no results of the kernel.
+//! Only the poses of bodies depend on the state. Everything else is written in body frames, so that it depends at most on the
+//! design and is usually constant; the kernel does not return constants.
 
 use crate::algebra::{Array, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{ExprId, JointId, PointId};
@@ -16,7 +16,7 @@ use crate::model::mechanism::{
 
 use super::parameters::parameter;
 
-/// The function that computes the numbers of a picture, and how these are read.
+/// The function that computes the numbers of a picture, and how to interpret them.
 pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
     let (mechanism, symbols) = (context.mechanism, context.symbols);
     let mut numbers = Numbers::new(context.values);
@@ -302,7 +302,7 @@ impl<'a> Numbers<'a> {
         Some((constraint.name.to_string(), [*wheel, *on]))
     }
 
-    /// Numbers that are known, places of the others, and the others.
+    /// The constant numbers, the positions of the others, and the others.
     fn split(self, g: &Graph) -> (Vec<f64>, Vec<u32>, Vec<ExprId>) {
         let known = self.all.iter().map(|&value| g.constant_value(value));
         let numbers = known.clone().map(Option::unwrap_or_default).collect();
@@ -315,7 +315,7 @@ impl<'a> Numbers<'a> {
     }
 }
 
-/// A vector of a frame that is turned by a constant rotation.
+/// A vector of a frame that is turned by a constant rotation, in the axes outside.
 fn turned(g: &mut Graph, rotation: Option<Matrix3>, vector: Vector3) -> Vector3 {
     match rotation {
         Some(rotation) => rotation.apply(g, vector),

@@ -1,14 +1,15 @@
 //! Whether a vibration whirls in the direction in which the bodies spin.
 //!
-//! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, whatever moves by `r` along `x` and by `s` along `y` runs
-//! through the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. Summed over the bodies, `omega` their
-//! angular velocity at rest, `r` and `s` the displacements of their centres of mass, `m` their mass:
+//! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, a quantity that moves by `r` along `x` and by `s` along `y` follows
+//! the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. With `omega` the angular velocity of a body at rest,
+//! `r` and `s` the displacements of its centre of mass and `m` its mass, summed over the bodies:
 //!
 //! - `moment = -sum |omega| omega . m (r x s)`,
-//! - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`,
+//! - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`.
 //!
-//! and the same of their small rotations with the trace of the second moment about the centre of mass for `m`. For one body
-//! `moment / size` is one on a circle in the sense of the spin, minus one on a circle against it, zero on a line.
+//! Small rotations contribute in the same way, with the trace of the second moment about the centre of mass in place of `m`.
+//! For one body, `moment / size` is one on a circle in the sense of the spin, minus one on a circle against it, and zero on a
+//! line.
 
 use crate::algebra::{Array, Direction, Function, Graph, Vector3, derivatives_along};
 use crate::base::ids::ExprId;
@@ -20,7 +21,7 @@ use crate::model::mechanism::Body;
 
 use super::parameters::parameter;
 
-/// The function that gives the direction in which a vibration whirls.
+/// The function that computes the direction in which a vibration whirls.
 pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
     let symbols = context.symbols;
     let moment_and_size = moment_and_size(g, context)?;
@@ -41,7 +42,7 @@ pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
     })
 }
 
-/// `moment` and `size`; `None` where no massive body turns in the state of rest.
+/// `moment` and `size`; `None` if no massive body turns in the state of rest.
 fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
     let zero = g.zero();
     let kinematics = in_common_frame_at_zero(g, context);
@@ -103,7 +104,7 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
     })
 }
 
-/// Velocity and angular velocity, or what stands for them, of each body.
+/// Velocity and angular velocity of each body, or the corresponding displacements.
 fn by_body(components: &[ExprId]) -> Vec<[Vector3; 2]> {
     components
         .chunks_exact(6)
@@ -121,7 +122,7 @@ struct Central {
 }
 
 impl Central {
-    /// The pieces of a body together: `k = sum (k_i + m_i |c_i - c|^2)`.
+    /// The combined pieces of a body: `k = sum (k_i + m_i |c_i - c|^2)`.
     fn of_body(g: &mut Graph, values: &Values, body: &Body) -> Self {
         let pieces: Vec<Self> = MassDistribution::of_body(g, values, body)
             .iter()
@@ -178,7 +179,7 @@ impl Central {
     }
 }
 
-/// `a / b`, or exactly one if both are the same node: usually a piece is the whole body, and its arm leads to its centre.
+/// `a / b`, or exactly one if both are the same node: usually one piece is the whole body, and its arm leads to its centre.
 fn ratio(g: &mut Graph, a: ExprId, b: ExprId) -> ExprId {
     if a == b { g.constant(1.0) } else { g.div(a, b) }
 }

@@ -1,4 +1,4 @@
-//! The residual differentiated by everything it is linearised in (eqs. 13-17).
+//! Derivatives of the residual with respect to everything it is linearised in (eqs. 13-17).
 
 use crate::algebra::{Graph, cost, substitute};
 use crate::base::census::taken;

@@ -1,4 +1,4 @@
-//! The matrices of the linearised equations, with what is known of them put to use.
+//! The matrices of the linearised equations, using their known properties.
 
 use crate::algebra::{Array, Graph, cost};
 use crate::base::census::taken;
@@ -11,7 +11,7 @@ use crate::mechanics::setup::{Context, SymbolList, Symbols, columns};
 use super::columns::added;
 use super::jacobians::Jacobians;
 
-/// The three linearised matrices, row by row, with what is known of them put to use.
+/// The three linearised matrices, row by row, using their known properties.
 pub(crate) struct Linear {
     mass: Vec<ExprId>,
     damping: Vec<ExprId>,
@@ -28,8 +28,8 @@ impl Linear {
         let order = context.outward_order();
         let n = order.len();
         let zero = g.zero();
-        // Of two equal entries, the one that differentiates by the coordinate nearer to the leaves is cheaper: less
-        // of the mechanism moves with it.
+        // Of two equal entries, the derivative by the coordinate nearer to the leaves is cheaper: less of the mechanism
+        // moves with it.
         let outer_last = |i: usize, j: usize| if order[i] <= order[j] { (i, j) } else { (j, i) };
         let symmetric = |matrix: &[Vec<ExprId>]| -> Vec<ExprId> {
             entries(n)
@@ -75,7 +75,7 @@ impl Linear {
         this
     }
 
-    /// Names the entries for readers.
+    /// Names the entries, for readable code.
     fn set_names(&self, g: &mut Graph, n: usize) {
         for (name, values) in LINEAR
             .into_iter()
@@ -87,7 +87,7 @@ impl Linear {
         }
     }
 
-    /// All entries, matrix after matrix.
+    /// All entries, one matrix after the other.
     pub(crate) fn roots(&self) -> Vec<ExprId> {
         [&self.mass[..], &self.damping, &self.stiffness].concat()
     }
@@ -121,7 +121,7 @@ impl Linear {
         linear_arrays(&self.roots(), n)
     }
 
-    /// Derivatives of the three by each symbol of a list.
+    /// Derivatives of the three matrices by each symbol of a list.
     pub(crate) fn partials(&self, g: &mut Graph, n: usize, by: &SymbolList) -> Vec<Array> {
         let each = columns(g, &self.roots(), by);
         let count = by.ids.len();
@@ -142,7 +142,7 @@ impl Linear {
     }
 }
 
-/// Of two ways to write the same, the one with fewer operations.
+/// The cheaper of two equivalent sets of expressions, by number of operations.
 fn cheaper(g: &Graph, one: Vec<ExprId>, other: Vec<ExprId>) -> Vec<ExprId> {
     let operations = |roots: &[ExprId]| cost(g, roots).operations;
     if operations(&other) < operations(&one) {
@@ -155,7 +155,7 @@ fn cheaper(g: &Graph, one: Vec<ExprId>, other: Vec<ExprId>) -> Vec<ExprId> {
 
 const LINEAR: [&str; 3] = ["mass", "damping", "stiffness"];
 
-/// The three matrices from all their entries.
+/// The three matrices as arrays, from the list of all entries.
 pub(crate) fn linear_arrays(roots: &[ExprId], n: usize) -> Vec<Array> {
     LINEAR
         .into_iter()
@@ -168,7 +168,7 @@ pub(crate) fn linear_arrays(roots: &[ExprId], n: usize) -> Vec<Array> {
         .collect()
 }
 
-/// Rows and columns of an `n` by `n` matrix, row by row.
+/// Row and column of each entry of an `n` by `n` matrix, row by row.
 fn entries(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n * n).map(move |k| (k / n, k % n))
 }

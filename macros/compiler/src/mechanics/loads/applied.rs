@@ -1,4 +1,4 @@
-//! Loads on bodies and coordinates, and how a force or a pair of forces is added to them.
+//! Loads on bodies and coordinates, and how to add a force or a pair of forces to them.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use crate::model::mechanism::{Frame, Mechanism};
 use super::force_context::ForceContext;
 use super::pair::Pair;
 
-/// Loads on one body, grouped by the frame on which each closes: a force pair between two bodies does no work on the
+/// Loads on one body, grouped by the frame at which each closes: a force pair between two bodies does no work on the
 /// joints below their last common ancestor, and adding it up there would only leave rounding errors.
 pub(crate) type Loads = BTreeMap<Frame, Wrench>;
 
-/// Adds a load to those that close on the same frame.
+/// Adds a load to those that close at the same frame.
 pub(crate) fn add_load(g: &mut Graph, loads: &mut Loads, closing: Frame, load: Wrench) {
     let sum = match loads.get(&closing) {
         Some(so_far) => so_far.add(g, load),
@@ -54,7 +54,7 @@ impl AppliedForces {
         self.apply_at(g, (frame, arm), load, closing);
     }
 
-    /// A force and a moment on one side of a constraint, the opposite on the other side at the same place.
+    /// Applies a force and a moment to one side of a constraint, and the opposite to the other side at the same place.
     pub(crate) fn apply_pair(
         &mut self,
         g: &mut Graph,
@@ -74,7 +74,7 @@ impl AppliedForces {
         self.apply_at(g, (from.frame, arm), opposite, closing);
     }
 
-    /// Applies a force and a moment at an arm from the origin of a frame.
+    /// Applies a force and a moment at a given arm from the origin of a frame.
     fn apply_at(
         &mut self,
         g: &mut Graph,

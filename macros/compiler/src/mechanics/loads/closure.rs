@@ -10,7 +10,7 @@ use super::force_context::ForceContext;
 use super::pair::{Demand, Pair, Side};
 use super::perpendiculars::perpendiculars;
 
-/// Axes of `from` along which two places coincide.
+/// Requires two places to coincide along some axes of `from`.
 pub(crate) fn coincident(
     g: &mut Graph,
     force_context: &ForceContext,
@@ -39,7 +39,7 @@ fn apart(g: &mut Graph, from: Side, to: Side, direction: Vector3, label: &'stati
     }
 }
 
-/// All axes of two places, or one direction in both, agree.
+/// Requires all axes of two places, or one direction in both, to agree.
 pub(crate) fn aligned(
     g: &mut Graph,
     force_context: &ForceContext,
@@ -57,7 +57,7 @@ pub(crate) fn aligned(
     Pair::new(g, from, to, demands)
 }
 
-/// The three small rotations between two sets of axes. Each is an angle, so that only equal axes satisfy all three.
+/// The three small rotations between two sets of axes. Each is an angle, so only equal axes satisfy all three.
 fn turns(g: &mut Graph, from: Matrix3, to: Matrix3) -> Vec<Demand> {
     [("about_x", 2, 1), ("about_y", 0, 2), ("about_z", 1, 0)]
         .into_iter()
@@ -79,10 +79,11 @@ fn tilts(g: &mut Graph, context: &Context, [from, to]: [Matrix3; 2], axis: Vecto
         .collect()
 }
 
-/// The angle by which `b`, fixed in `to`, has left `a` towards `across`, both fixed in `from`: `atan2(across . b, a . b)`.
+/// The angle by which `b`, fixed in `to`, has moved from `a` towards `across`, both fixed in `from`:
+/// `atan2(across . b, a . b)`.
 fn angle(g: &mut Graph, label: &'static str, across: Vector3, a: Vector3, b: Vector3) -> Demand {
     let (sine, cosine) = (across.dot(g, b), a.dot(g, b));
-    // Also where the sine is nothing: of opposite directions the angle is half a turn.
+    // This also holds where the sine is zero: between opposite directions the angle is half a turn.
     let value = g.binary(Operator::Atan2, sine, cosine);
     // d(a . b) = (b x a) . omega for b turning with omega relative to a
     let [by_sine, by_cosine] = [across, a].map(|fixed| b.cross(g, fixed));
@@ -101,7 +102,7 @@ fn angle(g: &mut Graph, label: &'static str, across: Vector3, a: Vector3, b: Vec
     }
 }
 
-/// Two places keep a distance. The demand is on what the distance lacks, so that its reaction is a tension.
+/// Requires two places to keep a distance. The demand is declared length minus distance, so its reaction is a tension.
 pub(crate) fn distance(
     g: &mut Graph,
     force_context: &ForceContext,
@@ -124,7 +125,7 @@ pub(crate) fn distance(
     Pair::new(g, from, to, vec![demand])
 }
 
-/// What a joint demands of its `to` side, as equations.
+/// The demands of a joint on its `to` side, as equations.
 pub(crate) fn joint_demands(g: &mut Graph, force_context: &ForceContext, joint: &Joint) -> Pair {
     let context = force_context.context;
     let from = force_context.placed(g, joint.from, &joint.from_placement);
@@ -166,7 +167,7 @@ pub(crate) fn joint_demands(g: &mut Graph, force_context: &ForceContext, joint: 
     Pair::new(g, from, to, demands)
 }
 
-/// The axes of a universal joint keep their angle.
+/// Requires the axes of a universal joint to keep their angle.
 fn between(g: &mut Graph, from: Matrix3, to: Matrix3, first: Vector3, second: Vector3) -> Demand {
     let declared = first.dot(g, second);
     let (a, b) = (from.apply(g, first), to.apply(g, second));

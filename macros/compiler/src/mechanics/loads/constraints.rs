@@ -1,9 +1,9 @@
-//! Constraints: their equations, and what holds them on bodies and coordinates.
+//! Constraints: their equations, and their reactions on bodies and coordinates.
 //!
-//! Every equation has a multiplier `mu`. The generalised forces that hold it are `-mu` times the derivative of the equation
+//! Every equation has a multiplier `mu`. Its generalised reaction forces are `-mu` times the derivative of the equation
 //! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments. An equation is the negative of
-//! what is demanded to vanish, `Phi = -value`. Then `mu` is what the `from` side exerts on the `to` side, as for the reaction
-//! of a joint, and the residual of an equation has the direction of its reaction.
+//! the value that must vanish, `Phi = -value`. Then `mu` is the load that the `from` side exerts on the `to` side, as for the
+//! reaction of a joint, and the residual of an equation has the direction of its reaction.
 
 use crate::algebra::{Graph, gradient, substitute};
 use crate::base::census::taken;
@@ -19,7 +19,7 @@ use super::force_context::ForceContext;
 use super::pair::Pair;
 use super::rolling::rolling;
 
-/// All equations that do not hold whatever the mechanism does: those of positions first.
+/// All equations that do not hold trivially, starting with those of positions.
 pub(crate) fn constraint_rows(g: &mut Graph, context: &Context) -> Vec<Row> {
     let sources = sources(context);
     if sources.is_empty() {
@@ -65,8 +65,8 @@ pub(crate) fn constraint_rows(g: &mut Graph, context: &Context) -> Vec<Row> {
     rows
 }
 
-/// Positions of the running coordinates: any, but zero where one is driven at a speed of zero. An equation that holds at zero
-/// only is none that holds whatever moves.
+/// Arbitrary positions of the running coordinates, but zero for those driven at zero speed. An equation that holds only at zero
+/// is not trivial.
 fn anywhere(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     let at_zero = in_common_frame_at_zero(g, context);
     let running = context.topology.running();
@@ -79,7 +79,7 @@ fn anywhere(g: &mut Graph, context: &Context) -> Vec<ExprId> {
         .collect()
 }
 
-/// The expression of a constraint that is no geometric one, and its unit.
+/// The expression and unit of a constraint that is not geometric.
 fn declared_equation<'a>(context: &Context<'a>, source: Source) -> (&'a Expr, &'a Unit) {
     if let Source::Constraint(id) = source
         && let ConstraintLaw::Equation { zero, unit } =
@@ -99,7 +99,7 @@ fn reaction_unit(unit: &str) -> String {
     }
 }
 
-/// Everything that has equations, in order of declaration: joints, then constraints.
+/// All sources of equations in order of declaration: joints, then constraints.
 fn sources(context: &Context) -> Vec<Source> {
     let joints = context.topology.cut.iter().copied().map(Source::Joint);
     let constraints = (0..context.mechanism.constraints.len())
@@ -108,7 +108,7 @@ fn sources(context: &Context) -> Vec<Source> {
     joints.chain(constraints).collect()
 }
 
-/// A constraint between two sides; `None` for an equation.
+/// A constraint between two sides; `None` for a declared equation.
 fn geometric(g: &mut Graph, force_context: &ForceContext, source: Source) -> Option<Pair> {
     let mechanism = force_context.context.mechanism;
     let id = match source {
@@ -143,7 +143,7 @@ fn geometric(g: &mut Graph, force_context: &ForceContext, source: Source) -> Opt
     })
 }
 
-/// Whether an expression holds a coordinate that runs in steady motion.
+/// Whether an expression contains a coordinate that runs in steady motion.
 fn has_running(context: &Context, value: &Expr) -> bool {
     value.leaves().into_iter().any(|leaf| match leaf {
         Expr::Coordinate(id) => context.mechanism.coordinates[id.index()].motion.runs(),
@@ -151,7 +151,7 @@ fn has_running(context: &Context, value: &Expr) -> bool {
     })
 }
 
-/// Evaluates the equations, by row, and adds what holds them to `forces`.
+/// Evaluates the equations, by row, and adds their reactions to `forces`.
 pub(crate) fn constraints(
     g: &mut Graph,
     force_context: &ForceContext,
@@ -189,7 +189,7 @@ pub(crate) fn constraints(
     values
 }
 
-/// Running coordinates as symbols, everything else as it is.
+/// Running coordinates as symbols, everything else at its value.
 struct Running<'a> {
     context: &'a Context<'a>,
     kinematics: &'a Kinematics,
@@ -206,7 +206,7 @@ impl State for Running<'_> {
     }
 }
 
-/// An expression that is zero, or whose rate is zero where it holds running coordinates.
+/// An expression that must be zero, or whose rate must be zero if it contains running coordinates.
 fn equation(
     g: &mut Graph,
     force_context: &ForceContext,
@@ -262,8 +262,8 @@ fn equation(
     g.neg(value)
 }
 
-/// What the `from` side of a constraint or of a cut joint exerts on the `to` side, seen from the point of `from` along its
-/// axes; `None` for an equation.
+/// The load that the `from` side of a constraint or of a cut joint exerts on the `to` side, at the point of `from` and in its
+/// axes; `None` for a declared equation.
 pub(crate) fn held(g: &mut Graph, force_context: &ForceContext, source: Source) -> Option<Wrench> {
     let pair = geometric(g, force_context, source)?;
     let mut load = Wrench::zero(g);

@@ -175,8 +175,8 @@ impl AppliedForces {
         self.apply(g, force_context, line.to, push, line.closing);
     }
 
-    /// Force and moment by the displacement and rotation of `to` against `from`, in the axes of `from`; the opposite acts on
-    /// `from` at the place of `to`.
+    /// Force and moment from the displacement and rotation of `to` relative to `from`, in the axes of `from`; the opposite
+    /// acts on `from` at the place of `to`.
     fn bushing(
         &mut self,
         g: &mut Graph,
@@ -191,7 +191,7 @@ impl AppliedForces {
         let to_axes = start.axes.transpose();
         let gap = end.position.sub(g, start.position);
         let displacement = to_axes.apply(g, gap);
-        // As seen from `from`, the point of its body where `to` is stands still.
+        // Seen from `from`, the point of its body at the place of `to` is at rest.
         let [(carrier, carrier_turn), (own, own_turn)] =
             frames.map(|frame| force_context.velocity(g, frame, end.position, closing));
         let velocity = own.sub(g, carrier);
@@ -219,7 +219,7 @@ impl AppliedForces {
             .axes
             .apply(g, moment)
             .set_name(g, &format!("{name}_moment"));
-        // At the place of `to`, seen from the origin of `from`, the force on `from` has a moment more.
+        // At the place of `to`, seen from the origin of `from`, the force on `from` adds a moment.
         let lever = gap.cross(g, force);
         let on_from = Wrench {
             force,
@@ -234,15 +234,15 @@ impl AppliedForces {
 /// A matrix by rows.
 type Rows = [Vector3; 3];
 
-/// The line between two points, and how fast it grows.
+/// The line between two points, and the rate at which it grows.
 struct Line {
     from: PointId,
     to: PointId,
-    /// From the first to the second.
+    /// Vector from the first point to the second.
     vector: Vector3,
     distance: ExprId,
     rate: ExprId,
-    /// The last frame that both ends hang on.
+    /// The last common ancestor frame of both ends.
     closing: Frame,
 }
 
@@ -299,7 +299,7 @@ fn half_antisymmetric(g: &mut Graph, rotation: Matrix3) -> Vector3 {
     ])
 }
 
-/// Rate of [`half_antisymmetric`] while the rotation turns with `omega` (in the axes it is written in): `R' = [omega]x R`.
+/// Rate of [`half_antisymmetric`] while the rotation turns with `omega` (in the axes in which it is written): `R' = [omega]x R`.
 fn half_antisymmetric_rate(g: &mut Graph, rotation: Matrix3, omega: Vector3) -> Vector3 {
     let rate = Matrix3(rotation.0.map(|column| omega.cross(g, column)));
     half_antisymmetric(g, rate)

@@ -1,4 +1,4 @@
-//! A constraint between two sides: what it demands of their relative motion, and the pair of forces that holds it.
+//! A constraint between two sides: its demands on their relative motion, and the pair of forces that enforces them.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
@@ -12,10 +12,10 @@ pub(crate) struct Side {
     pub(crate) at: PointMotion,
 }
 
-/// One equation between two sides, with the pair that belongs to it: the derivative of the equation by the velocity and the
+/// One equation between two sides, with its force pair: the derivative of the equation by the velocity and the
 /// angular velocity of `to` relative to `from`, at the place where the pair acts.
 pub(crate) struct Demand {
-    /// Which equation of its constraint; empty for the only one.
+    /// Name of the equation within its constraint; empty if it is the only one.
     pub(crate) label: &'static str,
     pub(crate) value: ExprId,
     pub(crate) force: Vector3,
@@ -24,7 +24,7 @@ pub(crate) struct Demand {
 }
 
 impl Demand {
-    /// What a multiplier exerts on the `to` side.
+    /// The load that a multiplier exerts on the `to` side.
     pub(crate) fn held_by(&self, g: &mut Graph, multiplier: ExprId) -> Wrench {
         Wrench {
             force: self.force.scale(g, multiplier),
@@ -33,7 +33,7 @@ impl Demand {
     }
 }
 
-/// Two sides and what is demanded of them.
+/// Two sides and the demands on them.
 pub(crate) struct Pair {
     pub(crate) from: Side,
     pub(crate) to: Side,

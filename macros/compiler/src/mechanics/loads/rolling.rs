@@ -8,7 +8,7 @@ use super::force_context::ForceContext;
 use super::pair::{Demand, Pair};
 use super::perpendiculars::perpendiculars;
 
-/// Contact along the normal, an equation of positions; no slip forward and sideways, equations of velocities.
+/// Contact along the normal, as an equation of positions; no slip forward and sideways, as equations of velocities.
 ///
 /// With `n` the normal, `a` the axle and `c` the centre, the lowest point of a disk is `c + r d`,
 /// `d = -(n - (n . a) a) / |n - (n . a) a|`; forward is `a x n / |a x n|`.

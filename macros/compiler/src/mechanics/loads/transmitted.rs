@@ -12,13 +12,13 @@ use super::constraints::constraints;
 use super::force_context::ForceContext;
 use super::forces::applied_forces;
 
-/// Loads along the coordinates, and what the joints transmit of them, with the sign of inertia.
+/// Loads along the coordinates, and the loads that the joints transmit, with the sign of inertia.
 pub(crate) struct Transmitted {
     /// By coordinate id.
     pub(crate) along: Vec<ExprId>,
-    /// By row: the equations of constraints.
+    /// By row: the constraint equations.
     pub(crate) constraints: Vec<ExprId>,
-    /// By body id: what the parent exerts on the body and all it carries, about the body's origin.
+    /// By body id: the load that the parent exerts on the body and everything it carries, about the body's origin.
     pub(crate) wrenches: Vec<Wrench>,
 }
 

@@ -1,4 +1,4 @@
-//! Motion of one frame, and how it follows from the motion of the frame before.
+//! Motion of one frame, and how it follows from the motion of the previous frame.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::census::taken;
@@ -6,19 +6,19 @@ use crate::mechanics::setup::CoordinateMotion;
 
 use super::orientation::Orientation;
 
-/// Motion of a frame. All vectors are written along the same axes: those of the common frame, or of the layout.
+/// Motion of a frame. All vectors are written in the same axes: those of the common frame or those of the layout.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameMotion {
     pub(crate) orientation: Orientation,
-    /// Origin from the ground's origin.
+    /// Position of the origin from the ground's origin.
     pub(crate) position: Vector3,
-    /// Origin from the origin of the body before.
+    /// Position of the origin from the origin of the previous body.
     pub(crate) offset: Vector3,
     pub(crate) velocity: Vector3,
     pub(crate) acceleration: Vector3,
     pub(crate) angular_velocity: Vector3,
     pub(crate) angular_acceleration: Vector3,
-    /// Both before the last turn, or before all turns of a run.
+    /// Angular velocity and acceleration before the last turn, or before all turns of a run.
     before_turn: (Vector3, Vector3),
     /// `W = [alpha]x + [omega]x [omega]x`: takes a body-fixed vector to its second time derivative.
     second_rate: Matrix3,
@@ -45,7 +45,7 @@ impl FrameMotion {
         }
     }
 
-    /// A body-fixed vector as the motion is written, and its second time derivative. One along a body axis shares the work
+    /// A body-fixed vector in the axes of the motion, and its second time derivative. A vector along a body axis shares the work
     /// with every other vector along that axis.
     pub(crate) fn carry(&self, g: &mut Graph, vector: Vector3) -> (Vector3, Vector3) {
         let nonzero: Vec<usize> = (0..3).filter(|&k| !g.is(vector.0[k], 0.0)).collect();
@@ -69,7 +69,7 @@ impl FrameMotion {
         std::array::from_fn(|k| (self.orientation.axes.0[k], self.axes_second_rate.0[k]))
     }
 
-    /// The same frame, from which the next body is counted.
+    /// The same frame with zero offset, as the start for the next body.
     pub(crate) fn departing(self, g: &mut Graph) -> Self {
         Self {
             offset: Vector3::zero(g),
@@ -99,7 +99,7 @@ impl FrameMotion {
         }
     }
 
-    /// The frame after a translation by `direction` (as the motion is written) per unit of the coordinate:
+    /// The frame after a translation by `direction` (in the axes of the motion) per unit of the coordinate:
     /// `a += W d q + 2 omega x d qdot + d qddot`.
     pub(crate) fn slid(self, g: &mut Graph, direction: Vector3, motion: CoordinateMotion) -> Self {
         let CoordinateMotion {
@@ -128,7 +128,7 @@ impl FrameMotion {
         }
     }
 
-    /// The frame after a translation whose rate along `direction`, which turns with the frame, is the coordinate's:
+    /// The frame after a translation along `direction`, which turns with the frame, at the coordinate's rate:
     /// `v += d qdot`, `a += d qddot + omega x d qdot`.
     pub(crate) fn glided(
         self,
@@ -149,7 +149,7 @@ impl FrameMotion {
         }
     }
 
-    /// The frame after a rotation about its own unit vector `axis`, which is `direction` as the motion is written:
+    /// The frame after a rotation about its own unit vector `axis`, which is `direction` in the axes of the motion:
     /// `omega += d qdot`, `alpha += d qddot + omega x d qdot`.
     pub(crate) fn turned(
         self,
@@ -163,7 +163,7 @@ impl FrameMotion {
         self.spun(g, before, direction, motion, orientation, name)
     }
 
-    /// The frame after one more turn of a run about the same axis: `motion` is the sum over the run.
+    /// The frame after one more turn of a run about the same axis; `motion` is the sum over the run.
     pub(crate) fn turned_on(
         self,
         g: &mut Graph,
@@ -205,7 +205,7 @@ impl FrameMotion {
         }
     }
 
-    /// The frame with its motion written along its own axes; the offset stays as it is written.
+    /// The frame with its motion written in its own axes; the offset stays in the old axes.
     pub(crate) fn along_own_axes(self, g: &mut Graph) -> Self {
         let to_own = self.orientation.axes.transpose();
         let mut turn = |vector: Vector3| to_own.apply(g, vector);
@@ -235,7 +235,7 @@ impl FrameMotion {
         }
     }
 
-    /// Names the frame's vectors for readers.
+    /// Names the frame's vectors, for readable code.
     pub(crate) fn set_names(&self, g: &mut Graph, name: &str) {
         self.position.set_name(g, &format!("{name}_position"));
         self.velocity.set_name(g, &format!("{name}_velocity"));

@@ -1,7 +1,7 @@
 //! Positions, velocities and accelerations of all bodies, from the ground outwards.
 //!
-//! The layout decides how vectors are expressed: for forces, points and outputs in one common frame, which is the ground frame at
-//! the instant at which all driven coordinates are zero; for inertia along the axes that keep its equations short.
+//! The layout determines the axes in which vectors are written. Forces, points and outputs use one common frame, which is the
+//! ground frame at the instant when all driven coordinates are zero; inertia uses the axes that keep its equations short.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BodyId, ExprId};
@@ -19,14 +19,13 @@ pub(crate) struct BodyMotion {
     pub(crate) frame: FrameMotion,
     /// The axes of the joint frame on the side that was declared as `from`.
     pub(crate) from_axes: Matrix3,
-    /// Its origin, from the body's origin.
+    /// Origin of the joint frame on the `from` side, from the body's origin.
     pub(crate) from_origin: Vector3,
     /// The elementary motions of the joint, from the parent to the body.
     pub(crate) steps: Vec<StepAxis>,
     /// The place of the joint on its parent.
     pub(crate) seat: Seat,
-    /// Takes a vector from the axes in which this body's motion is written to those of its parent's; `None` where they
-    /// are the same.
+    /// Transforms a vector from the axes of this body's motion to those of its parent's; `None` if they are the same.
     pub(crate) to_parent: Option<Matrix3>,
 }
 
@@ -35,16 +34,16 @@ pub(crate) struct BodyMotion {
 pub(crate) struct Seat {
     /// From the parent's origin, in the parent's body frame.
     pub(crate) arm: Vector3,
-    /// The same as the parent's motion is written.
+    /// The same vector in the axes of the parent's motion.
     pub(crate) offset: Vector3,
 }
 
 /// A named point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PointMotion {
-    /// From the origin of its frame.
+    /// Position from the origin of its frame.
     pub(crate) arm: Vector3,
-    /// From the ground's origin.
+    /// Position from the ground's origin.
     pub(crate) position: Vector3,
     /// Its axes.
     pub(crate) axes: Matrix3,
@@ -61,8 +60,8 @@ pub(crate) struct Kinematics {
 }
 
 impl Kinematics {
-    /// Runs the recursion. `coordinates` is by coordinate id. Only with everything in the common frame do positions and
-    /// points have a meaning.
+    /// Runs the recursion. `coordinates` is indexed by coordinate id. Positions and points are meaningful only if everything is
+    /// written in the common frame.
     pub(crate) fn new(
         g: &mut Graph,
         mechanism: &Mechanism,
@@ -139,8 +138,8 @@ impl Kinematics {
         &self.bodies[body.index()]
     }
 
-    /// From the parent through the joint frame, one elementary motion after the other, to the body. A joint declared from
-    /// the body to its parent is walked backwards, each motion about the opposite axis.
+    /// Goes from the parent through the joint frame, one elementary motion after the other, to the body. A joint declared from
+    /// the body to its parent is traversed backwards, each motion about the opposite axis.
     #[allow(clippy::too_many_arguments)]
     fn body(
         &self,
@@ -263,7 +262,7 @@ impl Kinematics {
 }
 
 impl Kinematics {
-    /// The axes of a joint's motions, from the parent to the body, in the frame of the body: each is turned by the motions
+    /// The axes of a joint's motions in the body's frame, from the parent to the body: each is turned by the motions
     /// after it.
     fn axes_in_body(
         &self,
@@ -293,7 +292,7 @@ impl Kinematics {
         axes
     }
 
-    /// A motion in a plane that nothing depends on, by its speeds along the turned axes: quasi-velocities, with
+    /// A planar motion that nothing depends on, described by its speeds along the turned axes: quasi-velocities, with
     /// `a = vdot + omega x v`.
     fn glide(
         &self,

@@ -1,23 +1,23 @@
-//! Orientation of a body relative to the axes in which its motion is written: those of the common frame, or of the layout.
+//! Orientation of a body relative to the axes of its motion: those of the common frame or those of the layout.
 
 use crate::algebra::{Graph, Matrix3, Unary, Vector3};
 use crate::base::census::taken;
 use crate::base::ids::ExprId;
 
-/// A rotation `R_GB = base * rotation(axis, angle)`. Successive rotations about one axis add their angles, so that a
-/// chain of parallel joints needs one sine and cosine per body and no product of matrices.
+/// A rotation `R_GB = base * rotation(axis, angle)`. Successive rotations about one axis add their angles, so a
+/// chain of parallel joints needs one sine and cosine per body and no matrix products.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Orientation {
     base: Matrix3,
     turn: Option<(Vector3, ExprId)>,
     /// The angle about the same axis before the last turn, or before all turns of a run.
     before: Option<ExprId>,
-    /// The axes of the body, as its motion is written.
+    /// The body axes, in the axes of the motion.
     pub(crate) axes: Matrix3,
 }
 
 impl Orientation {
-    /// Not turned.
+    /// No rotation.
     pub(crate) fn aligned(g: &mut Graph) -> Self {
         Self::fixed(Matrix3::identity(g))
     }
@@ -31,7 +31,7 @@ impl Orientation {
         }
     }
 
-    /// Followed by a constant rotation.
+    /// This rotation followed by a constant one.
     pub(crate) fn then_fixed(self, g: &mut Graph, rotation: Option<Matrix3>) -> Self {
         match rotation {
             Some(rotation) => Self::fixed(self.axes.multiply(g, rotation)),
@@ -39,7 +39,7 @@ impl Orientation {
         }
     }
 
-    /// Followed by a rotation by `angle` about the body's own unit vector `axis`.
+    /// This rotation followed by one by `angle` about the body's own unit vector `axis`.
     pub(crate) fn then_turned(
         self,
         g: &mut Graph,
@@ -65,7 +65,7 @@ impl Orientation {
         turned.turned_on(g, axis, angle, name)
     }
 
-    /// Turned about `axis` by `angle` since the last turn or the beginning of a run of turns.
+    /// The orientation after turning about `axis` by `angle` since the last turn or since the beginning of a run of turns.
     pub(crate) fn turned_on(self, g: &mut Graph, axis: Vector3, angle: ExprId, name: &str) -> Self {
         let total = match self.before {
             Some(before) => g.add(before, angle),
@@ -89,7 +89,7 @@ impl Orientation {
         }
     }
 
-    /// A body-fixed vector as the motion is written. About the axis of a pure turn this does not need the angle.
+    /// A body-fixed vector in the axes of the motion. Along the axis of a pure turn this does not need the angle.
     pub(crate) fn express(self, g: &mut Graph, vector: Vector3) -> Vector3 {
         match self.turn {
             Some((axis, _)) if axis == vector => self.base.apply(g, vector),

@@ -1,4 +1,4 @@
-//! The motion of a mechanism in its two forms: in the common frame, and as needed for inertia and weight.
+//! The motion of a mechanism in two forms: in the common frame, and in the form needed for inertia and weight.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
@@ -7,13 +7,13 @@ use crate::model::mechanism::Motion;
 
 use super::kinematics::Kinematics;
 
-/// Motion of every frame while the running coordinates stand at zero.
+/// Motion of every frame with the running coordinates at zero.
 pub(crate) fn in_common_frame_at_zero(g: &mut Graph, context: &Context) -> Kinematics {
     let zero = g.zero();
     in_common_frame(g, context, &vec![zero; context.symbols.running.ids.len()])
 }
 
-/// Motion of every frame while the running coordinates stand at `running`.
+/// Motion of every frame with the running coordinates at `running`.
 pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprId]) -> Kinematics {
     let symbols = context.symbols;
     let motions = motions(g, context, running, |k| CoordinateMotion {
@@ -34,7 +34,8 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
     )
 }
 
-/// Motion of every body as needed for inertia and weight: in the layout of runs, with the ground accelerated against gravity.
+/// Motion of every body in the form needed for inertia and weight: in the layout of runs, with the ground accelerated against
+/// gravity.
 pub(crate) fn for_inertia(
     g: &mut Graph,
     context: &Context,
@@ -65,7 +66,7 @@ pub(crate) fn for_inertia(
     )
 }
 
-/// By coordinate id: the motion of all coordinates, `free` of the free ones.
+/// The motion of all coordinates by coordinate id; `free` gives the motion of the free ones.
 fn motions(
     g: &mut Graph,
     context: &Context,

@@ -1,9 +1,9 @@
-//! An elementary motion of a joint: where it acts, what it moves, what drives it.
+//! An elementary motion of a joint: its place, its direction and its coordinate.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{CoordinateId, ExprId};
 
-/// Where an elementary motion acts.
+/// The geometry of an elementary motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepAxis {
     pub(crate) coordinate: CoordinateId,
@@ -11,7 +11,7 @@ pub(crate) struct StepAxis {
     pub(crate) turn: Option<Vector3>,
     /// Direction and amount of translation per unit of the coordinate; `None` for a turn.
     pub(crate) slide: Option<Vector3>,
-    /// The axis of either in the body frame.
+    /// The axis of the turn or slide in the body frame.
     pub(crate) own_axis: Vector3,
     /// A point of the axis, from the body's origin.
     pub(crate) point: Vector3,

@@ -2,7 +2,7 @@
 
 use crate::algebra::{Graph, Vector3};
 
-/// A force and its moment about the origin of the frame it is kept for.
+/// A force and its moment about the origin of the frame it belongs to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wrench {
     pub(crate) force: Vector3,

@@ -1,4 +1,4 @@
-//! What every step of the derivation reads.
+//! The data that every step of the derivation reads.
 
 use crate::algebra::{Graph, evaluate, substitute};
 use crate::base::ids::{CoordinateId, ExprId};
@@ -10,7 +10,7 @@ use super::runs::Runs;
 use super::symbols::Symbols;
 use super::values::Values;
 
-/// What every step of the derivation reads.
+/// The data that every step of the derivation reads.
 pub(crate) struct Context<'a> {
     pub(crate) mechanism: &'a Mechanism,
     pub(crate) topology: &'a Topology,
@@ -23,19 +23,19 @@ pub(crate) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// Numbers of free coordinates, and of coordinates with an equation of motion: free and coasting.
+    /// Number of free coordinates, and number of coordinates with an equation of motion: free and coasting.
     pub(crate) fn moving(&self) -> (usize, usize) {
         let free = self.topology.free.len();
         (free, free + self.topology.coasting.len())
     }
 
-    /// The place of an equation; `None` where it holds whatever the mechanism does.
+    /// The index of an equation; `None` if it always holds, whatever the mechanism does.
     pub(crate) fn row(&self, source: Source, component: usize) -> Option<usize> {
         let is = |row: &Row| row.source == source && row.component == component;
         self.rows.iter().position(is)
     }
 
-    /// The multiplier of an equation of a constraint.
+    /// The multiplier of a constraint equation.
     pub(crate) fn multiplier(&self, row: usize) -> ExprId {
         self.symbols.q.values[self.moving().1 + row]
     }

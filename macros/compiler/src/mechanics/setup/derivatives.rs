@@ -1,4 +1,4 @@
-//! Derivatives by lists of symbols, and values at rest.
+//! Derivatives by lists of symbols, and evaluation at rest.
 
 use crate::algebra::{Direction, Graph, derivatives_along, substitute};
 use crate::base::ids::{ExprId, SymbolId};

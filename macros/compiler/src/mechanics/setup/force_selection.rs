@@ -11,7 +11,7 @@ pub(crate) struct ForceSelection {
     pub(crate) constraints: bool,
 }
 
-/// All of a kind, one, or none.
+/// All members of a kind, one, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Selection<Id> {
     All,
@@ -30,7 +30,7 @@ impl<Id: PartialEq> Selection<Id> {
 }
 
 impl ForceSelection {
-    /// Everything.
+    /// All causes.
     pub(crate) const ALL: Self = Self {
         inertia: Selection::All,
         forces: Selection::All,
@@ -44,7 +44,7 @@ impl ForceSelection {
         gravity: false,
         constraints: false,
     };
-    /// Everything that is not inertia.
+    /// Everything except inertia.
     pub(crate) const APPLIED: Self = Self {
         inertia: Selection::None,
         forces: Selection::All,

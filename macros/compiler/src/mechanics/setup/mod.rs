@@ -1,4 +1,4 @@
-//! What every step of the derivation reads.
+//! The data that every step of the derivation reads.
 
 mod context;
 mod coordinate;

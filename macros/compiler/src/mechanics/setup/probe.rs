@@ -7,11 +7,11 @@ use crate::model::mechanism::CoordinateQuantity;
 
 use super::context::Context;
 
-/// Finite random states wanted for a numerical proof, and attempts allowed to find them.
+/// Number of finite random states for a numerical proof, and maximum number of attempts to find them.
 const STATES: usize = 4;
 const ATTEMPTS: u64 = 16;
 
-/// Values of `roots` at random states. Fewer than [`STATES`] come back only where the equations are rarely finite.
+/// Values of `roots` at random states. Returns fewer than [`STATES`] only if the equations are rarely finite.
 pub(crate) fn probe(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<Vec<Evaluation>> {
     (1..=ATTEMPTS)
         .map(|seed| evaluate_with_error(g, roots, |symbol| state(context, seed, symbol)))
@@ -35,7 +35,7 @@ pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool
         .collect()
 }
 
-/// A symbol's value in the random state number `seed`: the design near its nominal values, everything else of the order
+/// A symbol's value in random state number `seed`: design variables near their nominal values, everything else of the order
 /// of one.
 fn state(context: &Context, seed: u64, symbol: SymbolId) -> f64 {
     let signed = 2.0 * random(seed, symbol) - 1.0;
@@ -62,7 +62,7 @@ fn state(context: &Context, seed: u64, symbol: SymbolId) -> f64 {
     signed
 }
 
-/// A number in [0, 1) that depends on nothing but its arguments (SplitMix64).
+/// A number in [0, 1) that depends only on its arguments (SplitMix64).
 fn random(seed: u64, symbol: SymbolId) -> f64 {
     let mut x = seed
         .wrapping_mul(0x9e37_79b9_7f4a_7c15)

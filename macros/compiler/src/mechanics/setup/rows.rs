@@ -1,11 +1,11 @@
-//! The equations of constraints: where each comes from, and what its multiplier is called.
+//! The constraint equations: the source of each, and the name of its multiplier.
 
 use proc_macro2::Ident;
 
 use crate::base::ids::{ConstraintId, JointId};
 use crate::model::mechanism::Mechanism;
 
-/// What an equation comes from.
+/// The source of an equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
     Constraint(ConstraintId),
@@ -26,12 +26,12 @@ impl Source {
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) source: Source,
-    /// Which of the equations of its source.
+    /// Index of the equation within its source.
     pub(crate) component: usize,
-    /// The name of its source, with the component where there are several.
+    /// The name of its source, with the component if there are several.
     pub(crate) label: String,
     /// Unit of its multiplier.
     pub(crate) unit: String,
-    /// It is one of velocities, not of positions.
+    /// Whether it constrains velocities instead of positions.
     pub(crate) of_velocities: bool,
 }

@@ -1,11 +1,11 @@
-//! How the motion of each body is written where only inertia and weight matter.
+//! How the motion of each body is written in the equations of inertia and weight.
 //!
 //! Two choices make this part of the equations short:
 //!
 //! - Bodies that turn about the same axis, one after the other, form a run. The natural coordinates of a run are the absolute
 //!   angles of its bodies, that is, the sums of the joint angles: turning one body then moves the bodies behind it without
 //!   turning them. The equations are derived in these angles and summed back at the end ([`Runs`]).
-//! - All vectors of a run are written along the axes of the body before it. Elsewhere a body is written along its own axes,
+//! - All vectors of a run are written in the axes of the body before it. Any other body is written in its own axes,
 //!   in which its mass distribution is constant.
 
 use crate::algebra::{Graph, Vector3};
@@ -21,18 +21,18 @@ use super::values::Values;
 /// How the motion of a body is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BodyLayout {
-    /// It turns about the axis of its parent's joint, and its angle is measured from the same direction.
+    /// Whether it turns about the axis of its parent's joint, with its angle measured from the same direction.
     pub(crate) continues_run: bool,
-    /// Along the body's own axes, not along those of its parent.
+    /// Whether its vectors are written in its own axes instead of its parent's.
     pub(crate) own_axes: bool,
 }
 
-/// By body id.
+/// The layout of each body, by body id.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout(Vec<BodyLayout>);
 
 impl Layout {
-    /// Everything in the common frame, every angle by itself.
+    /// Everything in the common frame, with no runs.
     pub(crate) fn common(bodies: usize) -> Self {
         Self(vec![BodyLayout::default(); bodies])
     }
@@ -42,13 +42,13 @@ impl Layout {
     }
 }
 
-/// Coordinates in which inertia and weight are derived: the unknowns themselves, except that along runs these are the
-/// absolute angles of the bodies.
+/// Coordinates in which inertia and weight are derived: the absolute angles of the bodies along runs, otherwise the
+/// unknowns themselves.
 pub(crate) struct Runs {
     pub(crate) layout: Layout,
-    /// By free coordinate: the one that precedes it in its run.
+    /// By free coordinate: the preceding coordinate in its run.
     before: Vec<Option<usize>>,
-    /// By unknown: the absolute angle along a run, otherwise the unknown itself; likewise for its rates.
+    /// By unknown: the absolute angle along a run, otherwise the unknown itself; the rates below correspond.
     pub(crate) position: SymbolList,
     pub(crate) velocity: SymbolList,
     pub(crate) acceleration: SymbolList,
@@ -131,7 +131,7 @@ impl Runs {
         this
     }
 
-    /// With the reactions of constraints among the unknowns.
+    /// Adds the reactions of constraints to the unknowns.
     pub(crate) fn with_reactions(mut self, symbols: &Symbols) -> Self {
         let lists = [
             (&mut self.position, &symbols.q),
@@ -155,7 +155,7 @@ impl Runs {
         }
     }
 
-    /// The sum of joint angles for each absolute angle, and likewise for the rates: for substitution.
+    /// The sum of joint angles for each absolute angle, and the same for the rates: for substitution.
     pub(crate) fn sums(&self, g: &mut Graph, symbols: &Symbols) -> Vec<(SymbolId, ExprId)> {
         let mut sums = Vec::new();
         let lists = [
@@ -181,7 +181,7 @@ impl Runs {
         (0..self.before.len()).filter(move |&next| self.before[next] == Some(k))
     }
 
-    /// Forces along the unknowns from forces along the absolute angles: each is the sum over the bodies from there on.
+    /// Forces along the unknowns from forces along the absolute angles: each is the sum over this body and those behind it.
     pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
         let mut summed = vec![None; along.len()];
         (0..along.len())
@@ -208,9 +208,9 @@ impl Runs {
         sum
     }
 
-    /// Transforms a matrix with respect to the absolute angles to one with respect to the unknowns, both by columns: each entry
-    /// is the sum of all entries from its row and its column on. If the matrix is `symmetric`, only entries are used whose
-    /// column is not nearer to the ground than the row, according to `outward`.
+    /// Transforms a matrix from the absolute angles to the unknowns, both stored by columns: each entry is the sum of all entries
+    /// from its row and its column onwards. If the matrix is `symmetric`, only entries whose column is not nearer to the ground
+    /// than the row, according to `outward`, are used.
     pub(crate) fn matrix(
         &self,
         g: &mut Graph,
@@ -247,7 +247,7 @@ impl Runs {
             .collect()
     }
 
-    /// The sum over the rows that follow as well.
+    /// The sum over the rows that follow.
     fn entry(
         &self,
         g: &mut Graph,
@@ -270,7 +270,7 @@ impl Runs {
     }
 }
 
-/// A joint that can be part of a run: one turn about a coordinate that is free.
+/// A joint that can be part of a run: a single turn about a free coordinate.
 #[derive(Clone)]
 struct Turn<'a> {
     joint: &'a Joint,

@@ -1,4 +1,4 @@
-//! The symbols that the equations are written in.
+//! The symbols in which the equations are written.
 
 use crate::algebra::{Graph, Stage};
 use crate::base::ids::{CoordinateId, ExprId, SymbolId};
@@ -10,7 +10,7 @@ use crate::topology::Topology;
 pub(crate) struct SymbolList {
     /// Ids, for differentiation and substitution.
     pub(crate) ids: Vec<SymbolId>,
-    /// The same as expressions.
+    /// The corresponding expressions.
     pub(crate) values: Vec<ExprId>,
 }
 
@@ -58,9 +58,9 @@ impl Pencil {
 pub(crate) struct Symbols {
     /// The unknowns: free coordinates, speeds of coasting ones, reactions of constraints.
     pub(crate) q: SymbolList,
-    /// Their rates.
+    /// Rates of the unknowns.
     pub(crate) velocity: SymbolList,
-    /// Their second derivatives.
+    /// Second derivatives of the unknowns.
     pub(crate) acceleration: SymbolList,
     /// Running coordinates, driven and coasting; they occur only while the steady state is being checked.
     pub(crate) running: SymbolList,
@@ -70,9 +70,9 @@ pub(crate) struct Symbols {
     pub(crate) b: SymbolList,
     /// A mode.
     pub(crate) phi: SymbolList,
-    /// Its eigenvalue (one entry).
+    /// Eigenvalue of the mode (one entry).
     pub(crate) lambda: SymbolList,
-    /// A weight on the residual.
+    /// Weights on the residual.
     pub(crate) w: SymbolList,
     /// Vectors around the linearised matrices.
     pub(crate) pencil: Pencil,
@@ -82,7 +82,7 @@ pub(crate) struct Symbols {
 }
 
 impl Symbols {
-    /// Without reactions of constraints.
+    /// The symbols without reactions of constraints.
     pub(crate) fn new(g: &mut Graph, mechanism: &Mechanism, topology: &Topology) -> Self {
         let coordinate = |id: CoordinateId| mechanism.coordinates[id.index()].name.to_string();
         let free: Vec<String> = topology
@@ -128,7 +128,7 @@ impl Symbols {
         }
     }
 
-    /// With the reactions of constraints among the unknowns.
+    /// Adds the reactions of constraints to the unknowns.
     pub(crate) fn with_reactions(mut self, g: &mut Graph, reactions: &[String]) -> Self {
         let mut extend = |list: &mut SymbolList, stage: Stage, prefix: &str| {
             let names = reactions.iter().map(|name| format!("{prefix}{name}"));

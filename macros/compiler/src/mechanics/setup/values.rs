@@ -9,14 +9,14 @@ use crate::model::mechanism::{Mechanism, Placement};
 
 use super::symbols::Symbols;
 
-/// Translates values. What depends on the position of the mechanism is looked up in a [`State`].
+/// Translates values. Anything that depends on the position of the mechanism is looked up in a [`State`].
 pub(crate) struct Values<'a> {
     symbols: &'a Symbols,
     constants: Vec<ExprId>,
 }
 
-/// What a value that depends on the state of the mechanism may ask for. Resolution has checked that a value asks only for
-/// what its place offers, so the default is never reached.
+/// State-dependent quantities that a value may refer to. The resolver has checked that a value refers only to quantities that are
+/// available at its place, so the default is never reached.
 pub(crate) trait State {
     /// A leaf of a value: a coordinate, a rate, a point, a length, a reaction or an energy.
     fn leaf(&self, leaf: &Expr) -> ExprId {
@@ -24,7 +24,7 @@ pub(crate) trait State {
     }
 }
 
-/// No state: for values that depend on inputs and design only.
+/// No state: for values that depend only on inputs and design.
 struct Stateless;
 
 impl State for Stateless {}
@@ -44,22 +44,22 @@ impl<'a> Values<'a> {
         values
     }
 
-    /// A scalar that depends on inputs and design only.
+    /// A scalar that depends only on inputs and design.
     pub(crate) fn scalar(&self, g: &mut Graph, value: &Expr) -> ExprId {
         self.scalar_at(g, value, &Stateless)
     }
 
-    /// A vector that depends on inputs and design only.
+    /// A vector that depends only on inputs and design.
     pub(crate) fn vector(&self, g: &mut Graph, value: &Vector) -> Vector3 {
         Vector3(std::array::from_fn(|i| self.scalar(g, &value[i])))
     }
 
-    /// The rows of a matrix that depends on inputs and design only.
+    /// The rows of a matrix that depends only on inputs and design.
     pub(crate) fn matrix(&self, g: &mut Graph, value: &Matrix) -> [Vector3; 3] {
         std::array::from_fn(|i| self.vector(g, &value[i]))
     }
 
-    /// A placement as offset and rotation; `None` for no rotation.
+    /// A placement as offset and rotation; `None` if there is no rotation.
     pub(crate) fn placement(
         &self,
         g: &mut Graph,
@@ -83,8 +83,8 @@ impl<'a> Values<'a> {
         self.shared(g, value, state, &mut FxHashMap::default())
     }
 
-    /// Parts that occur several times, as the components of a cross product do, are translated once: `known` holds them
-    /// by address.
+    /// Translates an expression. Repeated parts, such as the components of a cross product, are translated once: `known` holds
+    /// them by address.
     fn shared(
         &self,
         g: &mut Graph,

@@ -1,4 +1,4 @@
-//! What acts and what binds, each in words: for readers of a picture.
+//! Forces, drives and constraints in words, for readers of a picture.
 
 use super::Names;
 use crate::model::elements::Element;
@@ -47,7 +47,7 @@ impl Mechanism {
     }
 }
 
-/// Arguments that need not be declared: without them they are zero.
+/// Arguments that are zero if not declared.
 const OPTIONAL: [&str; 7] = [
     "stiffness",
     "damping",
@@ -58,7 +58,7 @@ const OPTIONAL: [&str; 7] = [
     "moment",
 ];
 
-/// A law without the arguments that are zero.
+/// A law without its zero arguments.
 fn quiet(law: &str) -> String {
     let mut text = format!("{law} ");
     for name in OPTIONAL {
@@ -69,7 +69,7 @@ fn quiet(law: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// A law as text begins with the word it is declared with.
+/// An element from the text of its law, which begins with the keyword.
 fn element(name: &impl ToString, text: &str) -> Element {
     let (kind, law) = text.split_once(' ').unwrap_or((text, ""));
     Element {

@@ -7,7 +7,7 @@ use super::super::shape::Argument;
 use super::Names;
 
 impl Names<'_> {
-    /// What a body is made of.
+    /// The parts of a body.
     pub(super) fn parts(&self, parts: &[Part]) -> String {
         if parts.is_empty() {
             return "massless".to_owned();

@@ -4,27 +4,27 @@ use super::resolver::Resolver;
 use crate::base::nearest::suggestion;
 use crate::syntax::ast::{NamedCall, Value};
 
-/// A shape or a law with its arguments.
+/// A shape or a law with the arguments that it takes.
 pub(super) struct Signature<R> {
     pub(super) word: &'static str,
-    /// What makes of the arguments what they mean.
+    /// The function that interprets the arguments.
     pub(super) read: R,
     required: &'static [&'static str],
     optional: &'static [&'static str],
     choice: Choice,
-    /// Arguments that one might expect, each with the reason why there is none.
+    /// Arguments that one might expect, each with the reason why it does not exist.
     refused: &'static [(&'static str, &'static str)],
-    /// What to write, for messages.
+    /// An example for messages.
     example: &'static str,
 }
 
-/// Arguments of which some must be given.
+/// A set of arguments of which some must be given.
 enum Choice {
     ExactlyOne(&'static [&'static str]),
     AtLeastOne(&'static [&'static str]),
 }
 
-/// What other tools call arguments; only what a signature knows is ever suggested.
+/// Names of arguments in other tools; only arguments of the signature are ever suggested.
 const SYNONYMS: [(&str, &str); 47] = [
     ("m", "mass"),
     ("weight", "mass"),
@@ -76,7 +76,7 @@ const SYNONYMS: [(&str, &str); 47] = [
 ];
 
 impl<R: Copy> Signature<R> {
-    /// A word with the arguments it needs.
+    /// A word with its required arguments.
     pub(super) const fn new(
         word: &'static str,
         required: &'static [&'static str],
@@ -94,25 +94,25 @@ impl<R: Copy> Signature<R> {
         }
     }
 
-    /// Arguments that may be left out.
+    /// Adds arguments that may be omitted.
     pub(super) const fn optional(mut self, names: &'static [&'static str]) -> Self {
         self.optional = names;
         self
     }
 
-    /// One of these and no other.
+    /// Requires exactly one of these arguments.
     pub(super) const fn exactly_one(mut self, names: &'static [&'static str]) -> Self {
         self.choice = Choice::ExactlyOne(names);
         self
     }
 
-    /// One of these or more.
+    /// Requires one or more of these arguments.
     pub(super) const fn at_least_one(mut self, names: &'static [&'static str]) -> Self {
         self.choice = Choice::AtLeastOne(names);
         self
     }
 
-    /// Arguments that it does not have, with reasons.
+    /// Adds arguments that do not exist, with reasons.
     pub(super) const fn refusing(
         mut self,
         reasons: &'static [(&'static str, &'static str)],
@@ -133,7 +133,7 @@ impl<R: Copy> Signature<R> {
         choices.chain(others).copied()
     }
 
-    /// What must be given and is not: "`mass` or `density`".
+    /// The required arguments that are missing: "`mass` or `density`".
     fn missing(&self, given: impl Fn(&str) -> bool) -> Vec<String> {
         let quoted = |name: &&str| format!("`{name}`");
         let mut missing = Vec::new();
@@ -150,7 +150,7 @@ impl<R: Copy> Signature<R> {
     }
 }
 
-/// The arguments of a call that are right.
+/// The valid arguments of a call.
 pub(super) struct Arguments<'a> {
     given: Vec<(&'static str, &'a Value)>,
 }
@@ -166,7 +166,7 @@ impl<'a> Arguments<'a> {
 }
 
 impl Resolver<'_> {
-    /// The signature that a call uses. `synonyms` are what other tools call the words.
+    /// The signature that a call uses. `synonyms` are the words of other tools.
     pub(super) fn signature<R: Copy>(
         &mut self,
         call: &NamedCall,
@@ -188,7 +188,7 @@ impl Resolver<'_> {
         found
     }
 
-    /// Sorts the arguments of a call by its signature.
+    /// Matches the arguments of a call with its signature.
     pub(super) fn arguments<'a, R: Copy>(
         &mut self,
         call: &'a NamedCall,
@@ -196,7 +196,7 @@ impl Resolver<'_> {
     ) -> Arguments<'a> {
         let word = signature.word;
         let mut given: Vec<(&'static str, &'a Value)> = Vec::new();
-        // A misspelt argument is not missing as well, nor is the mass where a density was refused.
+        // A misspelt argument is not also missing, nor is the mass if a density was refused.
         let mut meant = Vec::new();
         for argument in call.arguments.iter().flatten() {
             let name = argument.name.to_string();

@@ -2,7 +2,7 @@
 
 use crate::syntax::ast::{Value, ValueKind};
 
-/// The text of a number without a unit, or of a vector of such.
+/// The text of a number without a unit, or of a vector of such numbers.
 pub(super) fn bare_number(value: &Value) -> Option<String> {
     match &value.bare().kind {
         ValueKind::Number(number, None) => Some(format!("{number}")),

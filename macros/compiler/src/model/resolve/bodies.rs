@@ -37,8 +37,8 @@ impl Resolver<'_> {
         bodies
     }
 
-    /// What is welded together needs an inertia that a body can have, not each link of it: robot files are full of links
-    /// that carry no more than a frame. Nothing is said while it is not known what is welded to what.
+    /// Requires inertias to be physically possible. Only bodies welded together need a possible inertia, not every single link:
+    /// robot files are full of links that carry nothing but a frame. Nothing is reported as long as the welds are unknown.
     pub(super) fn require_inertias(&mut self, joints: &[Joint]) {
         let may_weld = |joint: &&ast::Joint| {
             Kind::find(&joint.kind.to_string()).is_none_or(|kind| kind.motions.is_empty())
@@ -114,7 +114,7 @@ impl Resolver<'_> {
         Some(parts)
     }
 
-    /// Nothing cannot be added, cut out or moved.
+    /// A massless body is a single term that is neither cut out nor placed.
     fn massless(&mut self, body: &ast::Body, massless: &Term) -> Option<Vec<Part>> {
         let signature = self.signature(&massless.shape, "shape", SHAPES, &SYNONYMS)?;
         self.arguments(&massless.shape, signature);

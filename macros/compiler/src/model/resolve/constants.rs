@@ -12,7 +12,7 @@ use crate::model::expression::Expr;
 use crate::model::mechanism::Constant;
 use crate::syntax::ast::{ItemKind, Named};
 
-/// How far a `let` has come.
+/// Progress in resolving a `let`.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Waiting,
@@ -37,7 +37,7 @@ impl Resolver<'_> {
         let mut state = vec![State::Waiting; named.len()];
         let mut in_cycle = vec![false; named.len()];
         for start in 0..named.len() {
-            // Depth first with a stack of its own: a chain of lets may be longer than the program's.
+            // Depth first with an explicit stack: a chain of lets may be too long for recursion.
             let mut path: Vec<(usize, usize)> = Vec::new();
             if state[start] == State::Waiting {
                 state[start] = State::Open;
@@ -76,7 +76,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A constant that needs itself has no value.
+    /// Reports constants that depend on themselves.
     fn report_cycle(&mut self, cycle: &[usize], named: &[&Named], known: &[bool]) {
         if cycle.iter().any(|&index| known[index]) {
             return;
@@ -94,7 +94,7 @@ impl Resolver<'_> {
         self.diagnostics.error(name, message);
     }
 
-    /// The lets that a value names, each once.
+    /// The lets that a value uses, each once.
     fn used_lets(&self, named: &Named) -> Vec<usize> {
         let names = named.value.names().into_iter();
         let lets = names.filter_map(|name| match self.scope.find(&name.to_string()) {
@@ -139,7 +139,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Enters a constant; a plain number is used as such.
+    /// Enters a constant; a plain number is used directly.
     fn shared(&mut self, name: Ident, value: Expr) -> Expr {
         let id = ConstantId::new(self.constants.len());
         let reference = match &value {
@@ -150,7 +150,7 @@ impl Resolver<'_> {
         reference
     }
 
-    /// A name that nothing else has.
+    /// A name that is not used otherwise.
     fn component_name(&self, name: &Ident, axis: &str) -> Ident {
         let mut text = format!("{name}_{axis}");
         while self.scope.find(&text).is_some() {
@@ -160,7 +160,7 @@ impl Resolver<'_> {
     }
 }
 
-/// A constant zero is a plain number: only the literal fits every dimension.
+/// A constant zero counts as a plain number: only a literal zero fits every dimension.
 fn promoted(quantity: Quantity) -> Quantity {
     Quantity::Of(quantity.dimension())
 }

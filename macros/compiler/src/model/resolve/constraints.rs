@@ -1,4 +1,4 @@
-//! Constraints: the table of their kinds. Each family of kinds has a file of its own.
+//! Constraints: the table of their kinds. Each family of kinds has its own file.
 
 mod along;
 mod between_points;
@@ -18,7 +18,7 @@ use crate::syntax::ast::{self, ItemKind};
 
 const OF_COORDINATES: &str = "two points are tied by `coincident`, `aligned` or `distance`";
 
-/// What makes a constraint of its arguments.
+/// A function that makes a constraint from its arguments.
 type Reader =
     fn(&mut Resolver<'_>, &ast::Constraint, &Arguments<'_>) -> Option<(ConstraintLaw, Exerted)>;
 
@@ -77,7 +77,7 @@ pub(super) const KINDS: &[Row] = &[
     .optional(&["axis", "normal"]),
 ];
 
-/// What other tools call them.
+/// Names of the kinds in other tools.
 const SYNONYMS: [(&str, &str); 33] = [
     ("point_to_point", "coincident"),
     ("point_on_point", "coincident"),
@@ -138,7 +138,7 @@ impl Resolver<'_> {
         (signature.read)(self, constraint, &arguments)
     }
 
-    /// A joint may close a loop as it is; it is no constraint of that name.
+    /// Rejects the names of joints: a joint may close a loop directly and is not declared as a constraint.
     fn is_no_joint(&mut self, constraint: &ast::Constraint) -> Option<()> {
         let word = constraint.law.word.to_string();
         let is_constraint = KINDS.iter().any(|known| known.word == word)
@@ -181,7 +181,7 @@ impl Resolver<'_> {
         Some(length)
     }
 
-    /// An argument that is a direction, if given: nothing inside when it is wrong.
+    /// An optional argument that is a direction; the inner option is `None` if it is wrong.
     fn optional_direction(&mut self, arguments: &Arguments, name: &str) -> Option<Option<Vector>> {
         let value = arguments.get(name)?;
         Some(self.direction(value, Place::Parameter))

@@ -1,4 +1,4 @@
-//! The coordinates of a declaration, found before anything is resolved, so that everything can refer to them.
+//! The coordinates of a declaration. They are collected before anything is resolved, so that everything can refer to them.
 
 use proc_macro2::Ident;
 
@@ -8,20 +8,20 @@ use crate::base::ids::JointId;
 use crate::model::mechanism::CoordinateQuantity;
 use crate::syntax::ast::{Ast, ItemKind, Joint, JointClause};
 
-/// A coordinate as declared, whether or not the rest of its joint is right. Its place in the list is its id.
+/// A coordinate as declared, even if the rest of its joint is wrong. Its index in the list is its id.
 #[derive(Clone, Debug)]
 pub(super) struct Declared<'a> {
-    /// The joint's name when it is the only one, else its own.
+    /// The joint's name if it is the only one, otherwise its own.
     pub(super) name: &'a Ident,
     pub(super) joint: JointId,
-    /// Nothing when the joint is wrong.
+    /// `None` if the joint is wrong.
     pub(super) quantity: Option<CoordinateQuantity>,
     pub(super) motion: DeclaredMotion,
-    /// Its joint closes a loop and has no coordinates.
+    /// Whether its joint closes a loop and has no coordinates.
     pub(super) cut: bool,
 }
 
-/// How a coordinate is said to move.
+/// The declared motion of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DeclaredMotion {
     Free,
@@ -37,7 +37,7 @@ pub(super) fn dimension(quantity: CoordinateQuantity) -> Dimension {
     }
 }
 
-/// The dimension of its rate.
+/// The dimension of a coordinate's rate.
 pub(super) fn rate_dimension(quantity: CoordinateQuantity) -> Dimension {
     match quantity {
         CoordinateQuantity::Angle => Dimension::RATE,
@@ -70,7 +70,7 @@ pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
             });
             continue;
         }
-        // A joint of an unknown kind may name coordinates too; `lead` is none of them.
+        // A joint of an unknown kind may also name coordinates; `lead` is not one of them.
         let arguments = joint.arguments.iter().flatten();
         let named = arguments.filter_map(|argument| argument.name.as_ref());
         for (place, name) in named.filter(|name| *name != "lead").enumerate() {
@@ -86,8 +86,8 @@ pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
     coordinates
 }
 
-/// What the first clause about a coordinate says of it. A drive without a name means the only coordinate, `coasting`
-/// without a name all of them.
+/// The motion declared by the first clause about a coordinate. A drive without a name refers to the only coordinate,
+/// `coasting` without a name to all of them.
 fn motion(joint: &Joint, name: &Ident, is_only: bool) -> DeclaredMotion {
     let said = joint.clauses.iter().find_map(|clause| match clause {
         JointClause::Drive(drive) => {
@@ -103,7 +103,7 @@ fn motion(joint: &Joint, name: &Ident, is_only: bool) -> DeclaredMotion {
     said.unwrap_or(DeclaredMotion::Free)
 }
 
-/// The joint is declared as one that closes a loop.
+/// Whether the joint is declared as one that closes a loop.
 pub(super) fn is_cut(joint: &Joint) -> bool {
     let mut clauses = joint.clauses.iter();
     clauses.any(|clause| matches!(clause, JointClause::Cut(_)))

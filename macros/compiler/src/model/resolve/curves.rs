@@ -1,4 +1,4 @@
-//! Curves through points: their points, and what they are asked for.
+//! Curves through points: their points and their arguments.
 
 use proc_macro2::Ident;
 
@@ -87,7 +87,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// The value of a curve. Where the argument does not depend on the motion it has to lie between the first and the last point.
+    /// The value of a curve. An argument that does not depend on the motion must lie between the first and the last point.
     pub(super) fn curve_at(
         &mut self,
         index: usize,
@@ -137,7 +137,7 @@ fn elements(list: &Value) -> Option<&[Value]> {
     }
 }
 
-/// It is made of numbers, inputs, design variables and constants.
+/// Whether the argument consists only of numbers, inputs, design variables and constants.
 fn is_known_before_the_motion(argument: &Expr) -> bool {
     let is_known = |leaf: &Expr| {
         matches!(

@@ -1,4 +1,4 @@
-//! Directions: axis names, or any vector, made unit vectors.
+//! Directions: axis names, or arbitrary vectors that are normalised.
 
 use super::resolver::Resolver;
 use super::typed::Place;
@@ -8,7 +8,7 @@ use crate::model::simplify;
 use crate::syntax::ast::{Value, ValueKind};
 
 impl Resolver<'_> {
-    /// A unit vector. `x`, `y` and `z` are the axes here, whatever else is declared.
+    /// A unit vector. `x`, `y` and `z` always mean the axes here, whatever else is declared.
     pub(super) fn direction(&mut self, value: &Value, place: Place) -> Option<Vector> {
         if let Some(axis) = axis(value) {
             return Some(axis);
@@ -39,9 +39,9 @@ impl Resolver<'_> {
         Some(vector.map(|component| simplify::divide(component, length.clone())))
     }
 
-    /// A vector of length zero has no direction.
+    /// The unit vector along a constant vector; a zero vector has no direction.
     fn constant_direction(&mut self, vector: [f64; 3], value: &Value) -> Option<Vector> {
-        // Scaled first, so that tiny and huge vectors have a length too.
+        // Scaled first, so that the length of tiny and huge vectors can be computed.
         let largest = vector.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         if largest == 0.0 {
             self.diagnostics

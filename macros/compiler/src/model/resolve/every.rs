@@ -41,7 +41,7 @@ const LAWS: &[Row] = &[
     .refusing(&[ON, ("length", "a coordinate has a `rest`")]),
 ];
 
-/// What other tools call the laws.
+/// Names of the laws in other tools.
 const SYNONYMS: [(&str, &str); 5] = [
     ("stiffness", "spring"),
     ("dashpot", "damper"),
@@ -55,7 +55,7 @@ const QUANTITIES: [(&str, CoordinateQuantity); 2] = [
     ("displacement", CoordinateQuantity::Displacement),
 ];
 
-/// What one might call the coordinates, and what they are.
+/// Other names for the coordinates, and their quantities.
 const SYNONYMS_OF_QUANTITIES: [(&str, &str); 12] = [
     ("joint", "angle"),
     ("coordinate", "angle"),
@@ -71,7 +71,7 @@ const SYNONYMS_OF_QUANTITIES: [(&str, &str); 12] = [
     ("length", "displacement"),
 ];
 
-/// What has been declared for the coordinates of a kind.
+/// The laws declared so far for the coordinates of a kind.
 #[derive(Default)]
 struct Given {
     stiffness: bool,
@@ -79,7 +79,7 @@ struct Given {
 }
 
 impl Resolver<'_> {
-    /// On every free coordinate that has no spring, or no damper, of its own.
+    /// Forces on every free coordinate that has no spring, or no damper, of its own.
     pub(super) fn forces_of_every(&mut self, own: &[Force]) -> Vec<Force> {
         let mut given = QUANTITIES.map(|_| Given::default());
         let mut forces = Vec::new();
@@ -137,7 +137,7 @@ impl Resolver<'_> {
         Some(laws(every, own, &coordinates, stiffness, damping, rest))
     }
 
-    /// The place of a kind of coordinate in the table.
+    /// The index of a kind of coordinate in the table.
     fn quantity(&mut self, word: &Ident) -> Option<usize> {
         let found = QUANTITIES.iter().position(|(known, _)| word == known);
         if found.is_none() {

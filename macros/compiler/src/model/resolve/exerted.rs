@@ -1,8 +1,8 @@
-//! What constraints exert.
+//! The reactions of constraints.
 
 use crate::base::dimension::Dimension;
 
-/// What a constraint exerts, which decides what its reaction is called.
+/// The reaction of a constraint, which determines the functions that return it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Exerted {
     /// Three components in N.

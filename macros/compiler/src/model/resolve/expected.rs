@@ -1,4 +1,4 @@
-//! What a place in a declaration expects, in the words of that place: a stiffness about an axis is a moment by
+//! The quantity expected at a place in a declaration, in the words of that place: a stiffness about an axis is a moment by
 //! dimension, but nobody calls it one.
 
 use super::bare::bare_number;
@@ -10,7 +10,7 @@ use crate::syntax::ast::Value;
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
     pub(super) dimension: Dimension,
-    /// With an article.
+    /// The name, with an article.
     pub(super) name: String,
     pub(super) unit: String,
 }
@@ -49,7 +49,7 @@ impl Expected {
         Self::named(per_length, "an angle per travel", "rad/m")
     }
 
-    /// A quantity in the unit in which it is declared.
+    /// A quantity in its declared unit.
     pub(super) fn in_unit(dimension: Dimension, unit: &str) -> Self {
         match unit {
             "" | "1" => Self::ratio(),
@@ -58,7 +58,7 @@ impl Expected {
         }
     }
 
-    /// A quantity fits, but for a number without a unit where degrees are declared: it would count radians.
+    /// Whether a quantity fits. A number without a unit does not fit where degrees are declared: it would count as radians.
     pub(super) fn admits(&self, found: Quantity, value: &Value) -> bool {
         let is_number = matches!(self.unit.as_str(), "" | "1" | "rad");
         found.fits(self.dimension)
@@ -73,7 +73,7 @@ impl Expected {
         }
     }
 
-    /// What is wrong with a number without a unit where this is expected.
+    /// The message for a number without a unit where this is expected.
     pub(super) fn needs_unit(&self, written: &str) -> String {
         let Self { name, unit, .. } = self;
         format!("`{written}` has no unit; {name} is expected, for example `{written} {unit}`")

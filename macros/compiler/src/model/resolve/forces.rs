@@ -1,4 +1,4 @@
-//! Force elements: the table of laws. Each family of laws has a file of its own.
+//! Force elements: the table of laws. Each family of laws has its own file.
 
 mod at_points;
 mod between_points;
@@ -17,7 +17,7 @@ use crate::syntax::ast::{self, ItemKind};
 const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
 const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
 
-/// What makes a law of its arguments.
+/// A function that makes a law from its arguments.
 type Reader = fn(&mut Resolver<'_>, &Arguments<'_>) -> Option<ForceLaw>;
 
 pub(super) type Row = Signature<Reader>;
@@ -105,7 +105,7 @@ pub(super) const LAWS: &[Row] = &[
     .at_least_one(&["damping", "turning_damping"]),
 ];
 
-/// What other tools call them.
+/// Names of the laws in other tools.
 const SYNONYMS: [(&str, &str); 23] = [
     ("torsion_spring", "spring"),
     ("torsional_spring", "spring"),
@@ -155,7 +155,7 @@ impl Resolver<'_> {
         (signature.read)(self, &arguments)
     }
 
-    /// A required argument of a dimension that is unknown when the coordinate is: then only the value is checked.
+    /// A required argument. Its dimension is unknown if the coordinate is; then only the value is checked.
     pub(super) fn coefficient(
         &mut self,
         arguments: &Arguments,
@@ -173,7 +173,7 @@ impl Resolver<'_> {
         Some(expr)
     }
 
-    /// As `coefficient`; zero when not given.
+    /// Like `coefficient`, but zero if not given.
     pub(super) fn coefficient_or_zero(
         &mut self,
         arguments: &Arguments,
@@ -186,7 +186,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A vector; zero when not given.
+    /// A vector; zero if not given.
     fn vector_or_zero(
         &mut self,
         arguments: &Arguments,
@@ -199,7 +199,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A matrix, or a vector for its diagonal; zero when not given.
+    /// A matrix, or a vector for its diagonal; zero if not given.
     fn matrix_or_zero(
         &mut self,
         arguments: &Arguments,

@@ -1,4 +1,4 @@
-//! Functions: their table, and those that need to know nothing of the motion.
+//! Functions: their table, and those that do not depend on the motion.
 
 mod motion;
 mod reactions;
@@ -15,14 +15,14 @@ use crate::model::expression::{Expr, Function};
 use crate::model::simplify;
 use crate::syntax::ast::Value;
 
-/// What a function needs to know, which decides where it may be used.
+/// What a function depends on, which determines where it may be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Needs {
-    /// Its arguments only.
+    /// Only its arguments.
     Arguments,
-    /// Where the bodies are.
+    /// The positions of the bodies.
     Places,
-    /// How fast they move.
+    /// The velocities of the bodies.
     Rates,
     /// The whole solution.
     Solution,
@@ -57,7 +57,7 @@ const SIGNATURES: [(&str, &[&str], Needs); 23] = [
     ("potential_energy", &[], Solution),
 ];
 
-/// What other tools and languages call them.
+/// Names of the functions in other tools and languages.
 const SYNONYMS: [(&str, &str); 18] = [
     ("arcsin", "asin"),
     ("arccos", "acos"),
@@ -79,7 +79,7 @@ const SYNONYMS: [(&str, &str); 18] = [
     ("energy", "potential_energy"),
 ];
 
-/// What is asked of a study, not declared.
+/// Results of a study, which cannot be declared.
 const ABOUT_MODES: [&str; 12] = [
     "frequency",
     "frequencies",
@@ -186,7 +186,7 @@ impl Resolver<'_> {
                 Some(Typed::Scalar(simplify::atan2(above, right), plain()))
             }
             (_, [argument]) => self.elementary(name, argument, place),
-            // The number of arguments has been checked.
+            // The number of arguments has already been checked.
             _ => None,
         }
     }
@@ -208,10 +208,10 @@ impl Resolver<'_> {
     }
 }
 
-/// Why a function cannot stand where it does.
+/// Why a function cannot be used at this place.
 fn refusal(name: &str, needs: Needs, place: Place) -> Option<(String, Option<String>)> {
     let message = match (needs, place) {
-        // Whether a rate is an output depends on the coordinate.
+        // Whether a rate can be an output depends on the coordinate.
         (Arguments, _)
         | (Rates, Place::GeneralizedForce | Place::Output)
         | (Solution, Place::Output) => return None,
@@ -252,7 +252,7 @@ fn plain() -> Quantity {
     Quantity::Of(Dimension::NONE)
 }
 
-/// A function has this name.
+/// Whether a function has this name.
 pub(super) fn is_function(name: &str) -> bool {
     SIGNATURES.iter().any(|(known, ..)| *known == name)
 }

@@ -1,5 +1,5 @@
-//! Values and tolerances that are given by themselves, outside a declaration: an operating point on a command line or in a file, in
-//! the units and words of the language.
+//! Values and tolerances given on their own, outside a declaration: for example an operating point on a command line or in a
+//! file, in the units and words of the language.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -13,7 +13,7 @@ use crate::syntax::ast::{Ast, Item, ItemKind, Limits, Unit};
 use crate::syntax::parse::parse;
 use crate::syntax::print;
 
-/// The value, SI, of a quantity of this unit that is written as `text`: `3000 rpm`, `-2 * pi / 3`.
+/// The SI value of a quantity with this unit that is written as `text`: `3000 rpm`, `-2 * pi / 3`.
 ///
 /// `what` names the quantity in messages.
 ///
@@ -29,7 +29,7 @@ use crate::syntax::print;
 /// ```
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The mistakes in the text.
 pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Diagnostics> {
     let ast = parse(quote!(mechanism Given { input given: #unit; design value = #text; }))?;
     let [of, given] = &ast.items[..] else {
@@ -54,7 +54,7 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
     })
 }
 
-/// The tolerance of a quantity of this unit that is written as `text`: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the
+/// The tolerance of a quantity with this unit that is written as `text`: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the
 /// sign `+/-` of a half-width, or `one of [1.9, 2.1] mm`. Limits are SI, or fractions of the value, which is `nominal`, SI.
 ///
 /// ```
@@ -69,7 +69,7 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
 /// ```
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The mistakes in the text.
 pub fn tolerance(
     text: TokenStream,
     unit: TokenStream,
@@ -90,7 +90,7 @@ pub fn tolerance(
     resolved(&ast, |resolver| {
         let expected = resolver.expected_in(&input.unit)?;
         match &input.tolerance {
-            // What has a value may have others.
+            // A quantity that is given by a list of values may get a new list.
             Some(own) if matches!(own.limits, Limits::Values(_)) => {
                 resolver.design_tolerance(Some(own), Some((nominal, expected)))
             }
@@ -99,14 +99,14 @@ pub fn tolerance(
     })
 }
 
-/// A semicolon has begun something else.
+/// Rejects a text in which a semicolon has started another item.
 fn not_one<T>(ast: &Ast) -> Result<T, Diagnostics> {
     let mut mistakes = Diagnostics::new();
     mistakes.error(&ast.name, "one value is expected here");
     Err(mistakes)
 }
 
-/// What a step of resolution finds, or what is wrong.
+/// The result of a resolution step, or its mistakes.
 fn resolved<T>(
     ast: &Ast,
     step: impl FnOnce(&mut Resolver<'_>) -> Option<T>,
@@ -128,7 +128,7 @@ fn resolved<T>(
 }
 
 impl Resolver<'_> {
-    /// What a quantity of this unit has to be, in the words of whoever declared it.
+    /// The quantity expected for this unit, in the words of its declaration.
     fn expected_in(&mut self, unit: &Unit) -> Option<Expected> {
         let (dimension, _) = self.unit(unit)?;
         Some(Expected::in_unit(dimension, &print::unit(unit)))

@@ -8,7 +8,7 @@ use crate::model::simplify;
 use crate::syntax::ast::{Gravity, ItemKind};
 
 impl Resolver<'_> {
-    /// The acceleration in the ground frame; zero when none is declared.
+    /// The acceleration in the ground frame; zero if none is declared.
     pub(super) fn gravity(&mut self) -> Vector {
         let mut declared: Option<Vector> = None;
         let mut seen = false;

@@ -1,4 +1,4 @@
-//! Joints: their frames, and how one side moves relative to the other.
+//! Joints: their frames, and the relative motion of their sides.
 
 mod axes;
 mod cut;
@@ -76,7 +76,7 @@ impl Resolver<'_> {
         kind
     }
 
-    /// The coordinates of a joint in order.
+    /// The coordinates of a joint, in order.
     fn coordinates_of(&self, joint: JointId) -> Vec<CoordinateId> {
         let ids = self.coordinates.iter().enumerate();
         ids.filter(|(_, coordinate)| coordinate.joint == joint)
@@ -84,7 +84,7 @@ impl Resolver<'_> {
             .collect()
     }
 
-    /// A joint between a body and itself constrains nothing.
+    /// Rejects a joint between a body and itself, which constrains nothing.
     fn distinct(
         &mut self,
         joint: &ast::Joint,
@@ -99,7 +99,7 @@ impl Resolver<'_> {
         Some(())
     }
 
-    /// The placement on either side; at most one each.
+    /// The placements on both sides; at most one each.
     fn placements(&mut self, joint: &ast::Joint) -> Option<Sides> {
         let mut sides: Sides = [None, None];
         let mut seen = [false; 2];

@@ -1,10 +1,10 @@
-//! A mechanism of which nothing but the equations is wanted.
+//! Mechanisms of which only the equations are wanted.
 
 use super::resolver::Resolver;
 use crate::syntax::ast::ItemKind;
 
 impl Resolver<'_> {
-    /// `kernels only` is declared.
+    /// Whether `kernels only` is declared.
     pub(super) fn kernels_only(&mut self) -> bool {
         let items = self.ast.items.iter().filter_map(|item| match item.kind {
             ItemKind::KernelsOnly(extent) => Some(extent),

@@ -1,4 +1,4 @@
-//! Lists of numbers with their unit: the points of a curve, the values that a design variable may have.
+//! Lists of numbers with their unit: the points of a curve, or the possible values of a design variable.
 
 use super::resolver::Resolver;
 use super::typed::{Place, Quantity};
@@ -9,14 +9,14 @@ use crate::syntax::print;
 
 /// The numbers of a list.
 pub(super) struct Listed {
-    /// SI.
+    /// In SI units.
     pub(super) numbers: Vec<f64>,
     pub(super) quantity: Quantity,
-    /// As declared.
+    /// The declared unit.
     pub(super) unit: Unit,
 }
 
-/// What a list holds, and how it is written.
+/// The content of a list and its spelling, for messages.
 fn words(place: Place) -> (&'static str, &'static str) {
     match place {
         Place::Points => (
@@ -72,7 +72,7 @@ impl Resolver<'_> {
     fn listed_number(&mut self, element: &Value, place: Place) -> Option<(f64, Quantity)> {
         match self.scalar(element, place)? {
             (Expr::Number(number), quantity) => Some((number, quantity)),
-            // Names are refused, and numbers are combined at once.
+            // Names are refused, and numbers are combined immediately.
             _ => None,
         }
     }

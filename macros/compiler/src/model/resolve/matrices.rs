@@ -49,7 +49,7 @@ impl Resolver<'_> {
         self.vector(row, place)
     }
 
-    /// A matrix that must have the given dimension; a vector is its diagonal. `what` names its role.
+    /// A matrix that must have the given dimension; a vector is taken as its diagonal. `what` names its role.
     pub(super) fn matrix_of(
         &mut self,
         value: &Value,
@@ -74,7 +74,7 @@ impl Resolver<'_> {
     }
 }
 
-/// Brackets in brackets.
+/// Whether brackets contain brackets.
 pub(super) fn is_matrix(components: &[Value]) -> bool {
     let is_row = |row: &Value| matches!(row.bare().kind, ValueKind::Vector(..));
     components.iter().any(is_row)

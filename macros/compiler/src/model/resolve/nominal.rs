@@ -1,4 +1,4 @@
-//! What is kept of a design variable.
+//! The stored data of a design variable.
 
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
@@ -10,6 +10,6 @@ pub(super) struct Nominal {
     pub(super) dimension: Dimension,
     pub(super) value: f64,
     pub(super) tolerance: Tolerance,
-    /// The declared tolerance, where a message about its reach points.
+    /// The position of the declared tolerance, for messages about its limits.
     pub(super) tolerance_extent: Option<Extent>,
 }

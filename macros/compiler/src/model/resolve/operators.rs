@@ -1,4 +1,4 @@
-//! Operators: what each does to dimensions, and which operands it refuses.
+//! Operators: their effect on dimensions, and the operands that each refuses.
 
 use super::bare::bare_number;
 use super::resolver::Resolver;
@@ -52,7 +52,7 @@ impl Resolver<'_> {
         Some(sum.map(|part| part, quantity))
     }
 
-    /// Terms of a sum have one dimension.
+    /// The common dimension of the terms of a sum.
     fn same_dimension(&mut self, binary: &Binary, a: Quantity, b: Quantity) -> Option<Quantity> {
         let unified = a.unify(b);
         if unified.is_none() {
@@ -133,7 +133,7 @@ impl Resolver<'_> {
         self.in_range(dimension, binary.sign)
     }
 
-    /// Exponents are small numbers; only a runaway power leaves their range.
+    /// A dimension, or a message if an exponent is out of range: exponents are small numbers unless a power runs away.
     pub(super) fn in_range(
         &mut self,
         dimension: Option<Dimension>,
@@ -200,7 +200,7 @@ impl Resolver<'_> {
         Some(Typed::Scalar(simplify::power(base, exponent), quantity))
     }
 
-    /// A constant that is no finite number, such as `sqrt(-1)`, can only be a mistake.
+    /// Rejects a constant that is not finite, such as `sqrt(-1)`: it can only be a mistake.
     pub(super) fn finite(&mut self, typed: Typed, at: Extent) -> Option<Typed> {
         let wrong = |expr: &Expr| matches!(expr, Expr::Number(value) if !value.is_finite());
         if typed.numbers().iter().any(wrong) {
@@ -212,7 +212,7 @@ impl Resolver<'_> {
     }
 }
 
-/// The fraction with a denominator up to 12 that equals an exponent such as `1/3`, as far as a double can.
+/// The fraction with a denominator up to 12 that equals an exponent such as `1/3` to double precision.
 fn fraction(value: f64) -> Option<(i32, i32)> {
     (1..=12).find_map(|denominator| {
         let numerator = value * f64::from(denominator);

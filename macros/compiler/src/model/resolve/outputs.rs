@@ -1,4 +1,4 @@
-//! Points fixed in bodies, and the outputs that look at them.
+//! Points fixed in bodies, and the outputs.
 
 use super::resolver::Resolver;
 use super::typed::Place;
@@ -55,7 +55,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// What the dimension does not tell. Only terms of a sum and what is scaled by a number keep their measure.
+    /// Distinguishes quantities of equal dimension. Only terms of a sum and multiples by a number keep the distinction.
     fn measure(&self, value: &Expr) -> Option<Measure> {
         match value {
             Expr::Coordinate(id) => {

@@ -63,7 +63,7 @@ impl Resolver<'_> {
         variables
     }
 
-    /// Every design variable's nominal value and tolerance; NaN where it is wrong.
+    /// Nominal value and tolerance of every design variable; NaN if it is wrong.
     pub(super) fn design_points(&self) -> Vec<DesignPoint> {
         let named = self.ast.items.iter().filter_map(|item| match &item.kind {
             ItemKind::Design(design) => Some(design.name.to_string()),
@@ -112,12 +112,12 @@ impl Resolver<'_> {
         let (expr, quantity) = self.scalar(value, Place::Nominal)?;
         match expr {
             Expr::Number(number) => Some((number, quantity)),
-            // No name but `pi` is allowed, and numbers are combined at once.
+            // No name except `pi` is allowed, and numbers are combined immediately.
             _ => None,
         }
     }
 
-    /// The unit of the number as written, SI for a computed one.
+    /// The unit of a number as written; the SI unit of a computed value.
     pub(super) fn display_unit(&mut self, value: &Value, dimension: Dimension) -> Unit {
         let mut number = value.bare();
         while let ValueKind::Negate(operand) = &number.kind {

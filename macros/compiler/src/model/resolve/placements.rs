@@ -1,4 +1,4 @@
-//! Placements: where a frame is in another, for joints, points and the shapes of a body.
+//! Placements of one frame in another, for joints, points and the shapes of a body.
 
 use super::directions::axis;
 use super::expected::Expected;
@@ -14,7 +14,7 @@ pub(super) fn zero() -> Vector {
     [0.0; 3].map(Expr::Number)
 }
 
-/// The frame itself.
+/// The identity placement.
 pub(super) fn unplaced() -> Placement {
     Placement {
         offset: zero(),
@@ -23,7 +23,7 @@ pub(super) fn unplaced() -> Placement {
 }
 
 impl Resolver<'_> {
-    /// A placement; without one the frame itself. `what` names what is placed.
+    /// A placement; the identity if none is given. `what` names the thing being placed.
     pub(super) fn placement(
         &mut self,
         placement: Option<&ast::Placement>,
@@ -64,7 +64,7 @@ impl Resolver<'_> {
     }
 }
 
-/// Written as an axis or as a vector.
+/// Whether the value is written as an axis or as a vector.
 fn is_direction(value: &ast::Value) -> bool {
     axis(value).is_some() || matches!(value.bare().kind, ValueKind::Vector(..))
 }

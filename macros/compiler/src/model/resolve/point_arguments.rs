@@ -21,13 +21,13 @@ impl Resolver<'_> {
         points.nth(point.index())
     }
 
-    /// The point is fixed in a body.
+    /// Whether the point is fixed in a body.
     pub(super) fn point_moves(&self, point: PointId) -> bool {
         self.point_frame(point)
             .is_some_and(|frame| frame != "ground")
     }
 
-    /// Two arguments that must be points of different bodies: between two points of one body nothing ever changes.
+    /// Two arguments that must be points of different bodies, because nothing ever changes between two points of one body.
     /// `whole` names both in messages, and `reason` says what does not change.
     pub(super) fn point_pair(
         &mut self,

@@ -1,4 +1,4 @@
-//! Names that stand for bodies, points, joints and coordinates, each with the nearest name of the right kind when wrong.
+//! Names of bodies, points, joints and coordinates; for a wrong name, the nearest name of the right kind is suggested.
 
 use proc_macro2::Ident;
 
@@ -10,7 +10,7 @@ use crate::base::ids::{CoordinateId, JointId, PointId};
 use crate::model::mechanism::{CoordinateQuantity, Frame};
 
 impl Resolver<'_> {
-    /// A body or the ground.
+    /// A body, or the ground.
     pub(super) fn frame(&mut self, name: &Ident) -> Option<Frame> {
         let text = name.to_string();
         if text == "ground" {
@@ -38,7 +38,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A joint; `kind` says in messages what is expected.
+    /// A joint; `kind` is the expected kind, for messages.
     pub(super) fn joint_named(&mut self, name: &Ident, kind: &str) -> Option<JointId> {
         match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Joint(id)) => Some(id),
@@ -56,7 +56,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A coordinate, by its name or by that of a joint that has no other.
+    /// A coordinate, by its own name or by that of a joint with a single coordinate.
     pub(super) fn coordinate(
         &mut self,
         name: &Ident,
@@ -83,7 +83,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// The motions of a cut joint are equations: there is nothing to refer to.
+    /// Reports a coordinate of a cut joint: its motions are equations, so there is nothing to refer to.
     fn coordinate_of_cut_joint(&mut self, name: &Ident, id: JointId) {
         let Some(joint) = coordinates::joints(self.ast).nth(id.index()) else {
             return;
@@ -99,7 +99,7 @@ impl Resolver<'_> {
         self.diagnostics.error_with_help(name, message, help);
     }
 
-    /// A fixed joint, or one with several coordinates; of an unknown kind nothing more can be said.
+    /// Reports a joint that is fixed or has several coordinates; for an unknown kind of joint nothing more can be said.
     fn no_coordinate_of_its_name(&mut self, name: &Ident, id: JointId) {
         let joint = coordinates::joints(self.ast).nth(id.index());
         let Some(kind) = joint.and_then(|joint| Kind::find(&joint.kind.to_string())) else {

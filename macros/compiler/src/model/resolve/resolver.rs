@@ -1,4 +1,4 @@
-//! What the steps of resolution share; each step is a file that adds its methods.
+//! The data that the steps of resolution share; each step is a file that adds its methods.
 
 use super::coordinates::{self, Declared, DeclaredMotion};
 use super::exerted::Exerted;
@@ -15,7 +15,7 @@ use crate::model::rules::composite::GivenInertia;
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::syntax::ast::{Ast, Joint, Unit, Unread};
 
-/// What is known while resolving. Tables of facts are indexed by id and hold nothing where the item is wrong.
+/// The facts known while resolving. Tables are indexed by id; wrong items have no entry or `None`.
 pub(super) struct Resolver<'a> {
     pub(super) ast: &'a Ast,
     pub(super) diagnostics: Diagnostics,
@@ -23,7 +23,7 @@ pub(super) struct Resolver<'a> {
     pub(super) inputs: Vec<Option<Dimension>>,
     pub(super) design: Vec<Option<Nominal>>,
     pub(super) used_design: Vec<bool>,
-    /// Nothing where a curve is wrong.
+    /// `None` for a wrong curve.
     pub(super) curves: Vec<Option<Curve>>,
     pub(super) curve_arguments: Vec<CurveArgument>,
     pub(super) lets: Vec<Option<Typed>>,
@@ -34,7 +34,7 @@ pub(super) struct Resolver<'a> {
     pub(super) parts: Vec<Option<Vec<Part>>>,
     pub(super) given_inertias: Vec<GivenInertia>,
     pub(super) requirements: Vec<Requirement>,
-    /// Units after numbers, and after vectors, where declared names could stand as well.
+    /// Units after numbers and vectors, in which declared names could have been meant.
     pub(super) units: Vec<(Option<f64>, Unit, Place)>,
 }
 
@@ -66,7 +66,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Records a mistake with help where there is any.
+    /// Records a mistake, with its help if there is any.
     pub(super) fn report(
         &mut self,
         span: impl Into<Extent>,
@@ -78,7 +78,7 @@ impl<'a> Resolver<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// A value must be finite at the nominal values; `what` names it, a vector once.
+    /// Requires values to be finite at the nominal design; `what` names them, a vector only once.
     pub(super) fn require_finite(&mut self, values: &[Expr], what: &str, extent: Extent) {
         if !values.iter().all(|value| matches!(value, Expr::Number(_))) {
             self.requirements.push(Requirement {
@@ -90,14 +90,14 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Some coordinate is free or coasting. What could not be understood gets the benefit of the doubt.
+    /// Whether some coordinate is free or coasting. Anything that could not be understood gets the benefit of the doubt.
     pub(super) fn can_move(&self) -> bool {
         let moves =
             |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;
         self.coordinates.iter().any(moves) || self.may_have_more_coordinates()
     }
 
-    /// There is a joint of an unknown kind, or an item that could not be read.
+    /// Whether there is a joint of an unknown kind, or an item that could not be read.
     pub(super) fn may_have_more_coordinates(&self) -> bool {
         let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
         coordinates::joints(self.ast).any(unknown)

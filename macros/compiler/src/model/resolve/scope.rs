@@ -1,4 +1,4 @@
-//! All names of a declaration live in one namespace; this is it.
+//! The single namespace that contains all names of a declaration.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::base::ids::{BodyId, ConstraintId, CoordinateId, DesignId, InputId, Jo
 use crate::base::nearest::nearest;
 use crate::syntax::ast::{Ast, ItemKind};
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     Input(InputId),
@@ -20,9 +20,9 @@ pub(super) enum Meaning {
     /// The index of the curve among the curves.
     Curve(usize),
     Body(BodyId),
-    /// A joint that has no coordinate of its name: none at all, or several with names of their own.
+    /// A joint without a coordinate of its name: it has none at all, or several with their own names.
     Joint(JointId),
-    /// A joint with one coordinate, and that coordinate.
+    /// A joint with a single coordinate, and that coordinate.
     OnlyCoordinate(CoordinateId),
     /// One of several coordinates of a joint.
     Coordinate(CoordinateId),
@@ -30,12 +30,12 @@ pub(super) enum Meaning {
     Force,
     Constraint(ConstraintId),
     Output,
-    /// Of something that could not be read, or of several things: uses of the name are not judged.
+    /// Belongs to something that could not be read, or to several things: uses of the name are not checked.
     Unclear,
 }
 
 impl Meaning {
-    /// The name stands for a coordinate.
+    /// Whether the name stands for a coordinate.
     pub(super) fn is_coordinate(self) -> bool {
         matches!(self, Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_))
     }
@@ -59,19 +59,19 @@ impl Meaning {
     }
 }
 
-/// Names in order of declaration and by spelling.
+/// All names, in order of declaration and by spelling.
 #[derive(Debug, Default)]
 pub(super) struct Scope {
     order: Vec<(String, Meaning)>,
     by_name: BTreeMap<String, usize>,
-    /// Some item's name could not be read.
+    /// Whether the name of some item could not be read.
     is_incomplete: bool,
-    /// Some name means more than one thing.
+    /// Whether some name means more than one thing.
     pub(super) is_ambiguous: bool,
 }
 
 impl Scope {
-    /// Enters the name of every item, whether or not the rest of the item is right.
+    /// Enters the name of every item, even if the rest of the item is wrong.
     pub(super) fn new(
         ast: &Ast,
         coordinates: &[Declared<'_>],
@@ -116,7 +116,7 @@ impl Scope {
         scope
     }
 
-    /// A joint, and the coordinates that have names of their own.
+    /// Declares a joint and the coordinates that have their own names.
     fn declare_joint(
         &mut self,
         id: JointId,
@@ -129,7 +129,7 @@ impl Scope {
             all.filter(|(_, coordinate)| coordinate.joint == id)
                 .map(|(index, coordinate)| (CoordinateId::new(index), coordinate.name))
         };
-        // The only coordinate's name is the token that names the joint; another's can only be spelt like it.
+        // The only coordinate's name is the token that names the joint; any other can only be spelt like it.
         let is_only = |coordinate: &Ident| name.is_some_and(|name| std::ptr::eq(name, coordinate));
         let only = own().find(|(_, coordinate)| is_only(coordinate));
         if let Some(name) = name {
@@ -144,7 +144,7 @@ impl Scope {
         }
     }
 
-    /// One name means one thing, whatever its kind: `theta1` in an output must not be a guess.
+    /// Declares a name, which may mean only one thing of any kind: `theta1` in an output must not be a guess.
     fn declare(&mut self, name: &Ident, meaning: Meaning, diagnostics: &mut Diagnostics) {
         let text = name.to_string();
         if let Some(reason) = reserved(&text) {
@@ -172,7 +172,7 @@ impl Scope {
         self.order.push((name, meaning));
     }
 
-    /// What the name stands for. A name that is not declared may be the one that could not be read.
+    /// The meaning of a name. An undeclared name may be one that could not be read.
     pub(super) fn find_or_unclear(&self, name: &str) -> Option<Meaning> {
         self.find(name)
             .or(self.is_incomplete.then_some(Meaning::Unclear))
@@ -182,14 +182,14 @@ impl Scope {
         self.by_name.get(name).map(|&index| self.order[index].1)
     }
 
-    /// The nearest declared name that is of the right kind.
+    /// The nearest declared name of the right kind.
     pub(super) fn nearest(&self, name: &str, kind: impl Fn(Meaning) -> bool) -> Option<&str> {
         let candidates = self.order.iter().filter(|(_, meaning)| kind(*meaning));
         nearest(name, candidates.map(|(candidate, _)| candidate.as_str()))
     }
 }
 
-/// Names with a meaning of their own.
+/// Names that are already in use by the language.
 fn reserved(name: &str) -> Option<&'static str> {
     match name {
         "ground" => Some("the inertial frame"),

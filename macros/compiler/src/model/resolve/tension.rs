@@ -1,4 +1,4 @@
-//! The words that only the law of a tension knows.
+//! Words that exist only in the law of a tension.
 
 use proc_macro2::Ident;
 
@@ -31,7 +31,7 @@ const WORDS: [Word; 2] = [
     },
 ];
 
-/// The word of this name.
+/// The word with this name.
 pub(super) fn word(name: &str) -> Option<Word> {
     WORDS.into_iter().find(|word| word.name == name)
 }
@@ -42,7 +42,7 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 }
 
 impl Resolver<'_> {
-    /// A word of tension laws must not be a guess when something else has that name.
+    /// The value of a word of tension laws; it must not be ambiguous with another declared name.
     pub(super) fn tension_word(&mut self, word: Word, name: &Ident) -> Option<Typed> {
         if let Some(meaning) = self.scope.find(word.name) {
             if meaning == Meaning::Unclear {

@@ -1,4 +1,4 @@
-//! Tolerances: limits checked and in SI, laws with their shapes.
+//! Tolerances: checks limits and converts them to SI, and reads laws with their shape parameters.
 
 use super::bare::bare_number;
 use super::expected::Expected;
@@ -11,12 +11,12 @@ use crate::model::mechanism::{Law, Tolerance};
 use crate::syntax::ast::{self, Deviation, Deviations, LawKind, Measure, Value, ValueKind};
 use crate::syntax::print;
 
-/// The limits of a tolerance less the value.
+/// The limits of a tolerance, minus the value.
 #[derive(Clone, Copy)]
 struct Limits {
     lower: f64,
     upper: f64,
-    /// Fractions of the value, otherwise SI.
+    /// Whether they are fractions of the value instead of SI values.
     relative: bool,
 }
 
@@ -31,7 +31,7 @@ impl Limits {
 
     fn with(self, law: Law) -> Tolerance {
         Tolerance {
-            // No sign is left of a zero.
+            // Removes the sign of zero.
             lower: self.lower + 0.0,
             upper: self.upper + 0.0,
             relative: self.relative,
@@ -40,7 +40,7 @@ impl Limits {
     }
 }
 
-/// In all functions below, nothing means: wrong, and reported.
+/// All functions below return `None` for a mistake that has been reported.
 impl Resolver<'_> {
     /// The tolerance of a design variable, in SI.
     pub(super) fn design_tolerance(
@@ -66,7 +66,7 @@ impl Resolver<'_> {
         Some(tolerance)
     }
 
-    /// The tolerance of an input: percentages follow the value that it has.
+    /// The tolerance of an input: percentages refer to its current value.
     pub(super) fn input_tolerance(
         &mut self,
         tolerance: Option<&ast::Tolerance>,
@@ -86,7 +86,7 @@ impl Resolver<'_> {
         Some(tolerance)
     }
 
-    /// Limits as declared, the upper one not below the lower one.
+    /// Limits as declared; the upper one must not be below the lower one.
     fn limits(
         &mut self,
         tolerance: &ast::Tolerance,
@@ -128,7 +128,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// The tolerance of what has one of some values.
+    /// The tolerance of a quantity that takes one of several values.
     fn values(
         &mut self,
         of: &ast::Values,
@@ -165,7 +165,7 @@ impl Resolver<'_> {
         Some(limits.with(Law::OneOf(places.collect())))
     }
 
-    /// How often each of so many values occurs.
+    /// The relative frequency of each of `count` values.
     fn weights(&mut self, list: &Value, count: usize) -> Option<Vec<f64>> {
         let Listed {
             numbers, quantity, ..
@@ -184,7 +184,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// A deviation has the dimension of what deviates; a bare number may also be meant in percent.
+    /// Requires a deviation to have the dimension of its quantity; a bare number may also be meant in percent.
     fn expect_deviation(
         &mut self,
         found: Quantity,
@@ -204,7 +204,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A half-width has no sign.
+    /// Rejects a negative half-width.
     fn not_negative(&mut self, half_width: f64, extent: Extent) -> Option<()> {
         if half_width < 0.0 {
             let message = "a tolerance is a half-width and cannot be negative";
@@ -222,7 +222,7 @@ impl Resolver<'_> {
     ) -> Option<Limits> {
         let Deviations { upper, lower } = deviations;
         let low = self.deviation(lower, &lower.measure, expected);
-        // A wrong unit that both share is reported once.
+        // A wrong unit shared by both is reported once.
         if low.is_none() && deviations.shares_measure() {
             return None;
         }
@@ -268,7 +268,7 @@ impl Resolver<'_> {
         Some((number, DeviationKind::Quantity))
     }
 
-    /// Limits of a design variable, percentages taken of its value.
+    /// Limits of a design variable, with percentages taken of its value.
     fn at(&mut self, value: f64, limits: Limits, extent: Extent) -> Option<Limits> {
         if limits.relative && value == 0.0 {
             self.diagnostics.error_with_help(
@@ -315,7 +315,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// A shape of a beta distribution.
+    /// A shape parameter of a beta distribution.
     fn shape(&mut self, value: &Value) -> Option<f64> {
         let (shape, quantity) = self.plain_number(value)?;
         self.expect(quantity, Dimension::NONE, "a shape of `beta`", value)?;
@@ -327,7 +327,7 @@ impl Resolver<'_> {
         Some(shape)
     }
 
-    /// Some laws know positive values only, and their mean is midway between the limits.
+    /// Some laws allow only positive values with a mean midway between the limits.
     fn positive_mean(
         &mut self,
         declared: &ast::Tolerance,
@@ -352,14 +352,14 @@ impl Resolver<'_> {
     }
 }
 
-/// What a deviation is measured in.
+/// The measure of a deviation.
 #[derive(Clone, Copy, PartialEq)]
 enum DeviationKind {
     /// A zero without a unit, which fits everything.
     Zero,
     /// A fraction of the value.
     Fraction,
-    /// SI.
+    /// A quantity in SI.
     Quantity,
 }
 

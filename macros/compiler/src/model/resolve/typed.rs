@@ -1,4 +1,4 @@
-//! A resolved value together with what the checks need to know about it.
+//! A resolved value together with the properties that the checks need.
 
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Matrix, Vector};
@@ -13,7 +13,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// The dimension, a plain number for zero.
+    /// The dimension; zero counts as a plain number.
     pub(super) fn dimension(self) -> Dimension {
         match self {
             Quantity::Zero => Dimension::NONE,
@@ -21,7 +21,7 @@ impl Quantity {
         }
     }
 
-    /// A value of this quantity may stand where `dimension` is expected.
+    /// Whether a value of this quantity may be used where `dimension` is expected.
     pub(super) fn fits(self, dimension: Dimension) -> bool {
         match self {
             Quantity::Zero => true,
@@ -55,7 +55,7 @@ impl Typed {
         Typed::Scalar(Expr::Number(value), Quantity::Of(dimension))
     }
 
-    /// What it is, with an article.
+    /// The kind of value, with an article.
     pub(super) fn describe(&self) -> &'static str {
         match self {
             Typed::Scalar(..) => "a number",
@@ -64,7 +64,7 @@ impl Typed {
         }
     }
 
-    /// The same of each number in it.
+    /// Applies a function to each number in the value.
     pub(super) fn map(self, mut change: impl FnMut(Expr) -> Expr, quantity: Quantity) -> Self {
         match self {
             Typed::Scalar(a, _) => Typed::Scalar(change(a), quantity),
@@ -81,7 +81,7 @@ impl Typed {
         }
     }
 
-    /// Every number in it, row by row.
+    /// All numbers in the value, row by row.
     pub(super) fn numbers(&self) -> &[Expr] {
         match self {
             Typed::Scalar(a, _) => std::slice::from_ref(a),
@@ -91,36 +91,36 @@ impl Typed {
     }
 }
 
-/// Where a value stands decides which names it may use.
+/// The place of a value, which determines the names that it may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// A nominal value or a tolerance: numbers only.
     Nominal,
     /// The points of a curve: numbers only.
     Points,
-    /// The values that something may have: numbers only.
+    /// The possible values of a quantity: numbers only.
     Values,
     /// Anything about the mechanism itself: numbers, design variables, inputs and constants.
     Parameter,
-    /// The law of a tension: also the distance of its ends and the rate of that.
+    /// The law of a tension: also the distance of its ends and its rate.
     Tension,
     /// A generalised force: also coordinates, their rates and points.
     GeneralizedForce,
     /// A potential energy: also coordinates and points.
     Energy,
-    /// An expression that is to be zero: also coordinates and points.
+    /// An expression that must be zero: also coordinates and points.
     Equation,
     /// An output: also coordinates, points, reactions, energies and the rates of coasting coordinates.
     Output,
 }
 
 impl Place {
-    /// Names of values may be used here.
+    /// Whether names of values may be used here.
     pub(super) fn knows_names(self) -> bool {
         !matches!(self, Place::Nominal | Place::Points | Place::Values)
     }
 
-    /// Coordinates and points may be used here.
+    /// Whether coordinates and points may be used here.
     pub(super) fn knows_places(self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! Units as written to dimension and scale, and the names that a unit has swallowed.
+//! From written units to dimension and scale; also handles names that a unit has absorbed.
 
 use proc_macro2::Ident;
 
@@ -52,8 +52,8 @@ impl Resolver<'_> {
         usable.filter(|_| known)
     }
 
-    /// In `3 kg * m` the `m` is the metre even when a design variable is called `m`. Help, when reading the name as
-    /// declared would turn the dimension found into the one expected; also where a `let` that is named here was read so.
+    /// In `3 kg * m` the `m` is the metre even if a design variable is called `m`. Returns help if reading the name as
+    /// declared would turn the found dimension into the expected one, also inside a `let` that is used here.
     pub(super) fn swallowed(
         &self,
         value: &Value,
@@ -89,14 +89,14 @@ impl Resolver<'_> {
         help(value).or_else(|| value.names().into_iter().find_map(in_let))
     }
 
-    /// Keeps a unit behind which declared names could stand.
+    /// Records a unit in which declared names could have been meant.
     pub(super) fn may_be_unclear(&mut self, number: Option<f64>, unit: &Unit, place: Place) {
         if place.knows_names() && unit.factors.len() > 1 {
             self.units.push((number, unit.clone(), place));
         }
     }
 
-    /// Refuses a name after a number that a unit and a declared number share, where no dimension tells one from the other.
+    /// Rejects a name after a number that is both a unit and a declared number if the dimension cannot distinguish them.
     pub(super) fn refuse_unclear_units(&mut self) {
         for (number, unit, place) in std::mem::take(&mut self.units) {
             for index in 1..unit.factors.len() {
@@ -144,7 +144,7 @@ impl Resolver<'_> {
     }
 }
 
-/// A value whose unit ends before one of its factors, which is the name of something declared.
+/// The value written so that its unit ends before one of its factors, which is the name of something declared.
 fn apart(number: Option<f64>, unit: &Unit, index: usize) -> String {
     let part = |factors: &[UnitFactor]| {
         print::unit(&Unit {

@@ -1,4 +1,4 @@
-//! Values: names to ids, units to SI, dimensions checked at every operator.
+//! Values: names become ids, units are converted to SI, and dimensions are checked at every operator.
 
 use proc_macro2::Ident;
 
@@ -19,7 +19,7 @@ use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Unit, Value, ValueKind};
 
-/// In all functions below, nothing means: wrong, and reported.
+/// All functions below return `None` for a mistake that has been reported.
 impl Resolver<'_> {
     /// A value of any kind and dimension.
     pub(super) fn value(&mut self, value: &Value, place: Place) -> Option<Typed> {
@@ -130,7 +130,7 @@ impl Resolver<'_> {
                 );
                 None
             }
-            // Reported where it is declared.
+            // Already reported at its declaration.
             Meaning::Unclear => None,
             Meaning::Body(_) | Meaning::Point(_) | Meaning::Force | Meaning::Constraint(_) => {
                 let help = match meaning {
@@ -158,7 +158,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Where coordinates stand, and a coasting one: only its rate is constant in steady motion.
+    /// Whether coordinates may be used here. Of a coasting one only the rate may be: only that is constant in steady motion.
     fn coordinate_is_usable(
         &mut self,
         name: &Ident,
@@ -257,7 +257,7 @@ impl Resolver<'_> {
         self.in_unit(Typed::Vector(vector, common), unit?, extent)
     }
 
-    /// The dimension and scale of the unit behind a vector or a matrix, where there is one.
+    /// The dimension and scale of the unit after a vector or a matrix, if there is one.
     pub(super) fn optional_unit(
         &mut self,
         unit: Option<&Unit>,
@@ -268,7 +268,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// The quantity that all parts of a vector or a matrix have; `what` they are, for messages.
+    /// The common quantity of all parts of a vector or a matrix; `what` names the parts in messages.
     pub(super) fn common_quantity(
         &mut self,
         quantities: &[Quantity],
@@ -294,7 +294,7 @@ impl Resolver<'_> {
         Some(common)
     }
 
-    /// What stands in brackets times the unit behind them.
+    /// The bracketed values times the unit after the bracket.
     pub(super) fn in_unit(
         &mut self,
         typed: Typed,
@@ -402,7 +402,7 @@ impl Resolver<'_> {
         Some(vector)
     }
 
-    /// A quantity of the wrong dimension is never converted: it is a mistake in the model.
+    /// Rejects a quantity of the wrong dimension; it is never converted, because it is a mistake in the model.
     pub(super) fn expect(
         &mut self,
         found: Quantity,
@@ -454,7 +454,7 @@ impl Resolver<'_> {
     }
 }
 
-/// What a place that admits no names holds, and what to do there instead.
+/// The content of a place that admits no names, and advice on what to do there.
 fn of_numbers_only(place: Place) -> Option<(&'static str, &'static str)> {
     match place {
         Place::Nominal => Some((
@@ -470,10 +470,10 @@ fn of_numbers_only(place: Place) -> Option<(&'static str, &'static str)> {
     }
 }
 
-/// What to write instead of `3,5`.
+/// Help for `3,5`.
 pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
 
-/// Too many values in a list, two of which may be one number with a decimal comma.
+/// Whether a list has too many values, two of which may be one number with a decimal comma.
 pub(super) fn decimal_commas(values: &[Value]) -> bool {
     let is_whole = |value: &Value| match value.kind {
         ValueKind::Number(number, None) => number.fract() == 0.0,

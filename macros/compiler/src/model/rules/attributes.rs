@@ -1,4 +1,4 @@
-//! What may stand on a mechanism: attributes go to the generated type, which derives some traits already.
+//! Attributes allowed on a mechanism: they go to the generated type, which already derives some traits.
 
 use syn::punctuated::Punctuated;
 
@@ -8,7 +8,7 @@ use crate::syntax::ast::Ast;
 
 const DERIVED: [&str; 6] = ["Clone", "Copy", "Debug", "Default", "PartialEq", "Eq"];
 
-/// A trait derived a second time would be a conflict in generated code.
+/// Rejects traits that would be derived twice, which would be a conflict in the generated code.
 pub(crate) fn check(ast: &Ast, diagnostics: &mut Diagnostics) {
     let derives = ast
         .attributes

@@ -1,4 +1,4 @@
-//! What several masses together must be: what holes leave of a body, and what is welded together.
+//! Rules for several masses together: the remainder of a body with holes, and bodies welded together.
 
 use super::moments::Moments;
 use super::tensor::{
@@ -13,7 +13,7 @@ use crate::model::mechanism::{Part, Placement};
 /// Bodies welded together, at least one of which has an inertia given as numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Welded {
-    /// Name, parts, and the placements that lead into the frame of the first, the innermost first.
+    /// Name, parts, and the placements that lead into the frame of the first body, the innermost first.
     pub(crate) bodies: Vec<(String, Vec<Part>, Vec<Placement>)>,
     /// The given inertias.
     pub(crate) given: Vec<GivenInertia>,
@@ -26,14 +26,14 @@ pub(crate) struct GivenInertia {
     pub(crate) body: String,
     /// Entries as given: xx, yy, zz, xy, yz, xz.
     pub(crate) tensor: [Expr; 6],
-    /// The same about the centre of mass.
+    /// The tensor about the centre of mass.
     pub(crate) central: [Expr; 6],
     /// Where it was declared.
     pub(crate) extent: Extent,
 }
 
-/// What is wrong with the holes of a body, as the end of a sentence. Values that are not known, and masses and inertias that
-/// are reported themselves, are no matter of the holes.
+/// The problem with the holes of a body, as the end of a sentence. Unknown values, and masses and inertias that are reported
+/// separately, are not attributed to the holes.
 pub(super) fn holes(parts: &[Part], at: &Values) -> Option<String> {
     let [mut solid, mut holes] = [Moments::default(), Moments::default()];
     for part in parts {
@@ -50,7 +50,7 @@ pub(super) fn holes(parts: &[Part], at: &Values) -> Option<String> {
     }
     let mut whole = solid.clone();
     whole.add(&holes, -1.0);
-    // What rounding leaves of nothing is nothing.
+    // A remainder within rounding counts as nothing.
     if whole.mass <= 1e-12 * solid.mass {
         return Some("are as heavy as the rest of it, or heavier: nothing is left".to_string());
     }
@@ -60,7 +60,7 @@ pub(super) fn holes(parts: &[Part], at: &Values) -> Option<String> {
     })
 }
 
-/// The first given inertia that no body can have, where the bodies welded to it do not make up for it.
+/// The first given inertia that no body can have, unless the bodies welded to it compensate for it.
 pub(super) fn impossible(welded: &Welded, at: &Values) -> Option<Violation> {
     let mut whole = Moments::default();
     for (_, parts, placements) in &welded.bodies {
@@ -78,7 +78,7 @@ pub(super) fn impossible(welded: &Welded, at: &Values) -> Option<Violation> {
     if !whole.is_real() || is_body(&together, scale) {
         return None;
     }
-    // Where every given inertia is possible a hole is to blame, and reported itself.
+    // If every given inertia is possible, a hole is to blame and is reported separately.
     let wrong = |given: &&GivenInertia| {
         let central = tensor(&given.central, at);
         !is_inertia_of_a_body(&central)
@@ -106,13 +106,13 @@ pub(super) fn impossible(welded: &Welded, at: &Values) -> Option<Violation> {
     })
 }
 
-/// A second moment about the centre of mass is positive semidefinite, but for rounding errors of entries of size `scale`.
+/// Whether a second moment about the centre of mass is positive semidefinite, up to rounding errors of entries of size `scale`.
 fn is_body(second: &Matrix, scale: f64) -> bool {
     principal(second).0[0] >= -1e-9 * scale.max(f64::MIN_POSITIVE)
 }
 
 impl GivenInertia {
-    /// Which moments do not go together.
+    /// The moments that are incompatible, in words.
     fn problem(&self, at: &Values) -> String {
         const NAMES: [&str; 3] = ["Jxx", "Jyy", "Jzz"];
         let central = tensor(&self.central, at);
@@ -152,7 +152,7 @@ impl GivenInertia {
         )
     }
 
-    /// What to write instead.
+    /// The replacement to suggest.
     fn nearest(&self, at: &Values) -> String {
         let (given, central) = (tensor(&self.tensor, at), tensor(&self.central, at));
         let nearest = nearest_of_a_body(&central);
@@ -161,7 +161,7 @@ impl GivenInertia {
         if [x[1], y[2], x[2]].iter().any(|&entry| entry != 0.0) {
             entries.extend([x[1], y[2], x[2]]);
         }
-        // As many digits as keep a flat body flat.
+        // Use as many digits as keep a flat body flat.
         let entries: Vec<String> = entries
             .into_iter()
             .map(|entry| digits(entry, 10).to_string())

@@ -17,7 +17,7 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Those of a shape; a hole counts positive.
+    /// The moments of a shape; a hole counts positive.
     pub(super) fn of(part: &Part, at: &Values) -> Self {
         let (mass, center, central) = central_moments(&part.shape, at);
         let moments = Self {
@@ -28,7 +28,7 @@ impl Moments {
         moments.placed(&part.placement, at)
     }
 
-    /// The same seen from the frame in which theirs is placed: `r = o + R r'`.
+    /// The moments seen from the frame in which their own frame is placed: `r = o + R r'`.
     pub(super) fn placed(&self, placement: &Placement, at: &Values) -> Self {
         let (turn, o) = (rotation(placement, at), at.vector(&placement.offset));
         let f = product_with_vector(&turn, self.first);
@@ -75,7 +75,7 @@ fn central_moments(shape: &Shape, at: &Values) -> (f64, Vector, Matrix) {
         let squares = terms.iter().map(|(factor, length)| factor * square(length));
         squares.sum()
     };
-    // `across` m^2 in each direction across the axis, `along` along it
+    // `across` m^2 in each direction perpendicular to the axis, `along` along it
     let round = |axis: &expression::Vector, across: f64, along: f64| {
         let a = at.vector(axis);
         matrix(|i, j| across * identity(i, j) + (along - across) * a[i] * a[j])
@@ -108,7 +108,7 @@ fn central_moments(shape: &Shape, at: &Values) -> (f64, Vector, Matrix) {
     (mass, center, matrix(|i, j| mass * per_mass[i][j]))
 }
 
-/// The axes of a placement, column by column, in the frame that it is in.
+/// The axes of a placement as columns, in the outer frame.
 fn rotation(placement: &Placement, at: &Values) -> Matrix {
     let mut turned = matrix(identity);
     for (axis, angle) in &placement.rotations {

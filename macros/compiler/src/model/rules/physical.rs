@@ -1,4 +1,4 @@
-//! Values that no real part can have: at the nominal values, and at the ends of every tolerance.
+//! Rejects values that no real part can have, at the nominal design and at the ends of every tolerance.
 
 use std::rc::Rc;
 
@@ -11,20 +11,20 @@ use crate::model::evaluate::{Dependence, Values};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Constant, Curve, Part};
 
-/// Something that values must satisfy.
+/// A requirement on values.
 #[derive(Clone, Debug)]
 pub(crate) struct Requirement {
     /// The quantity, for messages: "the mass of `bar`".
     pub(crate) what: String,
     /// Its values.
     pub(crate) values: Vec<Expr>,
-    /// What they must satisfy.
+    /// The condition on the values.
     pub(crate) demand: Demand,
     /// Where it was declared.
     pub(crate) extent: Extent,
 }
 
-/// What values must satisfy.
+/// A condition on values.
 #[derive(Clone, Debug)]
 pub(crate) enum Demand {
     /// Finite numbers.
@@ -33,7 +33,7 @@ pub(crate) enum Demand {
     Positive(Dimension),
     /// A vector longer than zero.
     Direction,
-    /// Given inertias that the bodies welded together can have; the values are those about the centres of mass.
+    /// Given inertias that are possible for bodies welded together; the values are those about the centres of mass.
     Inertia(Rc<Welded>),
     /// Two radii, the first below the second.
     BelowOuter,
@@ -47,24 +47,24 @@ pub(crate) enum Demand {
     Spanning,
     /// An argument between the ends of a curve.
     OnCurve(Curve),
-    /// No values: a body that its holes leave something of.
+    /// No values: the holes of a body must leave something of it.
     Holes(Rc<[Part]>),
 }
 
-/// A design variable as far as the rules need it.
+/// A design variable, as far as the rules need it.
 #[derive(Clone, Debug)]
 pub(crate) struct DesignPoint {
     /// Name.
     pub(crate) name: String,
     /// Nominal value, SI.
     pub(crate) nominal: f64,
-    /// Lower and upper limit less the nominal value, SI.
+    /// Lower and upper limit minus the nominal value, SI.
     pub(crate) limits: [f64; 2],
     /// The declared tolerance.
     pub(crate) extent: Option<Extent>,
 }
 
-/// Checks all requirements. Inputs have no nominal values: what depends on them is left to the run.
+/// Checks all requirements. Inputs have no nominal values: requirements that depend on them are checked at run time.
 pub(crate) fn check(
     requirements: &[Requirement],
     constants: &[Constant],
@@ -101,7 +101,7 @@ pub(crate) fn check(
     }
 }
 
-/// A tolerance may not reach what no part can have: the first requirement that it breaks is reported.
+/// Checks that a tolerance includes no physically impossible value; reports the first requirement that it violates.
 fn check_tolerance(
     requirements: &[&Requirement],
     constants: &[Constant],
@@ -145,7 +145,7 @@ fn violation(requirement: &Requirement, at: &Values) -> Option<Violation> {
     })
 }
 
-/// What is wrong with the values, as the end of a sentence.
+/// The problem with the values, as the end of a sentence.
 fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
     let values: Vec<f64> = requirement.values.iter().map(|expr| at.of(expr)).collect();
     if values.iter().any(|value| !value.is_finite()) {
@@ -189,7 +189,7 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
     }
 }
 
-/// Sine of an angle, or volume between unit vectors, that counts as zero.
+/// A sine of an angle, or a volume between unit vectors, up to which it counts as zero.
 const NEARLY: f64 = 1e-9;
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -213,7 +213,7 @@ fn in_one_plane(axes: &[f64]) -> bool {
     (x * cx + y * cy + z * cz).abs() < NEARLY
 }
 
-/// Six digits tell enough in a message.
+/// Six digits are enough for a message.
 fn rounded(value: f64) -> f64 {
     digits(value, 6)
 }

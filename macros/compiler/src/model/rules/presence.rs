@@ -1,9 +1,9 @@
-//! What every mechanism must have.
+//! Parts that every mechanism must have.
 
 use crate::base::diagnostics::Diagnostics;
 use crate::syntax::ast::{Ast, ItemKind, Unread};
 
-/// Checks that there is something to move and a way for it to move.
+/// Checks that there is something that can move, and a way for it to move.
 pub(crate) fn check(ast: &Ast, can_move: bool, diagnostics: &mut Diagnostics) {
     if !has_body(ast) {
         diagnostics.error_with_help(
@@ -12,7 +12,7 @@ pub(crate) fn check(ast: &Ast, can_move: bool, diagnostics: &mut Diagnostics) {
             "declare one, for example `body bar: rod(mass: 1 kg, length: 1 m, along: -z);`",
         );
     } else if !can_move {
-        // Modes are those of free coordinates.
+        // Modes exist only in free coordinates.
         diagnostics.error_with_help(
             &ast.name,
             format!(

@@ -1,16 +1,16 @@
-//! Symmetric matrices of three rows: principal values, and what makes an inertia that of a body.
+//! Symmetric three-by-three matrices: principal values, and the conditions for an inertia to belong to a body.
 
 /// Three numbers along the axes of a frame.
 pub type Vector = [f64; 3];
 /// Rows of three numbers.
 pub type Matrix = [Vector; 3];
 
-/// A matrix by its entries.
+/// A matrix from its entries.
 pub(super) fn matrix(entry: impl Fn(usize, usize) -> f64) -> Matrix {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
 }
 
-/// The entry of the unit matrix.
+/// Entry of the identity matrix.
 pub(super) fn identity(i: usize, j: usize) -> f64 {
     if i == j { 1.0 } else { 0.0 }
 }
@@ -34,7 +34,7 @@ pub(super) fn trace(a: &Matrix) -> f64 {
 /// Principal values in ascending order, and their axes as columns in the same order (Jacobi 1846).
 pub fn principal(symmetric: &Matrix) -> (Vector, Matrix) {
     let (mut a, mut axes) = (*symmetric, matrix(identity));
-    // Convergence is quadratic: a handful of sweeps reaches the last digit.
+    // Convergence is quadratic: a few sweeps reach the last digit.
     for _ in 0..16 {
         for (p, q) in [(0, 1), (1, 2), (0, 2)] {
             if a[p][q] == 0.0 {
@@ -71,28 +71,28 @@ pub(super) fn inertia(second: &Matrix) -> Matrix {
     matrix(|i, j| trace * identity(i, j) - second[i][j])
 }
 
-/// Mass is nowhere negative, so each principal moment is at most the sum of the other two; none is negative then. This
-/// takes them in ascending order. Rounding may leave a flat body a little short.
+/// Whether principal moments, in ascending order, belong to a body. Mass is nowhere negative, so each is at most the sum of the
+/// other two, and then none is negative. Rounding may leave a flat body slightly short.
 fn belongs_to_a_body([a, b, c]: Vector) -> bool {
     a + b - c >= -2e-9 * (a + b + c).abs() && a + b + c >= 0.0
 }
 
-/// An inertia about the centre of mass is one that a body can have.
+/// Whether a body can have an inertia about the centre of mass.
 pub fn is_inertia_of_a_body(inertia: &Matrix) -> bool {
     belongs_to_a_body(principal(inertia).0)
 }
 
-/// The inertia that a body can have and that differs least from this one (Frobenius norm): along the same principal axes.
+/// The possible inertia of a body that differs least from this one (Frobenius norm); it has the same principal axes.
 pub fn nearest_of_a_body(inertia: &Matrix) -> Matrix {
     let ([a, b, c], axes) = principal(inertia);
     let short = (c - a - b) / 3.0;
     let nearest = if belongs_to_a_body([a, b, c]) {
         return *inertia;
     } else if a + short >= 0.0 {
-        // A flat body.
+        // Flat body.
         [a + short, b + short, c - short]
     } else {
-        // A slender one.
+        // Slender body.
         let both = ((b + c) / 2.0).max(0.0);
         [0.0, both, both]
     };
@@ -160,7 +160,7 @@ mod tests {
         }
     }
 
-    /// Against a search over a grid of what bodies can have, `J = diag(b + c, a + c, a + b)` with `a, b, c >= 0`.
+    /// Compares with a search over a grid of possible bodies, `J = diag(b + c, a + c, a + b)` with `a, b, c >= 0`.
     #[test]
     fn nothing_is_nearer_than_the_nearest() {
         for given in [
@@ -187,7 +187,7 @@ mod tests {
                     }
                 }
             }
-            // A grid of 1/30 finds the optimum but for the square of its width.
+            // A grid of 1/30 finds the optimum up to the square of its width.
             let found = distance(moments);
             assert!(
                 found <= least + 1e-12 && found >= least - 0.01,

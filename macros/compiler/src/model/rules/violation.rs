@@ -1,8 +1,8 @@
-//! What is said of a requirement that is not met.
+//! Messages for violated requirements.
 
 use crate::base::span::Extent;
 
-/// A requirement that is not met: "the mass of `bar`" "is -3 kg; it must be positive".
+/// A violated requirement: "the mass of `bar`" "is -3 kg; it must be positive".
 pub(super) struct Violation {
     pub(super) what: String,
     pub(super) problem: String,
@@ -10,7 +10,7 @@ pub(super) struct Violation {
     pub(super) help: Option<String>,
 }
 
-/// A number with so many significant digits.
+/// A number rounded to the given number of significant digits.
 pub(super) fn digits(value: f64, count: usize) -> f64 {
     format!("{value:.*e}", count - 1).parse().unwrap_or(value)
 }

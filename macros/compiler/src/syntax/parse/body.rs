@@ -15,7 +15,7 @@ const SHAPE: &str = "a shape such as `rod` or `massless`";
 pub(super) fn body(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let name = declared_name(tokens)?;
     colon(tokens)?;
-    // A leading minus is a mistake that a rule explains.
+    // A leading minus is a mistake that a later rule explains.
     let mut hole = tokens.sign('-').is_some();
     let mut terms = Vec::new();
     loop {
@@ -38,7 +38,7 @@ pub(super) fn body(tokens: &mut Tokens) -> Parsed<ItemKind> {
 
 /// Reads a word with named arguments.
 pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
-    // No name is declared here, so Rust's keyword `box` will do.
+    // No name is declared here, so Rust's keyword `box` is allowed.
     let Some(word) = tokens.ident() else {
         return tokens.expected(what);
     };

@@ -1,4 +1,4 @@
-//! Joints: a kind with its axes, two frames, placements, drives and what else is said of it.
+//! Joints: a kind with its axes, two frames, placements, drives and other clauses.
 
 use proc_macro2::Delimiter;
 

@@ -1,4 +1,4 @@
-//! Tolerances: `+/- 3%`, `+0.1 -0.05 mm`, and the law after either; `one of [1.9, 2.0, 2.1] mm`.
+//! Tolerances: `+/- 3%` and `+0.1 -0.05 mm`, each optionally followed by a law; `one of [1.9, 2.0, 2.1] mm`.
 
 use proc_macro2::{Delimiter, Ident};
 
@@ -13,16 +13,16 @@ use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 use crate::base::units;
 
-/// How the values that something may have are written.
+/// Help on how to write a list of possible values.
 const VALUES: &str = "write `one of [1.9, 2.0, 2.1] mm`, or `one of [1.9, 2.0] mm weighted [1, 6]`";
 
-/// Words behind a number that are no units.
+/// Words after a number that are not units.
 const NO_UNITS: [&str; 9] = {
     let [a, b, c, d, e, f, g] = LAWS;
     [a, b, c, d, e, f, g, "one", "weighted"]
 };
 
-/// What to do about the token after what could be read, where it looks like a tolerance or its law.
+/// Help for the token after the readable part, if it looks like a tolerance or its law.
 pub(super) fn help(tokens: &Tokens) -> Option<&'static str> {
     if tokens.cursor.literal().is_some()
         || ['%', '+', '-'].iter().any(|&sign| tokens.peek_sign(sign))
@@ -36,7 +36,7 @@ pub(super) fn help(tokens: &Tokens) -> Option<&'static str> {
         .then_some("a law directly follows a tolerance: `+/- 3% uniform`")
 }
 
-/// Reads a value up to a tolerance: two numbers with signs at its end are limits, not terms of a sum.
+/// Reads a value up to a tolerance: two signed numbers at its end are limits, not terms of a sum.
 pub(super) fn nominal(tokens: &mut Tokens) -> Parsed<Value> {
     tokens.no_units = &NO_UNITS;
     let nominal = value_before(tokens, |tokens| {
@@ -120,7 +120,7 @@ fn limits(tokens: &mut Tokens) -> Parsed<Option<(Limits, Extent)>> {
     Ok(Some((limits, Extent::from(start).to(tokens.last))))
 }
 
-/// `one of LIST`, and how often each occurs.
+/// Reads `one of LIST`, and the frequency of each value.
 fn values(tokens: &mut Tokens) -> Parsed<Values> {
     tokens.expect_word("one")?;
     let of = tokens.expect_word("of").and_then(|_| value(tokens));
@@ -135,7 +135,7 @@ fn values(tokens: &mut Tokens) -> Parsed<Values> {
     read.map_err(|error| Box::new(error.with_help(VALUES)))
 }
 
-/// A number and `%`. It may be negative here, so that a rule can say what is wrong with it.
+/// Reads a number and `%`. The number may be negative here, so that a later rule can explain the mistake.
 fn percentage(tokens: &mut Tokens) -> Option<f64> {
     let mut ahead = *tokens;
     let sign = if ahead.sign('-').is_some() { -1.0 } else { 1.0 };
@@ -149,7 +149,7 @@ fn percentage(tokens: &mut Tokens) -> Option<f64> {
     Some(sign * percent)
 }
 
-/// Two numbers with signs, with only a law or the end of the item behind them; the `/` that some put between.
+/// Reads two signed numbers that only a law or the end of the item may follow, and a `/` that some write between them.
 fn deviations(tokens: &mut Tokens) -> Option<(Deviations, Option<Extent>)> {
     let mut ahead = *tokens;
     let upper = deviation(&mut ahead)?;
@@ -182,7 +182,7 @@ fn deviation(tokens: &mut Tokens) -> Option<Deviation> {
     let ValueKind::Number(number, unit) = number(&literal, tokens).ok()?.kind else {
         return None;
     };
-    // Drawings write a zero without a sign.
+    // Drawings write zero without a sign.
     if sign.is_none() && number != 0.0 {
         return None;
     }
@@ -198,7 +198,7 @@ fn deviation(tokens: &mut Tokens) -> Option<Deviation> {
     })
 }
 
-/// A misspelt law after a plain number looks like its unit.
+/// Rejects a misspelt law after a plain number, where it looks like a unit.
 fn is_no_law(unit: &Unit) -> Parsed<()> {
     let [factor] = unit.factors.as_slice() else {
         return Ok(());

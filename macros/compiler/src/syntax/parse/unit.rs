@@ -1,4 +1,5 @@
-//! Units: `rad/s`, `kg*m^2`, `N/(m*s)`, `1/s`. After a number the unit wins: it goes on as long as unit names follow.
+//! Units: `rad/s`, `kg*m^2`, `N/(m*s)`, `1/s`. After a number the unit takes precedence: it continues as long as unit names
+//! follow.
 
 use proc_macro2::{Delimiter, Span};
 
@@ -10,19 +11,19 @@ use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 use crate::base::units;
 
-/// Words of the grammar that may follow a value and are therefore no units.
+/// Words of the grammar that may follow a value and are therefore not units.
 const FOLLOWING: [&str; 9] = [
     "along", "at", "on", "rotated", "driven", "coasting", "cut", "from", "to",
 ];
 
-/// A factor whose name may be misspelt, or only one that is known.
+/// Whether a factor's name may be misspelt or must be known.
 #[derive(Clone, Copy, PartialEq)]
 enum Names {
     Any,
     Known,
 }
 
-/// The unit of an input, where nothing else can stand.
+/// The unit of an input, where nothing else may appear.
 pub(super) fn declared(tokens: &mut Tokens) -> Parsed<Unit> {
     let start = tokens.span();
     let mut factors = Vec::new();
@@ -39,7 +40,7 @@ pub(super) fn declared(tokens: &mut Tokens) -> Parsed<Unit> {
     Ok(unit)
 }
 
-/// The unit after a number, if there is one. `suffix` is the unit's first name when it is glued to the number.
+/// The unit after a number, if there is one. `suffix` is the first name of the unit if it is glued to the number.
 pub(super) fn after_number(tokens: &mut Tokens, suffix: &str) -> Parsed<Option<Unit>> {
     let mut factors = Vec::new();
     let start = if suffix.is_empty() {
@@ -68,7 +69,7 @@ pub(super) fn after_number(tokens: &mut Tokens, suffix: &str) -> Parsed<Option<U
     Ok(Some(unit))
 }
 
-/// A unit beside a unit lacks its multiplication sign; the name of a coordinate may follow where a drive ends.
+/// Rejects a unit next to a unit, where a multiplication sign is missing. After a drive, the name of a coordinate may follow.
 fn ends(tokens: &Tokens, unit: &Unit) -> Parsed<()> {
     let mut ahead = *tokens;
     let Some(name) = ahead.ident() else {
@@ -92,7 +93,7 @@ fn unit(factors: Vec<UnitFactor>, start: Span, tokens: &Tokens) -> Unit {
     }
 }
 
-/// A word that follows a number is its unit, known or not, unless the grammar goes on with it.
+/// Whether a unit starts here: a word that follows a number is its unit, known or not, unless the grammar continues with it.
 fn starts(tokens: &Tokens) -> bool {
     tokens.peek_ident().is_some_and(|ident| {
         let word = ident.to_string();
@@ -155,7 +156,7 @@ fn factor(
     Ok(true)
 }
 
-/// Reads `(a*b)` in a unit. After a number it is one only when nothing but units stands in it.
+/// Reads `(a*b)` in a unit. After a number, parentheses belong to the unit only if they contain nothing but units.
 fn group(
     tokens: &mut Tokens,
     sign: i32,
@@ -185,7 +186,7 @@ fn group(
     Ok(true)
 }
 
-/// Reads `^2` or `^-2`; a power that is no number belongs to the expression, not to the unit.
+/// Reads `^2` or `^-2`; a power that is not a number belongs to the expression, not to the unit.
 fn exponent(tokens: &mut Tokens) -> Parsed<i32> {
     let mut ahead = *tokens;
     if ahead.sign('^').is_none() {

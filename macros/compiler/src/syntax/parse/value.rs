@@ -10,9 +10,9 @@ use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
-/// Levels of nesting accepted: far more than anyone writes, few enough for the stack of every later stage.
+/// Maximum nesting depth: far more than anyone writes, and small enough for the stack of every later stage.
 const DEEPEST: u32 = 64;
-/// Levels of the resulting tree accepted, to which a long sum adds one per term.
+/// Maximum height of the resulting tree, to which a long sum adds one level per term.
 const HIGHEST: u16 = 256;
 
 /// Reads a value.
@@ -20,7 +20,7 @@ pub(super) fn value(tokens: &mut Tokens) -> Parsed<Value> {
     sum(tokens, 0)
 }
 
-/// Reads a value; its last terms do not belong to it where `ends` says so of the tokens before them.
+/// Reads a value that stops before the terms for which `ends` returns true.
 pub(super) fn value_before(tokens: &mut Tokens, ends: fn(&Tokens) -> bool) -> Parsed<Value> {
     chain(tokens, 0, &TERMS, product, ends)
 }
@@ -40,7 +40,7 @@ pub(super) fn list(tokens: &mut Tokens, depth: u32) -> Parsed<Vec<Value>> {
 const TERMS: [Operator; 2] = [Operator::Add, Operator::Subtract];
 const FACTORS: [Operator; 2] = [Operator::Multiply, Operator::Divide];
 
-/// A sum ends before a tolerance, and before the next shape of a body.
+/// Reads a sum, which ends before a tolerance and before the next shape of a body.
 fn sum(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let ends = |tokens: &Tokens| tokens.peek_plus_minus() || tokens.peek_shape();
     chain(tokens, depth, &TERMS, product, ends)
@@ -72,7 +72,7 @@ fn chain(
     Ok(left)
 }
 
-/// `-a^b` is `-(a^b)`.
+/// Reads an optional sign: `-a^b` is `-(a^b)`.
 fn signed(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let Some(sign) = tokens.sign('-') else {
         return power(tokens, depth);
@@ -82,7 +82,7 @@ fn signed(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     built(ValueKind::Negate(Box::new(operand)), extent)
 }
 
-/// `a^b^c` is `a^(b^c)`.
+/// Reads a power: `a^b^c` is `a^(b^c)`.
 fn power(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let base = component(tokens, depth)?;
     let Some(sign) = tokens.sign('^') else {
@@ -143,14 +143,14 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     built(ValueKind::Name(name), start.into())
 }
 
-/// Reads the unit of a number.
+/// Reads the unit after a number, and returns the number with it.
 pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     let span = literal.span();
     let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
         let message = format!("expected a number, found `{literal}`");
         Box::new(Diagnostic::new(span, message))
     })?;
-    // Digits only can overflow to infinity, never fail or become NaN.
+    // A string of digits can overflow to infinity, but never fails or becomes NaN.
     let value = digits.parse::<f64>().unwrap_or(f64::INFINITY);
     let has_digit = digits
         .split(['e', 'E'])
@@ -165,7 +165,7 @@ pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     built(ValueKind::Number(value, unit), extent)
 }
 
-/// Splits `3.5kg`; nothing when the literal is no number.
+/// Splits `3.5kg`; `None` if the literal is not a number.
 pub(super) fn digits_and_suffix(literal: &Literal) -> Option<(String, String)> {
     match syn::Lit::new(literal.clone()) {
         syn::Lit::Int(int) => Some((int.base10_digits().into(), int.suffix().into())),
@@ -185,7 +185,7 @@ fn binary(operator: Operator, sign: Extent, left: Value, right: Value) -> Parsed
     built(ValueKind::Binary(Box::new(binary)), extent)
 }
 
-/// A value, unless it makes the tree too high.
+/// The value, or an error if it makes the tree too high.
 fn built(kind: ValueKind, extent: Extent) -> Parsed<Value> {
     let value = Value::new(kind, extent);
     if value.height > HIGHEST {
@@ -194,7 +194,7 @@ fn built(kind: ValueKind, extent: Extent) -> Parsed<Value> {
     Ok(value)
 }
 
-/// Reads one level deeper.
+/// Reads one level deeper in the nesting.
 fn nested<'a, T>(
     tokens: &mut Tokens<'a>,
     depth: u32,

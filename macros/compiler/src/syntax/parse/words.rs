@@ -1,4 +1,4 @@
-//! The words that start items, and what to write instead of others.
+//! The words that start items, and replacements for others.
 
 use crate::base::nearest::suggestion;
 
@@ -19,7 +19,7 @@ pub(super) const KEYWORDS: [&str; 13] = [
     "output",
 ];
 
-/// What other tools and languages call an item.
+/// Names of items in other tools and languages.
 const SYNONYMS: [(&str, &str); 25] = [
     ("table", "curve"),
     ("lookup", "curve"),
@@ -48,7 +48,7 @@ const SYNONYMS: [(&str, &str); 25] = [
     ("default", "every"),
 ];
 
-/// Words that stand behind the name of an item, not before it.
+/// Words that belong after the name of an item, not before it.
 pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
     (
         "body",
@@ -98,7 +98,7 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
     ),
 ];
 
-/// What to write for an item that starts with an unknown word.
+/// The replacement for an unknown word at the start of an item.
 pub(super) fn instead_of(unknown: &str) -> String {
     let inside = INSIDE.iter().find(|(_, words)| words.contains(&unknown));
     match (inside, suggestion(unknown, KEYWORDS, &SYNONYMS)) {
@@ -121,7 +121,7 @@ pub(super) const LAWS: [&str; 7] = [
     "beta",
 ];
 
-/// What others call a law.
+/// Other names for laws.
 const SYNONYMS_OF_LAWS: [(&str, &str); 8] = [
     ("gaussian", "normal"),
     ("gauss", "normal"),
@@ -133,7 +133,7 @@ const SYNONYMS_OF_LAWS: [(&str, &str); 8] = [
     ("log_normal", "lognormal"),
 ];
 
-/// The law that is probably meant by an unknown word, as it is written.
+/// The law that an unknown word probably means, as it is written.
 pub(super) fn suggested_law(unknown: &str) -> Option<&'static str> {
     match suggestion(unknown, LAWS, &SYNONYMS_OF_LAWS)? {
         "truncated" => Some("truncated normal"),
@@ -142,8 +142,8 @@ pub(super) fn suggested_law(unknown: &str) -> Option<&'static str> {
     }
 }
 
-/// What to write instead of `# ...`.
+/// Help for `# ...`.
 pub(super) const COMMENT: &str = "a comment begins with `//`";
 
-/// What to write instead of `3,5`.
+/// Help for `3,5`.
 pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";

@@ -10,7 +10,7 @@ use crate::model::simplify::{add, componentwise, multiply, power_integer, subtra
 use crate::syntax::ast::{Value, ValueKind};
 
 impl Quantities<'_, '_, '_> {
-    /// Three moments, or the six entries of the tensor. `about` as in `place`.
+    /// Three moments, or the six entries of the tensor. `about` is optional, as in `place`.
     pub(super) fn inertia(
         &mut self,
         mass: Option<&Expr>,
@@ -26,7 +26,7 @@ impl Quantities<'_, '_, '_> {
                     let arm = componentwise(center.clone(), about.clone(), subtract);
                     Some(about_center(tensor.clone(), mass, &arm))
                 }
-                // The mistake in what it depends on has been reported.
+                // The mistake in its argument has been reported.
                 _ => None,
             },
         };
@@ -70,7 +70,7 @@ impl Quantities<'_, '_, '_> {
         let mut tensor = Vec::new();
         for (entry, scalar) in scalars {
             let resolved = scalar.and_then(|(expr, quantity)| match scale {
-                // The unit behind the bracket belongs to every entry.
+                // The unit after the bracket applies to every entry.
                 Some((dimension, scale)) => {
                     let product = quantity.dimension().times(dimension);
                     let quantity = self.resolver.in_range(product, value.extent)?;
@@ -90,7 +90,7 @@ impl Quantities<'_, '_, '_> {
             });
             match resolved {
                 Some(expr) => tensor.push(expr),
-                // One wrong unit behind the bracket is one mistake.
+                // One wrong unit after the bracket is one mistake.
                 None if scale.is_some() => return None,
                 None => {}
             }

@@ -1,4 +1,4 @@
-//! The arguments of a shape as quantities: each of its dimension, and such that a real part can have it.
+//! The arguments of a shape as quantities: each must have the right dimension and a value that is possible for a real part.
 
 use super::super::arguments::Arguments;
 use super::super::resolver::Resolver;
@@ -9,7 +9,7 @@ use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
 use crate::syntax::ast::Value;
 
-/// The arguments of one shape while they are resolved.
+/// The arguments of one shape during resolution.
 pub(in crate::model::resolve) struct Quantities<'a, 'b, 'c> {
     pub(super) resolver: &'a mut Resolver<'b>,
     pub(super) arguments: Arguments<'c>,
@@ -52,7 +52,7 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
         self.positive("mass", "mass", Dimension::MASS)
     }
 
-    /// The mass as given, or a density times the length, area or volume that it refers to.
+    /// The given mass, or a density times the length, area or volume that it refers to.
     pub(super) fn mass_or_density(
         &mut self,
         density: Dimension,
@@ -75,7 +75,7 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
         self.positive(name, words, Dimension::LENGTH)
     }
 
-    /// The bore of a tube leaves a wall.
+    /// Requires the bore of a tube to leave a wall.
     pub(super) fn inner_below_outer(&mut self, inner: Option<&Expr>, outer: Option<&Expr>) {
         if let (Some(inner), Some(outer), Some(value)) = (inner, outer, self.arguments.get("inner"))
         {
@@ -99,13 +99,13 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
         Some(size)
     }
 
-    /// A position: nothing when not given, nothing inside when wrong.
+    /// A position: `None` if not given, with an inner `None` if wrong.
     pub(super) fn place(&mut self, name: &str) -> Option<Option<Vector>> {
         let value = self.arguments.get(name)?;
         Some(self.resolver.position(value, &format!("`{name}`")))
     }
 
-    /// The centre of mass, or where it is by itself.
+    /// The given centre of mass, or the default.
     pub(super) fn center(&mut self, default: impl FnOnce() -> Option<Vector>) -> Option<Vector> {
         self.place("center").unwrap_or_else(default)
     }

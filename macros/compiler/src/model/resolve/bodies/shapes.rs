@@ -1,4 +1,4 @@
-//! The shapes: their arguments, and what those make of them.
+//! The shapes, built from their arguments.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use crate::model::expression::Expr;
 use crate::model::mechanism::Shape;
 use crate::model::simplify::{multiply, power_integer, subtract};
 
-/// What makes a shape of its arguments. Every argument is looked at before any is found missing.
+/// A function that makes a shape from its arguments. It reads every argument before reporting a missing one.
 type Reader = fn(&mut Quantities<'_, '_, '_>) -> Option<Shape>;
 
 pub(in crate::model::resolve) type Row = Signature<Reader>;
@@ -96,7 +96,7 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
     )]),
 ];
 
-/// What other tools call them.
+/// Names of the shapes in other tools.
 pub(super) const SYNONYMS: [(&str, &str); 23] = [
     ("none", "massless"),
     ("weightless", "massless"),

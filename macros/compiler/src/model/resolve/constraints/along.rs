@@ -1,4 +1,4 @@
-//! Which of the axes of a point a constraint holds along.
+//! The axes of a point along which a constraint holds.
 
 use super::super::resolver::Resolver;
 use crate::syntax::ast::{Value, ValueKind};

@@ -1,4 +1,4 @@
-//! Constraints that are expressions: couplings of two coordinates, and equations of the user's own.
+//! Constraints given by expressions: couplings of two coordinates, and the user's own equations.
 
 use super::super::arguments::Arguments;
 use super::super::coordinates::{self, DeclaredMotion};
@@ -36,7 +36,7 @@ impl Resolver<'_> {
         self.zero(zero, dimension, arguments.get("of")?)
     }
 
-    /// The two coordinates, which are different.
+    /// The two coordinates, which must be different.
     fn coupled(&mut self, arguments: &Arguments) -> (Option<Found>, Option<Found>) {
         let mut find = |name| {
             let name = self.name_of(arguments.get(name)?, "coordinate")?;
@@ -54,7 +54,7 @@ impl Resolver<'_> {
         (of, with)
     }
 
-    /// How far `of` moves when `with` moves by one.
+    /// The displacement of `of` per unit displacement of `with`.
     fn ratio(
         &mut self,
         arguments: &Arguments,
@@ -78,7 +78,7 @@ impl Resolver<'_> {
         Some(ratio)
     }
 
-    /// Coordinates that run can be coupled with each other, those at rest too; the drives of two would contradict.
+    /// Coordinates that run can be coupled with each other, and so can those at rest; two drives would contradict each other.
     fn coupled_motions(
         &mut self,
         arguments: &Arguments,
@@ -130,7 +130,7 @@ impl Resolver<'_> {
         self.zero(zero, quantity.dimension(), value)
     }
 
-    /// What runs forever has no place: such an equation holds for rates, which points do not have.
+    /// Rejects points in an equation with running coordinates: such an equation applies to rates, which points do not have.
     fn runs_without_points(&mut self, zero: &Expr, extent: Extent) -> Option<()> {
         let leaves = zero.leaves();
         let has_points = leaves.iter().any(|leaf| matches!(leaf, Expr::Position(..)));
@@ -150,7 +150,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// The reaction does work on the change of the expression.
+    /// The equation, with its reaction: this does work on changes of the expression.
     fn zero(
         &mut self,
         zero: Expr,
@@ -169,7 +169,7 @@ impl Resolver<'_> {
         declared.is_some_and(|own| own.motion == DeclaredMotion::Driven)
     }
 
-    /// It keeps moving in steady motion; nothing when its joint is wrong.
+    /// Whether a coordinate keeps moving in steady motion; `None` if its joint is wrong.
     fn runs(&self, id: CoordinateId) -> Option<bool> {
         let declared = self.coordinates.get(id.index())?;
         let mut resolved = self.declared_coordinates.iter();

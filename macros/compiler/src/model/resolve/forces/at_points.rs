@@ -33,7 +33,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// A point of a body; at one of the ground a force does nothing, and `reason` says so.
+    /// A point of a body. A force at a point of the ground does nothing; `reason` explains this.
     fn moving_point(&mut self, arguments: &Arguments, reason: &str) -> Option<PointId> {
         let point = self.point_argument(arguments, "at")?;
         if self.point_frame(point)? == "ground" {

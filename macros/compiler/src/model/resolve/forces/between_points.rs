@@ -27,7 +27,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// The law cannot be evaluated before the motion is known, so that only its dimension is checked.
+    /// A tension. The law cannot be evaluated before the motion is known, so only its dimension is checked.
     pub(super) fn tension(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let ends = self.ends(arguments, "their distance never changes");
         let law = arguments.get("law")?;

@@ -1,5 +1,5 @@
-//! Forces that are expressions of the motion. They cannot be evaluated before it is known, so that only their
-//! dimensions are checked here.
+//! Forces given by expressions of the motion. They cannot be evaluated before it is known, so only their dimensions are
+//! checked here.
 
 use super::super::arguments::Arguments;
 use super::super::expected::Expected;
@@ -23,7 +23,7 @@ impl Resolver<'_> {
         Some(ForceLaw::Generalized { coordinate, value })
     }
 
-    /// An energy that no coordinate enters exerts no force.
+    /// A potential energy, which must contain a coordinate: otherwise it exerts no force.
     pub(super) fn potential(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let value = arguments.get("energy")?;
         let (energy, quantity) = self.scalar(value, Place::Energy)?;
@@ -39,7 +39,7 @@ impl Resolver<'_> {
         Some(ForceLaw::Potential { energy })
     }
 
-    /// The value changes with the motion.
+    /// Whether the value changes with the motion.
     fn moves(&self, value: &Expr) -> bool {
         value.leaves().into_iter().any(|leaf| match leaf {
             Expr::Coordinate(_) => true,

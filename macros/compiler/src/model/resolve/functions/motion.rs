@@ -1,4 +1,4 @@
-//! Functions of where things are, how fast they move, and what that takes.
+//! Functions of positions, velocities, and the energies and forces of the motion.
 
 use proc_macro2::Ident;
 
@@ -11,7 +11,7 @@ use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Value, ValueKind};
 
-/// Force laws that do not tell how much energy they store.
+/// Force laws whose stored energy is unknown.
 const WITHOUT_ENERGY: [&str; 3] = ["tension", "generalized", "bushing"];
 
 impl Resolver<'_> {
@@ -52,12 +52,13 @@ impl Resolver<'_> {
                 self.energy_is_known(function)?;
                 Typed::Scalar(Expr::PotentialEnergy, energy)
             }
-            // The number of arguments has been checked.
+            // The number of arguments has already been checked.
             _ => return None,
         })
     }
 
-    /// In steady motion a free coordinate is at rest, and the speed of a driven one is no result.
+    /// Requires a rate to be a useful result: in steady motion a free coordinate is at rest, and the speed of a driven one is
+    /// given.
     fn rate_is_constant(
         &mut self,
         function: &Ident,
@@ -74,7 +75,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// An expression of a force does not tell its potential.
+    /// Requires all forces to have a known potential, which force expressions do not have.
     fn energy_is_known(&mut self, function: &Ident) -> Option<()> {
         let unknown = self.ast.items.iter().find_map(|item| match &item.kind {
             ItemKind::Force(force) => {

@@ -1,4 +1,4 @@
-//! What joints and constraints transmit.
+//! The loads that joints and constraints transmit.
 
 use proc_macro2::Ident;
 
@@ -45,7 +45,7 @@ impl Resolver<'_> {
         Some(Typed::Vector(vector, Quantity::Of(dimension)))
     }
 
-    /// `reaction` of a constraint that is one equation.
+    /// `reaction` of a constraint with a single equation.
     pub(super) fn reaction_number(&mut self, of: &Value) -> Option<Typed> {
         let name = self.name_of(of, "constraint")?;
         match self.scope.find_or_unclear(&name.to_string()) {
@@ -74,7 +74,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Nothing when the constraint is wrong.
+    /// The reaction of a constraint; `None` if the constraint is wrong.
     fn exerted_by(&self, id: ConstraintId) -> Option<Exerted> {
         *self.exerted.get(id.index())?
     }

@@ -1,4 +1,4 @@
-//! What stands in the parentheses of a joint: an axis for each coordinate, and the lead of a screw.
+//! The arguments of a joint in parentheses: an axis for each coordinate, and the lead of a screw.
 
 use std::f64::consts::TAU;
 
@@ -30,7 +30,7 @@ impl Resolver<'_> {
         let known = self.stray(joint, kind, &stray);
         let lead = match known {
             Some(()) => self.lead(joint, kind, &leads),
-            // A misspelt `lead` is not missing as well.
+            // A misspelt `lead` is not also missing.
             None => None,
         };
         let named = self.names(joint, kind, &axes);
@@ -86,7 +86,7 @@ impl Resolver<'_> {
         Some(simplify::divide(lead, Expr::Number(TAU)))
     }
 
-    /// Arguments with names that mean nothing.
+    /// Reports named arguments that have no meaning.
     fn stray(&mut self, joint: &Joint, kind: &Kind, stray: &[&JointArgument]) -> Option<()> {
         for name in stray.iter().filter_map(|argument| argument.name.as_ref()) {
             let word = kind.word;
@@ -107,7 +107,7 @@ impl Resolver<'_> {
         stray.is_empty().then_some(())
     }
 
-    /// Several coordinates each need a name; a single one has that of the joint.
+    /// Requires a name for each of several coordinates; a single one has the name of the joint.
     fn names(&mut self, joint: &Joint, kind: &Kind, axes: &[&JointArgument]) -> Option<()> {
         let word = kind.word;
         let help = format!("write `{}`", kind.example);
@@ -163,7 +163,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// What the kind demands of its axes.
+    /// Checks the conditions that the kind of joint places on its axes.
     fn conditions(
         &mut self,
         kind: &Kind,
@@ -207,7 +207,7 @@ impl Resolver<'_> {
         right
     }
 
-    /// Axes that may depend on design variables are compared at their values.
+    /// Requires axes to be independent; axes that may depend on design variables are compared at their nominal values.
     fn independent(
         &mut self,
         places: &[usize],
@@ -235,11 +235,11 @@ impl Resolver<'_> {
     }
 }
 
-/// The arguments of a joint by what they are.
+/// The arguments of a joint, sorted by meaning.
 struct Sorted<'a> {
     axes: Vec<&'a JointArgument>,
     leads: Vec<&'a JointArgument>,
-    /// Neither: with a name, beside the axis of a joint that has only one.
+    /// Named arguments that are neither, next to the axis of a joint that has only one.
     stray: Vec<&'a JointArgument>,
 }
 
@@ -259,7 +259,7 @@ impl<'a> Sorted<'a> {
     }
 }
 
-/// Magnitudes of sine and cosine of the angle between constant unit vectors; nothing when they are not constant.
+/// Magnitudes of sine and cosine of the angle between constant unit vectors; `None` if they are not constant.
 fn angle_between(a: &Vector, b: &Vector) -> (Option<f64>, Option<f64>) {
     let constant = |value: Expr| match value {
         Expr::Number(number) => Some(number.abs()),

@@ -5,7 +5,7 @@ use super::kinds::Kind;
 use crate::syntax::ast::{Joint, JointClause};
 
 impl Resolver<'_> {
-    /// Whether the joint is cut: then its motions become equations, which not every kind has.
+    /// Whether the joint is cut. Its motions then become equations, which are not available for every kind.
     pub(super) fn cut(&mut self, joint: &Joint, kind: Option<&Kind>) -> Option<bool> {
         let mut clauses = joint.clauses.iter().filter_map(|clause| match clause {
             JointClause::Cut(keyword) => Some(*keyword),

@@ -1,4 +1,4 @@
-//! How the coordinates of a joint move: free, driven at a speed, or coasting.
+//! How the coordinates of a joint move: free, driven at a given speed, or coasting.
 
 use proc_macro2::Ident;
 
@@ -16,13 +16,13 @@ use crate::syntax::ast::{Coast, Drive, Joint, JointClause};
 /// The coordinates of a joint while its clauses are read.
 struct Motions {
     ids: Vec<CoordinateId>,
-    /// What a clause has said of each.
+    /// The motion declared for each so far.
     said: Vec<DeclaredMotion>,
     motions: Vec<Motion>,
 }
 
 impl Resolver<'_> {
-    /// Every coordinate of the joint free, driven at its one declared speed, or coasting.
+    /// The motion of every coordinate of the joint: free, driven at its one declared speed, or coasting.
     pub(super) fn drives(
         &mut self,
         joint: &Joint,
@@ -57,7 +57,7 @@ impl Resolver<'_> {
     ) -> Option<()> {
         let place = kind.and_then(|kind| self.driven_place(joint, kind, drive, &motions.ids));
         let Some(place) = place else {
-            // Its value may be wrong as well.
+            // Its value may be wrong as well, so check it too.
             self.scalar(&drive.speed, Place::Parameter);
             return None;
         };
@@ -67,7 +67,7 @@ impl Resolver<'_> {
         Some(())
     }
 
-    /// Without a name all coordinates coast.
+    /// Reads a coasting clause; without a name all coordinates coast.
     fn coast(
         &mut self,
         joint: &Joint,
@@ -81,7 +81,7 @@ impl Resolver<'_> {
                 let place = self.place_named(name, &motions.ids)?;
                 place..=place
             }
-            // Without coordinates the axes are wrong, and that has been reported.
+            // Without coordinates the axes are wrong, which has been reported.
             None => 0..=motions.ids.len().checked_sub(1)?,
         };
         self.is_not_cut(joint, "coast", coast.keyword)?;
@@ -99,7 +99,7 @@ impl Resolver<'_> {
         Some(())
     }
 
-    /// A coordinate moves in one way: that is said once.
+    /// Declares the motion of a coordinate, which is allowed only once.
     fn say(
         &mut self,
         motions: &mut Motions,
@@ -130,7 +130,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// The place in the joint of the coordinate that a clause drives.
+    /// The index within the joint of the coordinate that a clause drives.
     fn driven_place(
         &mut self,
         joint: &Joint,
@@ -144,7 +144,7 @@ impl Resolver<'_> {
             None if ids.len() == 1 => 0,
             None => {
                 let (names, quoted) = self.names_of(ids);
-                // Without coordinates the axes are wrong, and that has been reported.
+                // Without coordinates the axes are wrong, which has been reported.
                 let first = names.first()?;
                 self.diagnostics.error_with_help(
                     drive.keyword,
@@ -179,7 +179,7 @@ impl Resolver<'_> {
         Some(())
     }
 
-    /// The place in the joint of the coordinate of this name.
+    /// The index within the joint of the coordinate with this name.
     fn place_named(&mut self, name: &Ident, ids: &[CoordinateId]) -> Option<usize> {
         let (names, quoted) = self.names_of(ids);
         let text = name.to_string();

@@ -1,19 +1,19 @@
-//! The kinds of joint: one row each, nothing else knows their names.
+//! The kinds of joint, one row each; no other module knows their names.
 
 use crate::model::mechanism::{Closing, CoordinateQuantity};
 
 /// A kind of joint.
 #[derive(Debug)]
 pub(crate) struct Kind {
-    /// The word it is declared with.
+    /// The keyword it is declared with.
     pub(crate) word: &'static str,
     /// Its elementary motions, in order from the `from` side; each has a coordinate.
     pub(crate) motions: &'static [Elementary],
-    /// What its axes must satisfy.
+    /// Conditions on its axes.
     pub(crate) conditions: &'static [Condition],
-    /// How it closes a loop; not every kind can.
+    /// How it closes a loop, if it can.
     pub(crate) closing: Option<Closing>,
-    /// What to write, for messages.
+    /// An example for messages.
     pub(crate) example: &'static str,
 }
 
@@ -25,16 +25,16 @@ pub(crate) enum Elementary {
     Screw,
 }
 
-/// A relation between the axes of motions, by their places in the order.
+/// A relation between the axes of motions, given by their indices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Condition {
-    /// The same line: what the name of the joint promises.
+    /// Parallel, as the name of the joint promises.
     Parallel(usize, usize),
-    /// A right angle: what the name of the joint promises.
+    /// Perpendicular, as the name of the joint promises.
     Perpendicular(usize, usize),
-    /// Not parallel: else two coordinates measure one motion.
+    /// Not parallel: otherwise two coordinates would measure one motion.
     Distinct([usize; 2]),
-    /// Not in one plane: else three coordinates measure two motions.
+    /// Not in one plane: otherwise three coordinates would measure two motions.
     Spanning([usize; 3]),
 }
 
@@ -107,7 +107,7 @@ const KINDS: &[Kind] = &[
     },
 ];
 
-/// What other tools call them.
+/// Names of the kinds in other tools.
 pub(in crate::model::resolve) const SYNONYMS: [(&str, &str); 28] = [
     ("hinge", "revolute"),
     ("pin", "revolute"),
@@ -140,34 +140,34 @@ pub(in crate::model::resolve) const SYNONYMS: [(&str, &str); 28] = [
 ];
 
 impl Kind {
-    /// The kind that a word means.
+    /// The kind with the given keyword.
     pub(crate) fn find(word: &str) -> Option<&'static Kind> {
         KINDS.iter().find(|kind| kind.word == word)
     }
 
-    /// Every word.
+    /// All keywords.
     pub(in crate::model::resolve) fn words() -> impl Iterator<Item = &'static str> + Clone {
         KINDS.iter().map(|kind| kind.word)
     }
 
-    /// The only coordinate has the name of the joint.
+    /// Whether it has a single coordinate, which has the name of the joint.
     pub(crate) fn has_one_coordinate(&self) -> bool {
         self.motions.len() == 1
     }
 
-    /// It leaves all six motions.
+    /// Whether it leaves all six motions free.
     pub(super) fn is_free(&self) -> bool {
         self.motions.len() == 6
     }
 
-    /// It needs `lead`.
+    /// Whether it needs `lead`.
     pub(super) fn is_screw(&self) -> bool {
         self.motions.contains(&Screw)
     }
 }
 
 impl Elementary {
-    /// What its coordinate measures.
+    /// The quantity that its coordinate measures.
     pub(crate) fn quantity(self) -> CoordinateQuantity {
         match self {
             Turn | Screw => CoordinateQuantity::Angle,
