@@ -4,7 +4,7 @@ use crate::Complex;
 use crate::algebra::{Matrix, Vector, times_complex};
 use crate::kernels::Linear;
 
-/// `(s^2 M + s C + K) x` for three given matrices.
+/// `(s^2 M + s C + K) x` for the given matrices.
 pub(crate) fn pencil_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
     Vector::from_fn(linear.mass.row_count(), |i| {
         let rows = linear.mass[i].iter().zip(&linear.damping[i]);
