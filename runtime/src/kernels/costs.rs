@@ -1,13 +1,13 @@
-//! What the kernels cost of which gradients can be made.
+//! Costs of the kernels from which gradients can be computed.
 
 use crate::Description;
 use crate::mechanism::KernelInfo;
 
-/// What an elementary function costs, in additions and multiplications.
+/// Cost of an elementary function, in additions and multiplications.
 const FUNCTION: usize = 40;
 
-/// Costs in additions and multiplications of the kernels that derivatives of modes can come from; `None` where one is not written
-/// out.
+/// Costs, in additions and multiplications, of the kernels from which derivatives of modes can be computed; `None` for a
+/// kernel that was not generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -25,7 +25,7 @@ pub struct Costs {
 }
 
 impl Costs {
-    /// Of a mechanism with this description.
+    /// Costs for a mechanism with this description.
     #[must_use]
     pub fn of(description: &Description) -> Self {
         let of = |name: &str| cost(description.kernel(name));
@@ -38,7 +38,7 @@ impl Costs {
         }
     }
 
-    /// The same where the description is a constant: looked up when the program is compiled.
+    /// Like [`Self::of`] for a constant description: looked up at compile time.
     pub(super) const fn of_constant(description: &Description) -> Self {
         Self {
             linear_partials: cost(description.static_kernel("linear_partials")),
