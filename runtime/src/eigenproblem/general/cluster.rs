@@ -18,7 +18,7 @@ pub(super) struct Found<'a> {
 pub(super) struct Cluster {
     pub(super) s: Complex64,
     pub(super) multiplicity: usize,
-    /// Spread of the eigenvalues it represents, plus the largest of their radii and reaches.
+    /// Spread of the eigenvalues it represents, and their largest radius and reach.
     pub(super) spread: f64,
     pub(super) radius: f64,
     pub(super) reach: f64,
