@@ -21,9 +21,9 @@ pub struct Equilibrium {
     pub stability: Stability,
     /// Eigenvalues `lambda` up to this size cannot be distinguished from zero, 1/s^2.
     ///
-    /// It covers what rounding of inputs, design and coordinates changes in an eigenvalue that nearly vanishes, and what
-    /// the iteration leaves of it at a located critical state. Zero if no eigenvalue is small enough for it to matter,
-    /// and if `Khat` is not symmetric.
+    /// It covers the effect of rounding of inputs, design and coordinates on an eigenvalue that nearly vanishes, and the
+    /// remainder that the iteration leaves at a located critical state. Zero if no eigenvalue is small enough for it to
+    /// matter, and if `Khat` is not symmetric.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub rounding: f64,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).

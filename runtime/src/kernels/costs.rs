@@ -12,15 +12,15 @@ const FUNCTION: usize = 40;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Costs {
-    /// Of [`Kernels::linear_partials_into`](super::Kernels::linear_partials_into).
+    /// Cost of [`Kernels::linear_partials_into`](super::Kernels::linear_partials_into).
     pub linear_partials: Option<usize>,
-    /// Of [`Kernels::residual_partials_into`](super::Kernels::residual_partials_into).
+    /// Cost of [`Kernels::residual_partials_into`](super::Kernels::residual_partials_into).
     pub residual_partials: Option<usize>,
-    /// Of [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into).
+    /// Cost of [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into).
     pub mode_gradient: Option<usize>,
-    /// Of [`Kernels::pencil_gradient_into`](super::Kernels::pencil_gradient_into).
+    /// Cost of [`Kernels::pencil_gradient_into`](super::Kernels::pencil_gradient_into).
     pub pencil_gradient: Option<usize>,
-    /// Of [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
+    /// Cost of [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
     pub residual_gradient: Option<usize>,
 }
 

@@ -113,7 +113,7 @@ pub struct CoordinateInfo {
     pub name: Text,
     /// `rad` or `m` for a coordinate, `rad/s` or `m/s` for a speed, `N` or `N*m` for a reaction.
     pub unit: Unit,
-    /// What it is.
+    /// Its role.
     pub role: Role,
 }
 

@@ -11,7 +11,7 @@ macro_rules! handle {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
         ///
-        /// It belongs to mechanism `M`; no other accepts it.
+        /// It belongs to mechanism `M` and is not accepted by any other.
         pub struct $name<M = Any> {
             index: usize,
             mechanism: PhantomData<fn() -> M>,

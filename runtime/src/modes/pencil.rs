@@ -17,7 +17,7 @@ pub(crate) fn pencil_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector
     })
 }
 
-/// `(2 s M + C) x`: the derivative of the pencil by `s`.
+/// `(2 s M + C) x`: the derivative of the pencil with respect to `s`, times `x`.
 pub(crate) fn pencil_slope_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
     let m = times_complex(&linear.mass, x);
     let c = times_complex(&linear.damping, x);

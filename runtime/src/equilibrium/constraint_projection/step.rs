@@ -13,7 +13,7 @@ const CLOSABLE: f64 = 1e-9;
 /// Largest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. It is small
 /// because the path decides which assembly mode is found.
 pub(super) const FIRST_RADIUS: f64 = 0.3;
-/// Smallest damping, relative to the constraints.
+/// Limits of the damping, relative to the constraints.
 pub(super) const LEAST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e9;
 

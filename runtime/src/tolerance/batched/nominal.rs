@@ -23,7 +23,7 @@ pub(super) struct Nominal<'a> {
 
 impl Nominal<'_> {
     /// `dq*/db = -Khat^-1 dg/db` of the varied variables at a state next to an equilibrium; `None` if `Khat` is not
-    /// positive definite or, without a potential, singular.
+    /// positive definite or, if there is no potential, is singular.
     pub(super) fn slopes(&self, q: &[f64], b: &[f64], varied: &[usize]) -> Option<Vec<Vector>> {
         let inputs = &self.state.inputs;
         let (_, stiffness) = self.mechanism.residual_and_stiffness(q, inputs, b);
