@@ -1,9 +1,9 @@
-//! What every question asks of its arguments.
+//! Checks of arguments common to all questions.
 
 use crate::algebra::all_finite;
 use crate::{Description, Error, Input, Text};
 
-/// Refuses a list that has not one value for each of what it belongs to.
+/// Refuses a list with the wrong number of values.
 pub(crate) fn check_count(kind: &'static str, values: &[f64], count: usize) -> Result<(), Error> {
     if values.len() == count {
         return Ok(());
@@ -15,7 +15,7 @@ pub(crate) fn check_count(kind: &'static str, values: &[f64], count: usize) -> R
     })
 }
 
-/// Refuses the first value that is not finite, under its name.
+/// Refuses the first value that is not finite, reporting its name.
 #[inline]
 pub(crate) fn check_finite<'n>(
     kind: &'static str,

@@ -1,7 +1,7 @@
 //! Natural frequencies of mechanisms in steady motion, and how manufacturing tolerances move them.
 //!
-//! Declare a mechanism with [`mechanism!`]; ask questions through a [`Study`], or call the functions of the modules
-//! directly: each takes the mechanism, lists of numbers and the results of the step before. Equation numbers are those of
+//! Declare a mechanism with [`mechanism!`]. Then ask questions through a [`Study`], or call the functions of the modules
+//! directly: each takes the mechanism, lists of numbers and the results of the preceding step. Equation numbers refer to
 //! S. M. Eom, D. H. Choi and H. H. Yoo, "Tolerance Analysis for Natural Frequencies of Multi-body Systems in Dynamic
 //! Equilibrium State", completed where the paper is incomplete.
 //!
@@ -38,39 +38,39 @@
 //! # fn main() {}
 //! ```
 //!
-//! Questions of a [`Study`], and the functions behind them. Several questions about one operating point share its equilibrium and
-//! modes through [`Study::solve`].
+//! The table lists the questions that a [`Study`] answers, and the functions behind them. Several questions about one
+//! operating point share its equilibrium and modes through [`Study::solve`].
 //!
 //! | question | method | function |
 //! | --- | --- | --- |
-//! | Does it close, if it has loops? Where do its coordinates go? | [`assembly`](Study::assembly) | [`equilibrium::assemble`] |
-//! | Where does it stay, and what moves that? | [`equilibrium`](Study::equilibrium), [`equilibria`](Study::equilibria), [`equilibrium_shift`](Study::equilibrium_shift) | [`equilibrium::equilibrium`], [`equilibrium::find_equilibria`], [`sensitivity::equilibrium_shift`] |
-//! | Which branches of equilibria are there, where do they fold and fork? | [`branches`](Study::branches), [`branches_with`](Study::branches_with) | [`branches::branches`] |
-//! | How does it vibrate, is it stable, which way does it whirl? | [`modes`](Study::modes), [`whirls`](Study::whirls) | [`modes::modes`], [`modes::whirls`] |
+//! | Do its loops close, and at which coordinates? | [`assembly`](Study::assembly) | [`equilibrium::assemble`] |
+//! | Where does it stay, and what moves that position? | [`equilibrium`](Study::equilibrium), [`equilibria`](Study::equilibria), [`equilibrium_shift`](Study::equilibrium_shift) | [`equilibrium::equilibrium`], [`equilibrium::find_equilibria`], [`sensitivity::equilibrium_shift`] |
+//! | Which branches of equilibria are there, and where do they fold and fork? | [`branches`](Study::branches), [`branches_with`](Study::branches_with) | [`branches::branches`] |
+//! | How does it vibrate, is it stable, and which way does it whirl? | [`modes`](Study::modes), [`whirls`](Study::whirls) | [`modes::modes`], [`modes::whirls`] |
 //! | What does it look like, at rest and in its modes? | [`picture`](Study::picture), [`mode_pictures`](Study::mode_pictures) | [`picture::scene`], [`picture::mode_pictures`] |
-//! | What moves frequencies, damping, outputs, shapes? | [`sensitivities`](Study::sensitivities), [`outputs`](Study::outputs), [`shape_sensitivity`](Study::shape_sensitivity) | [`sensitivity::sensitivities`], [`sensitivity::output_sensitivities`], [`shapes::shape_sensitivity`] |
+//! | What changes frequencies, damping, outputs and shapes? | [`sensitivities`](Study::sensitivities), [`outputs`](Study::outputs), [`shape_sensitivity`](Study::shape_sensitivity) | [`sensitivity::sensitivities`], [`sensitivity::output_sensitivities`], [`shapes::shape_sensitivity`] |
 //! | ... to second order? | [`mode_curvature`](Study::mode_curvature), [`output_curvature`](Study::output_curvature) | [`second_order::mode_curvature`], [`second_order::output_curvature`] |
 //! | How do equal frequencies split? | [`directional_derivatives`](Study::directional_derivatives) | [`clusters::directional_derivatives`] |
 //! | How far do tolerances spread them? | [`first_order`](Study::first_order), [`second_order`](Study::second_order), [`output_tolerances`](Study::output_tolerances) | [`tolerance::first_order`], [`second_order::second_order`], [`tolerance::output_tolerances`] |
-//! | Which of these sigmas can be trusted, which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
+//! | Which of these sigmas can be trusted, and which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
 //! | And without linearisation? | [`monte_carlo`](Study::monte_carlo) | [`tolerance::monte_carlo`] |
-//! | How far do they spread any responses together, by whatever method? | [`propagate`](Study::propagate), [`sample_responses`](Study::sample_responses), [`controlled`](Study::controlled) | [`propagation::propagate`], [`propagation::sampled`], [`propagation::quadrature`] |
+//! | How far do they spread several responses jointly, by any method? | [`propagate`](Study::propagate), [`sample_responses`](Study::sample_responses), [`controlled`](Study::controlled) | [`propagation::propagate`], [`propagation::sampled`], [`propagation::quadrature`] |
 //! | Which variables does the scatter come from? | [`influence`](Study::influence) | [`propagation::influence`] |
 //! | How bad can it get within the limits? | [`worst_case`](Study::worst_case) | [`propagation::worst_case`] |
 //! | How probable is a forbidden band, or instability? | [`margin`](Study::margin), [`margin_of`](Study::margin_of) | [`second_order::mode_margin`] |
 //! | How probable is it that requirements are met, and what changes that? | [`chances`](Study::chances), [`reliability`](Study::reliability), [`rare_failure`](Study::rare_failure) | [`requirement::Requirements`] |
 //! | Which tolerances are the cheapest that meet them? | [`allocation`](Study::allocation) | [`allocation::allocate`] |
 //! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
-//! | Where is it critical, and how far do tolerances move that? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance), [`critical_curvature`](Study::critical_curvature) | [`sweep::critical_state`], [`sweep::critical_tolerance`], [`second_order::critical_curvature`] |
-//! | Where does it resonate, where does it begin to flutter? | [`crossings`](Study::crossings), [`crossing_tolerances`](Study::crossing_tolerances), [`flutter_onsets`](Study::flutter_onsets), [`flutter_onset_tolerances`](Study::flutter_onset_tolerances) | [`sweep::crossings`], [`sweep::flutter_onsets`], [`sweep::crossing_tolerance`] |
+//! | Where is it critical, and how far do tolerances move that point? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance), [`critical_curvature`](Study::critical_curvature) | [`sweep::critical_state`], [`sweep::critical_tolerance`], [`second_order::critical_curvature`] |
+//! | Where does it resonate, and where does it begin to flutter? | [`crossings`](Study::crossings), [`crossing_tolerances`](Study::crossing_tolerances), [`flutter_onsets`](Study::flutter_onsets), [`flutter_onset_tolerances`](Study::flutter_onset_tolerances) | [`sweep::crossings`], [`sweep::flutter_onsets`], [`sweep::crossing_tolerance`] |
 //!
-//! Values are SI, or in the unit of the declaration: [`InDeclaredUnit`]. Handles such as `RotatingPendulum::omega` are constants of the
-//! mechanism's type; where names are known only at run time, [`Study::find_input`] and its like look them up.
-//! Every result prints as a table with names, units and the operating point it belongs to ([`report`]), and lists of numbers
-//! are [`Vector`] and [`Matrix`], which convert to nalgebra.
+//! Values are SI, or in the declared unit: [`InDeclaredUnit`]. Handles such as `RotatingPendulum::omega` are constants
+//! of the mechanism's type; if names are known only at run time, [`Study::find_input`] and similar methods look them up.
+//! Every result prints as a table with names, units and the operating point it belongs to ([`report`]). Lists of numbers
+//! are [`Vector`] and [`Matrix`], which convert to and from nalgebra.
 #![cfg_attr(not(feature = "std"), no_std)]
 
-// Generated code in unit tests names the crate from outside.
+// Generated code in unit tests refers to the crate by its external name.
 #[cfg(test)]
 extern crate self as eigentol;
 

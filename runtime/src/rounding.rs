@@ -1,10 +1,10 @@
-//! What is zero but for rounding. Stability, modes, tolerances and reports all decide here whether a number is negative, zero
-//! or positive: against the error that it may have.
+//! Decides what is zero up to rounding. Stability, modes, tolerances and reports all decide here whether a number is
+//! negative, zero or positive, given its possible error.
 
 use crate::algebra::{Lu, Matrix, dot};
 use crate::kernels::{Kernels, Linear};
 
-/// A value that may be off by an error.
+/// The sign of a value with a known error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sign {
     Negative,
@@ -13,7 +13,7 @@ pub(crate) enum Sign {
     Positive,
 }
 
-/// The sign of `value`, as far as `error` lets it be seen.
+/// The sign of `value`, as far as `error` allows it to be determined.
 #[inline]
 pub(crate) fn sign(value: f64, error: f64) -> Sign {
     if value > error {
@@ -25,15 +25,17 @@ pub(crate) fn sign(value: f64, error: f64) -> Sign {
     }
 }
 
-/// Rounding of the elements of `n` by `n` matrices, relative to each element. Relative to each, not to the greatest: a soft
-/// mode beside a stiff one is as well determined as if it were alone (J. Barlow and J. Demmel, "Computing accurate
-/// eigensystems of scaled diagonally dominant matrices", 1990).
+/// Rounding of the elements of `n` by `n` matrices, relative to each element.
+///
+/// It is relative to each element and not to the largest one: a soft mode next to a stiff one is as well determined as
+/// if it were alone (J. Barlow and J. Demmel, "Computing accurate eigensystems of scaled diagonally dominant matrices",
+/// 1990).
 #[inline]
 pub(crate) const fn of_elements(n: usize) -> f64 {
     4.0 * n as f64 * f64::EPSILON
 }
 
-/// What rounding of the elements of a matrix changes in `phi^T matrix phi`.
+/// Change of `phi^T matrix phi` due to rounding of the matrix elements.
 pub(crate) fn of_form(matrix: &Matrix, phi: &[f64]) -> f64 {
     let mut terms = 0.0;
     for (row, left) in matrix.iter().zip(phi) {
@@ -44,10 +46,11 @@ pub(crate) fn of_form(matrix: &Matrix, phi: &[f64]) -> f64 {
     of_elements(phi.len()) * terms
 }
 
-/// Rounding of an input, a design variable or a coordinate, relative to it, with that of the operations in which it takes part.
+/// Relative rounding of an input, a design variable or a coordinate, including the rounding of operations in which it
+/// takes part.
 const OF_DATA: f64 = 8.0 * f64::EPSILON;
 
-/// A state and what remains of its residual.
+/// A state and its remaining residual.
 pub(crate) struct CheckedState<'a> {
     pub(crate) coordinates: &'a [f64],
     pub(crate) inputs: &'a [f64],
@@ -55,9 +58,11 @@ pub(crate) struct CheckedState<'a> {
     pub(crate) residual: &'a [f64],
 }
 
-/// What rounding of the data changes in an eigenvalue `lambda` of `Khat phi = lambda Mhat phi`, `phi^T Mhat phi = 1`, the shift
-/// of the equilibrium included. An element of `Khat` may be the small rest of great terms that cancel, as where weight and
-/// centrifugal forces do at a critical speed: its own size says nothing of its error, its derivatives do.
+/// Change of an eigenvalue `lambda` of `Khat phi = lambda Mhat phi`, `phi^T Mhat phi = 1`, due to rounding of the data,
+/// including the shift of the equilibrium.
+///
+/// An element of `Khat` may be a small difference of large terms, as when weight and centrifugal forces cancel at a
+/// critical speed. Its own size then says nothing about its error, but its derivatives do.
 #[cold]
 #[inline(never)]
 pub(crate) fn of_data(
@@ -84,15 +89,16 @@ pub(crate) fn of_data(
     OF_DATA * (direct + terms(&slopes.inputs, u) + terms(&slopes.design, b)) + rest
 }
 
-/// Sum of the absolute products.
+/// Sum of the absolute values of the products.
 fn terms(slopes: &[f64], values: &[f64]) -> f64 {
     let products = slopes.iter().zip(values);
     products.fold(0.0, |sum, (slope, value)| sum + (slope * value).abs())
 }
 
-/// Whether `Khat` is so clearly positive definite that no rounding matters, by its pivots `D` in `L D L^T` beside its own
-/// diagonal and that of `Mhat`: no pivot is a small rest of its element, and no stiffness so small that its element could be
-/// the rest of greater terms.
+/// Whether `Khat` is so clearly positive definite that rounding does not matter.
+///
+/// This is judged by its pivots `D` in `L D L^T` against its own diagonal and that of `Mhat`: no pivot may be a small
+/// remainder of its element, and no stiffness so small that its element could be the difference of larger terms.
 #[inline]
 pub(crate) fn clear(pivots: &[f64], linear: &Linear) -> bool {
     (0..pivots.len()).all(|i| {
@@ -100,8 +106,8 @@ pub(crate) fn clear(pivots: &[f64], linear: &Linear) -> bool {
     })
 }
 
-/// Share of its element below which a pivot may be rounding.
+/// Share of its element below which a pivot may be pure rounding.
 const CANCELLED: f64 = 1e-6;
-/// Least eigenvalue, 1/s^2, that is not looked at closely: the rounding of terms up to 1e12 1/s^2 stays below it. It spares
-/// ordinary states the derivatives that tell.
+/// Smallest eigenvalue, 1/s^2, that needs no closer check: the rounding of terms up to 1e12 1/s^2 stays below it.
+/// Ordinary states are thus spared the derivatives that the check needs.
 pub(crate) const SLOW: f64 = 1e-3;

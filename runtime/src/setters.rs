@@ -1,6 +1,6 @@
-//! Setters of settings.
+//! Setters for settings.
 
-/// A setter for each field, of the same name.
+/// Defines a setter for each field, with the same name.
 macro_rules! setters {
     ($($field:ident: $type:ty),+ $(,)?) => {
         $(

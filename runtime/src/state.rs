@@ -1,4 +1,4 @@
-//! An equilibrium: the state, the linearised mechanism there, and whether it would stay.
+//! An equilibrium: the state, the linearised mechanism there, and its stability.
 
 use crate::algebra::Vector;
 use crate::constraints::ConstraintState;
@@ -10,43 +10,45 @@ use crate::{Description, Error, PoseMargin, Shared, Text};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Equilibrium {
-    /// `q*`: coordinates, rad or m; after them, where there are any, speeds and the reactions of constraints, SI: what `from`
-    /// exerts on `to`, of a distance the tension; with the sign that outputs have ([`Role`](crate::Role)).
+    /// `q*`: coordinates, rad or m, followed by speeds and reactions of constraints, if any, SI. A reaction is what
+    /// `from` exerts on `to`, the tension for a distance, with the same sign as in outputs ([`Role`](crate::Role)).
     pub coordinates: Vector,
     /// The inputs it belongs to, SI.
     pub inputs: Vector,
     /// The design variables it belongs to, SI.
     pub design: Vector,
-    /// Whether the mechanism would stay there.
+    /// Whether the mechanism stays there.
     pub stability: Stability,
-    /// Eigenvalues `lambda` up to this size cannot be told from zero, 1/s^2: what rounding of inputs, design and coordinates
-    /// changes in one that nearly vanishes, and what its iteration leaves at a critical state that was located. Zero where no
-    /// eigenvalue is so small that it matters, and where `Khat` is not symmetric.
+    /// Eigenvalues `lambda` up to this size cannot be distinguished from zero, 1/s^2.
+    ///
+    /// It covers the effect of rounding of inputs, design and coordinates on an eigenvalue that nearly vanishes, and the
+    /// remainder that the iteration leaves at a located critical state. Zero if no eigenvalue is small enough for it to
+    /// matter, and if `Khat` is not symmetric.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub rounding: f64,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
     pub linear: Linear,
-    /// Remaining residual, N or N m; in the places of reactions what their constraints are open by, in the direction of the
-    /// reaction.
+    /// Remaining residual, N or N m; at the positions of reactions the gaps of their constraints, in the direction of
+    /// the reaction.
     pub residual: Vector,
-    /// Greatest remaining residual, each relative to the forces in its own equation and to what a millimetre or
-    /// milliradian of each coordinate, with 1.5e-5 of the coordinate itself, restores there. A result has at most 2e-10.
+    /// Largest remaining residual, each relative to the forces in its own equation and to what a millimetre or
+    /// milliradian of each coordinate, plus 1.5e-5 of the coordinate itself, restores there. At most 2e-10 for a result.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub relative_residual: f64,
     /// Iterations spent.
     pub iterations: usize,
-    /// The joint nearest to its singular pose, if the mechanism has joints of three turns.
+    /// The joint closest to its singular pose, if the mechanism has joints of three turns.
     pub pose: Option<PoseMargin<f64>>,
-    /// What the constraints leave free there, and which say the same.
+    /// What the constraints leave free there, and which ones are redundant.
     pub constraints: ConstraintState,
-    /// The solver met an unstable region on its way: the start value was not in the valley of the answer.
+    /// The solver passed through an unstable region: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
 impl Equilibrium {
-    /// What a state at these inputs and design variables is written over.
+    /// An empty state at these inputs and design variables, to be overwritten.
     #[inline]
     pub(crate) fn blank(description: &Shared<Description>, inputs: &[f64], design: &[f64]) -> Self {
         let n = description.coordinates.len();
@@ -67,12 +69,12 @@ impl Equilibrium {
         }
     }
 
-    /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
+    /// Names of the constraints that depend on each other; [`ConstraintState::redundant`] of them can be removed.
     pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
         dependent_names(&self.description, &self.constraints.dependent)
     }
 
-    /// The same state of the mechanism whose inputs deviate, deviations zero.
+    /// Reassigns this state to the mechanism with deviating inputs, all deviations zero.
     #[must_use]
     pub fn with_deviations<K: Kernels + ?Sized>(&self, of: &DeviatingInputs<'_, K>) -> Self {
         Self {
@@ -82,7 +84,7 @@ impl Equilibrium {
         }
     }
 
-    /// Refuses a singular configuration, of which the linearised mechanism says nothing.
+    /// Refuses a singular configuration, for which the linearised mechanism is meaningless.
     pub(crate) fn regular(&self) -> Result<(), Error> {
         if self.constraints.singular {
             Err(Error::SingularConfiguration {
@@ -109,16 +111,16 @@ pub(crate) fn dependent_names(
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stability {
-    /// Stable: no small disturbance grows.
+    /// No small disturbance grows.
     Stable,
-    /// Stable by gyroscopic forces alone, which hold directions without stiffness; the least dissipation destroys it.
+    /// Stable only by gyroscopic forces, which hold directions of negative stiffness; the least dissipation destroys it.
     GyroscopicallyStabilised {
         /// Number of directions with negative stiffness.
         negative: usize,
     },
-    /// Some oscillation neither grows nor decays within rounding, and no theorem says that it does not grow.
+    /// Some oscillation neither grows nor decays within rounding, and no theorem rules out that it grows.
     Marginal,
-    /// Not unstable, but this many directions have no stiffness: the mechanism rests anywhere along them.
+    /// Not unstable, but with directions of zero stiffness: the mechanism rests anywhere along them.
     Neutral {
         /// Number of eigenvalues that are zero within rounding.
         zero: usize,
@@ -133,12 +135,13 @@ pub enum Stability {
         /// Number of growing oscillations.
         growing: usize,
     },
-    /// The general eigenvalues, which would decide it, were not found to working accuracy.
+    /// The general eigenvalues, which would decide, were not found to working accuracy.
     Undecided,
 }
 
 impl Stability {
-    /// Whether small disturbances stay small as far as the linearised mechanism tells, neutral directions included.
+    /// Whether small disturbances stay small as far as the linearised mechanism tells; neutral directions count as
+    /// holding.
     #[must_use]
     pub fn holds(self) -> bool {
         matches!(

@@ -1,21 +1,21 @@
-//! Who waits for an answer: sees how far it is, and may end the work.
+//! Progress reports and early stopping of long computations.
 
 use core::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::setters::setters;
 
-/// Who waits for a long answer: sees how far it is, and may end the work with what is done.
+/// Observes a long computation: receives its progress, and can stop it early with the results so far.
 ///
-/// A study has one as well, which all of its long questions obey ([`Study::progress`](crate::Study::progress),
+/// A study has one too, which all of its long computations obey ([`Study::progress`](crate::Study::progress),
 /// [`Study::stop`](crate::Study::stop)).
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Watch<'a> {
-    /// Called with the number of steps done since the last call, from any thread: samples, values of an input, points of branches,
-    /// choices of tolerances.
+    /// Called with the number of steps done since the last call, from any thread; steps are samples, values of an input,
+    /// points of branches, or choices of tolerances.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
-    /// Ends the work soon after it becomes true.
+    /// Stops the work soon after it becomes true.
     pub stop: Option<&'a AtomicBool>,
 }
 
@@ -25,14 +25,14 @@ impl<'a> Watch<'a> {
         stop: Option<&'a AtomicBool>,
     );
 
-    /// So many more steps are done.
+    /// Reports that more steps are done.
     pub(crate) fn advance(&self, steps: usize) {
         if let Some(progress) = self.progress {
             progress(steps);
         }
     }
 
-    /// Whether the work is to end.
+    /// Whether the work should stop.
     pub(crate) fn stopped(&self) -> bool {
         self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }

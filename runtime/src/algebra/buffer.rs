@@ -1,17 +1,18 @@
-//! Numbers of a list or a matrix: few of them stand in place, many on the heap.
+//! Storage for the numbers of a list or matrix: a few inline, many on the heap.
 
 use core::ops::{Deref, DerefMut};
 
-/// Reads as a slice.
+/// Dereferences to a slice.
 #[derive(Clone)]
 pub(super) enum Buffer<T, const FEW: usize> {
-    /// How many there are, and beyond them what is never read. Copied whole: a copy of known size is a few instructions.
+    /// The count, and an array of which entries beyond the count are never read. It is copied whole: a copy of known
+    /// size takes a few instructions.
     Few(usize, [T; FEW]),
     Many(Vec<T>),
 }
 
 impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
-    /// `count` times `value`.
+    /// `count` copies of `value`.
     #[inline]
     pub(super) fn filled(count: usize, value: T) -> Self {
         if count <= FEW {
@@ -34,7 +35,7 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
         }
     }
 
-    /// `value(k)` in place `k`.
+    /// `value(k)` at position `k`.
     #[inline]
     pub(super) fn from_fn(count: usize, mut value: impl FnMut(usize) -> T) -> Self {
         if count <= FEW {
@@ -48,7 +49,7 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
         }
     }
 
-    /// Makes it `count` long, to be written over; what stands in it is not said.
+    /// Resizes to `count`, to be overwritten; the contents are unspecified.
     #[inline(always)]
     pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
         match self {
@@ -69,13 +70,13 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     }
 }
 
-/// Whether there are certainly no more than so many.
+/// Whether the iterator certainly yields no more than `most` values.
 #[inline(always)]
 fn at_most(values: &impl Iterator, most: usize) -> bool {
     matches!(values.size_hint(), (_, Some(count)) if count <= most)
 }
 
-/// Writes values in the first places, and tells how many.
+/// Writes values to the first positions, and returns their number.
 #[inline(always)]
 fn fill<T>(places: &mut [T], values: impl Iterator<Item = T>) -> usize {
     let most = values.size_hint().1.unwrap_or(usize::MAX);

@@ -1,10 +1,10 @@
-//! Factors of a symmetric positive definite matrix.
+//! Factorisation of a symmetric positive definite matrix.
 
 use super::for_size;
 use super::matrix::Matrix;
 use super::vector::Vector;
 
-/// `matrix = L D L^T`: Cholesky's factors without roots.
+/// `matrix = L D L^T`: Cholesky factors without square roots.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cholesky {
     /// `L` below the diagonal, which is one.
@@ -14,7 +14,7 @@ pub(crate) struct Cholesky {
 }
 
 impl Cholesky {
-    /// Room for the factors of an `n` by `n` matrix.
+    /// Empty factors for an `n` by `n` matrix.
     #[inline]
     pub(crate) fn zeros(n: usize) -> Self {
         Self {
@@ -31,7 +31,7 @@ impl Cholesky {
         Ok(factors)
     }
 
-    /// Writes the factors of `matrix`, of the same size, over those there are; `Err` as in [`Self::new`].
+    /// Overwrites the factors with those of `matrix`, of the same size; `Err` as in [`Self::new`].
     #[inline]
     pub(crate) fn factor(&mut self, matrix: &Matrix) -> Result<(), usize> {
         for_size(
@@ -41,7 +41,7 @@ impl Cholesky {
         )
     }
 
-    /// The same of a matrix of size `n`; see [`for_size`].
+    /// Like [`Self::factor`], for a matrix of size `n`; see [`for_size`].
     #[inline(always)]
     pub(crate) fn factor_of(&mut self, n: usize, matrix: &Matrix) -> Result<(), usize> {
         let (lower, pivots) = self.room(n);
@@ -61,7 +61,7 @@ impl Cholesky {
         &self.pivots
     }
 
-    /// Turns vectors `x_i` whose products are `matrix` into orthonormal ones: `sum_j x_j L^-T D^-1/2`.
+    /// Orthonormalises vectors `x_i` whose products form `matrix`: `sum_j x_j L^-T D^-1/2`.
     pub(crate) fn orthonormalise(&self, vectors: &mut [Vector]) {
         for i in 0..vectors.len() {
             let (before, own) = vectors.split_at_mut(i);
@@ -86,7 +86,7 @@ impl Cholesky {
         x
     }
 
-    /// Writes the solution over the right-hand side.
+    /// Overwrites the right-hand side with the solution.
     #[inline]
     pub(crate) fn solve_in_place(&self, x: &mut [f64]) {
         for_size(
@@ -96,14 +96,14 @@ impl Cholesky {
         );
     }
 
-    /// The same for `n` unknowns; see [`for_size`].
+    /// Like [`Self::solve_in_place`], for `n` unknowns; see [`for_size`].
     #[inline(always)]
     pub(crate) fn solve_of(&self, n: usize, x: &mut [f64]) {
         solve_rows(n, self.lower.as_flattened(), &self.pivots, x);
     }
 }
 
-/// [`Cholesky::factor_of`] of matrices that are given row by row.
+/// [`Cholesky::factor_of`] for matrices given row by row.
 #[inline(always)]
 pub(crate) fn factor_rows(
     n: usize,
@@ -124,7 +124,7 @@ pub(crate) fn factor_rows(
             for k in 0..j {
                 sum -= own[k] * other[k];
             }
-            // Scaled by its pivot until the row is finished.
+            // Scaled by its pivot until the row is complete.
             own[j] = sum;
         }
         for j in 0..i {
@@ -141,7 +141,7 @@ pub(crate) fn factor_rows(
     Ok(())
 }
 
-/// [`Cholesky::solve_of`] by factors that are given row by row.
+/// [`Cholesky::solve_of`] with factors given row by row.
 #[inline(always)]
 pub(crate) fn solve_rows(n: usize, lower: &[f64], pivots: &[f64], x: &mut [f64]) {
     let (lower, pivots, x) = (&lower[..n * n], &pivots[..n], &mut x[..n]);

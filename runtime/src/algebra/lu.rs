@@ -1,11 +1,11 @@
-//! Triangular factors of a general matrix.
+//! Triangular factorisation of a general matrix.
 
 use super::for_size;
 use super::matrix::Matrix;
 use super::vector::Vector;
 use crate::Complex;
 
-/// What a linear system is solved in: real or complex numbers.
+/// Scalars of a linear system: real or complex numbers.
 pub(crate) trait Field:
     Copy
     + Default
@@ -42,12 +42,12 @@ pub(crate) struct Lu<T = f64> {
 }
 
 impl<T: Field> Lu<T> {
-    /// Factors `matrix`; `None` when a pivot does not rise above the rounding of its own row.
+    /// Factors `matrix`; `None` if a pivot does not exceed the rounding of its own row.
     pub(crate) fn new(matrix: &Matrix<T>) -> Option<Self> {
         Self::of(matrix.clone())
     }
 
-    /// As [`Self::new`], in the place of the matrix.
+    /// Like [`Self::new`], in place.
     pub(crate) fn of(matrix: Matrix<T>) -> Option<Self> {
         let n = matrix.row_count();
         let mut lu = Self {
@@ -63,7 +63,7 @@ impl<T: Field> Lu<T> {
         regular.then_some(lu)
     }
 
-    /// Factors the matrix of size `n` that stands in the place of the factors; see [`for_size`]. Whether it is regular.
+    /// Factors, in place, the matrix of size `n`; see [`for_size`]. Returns whether it is regular.
     #[inline(always)]
     fn factor(&mut self, n: usize) -> bool {
         let threshold = 8.0 * n as f64 * f64::EPSILON;

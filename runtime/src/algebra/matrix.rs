@@ -8,13 +8,13 @@ use super::buffer::Buffer;
 use super::vector::{Vector, dot, greater, largest, unless_finite};
 use crate::Complex;
 
-/// Entries that stand in the matrix itself.
+/// Number of entries stored in the matrix itself.
 const FEW: usize = 16;
 
 /// A matrix: `matrix[i][j]` is the element in row `i` and column `j`. Stored row by row.
 ///
-/// nalgebra stores column by column, so that a copy of the numbers alone would be the transpose. Conversions in both directions keep
-/// rows rows:
+/// nalgebra stores column by column, so copying the numbers alone would give the transpose. Conversions in both
+/// directions keep rows as rows:
 ///
 /// ```
 /// use eigentol::{Matrix, Vector};
@@ -62,14 +62,15 @@ impl<T: Copy + Default> Matrix<T> {
 }
 
 impl<T: Copy + Default> Matrix<T> {
-    /// Makes it this large, to be written over in the same room; what stands in it is not said. Gives the entries, row by row.
+    /// Resizes the matrix in the same storage, to be overwritten; the contents are unspecified. Returns the entries, row
+    /// by row.
     #[inline]
     pub(crate) fn make_room(&mut self, rows: usize, columns: usize) -> &mut [T] {
         (self.rows, self.columns) = (rows, columns);
         self.entries.make_room(rows * columns)
     }
 
-    /// `value(i, j)` in row `i` and column `j`.
+    /// `value(i, j)` at row `i` and column `j`.
     #[inline]
     pub fn from_fn(rows: usize, columns: usize, mut value: impl FnMut(usize, usize) -> T) -> Self {
         let mut matrix = Self::zeros(rows, columns);
@@ -81,7 +82,7 @@ impl<T: Copy + Default> Matrix<T> {
         matrix
     }
 
-    /// The matrix whose entries are `entries`, row by row; as many as fit.
+    /// The matrix with the given entries, row by row, as many full rows as they make.
     #[must_use]
     pub fn from_rows(columns: usize, entries: Vec<T>) -> Self {
         Self {
@@ -91,7 +92,7 @@ impl<T: Copy + Default> Matrix<T> {
         }
     }
 
-    /// `f` of every entry.
+    /// Applies `f` to every entry.
     pub fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Matrix<R> {
         Matrix {
             rows: self.rows,
@@ -100,7 +101,7 @@ impl<T: Copy + Default> Matrix<T> {
         }
     }
 
-    /// Rows as columns.
+    /// The transposed matrix.
     #[must_use]
     pub fn transpose(&self) -> Self {
         Self::from_fn(self.columns, self.rows, |i, j| self[j][i])
@@ -143,7 +144,7 @@ impl<T> Matrix<T> {
         &mut self.entries
     }
 
-    /// The rows, to be written to; of a matrix with columns.
+    /// The rows, mutable; the matrix must have columns.
     #[inline]
     pub fn iter_mut(&mut self) -> slice::ChunksExactMut<'_, T> {
         self.entries.chunks_exact_mut(self.columns.max(1))
@@ -227,7 +228,7 @@ pub(crate) fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
         .fold(-0.0, |sum, (x, row)| sum + x * dot(row, y))
 }
 
-/// Greatest absolute element.
+/// Largest absolute element.
 pub(crate) fn largest_element(matrix: &Matrix) -> f64 {
     largest(matrix.as_flattened())
 }
@@ -239,7 +240,7 @@ pub(crate) fn all_finite_matrix(matrix: &Matrix) -> bool {
     values.fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
-/// Greatest difference of mirrored elements, relative to the greatest element.
+/// Largest difference of mirrored elements, relative to the largest element.
 pub(crate) fn asymmetry(matrix: &Matrix) -> f64 {
     let size = largest_element(matrix);
     let mut most = 0.0;

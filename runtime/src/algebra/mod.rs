@@ -1,6 +1,6 @@
-//! Linear algebra on matrices whose size is known at run time: products, one factorisation of each kind.
+//! Linear algebra on matrices whose size is known at run time: products, and one factorisation of each kind.
 //!
-//! Sums are formed in the order of the indices, so that results are the same bits on every machine.
+//! Sums are formed in the order of the indices, so that results have the same bits on every machine.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -27,8 +27,8 @@ pub(crate) use vector::{
     Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,
 };
 
-/// Calls `work` with the size; as a constant where that is small, so that what is inlined into it is compiled for that size:
-/// loops without a count, no checks of bounds.
+/// Calls `work` with the size, as a constant if it is small, so that code inlined into `work` is compiled for that size:
+/// without loop counters and bounds checks.
 #[inline(always)]
 pub(crate) fn for_size<R>(n: usize, work: impl FnOnce(usize) -> R) -> R {
     match n {

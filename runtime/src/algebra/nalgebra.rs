@@ -1,4 +1,4 @@
-//! To nalgebra and back. A matrix is stored row by row here and column by column there: these conversions keep rows rows.
+//! Conversions to and from nalgebra. Matrices are stored row by row here and column by column there; rows stay rows.
 
 use nalgebra::{DMatrix, DVector, Scalar};
 

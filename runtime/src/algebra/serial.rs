@@ -1,4 +1,4 @@
-//! Vectors as lists, matrices as lists of rows.
+//! Serialisation: vectors as lists, matrices as lists of rows.
 
 use eigentol_statistics::serial::Exact;
 use serde::de::Error;
@@ -19,7 +19,7 @@ impl<'de, T: Exact + Copy + Default> Deserialize<'de> for Vector<T> {
     }
 }
 
-/// A matrix without rows says how many columns it would have.
+/// A matrix without rows states how many columns it would have.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Rows<T> {

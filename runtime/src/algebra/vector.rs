@@ -7,10 +7,10 @@ use core::{fmt, slice};
 use super::buffer::Buffer;
 use crate::Complex;
 
-/// Entries that stand in the vector itself.
+/// Number of entries stored in the vector itself.
 const FEW: usize = 8;
 
-/// A list of numbers; reads as a slice. Converts to nalgebra and back as a [`Matrix`](crate::Matrix) does.
+/// A list of numbers that dereferences to a slice. Converts to and from nalgebra as a [`Matrix`](crate::Matrix) does.
 #[derive(Clone)]
 pub struct Vector<T = f64> {
     entries: Buffer<T, FEW>,
@@ -37,7 +37,7 @@ impl<T: Copy + Default> Vector<T> {
 }
 
 impl<T: Copy + Default> Vector<T> {
-    /// `value(k)` in place `k`.
+    /// `value(k)` at position `k`.
     #[inline]
     pub fn from_fn(n: usize, value: impl FnMut(usize) -> T) -> Self {
         Self {
@@ -47,13 +47,13 @@ impl<T: Copy + Default> Vector<T> {
 }
 
 impl<T: Copy + Default> Vector<T> {
-    /// `f` of every entry.
+    /// Applies `f` to every entry.
     #[inline]
     pub fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Vector<R> {
         self.entries.iter().copied().map(f).collect()
     }
 
-    /// `n` times `value`.
+    /// `n` copies of `value`.
     #[inline]
     pub fn filled(n: usize, value: T) -> Self {
         Self {
@@ -63,13 +63,13 @@ impl<T: Copy + Default> Vector<T> {
 }
 
 impl<T: Copy + Default> Vector<T> {
-    /// Makes it `n` long, to be written over in the same room; what stands in it is not said.
+    /// Resizes to `n` in the same storage, to be overwritten; the contents are unspecified.
     #[inline(always)]
     pub(crate) fn make_room(&mut self, n: usize) -> &mut [T] {
         self.entries.make_room(n)
     }
 
-    /// Writes `f` of other numbers over these, in the same room.
+    /// Overwrites the entries with `f` of other numbers, in the same storage.
     #[inline(always)]
     pub(crate) fn set<S>(&mut self, from: &[S], f: impl Fn(&S) -> T) {
         for (to, from) in self.make_room(from.len()).iter_mut().zip(from) {
@@ -77,7 +77,7 @@ impl<T: Copy + Default> Vector<T> {
         }
     }
 
-    /// Writes other values over these, in the same room.
+    /// Overwrites the entries with other values, in the same storage.
     #[inline]
     pub(crate) fn assign(&mut self, values: impl ExactSizeIterator<Item = T>) {
         for (place, value) in self.make_room(values.len()).iter_mut().zip(values) {
@@ -172,7 +172,7 @@ impl<T: Copy> IntoIterator for Vector<T> {
     }
 }
 
-/// The numbers of a vector, one after the other.
+/// Iterator over the numbers of a vector.
 #[derive(Clone, Debug)]
 pub struct IntoIter<T> {
     vector: Vector<T>,
@@ -233,9 +233,9 @@ impl<T> AsRef<[T]> for Vector<T> {
     }
 }
 
-/// What slices of numbers can do here.
+/// Extension methods for slices of numbers.
 pub(crate) trait Values<T> {
-    /// `f` of every entry.
+    /// Applies `f` to every entry.
     fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Vector<R>;
 }
 
@@ -249,7 +249,7 @@ impl<T: Copy> Values<T> for [T] {
 /// `x^T y`.
 #[inline]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    // The neutral element of addition: the first sum costs nothing.
+    // The neutral element of addition, so that the first addition costs nothing.
     x.iter().zip(y).fold(-0.0, |sum, (x, y)| sum + x * y)
 }
 
@@ -274,25 +274,25 @@ pub(crate) fn add_to(a: &mut [f64], factor: f64, b: &[f64]) {
     }
 }
 
-/// Greatest absolute value.
+/// Largest absolute value.
 #[inline]
 pub(crate) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |most, value| greater(most, value.abs()))
 }
 
-/// The greater of two numbers, the first one where the second is NaN; one instruction, unlike [`f64::max`].
+/// The larger of two numbers, or the first one if the second is NaN; one instruction, unlike [`f64::max`].
 #[inline]
 pub(crate) fn greater(most: f64, value: f64) -> f64 {
     if value > most { value } else { most }
 }
 
-/// Whether no value is NaN or infinite, without a branch for each.
+/// Whether no value is NaN or infinite, without a branch per value.
 #[inline]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
     x.iter().fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
-/// NaN unless a value is finite: then zero.
+/// Zero if the value is finite, NaN otherwise.
 #[inline]
 pub(crate) fn unless_finite(value: f64) -> f64 {
     0.0 * value

@@ -1,4 +1,4 @@
-//! The next block: predicted, solved, checked, lane by lane.
+//! Advances to the next block: predicted, solved and checked, lane by lane.
 
 use super::algebra::Square;
 use super::block::{Block, Past};
@@ -11,23 +11,23 @@ use crate::Input;
 use crate::kernels::{BatchKernels, Kernels, Sizes};
 use crate::scalar::{Batch, Instructions, WIDTH};
 
-/// A block, and what is written on the way to it over and over again.
+/// A block, and the buffers that are rewritten for each block.
 pub(crate) struct Workspace<'a> {
     pub(crate) block: Block<'a>,
     scratch: Scratch<'a>,
-    /// For derivatives of the modes, where they are wanted.
+    /// For derivatives of the modes, if wanted.
     slopes: Option<Slopes<'a>>,
 }
 
 impl<'a> Workspace<'a> {
-    /// Memory for one.
+    /// Memory for one workspace.
     pub(crate) fn memory(sizes: Sizes, with_slopes: bool) -> Vec<Batch> {
         let slopes = if with_slopes { Slopes::size(sizes) } else { 0 };
         let size = Block::size(sizes) + Scratch::size(sizes.coordinates) + slopes;
         vec![Batch::default(); size]
     }
 
-    /// One for a design and inputs of which one will vary, in memory of its size.
+    /// A workspace in memory of its size, for a given design and inputs, one of which will vary.
     pub(crate) fn new(
         memory: &'a mut [Batch],
         kernels: &dyn Kernels,
@@ -43,9 +43,10 @@ impl<'a> Workspace<'a> {
         }
     }
 
-    /// Solves the first of `values`, as many as there is room for, from where the way leads. `shapes` are the modes of the last
-    /// state, one in each row. Returns how many of the states in a row passed every check; if wanted, their modes have
-    /// derivatives.
+    /// Solves the first of `values`, as many as there are lanes for, continuing from the states of `past`.
+    ///
+    /// `shapes` are the modes of the last state, one per row. Returns how many consecutive states passed every check;
+    /// their modes have derivatives if wanted.
     pub(crate) fn solve(
         &mut self,
         (kernels, instructions): (&dyn BatchKernels, Instructions),
@@ -62,7 +63,7 @@ impl<'a> Workspace<'a> {
         let Some(&last) = values[..number].last() else {
             return 0;
         };
-        // Lanes without a value of their own repeat the last.
+        // Lanes without their own value repeat the last one.
         block.values = Batch::from_fn(|k| if k < number { values[k] } else { last });
         block.inputs[input.index()] = block.values;
         block.predict(past);
@@ -82,7 +83,7 @@ impl<'a> Workspace<'a> {
 }
 
 impl Block<'_> {
-    /// The parabola through the last states.
+    /// Extrapolates by the parabola through the last states.
     fn predict(&mut self, past: &Past) {
         let [(u0, q0), (u1, q1), (u2, q2)] = past;
         let (step, before, both) = (1.0 / (u0 - u1), 1.0 / (u1 - u2), 1.0 / (u0 - u2));

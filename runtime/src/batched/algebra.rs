@@ -1,20 +1,21 @@
-//! Symmetric matrices of a small size `n`, one in each lane. A flag is a vector of ones, zero in the lanes that failed.
+//! Symmetric matrices of a small size `n`, one in each lane. A flag is a vector of ones, with zeros in the lanes that
+//! failed.
 //!
-//! Sizes are arguments of functions that are written where they are called: a caller for whom `n` is a constant has loops
-//! without a count, see [`for_size`].
+//! Sizes are arguments of functions that are inlined at the call site: for a caller with constant `n` the loops have
+//! constant length, see [`for_size`].
 
 use crate::algebra::Matrix;
 use crate::scalar::{Batch, Lanes};
 
-/// Most unknowns of a mechanism whose sweeps are solved side by side.
+/// Maximum number of unknowns of a mechanism whose sweeps are solved side by side.
 pub(crate) const LARGEST: usize = 8;
 
-/// One number for each unknown; those from `n` on mean nothing.
+/// One number for each unknown; entries from `n` on are meaningless.
 pub(crate) type Row<V, const N: usize = LARGEST> = [V; N];
 /// A matrix of size `n`.
 pub(crate) type Square<V, const N: usize = LARGEST> = [Row<V, N>; N];
 
-/// Calls `work` with the size; as a constant where that is small, so that it is compiled for it.
+/// Calls `work` with the size, as a constant if it is small, so that `work` is compiled for it.
 #[inline(always)]
 pub(crate) fn for_size(n: usize, mut work: impl FnMut(usize)) {
     match n {
@@ -25,7 +26,7 @@ pub(crate) fn for_size(n: usize, mut work: impl FnMut(usize)) {
     }
 }
 
-/// The same for at most `N` unknowns.
+/// Like [`for_size`], for at most `N` unknowns.
 #[inline(always)]
 pub(crate) fn for_size_up_to<const N: usize>(n: usize, mut work: impl FnMut(usize)) {
     match n {
@@ -36,10 +37,10 @@ pub(crate) fn for_size_up_to<const N: usize>(n: usize, mut work: impl FnMut(usiz
     }
 }
 
-/// The smallest room, in which code is compiled for each number of unknowns but the greatest.
+/// The smallest array size, for which code is compiled for each number of unknowns except the largest.
 const SMALLEST: usize = 4;
 
-/// A matrix as one of a small size.
+/// Converts a matrix to one of small fixed size.
 pub(crate) fn small<const N: usize>(matrix: &Matrix) -> Square<f64, N> {
     let mut rows = [[0.0; N]; N];
     for (to, from) in rows.iter_mut().zip(matrix.iter()) {
@@ -59,7 +60,7 @@ pub(crate) fn load<V: Lanes, const N: usize>(n: usize, from: &[Batch], at: usize
     row
 }
 
-/// The same of a matrix, row by row.
+/// Loads the first entries of a matrix, row by row.
 #[inline(always)]
 pub(crate) fn load_matrix<V: Lanes, const N: usize>(
     n: usize,
@@ -76,7 +77,7 @@ pub(crate) fn load_matrix<V: Lanes, const N: usize>(
     rows
 }
 
-/// Writes the first entries.
+/// Stores the first entries.
 #[inline(always)]
 pub(crate) fn store<V: Lanes, const N: usize>(
     n: usize,
@@ -92,22 +93,22 @@ pub(crate) fn store<V: Lanes, const N: usize>(
 
 /// Off-diagonal elements count as zero below this share of the diagonal, squared.
 const NEGLIGIBLE: f64 = 1e-33;
-/// Sweeps of rotations, at most; three do for matrices that are nearly diagonal.
+/// Maximum number of rotation sweeps; three suffice for nearly diagonal matrices.
 const SWEEPS: usize = 8;
-/// Least squared cosine between a mode and the nominal one; single modes are recognised from 0.6 on.
+/// Smallest squared cosine between a mode and the nominal one; individual modes are recognised from 0.6 on.
 const RECOGNISED: f64 = 0.7;
-/// The same where two states that are compared with a third have to be recognised in each other: vectors within 13 degrees of
-/// it are within 26 of each other, squared cosine above 0.8.
+/// Smallest squared cosine if two states that are compared with a third must be recognised in each other: vectors within
+/// 13 degrees of it are within 26 of each other, squared cosine above 0.8.
 pub(crate) const CLEAR: f64 = 0.95;
 
-/// `flag` where `mask` holds, else zero.
+/// `flag` where `mask` holds, otherwise zero.
 #[inline(always)]
 pub(crate) fn keep<V: Lanes>(flag: V, mask: V::Mask) -> V {
     V::choose(mask, flag, V::constant(0.0))
 }
 
-/// `matrix = L D L^T`: `L` below the diagonal, inverse pivots on it. The flag says that every pivot is positive, at least the share
-/// `least` of its diagonal element.
+/// `matrix = L D L^T`: `L` below the diagonal, inverse pivots on it. The flag says that every pivot is positive, and at
+/// least the share `least` of its diagonal element.
 #[inline(always)]
 pub(crate) fn factor<V: Lanes, const N: usize>(
     n: usize,
@@ -161,8 +162,7 @@ pub(crate) fn solve<V: Lanes, const N: usize>(
     x
 }
 
-/// `basis^T matrix basis` of a symmetric matrix; the vectors of the basis are the rows of `basis`. Below and on the
-/// diagonal.
+/// `basis^T matrix basis` for a symmetric matrix, below and on the diagonal; the basis vectors are the rows of `basis`.
 #[inline(always)]
 pub(crate) fn congruent<V: Lanes, const N: usize>(
     n: usize,
@@ -174,7 +174,7 @@ pub(crate) fn congruent<V: Lanes, const N: usize>(
     for r in 0..n {
         let mut image = [zero; N];
         for i in 0..n {
-            // Sums start from their first term: a sum with zero is an operation too.
+            // Sums start with their first term, because adding to zero would cost an operation.
             image[i] = matrix[i][0] * V::constant(basis[r][0]);
             for j in 1..n {
                 image[i] = image[i] + matrix[i][j] * V::constant(basis[r][j]);
@@ -190,9 +190,11 @@ pub(crate) fn congruent<V: Lanes, const N: usize>(
     result
 }
 
-/// Eigenvalues of `stiffness phi = lambda mass phi` in the order of the unit vectors that the eigenvectors are near to; `mass` near
-/// the identity, both nearly diagonal, given below and on the diagonal. The flag says that the rotations came to rest and
-/// that each eigenvector is near enough.
+/// Eigenvalues of `stiffness phi = lambda mass phi`, in the order of the unit vectors to which the eigenvectors are
+/// close.
+///
+/// `mass` must be close to the identity and both matrices nearly diagonal, given below and on the diagonal. The flag
+/// says that the rotations converged and that each eigenvector is close enough.
 #[inline(always)]
 pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     n: usize,
@@ -203,7 +205,8 @@ pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     (lambda, flag)
 }
 
-/// As [`eigenvalues`], with the vectors, one in each row, `phi^T mass phi = 1`; the flag wants them nearer, [`CLEAR`].
+/// Like [`eigenvalues`], with the vectors, one per row, `phi^T mass phi = 1`; the flag requires them to be closer,
+/// [`CLEAR`].
 #[inline(always)]
 pub(crate) fn eigenpairs<V: Lanes, const N: usize>(
     n: usize,
@@ -223,7 +226,7 @@ pub(crate) fn eigenpairs<V: Lanes, const N: usize>(
     (lambda, vectors, flag)
 }
 
-/// Eigenvalues, and in each column `mass phi` of the vector that belongs to it; the flag as above, for a squared cosine of
+/// Eigenvalues and, in each column, `mass phi` of the corresponding vector; the flag as above, for a squared cosine of
 /// `least`.
 #[inline(always)]
 fn rotated<V: Lanes, const N: usize>(
@@ -304,8 +307,8 @@ fn rotated<V: Lanes, const N: usize>(
     (lambda, vectors, flag)
 }
 
-/// Rotates in the plane of `p` and `q` by the small angle that makes `a_pq` zero; nothing moves where it counts as zero already,
-/// which the mask returned says, so that lanes do not wait for each other with effect.
+/// Rotates in the plane of `p` and `q` by the small angle that makes `a_pq` zero. Where it already counts as zero
+/// nothing changes, as the returned mask says, so that lanes do not affect each other.
 #[inline(always)]
 fn rotate<V: Lanes, const N: usize>(
     n: usize,

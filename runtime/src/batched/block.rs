@@ -8,14 +8,14 @@ use crate::kernels::{BatchLinear, BatchPoint, Sizes};
 use crate::scalar::Batch;
 use crate::{DampingKind, Description};
 
-/// Least pivot of a matrix that is clearly positive definite, relative to its diagonal element.
+/// Smallest pivot of a clearly positive definite matrix, relative to its diagonal element.
 pub(crate) const POSITIVE: f64 = 1e-10;
 
-/// The last three values of the input and the states there, the latest first.
+/// The last three values of the input with their states, the latest first.
 pub(crate) type Past = [(f64, Vector); 3];
 
-/// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input. Matrices stand
-/// row by row.
+/// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input.
+/// Matrices are stored row by row.
 pub(crate) struct Block<'a> {
     pub(crate) values: Batch,
     pub(super) inputs: &'a mut [Batch],
@@ -27,18 +27,19 @@ pub(crate) struct Block<'a> {
     /// Without damping.
     pub(super) linear: BatchLinear<'a>,
     pub(super) lambda: &'a mut [Batch],
-    /// By mode.
+    /// Mode by mode.
     pub(super) shapes: &'a mut [Batch],
     pub(super) mode_residuals: &'a mut [Batch],
     pub(super) mode_errors: &'a mut [Batch],
-    /// `dlambda` by mode.
+    /// `dlambda`, mode by mode.
     pub(super) by_input: &'a mut [Batch],
     pub(super) by_design: &'a mut [Batch],
-    /// One where a lane has passed every check.
+    /// One for lanes that have passed every check.
     pub(super) flags: Batch,
 }
 
-/// Whether the mechanism's kind allows it: generated code, undamped modes of a potential, no constraints, few coordinates.
+/// Whether the kind of mechanism allows it: generated code, undamped modes of a potential, no constraints, few
+/// coordinates.
 pub(crate) fn possible(description: &Description, kernels: &[&str]) -> bool {
     let n = description.coordinates.len();
     (1..=LARGEST).contains(&n)
@@ -60,13 +61,13 @@ pub(crate) const KERNELS: [&str; 5] = [
 ];
 
 impl<'a> Block<'a> {
-    /// How many batches one takes.
+    /// Number of batches that a block takes.
     pub(super) fn size(sizes: Sizes) -> usize {
         let (n, variables) = (sizes.coordinates, sizes.inputs + sizes.design);
         variables + 5 * n + 3 * n * n + n * variables
     }
 
-    /// One for a design and inputs of which one will vary.
+    /// A block for a given design and inputs, one of which will vary.
     pub(super) fn new(room: &mut Room<'a>, inputs: &[f64], design: &[f64], n: usize) -> Self {
         Self {
             values: Batch::default(),

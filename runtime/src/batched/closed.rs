@@ -1,22 +1,23 @@
-//! The same as [`algebra`](super::algebra) for matrices of size one and two, by formulas with few divisions and roots.
+//! Counterparts of [`algebra`](super::algebra) for matrices of size one and two, with formulas that use few divisions
+//! and roots.
 
 use super::algebra::{self, Row, Square, keep};
 use crate::scalar::Lanes;
 
-/// Greatest squared tangent of the rotation and greatest squared coupling of the masses, relative to these: the squared cosine
+/// Largest squared tangent of the rotation, and largest relative squared coupling of the masses. The squared cosine
 /// between a mode and the nominal one is then at least `(0.995 - 0.1 / 2)^2 / 1.25 = 0.71`, enough to recognise it.
 const TURNED: f64 = 0.25;
 const COUPLED: f64 = 0.01;
 
-/// A matrix ready to solve with.
+/// A matrix prepared for solving.
 pub(crate) enum Solver<V: Lanes, const N: usize> {
-    /// Of size two: the matrix and the inverse of its determinant.
+    /// Size two: the matrix and the inverse of its determinant.
     Two(V, V, V, V),
     Factor(Square<V, N>),
 }
 
 impl<V: Lanes, const N: usize> Solver<V, N> {
-    /// The flag says that the matrix is positive definite, pivots at least the share `least`.
+    /// The flag says that the matrix is positive definite, with pivots of at least the share `least`.
     #[inline(always)]
     pub(crate) fn new(n: usize, matrix: &Square<V, N>, least: f64) -> (Self, V) {
         if n == 2 {
@@ -44,7 +45,7 @@ impl<V: Lanes, const N: usize> Solver<V, N> {
     }
 }
 
-/// Flag of positive definite matrices, given below and on the diagonal, with pivots of at least the share `least`.
+/// Flags positive definite matrices, given below and on the diagonal, with pivots of at least the share `least`.
 #[inline(always)]
 pub(crate) fn definite<V: Lanes, const N: usize>(n: usize, matrix: &Square<V, N>, least: f64) -> V {
     if n == 2 {
@@ -57,7 +58,7 @@ pub(crate) fn definite<V: Lanes, const N: usize>(n: usize, matrix: &Square<V, N>
     }
 }
 
-/// As [`algebra::eigenvalues`].
+/// Counterpart of [`algebra::eigenvalues`].
 #[inline(always)]
 pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     n: usize,
@@ -72,7 +73,7 @@ pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     } else if n == 2 {
         let (k00, k10, k11) = (stiffness[0][0], stiffness[1][0], stiffness[1][1]);
         let (m00, m10, m11) = (mass[0][0], mass[1][0], mass[1][1]);
-        // a = L^-1 stiffness L^-T; its element a_10 only as a square, which takes no root.
+        // a = L^-1 stiffness L^-T; its element a_10 is only needed squared, which takes no root.
         let inverse = one / m00;
         let ratio = m10 * inverse;
         let pivot = m11 - ratio * m10;
@@ -99,9 +100,10 @@ pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     }
 }
 
-/// Eigenpairs of `stiffness phi = lambda mass phi`, matrices as for [`eigenvalues`]: row `r` of the second array is vector `r`,
-/// `phi^T mass phi = 1`. The flag says that each is clearly the unit vector of its place: squared cosine at least
-/// [`algebra::CLEAR`].
+/// Eigenpairs of `stiffness phi = lambda mass phi`, with matrices as for [`eigenvalues`]; row `r` of the second array is
+/// vector `r`, `phi^T mass phi = 1`.
+///
+/// The flag says that each is clearly the unit vector of its position: squared cosine at least [`algebra::CLEAR`].
 #[inline(always)]
 pub(crate) fn eigenpairs<V: Lanes, const N: usize>(
     n: usize,

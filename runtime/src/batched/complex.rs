@@ -43,7 +43,7 @@ impl<V: Lanes> Complex<V> {
         self.re * self.re + self.im * self.im
     }
 
-    /// A bound on `|z|`, at most `sqrt(2)` times as great.
+    /// A bound on `|z|`, larger by at most a factor `sqrt(2)`.
     #[inline(always)]
     pub(crate) fn bound(self) -> V {
         self.re.abs() + self.im.abs()

@@ -1,12 +1,12 @@
-//! Whether the states of a block continue the way that led there, each seen from the three before it.
+//! Checks that the states of a block continue the preceding path, each compared with the three states before it.
 
 use super::algebra::{LARGEST, keep};
 use super::block::{Block, Past};
 use crate::equilibrium::{MISSED, STILL};
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
-/// Keeps the flags of lanes whose state is near to the parabola through the three states before it, much nearer than to the last of
-/// them: what [`confirmed`](crate::equilibrium::confirmed) asks of one state.
+/// Keeps the flags of lanes whose state is close to the parabola through the three states before it, much closer than to
+/// the last of them: the vector form of [`confirmed`](crate::equilibrium::confirmed).
 pub(super) struct Continuity<'a, 'b> {
     pub(super) past: &'a Past,
     pub(super) block: &'a mut Block<'b>,
@@ -48,7 +48,8 @@ impl Task for Continuity<'_, '_> {
     }
 }
 
-/// What stood one, two and three places before each of a batch; before the first the past, latest first.
+/// The values one, two and three positions before each one of a batch; before the first, those of the past, latest
+/// first.
 #[inline(always)]
 fn before(batch: &Batch, past: [f64; 3]) -> [Batch; 3] {
     let mut places = [Batch::default(); 3];
@@ -73,7 +74,7 @@ fn three<V: Lanes>(batches: &[Batch; 3], at: usize) -> [V; 3] {
     vectors
 }
 
-/// The greater of two; what is not a number stays.
+/// The greater of two; NaN is kept.
 #[inline(always)]
 fn greater<V: Lanes>(a: V, b: V) -> V {
     V::choose(b.at_most(a), a, b)

@@ -1,6 +1,6 @@
-//! Damped modes, one state in each lane: every eigenvalue of `Q(s) = s^2 M + s C + K` with its vectors, by inverse iteration
-//! from the pair of a pencil near by. What decides whether a pair is accepted are the residuals of its vectors, not the way
-//! that led there.
+//! Damped modes, one state in each lane: every eigenvalue of `Q(s) = s^2 M + s C + K` with its vectors, by inverse
+//! iteration from the pair of a nearby pencil. A pair is accepted by the residuals of its vectors, regardless of how it
+//! was found.
 
 #[cfg(test)]
 mod tests;
@@ -13,18 +13,18 @@ use crate::eigenproblem::{INACCURATE, Reference, ReferencePair};
 use crate::modes::EIGENVALUE_SHARE;
 use crate::scalar::Lanes;
 
-/// A farther step is none that vectors near by predict, relative.
+/// Longest relative step that nearby vectors can predict.
 const NEAR: f64 = 0.1;
-/// Inverse iterations, each of which multiplies the errors of the vectors by the distance of the eigenvalue.
+/// Number of inverse iterations, each of which multiplies the errors of the vectors by the distance of the eigenvalue.
 const STEPS: usize = 4;
-/// Eigenvalues closer than this share of their size the solver for one state tells apart.
+/// Eigenvalues closer than this, relative to their size, are left to the solver for one state.
 const APART: f64 = 1e-4;
-/// Greatest accepted error of an eigenvalue, relative: so much less than their distances that the solver for one state accepts it
-/// too.
+/// Largest accepted relative error of an eigenvalue: so much smaller than the distances between eigenvalues that the
+/// solver for one state accepts it too.
 const ACCURATE: f64 = 1e-6;
-/// Stands in for a pivot that is nothing.
+/// Replaces a vanishing pivot.
 const TINY: f64 = 1e-100;
-/// By how much a mode must be more like its own predecessor than like any other.
+/// By how much a mode must resemble its own predecessor more than any other.
 const OWN: f64 = 1e-6;
 
 type Vector<V, const N: usize> = [Complex<V>; N];
@@ -43,11 +43,11 @@ struct Products<V, const N: usize> {
     terms: [[V; N]; 3],
 }
 
-/// What a pair of vectors says about an eigenvalue.
+/// How accurate an eigenvalue is, judged from its pair of vectors.
 struct Measure<V> {
-    /// Step that Newton's method would take.
+    /// Newton step.
     newton: Complex<V>,
-    /// Estimated error of the eigenvalue but for what `newton` tells, and but for [`Self::product`].
+    /// Estimated error of the eigenvalue beyond `newton` and [`Self::product`].
     doubt: V,
     /// `|psi^T Q'(s) phi|^2`
     slope: V,
@@ -69,11 +69,11 @@ struct Pair<V, const N: usize> {
     weighed: Vector<V, N>,
 }
 
-/// Eigenvalues in the order of those near by, and how far each may be off, 1/s; as many as there are, one row behind the other.
+/// Eigenvalues in the order of the nearby ones, with their possible errors, 1/s; as many as there are, across both rows.
 pub(crate) type Eigenvalues<V, const N: usize> = [[(Complex<V>, V); N]; 2];
 
 impl<V: Lanes, const N: usize> Pencil<V, N> {
-    /// From the matrices of a mechanism.
+    /// The pencil of a mechanism's matrices.
     #[inline(always)]
     pub(crate) fn new(n: usize, mut matrices: [Square<V, N>; 3], reference: &Reference) -> Self {
         let (units, by_rate) = (&reference.units[..n], 1.0 / reference.rate);
@@ -89,8 +89,9 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
         Self { n, matrices }
     }
 
-    /// All eigenvalues. The flag says that each is accurate, clear of all others, of the axes,
-    /// and belongs to the mode near by of its place and to no other, by shape and, where modes are `damped`, by eigenvalue.
+    /// All eigenvalues. The flag says that each is accurate, and clear of all others and of the axes. It also says that
+    /// each belongs to the nearby mode at its position and to no other, by shape and, if modes are `damped`, by
+    /// eigenvalue.
     #[inline(always)]
     pub(crate) fn eigenvalues(
         &self,
@@ -126,7 +127,7 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
         (all, flag)
     }
 
-    /// The pair that a known one has become, and the flag.
+    /// The pair that continues a known one, and the flag.
     #[inline(always)]
     fn pair(&self, known: &ReferencePair) -> (Pair<V, N>, V) {
         let (zero, one, n) = (V::constant(0.0), V::constant(1.0), self.n);
@@ -166,7 +167,7 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
                 + V::constant(2.0) * now.newton.square().sqrt()
                 + now.product / (neighbour * root)
                 + V::constant(f64::EPSILON) * s.square().sqrt();
-            // A lane that is done stays as it is, so that none depends on the others.
+            // A finished lane is left unchanged, so that none depends on the others.
             let open = done.at_most(zero);
             kept.s = Complex::choose(open, s, kept.s);
             kept.error = V::choose(open, error, kept.error);
@@ -235,7 +236,7 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
         products
     }
 
-    /// Triangular factors of `Q(s)`, and its least pivot besides the last.
+    /// Triangular factors of `Q(s)`, and its smallest pivot apart from the last.
     #[inline(always)]
     fn factors<'k>(&self, s: Complex<V>, known: &'k ReferencePair) -> (Factors<'k, V, N>, V) {
         let n = self.n;
@@ -361,7 +362,7 @@ impl<V: Lanes, const N: usize> Products<V, N> {
         slope
     }
 
-    /// `psi^T Q(s) phi` over `psi^T (2 s M + C) phi`, the products those with `phi`.
+    /// `psi^T Q(s) phi` divided by `psi^T (2 s M + C) phi`; `self` holds the products with `phi`.
     #[inline(always)]
     fn step(&self, n: usize, s: Complex<V>, left: &Vector<V, N>) -> Complex<V> {
         let slopes = self.slope(n, s);
@@ -403,7 +404,7 @@ impl<V: Lanes, const N: usize> Products<V, N> {
         }
     }
 
-    /// The sum of the components of `Q(s) x`, and whether the greatest is rounding of the terms in it.
+    /// The sum of the components of `Q(s) x`, and whether the largest is rounding of its terms.
     #[inline(always)]
     fn residual(&self, n: usize, s: Complex<V>) -> (V, V) {
         let zero = V::constant(0.0);
@@ -438,7 +439,7 @@ fn inner<V: Lanes, const N: usize>(n: usize, x: &Vector<V, N>, y: &Vector<V, N>)
     sum
 }
 
-/// Makes the greatest component about one.
+/// Scales the largest component to about one.
 #[inline(always)]
 fn scale<V: Lanes, const N: usize>(n: usize, x: &mut Vector<V, N>) {
     let mut most = x[0].bound();
@@ -452,8 +453,8 @@ fn scale<V: Lanes, const N: usize>(n: usize, x: &mut Vector<V, N>) {
     }
 }
 
-/// Keeps the flag where every eigenvalue is clear of all others, and either real or clear of being so: then it is clear of the
-/// conjugates too.
+/// Keeps the flag where every eigenvalue is clear of all others, and either real or clearly not real: then it is clear
+/// of the conjugates too.
 #[inline(always)]
 fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V {
     let zero = V::constant(0.0);
@@ -474,8 +475,8 @@ fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V 
     flag
 }
 
-/// Keeps the flag where each mode is more like the known one of its place than like any other, as
-/// [`assurance`](crate::modes::assurance) measures it: then this is how modes are matched one by one.
+/// Keeps the flag where each mode resembles the known one at its position more than any other, as measured by
+/// [`assurance`](crate::modes::assurance): modes are then matched as they would be one by one.
 #[inline(always)]
 fn recognised<V: Lanes, const N: usize>(
     (n, damped): (usize, bool),
@@ -515,7 +516,7 @@ fn recognised<V: Lanes, const N: usize>(
     flag
 }
 
-/// `phi^H M phi` and `|s|` of each.
+/// `phi^H M phi` and `|s|` of each pair.
 #[inline(always)]
 fn own_sizes<V: Lanes, const N: usize>(n: usize, found: &[Pair<V, N>]) -> [[(V, V); N]; 2] {
     let zero = V::constant(0.0);
@@ -527,7 +528,7 @@ fn own_sizes<V: Lanes, const N: usize>(n: usize, found: &[Pair<V, N>]) -> [[(V, 
     sizes
 }
 
-/// How much a found mode is the known one; `scale` is the product of `phi^H M phi` of both, `rate` its own `|s|`.
+/// Similarity of a found mode to a known one; `scale` is the product of `phi^H M phi` of both, `rate` its own `|s|`.
 #[inline(always)]
 fn assurance<V: Lanes, const N: usize>(
     (n, damped): (usize, bool),

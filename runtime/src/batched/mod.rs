@@ -1,5 +1,5 @@
-//! Several states side by side in the vectors of the processor: what follows an input does with neighbouring values, and
-//! what samples a design with its samples. Every lane is checked; what fails a check goes to the solvers for one state.
+//! Several states side by side with vector instructions: neighbouring values in a sweep along an input, or samples of a
+//! design. Every lane is checked; lanes that fail a check are passed to the solvers for one state.
 #![allow(
     clippy::needless_range_loop,
     reason = "rows and columns of several matrices"

@@ -8,13 +8,13 @@ use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::kernels::BatchKernels;
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
-/// Steps at most: predicted states are near to what they predict.
+/// Maximum number of steps: predicted states are close to the solution.
 const STEPS: usize = 6;
-/// Greatest change of a coordinate in a step, rad or m.
+/// Largest change of a coordinate in a step, rad or m.
 const RADIUS: f64 = 1.0;
 
-/// Takes the coordinates of a block to the equilibria next to them. Flags the lanes that came to rest, the stiffness positive
-/// definite all the way.
+/// Moves the coordinates of a block to the nearby equilibria. Flags the lanes that came to rest with a stiffness that
+/// was positive definite all the way.
 pub(super) fn newton<'m>(
     kernels: &dyn BatchKernels,
     instructions: Instructions,
@@ -72,7 +72,7 @@ impl Task for Step<'_, '_> {
                     let stiffness: Square<V> = load_matrix(n, scratch.stiffness, at);
                     let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
                     let step = solver.solve(n, &algebra::load(n, scratch.residual, at));
-                    // Lanes at rest stay where they are, so that none depends on the others.
+                    // Lanes at rest do not move, so that none depends on the others.
                     let rested = V::load(resting, at);
                     let moving = rested.at_most(zero);
                     let (mut last, mut near) = (one, positive);
@@ -89,7 +89,7 @@ impl Task for Step<'_, '_> {
                     flag.store(&mut block.flags, at);
                     let steps = V::load(&block.iterations, at) + V::choose(moving, one, zero);
                     steps.store(&mut block.iterations, at);
-                    // Lanes that failed rest too.
+                    // Lanes that failed stop too.
                     let done = V::choose(one.at_most(flag), last, one);
                     V::choose(moving, done, rested).store(resting, at);
                 }

@@ -1,4 +1,4 @@
-//! One lane of a block in the words of a state that was solved alone.
+//! Converts one lane of a block to a state, as if it had been solved alone.
 
 use super::algebra::for_size;
 use super::block::Block;
@@ -13,7 +13,7 @@ impl Block<'_> {
         of(self.coordinates, lane).collect()
     }
 
-    /// The equilibrium; inputs and design are already there, and there is no damping.
+    /// Writes the equilibrium; inputs and design are already set, and there is no damping.
     pub(crate) fn read_state(&self, lane: usize, kernels: &dyn Kernels, state: &mut Equilibrium) {
         for_size(
             self.coordinates.len(),
@@ -35,7 +35,7 @@ impl Block<'_> {
         state.left_unstable_region = false;
     }
 
-    /// The modes, in the order and with the labels that these have.
+    /// Writes the modes, keeping order and labels.
     pub(crate) fn read_modes(&self, lane: usize, modes: &mut Modes) {
         for_size(
             self.lambda.len(),
@@ -51,7 +51,7 @@ impl Block<'_> {
         );
     }
 
-    /// The derivatives of these modes.
+    /// Writes the derivatives of these modes.
     pub(crate) fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
         let (inputs, design) = (self.inputs.len(), self.design.len());
         for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
@@ -62,14 +62,14 @@ impl Block<'_> {
     }
 }
 
-/// The numbers of a lane.
+/// All numbers of a lane.
 #[inline]
 fn of(batches: &[Batch], lane: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
     let lane = lane % WIDTH;
     batches.iter().map(move |batch| batch.0[lane])
 }
 
-/// The first numbers of a lane.
+/// Reads the first numbers of a lane.
 #[inline(always)]
 fn read(count: usize, from: &[Batch], lane: usize, to: &mut [f64]) {
     let lane = lane % WIDTH;

@@ -1,8 +1,8 @@
-//! One piece of memory for all the lists and matrices of a block: as much as they need together, found at once.
+//! A single piece of memory for all lists and matrices of a block, allocated at once.
 
 use crate::scalar::Batch;
 
-/// Memory of which pieces are taken, one after the other.
+/// Memory from which pieces are taken one after the other.
 pub(crate) struct Room<'a> {
     rest: &'a mut [Batch],
 }
@@ -12,14 +12,14 @@ impl<'a> Room<'a> {
         Self { rest }
     }
 
-    /// The next `count` batches.
+    /// Takes the next `count` batches.
     pub(crate) fn take(&mut self, count: usize) -> &'a mut [Batch] {
         let (taken, rest) = core::mem::take(&mut self.rest).split_at_mut(count);
         self.rest = rest;
         taken
     }
 
-    /// Numbers that are the same in every lane.
+    /// Takes batches that hold the same number in every lane.
     pub(crate) fn constants(&mut self, values: &[f64]) -> &'a mut [Batch] {
         let taken = self.take(values.len());
         for (place, value) in taken.iter_mut().zip(values) {

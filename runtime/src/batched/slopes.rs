@@ -1,5 +1,6 @@
 //! Total derivatives of the modes in every lane: `dlambda/db = da/db - (dg/db)^T w`, `Khat^T w = da/dq`,
-//! `a = phi^T (Khat - lambda Mhat) phi`, as [`sensitivities`](crate::sensitivity::sensitivities) has them for one state.
+//! `a = phi^T (Khat - lambda Mhat) phi`, the counterpart of [`sensitivities`](crate::sensitivity::sensitivities) for one
+//! state.
 
 use super::algebra::{self, LARGEST, Row, Square, for_size, load_matrix};
 use super::block::{Block, POSITIVE};
@@ -11,15 +12,15 @@ use crate::modes::Family;
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::sensitivity::Source;
 
-/// What kernels write on the way.
+/// Buffers for intermediate kernel results.
 pub(super) enum Slopes<'a> {
-    /// Partial derivatives, which all modes share, where they cost less than a gradient for each.
+    /// Partial derivatives, shared by all modes, if they cost less than one gradient per mode.
     Partials(Partials<'a>),
-    /// Gradients of `a` and of `w^T g` by reverse differentiation, for one mode after the other.
+    /// Gradients of `a` and of `w^T g` by reverse differentiation, one mode after the other.
     Gradients(Gradients<'a>),
 }
 
-/// Of the matrices, and of the residual by inputs and by design variables.
+/// Partial derivatives of the matrices, and of the residual with respect to inputs and design variables.
 pub(super) struct Partials<'a> {
     matrices: BatchPartials<'a>,
     residual: [&'a mut [Batch]; 2],
@@ -33,7 +34,7 @@ pub(super) struct Gradients<'a> {
 }
 
 impl<'a> Slopes<'a> {
-    /// How many batches they take at most.
+    /// Maximum number of batches that they take.
     pub(super) fn size(sizes: Sizes) -> usize {
         let (n, variables) = (sizes.coordinates, sizes.inputs + sizes.design);
         let partials = 2 * n * n * (n + variables) + n * variables;
@@ -177,7 +178,7 @@ fn from_partials<V: Lanes>(n: usize, partials: &Partials<'_>, block: &mut Block<
     finite.keep(&mut block.flags, at);
 }
 
-/// `w` of a mode.
+/// Computes `w` of a mode.
 struct Adjoint<'a, 'b> {
     block: &'a Block<'b>,
     gradients: &'a mut Gradients<'b>,
@@ -205,7 +206,7 @@ impl Task for Adjoint<'_, '_> {
     }
 }
 
-/// The derivatives of a mode by inputs and design variables.
+/// The derivatives of a mode with respect to inputs and design variables.
 struct Difference<'a, 'b> {
     block: &'a mut Block<'b>,
     gradients: &'a Gradients<'b>,
@@ -241,7 +242,7 @@ impl Task for Difference<'_, '_> {
     }
 }
 
-/// Sum of the sizes of what was seen.
+/// Sum of the magnitudes of all values seen.
 struct Finite<V>(V);
 
 impl<V: Lanes> Finite<V> {
@@ -255,7 +256,7 @@ impl<V: Lanes> Finite<V> {
         self.0 = self.0 + value.abs();
     }
 
-    /// Keeps the flags of lanes in which all was finite.
+    /// Keeps the flags of lanes in which all values were finite.
     #[inline(always)]
     fn keep(self, flags: &mut Batch, at: usize) {
         let finite = self.0.at_most(V::constant(f64::MAX));
@@ -263,7 +264,7 @@ impl<V: Lanes> Finite<V> {
     }
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi` of change `k`, all matrices symmetric.
+/// `phi^T (dKhat - lambda dMhat) phi` for change `k`, with symmetric matrices.
 #[inline(always)]
 fn rate<V: Lanes>(
     n: usize,
@@ -289,7 +290,7 @@ fn rate<V: Lanes>(
     own + (mixed + mixed)
 }
 
-/// `w^T partials` of column `k` of `count`.
+/// `w^T partials` for column `k` of `count`.
 #[inline(always)]
 fn combined<V: Lanes>(
     n: usize,

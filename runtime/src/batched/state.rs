@@ -1,4 +1,4 @@
-//! What there is at the equilibrium in every lane: what remains of the residual, the linearised mechanism, its modes.
+//! The state at the equilibrium in every lane: the remaining residual, the linearised mechanism, and its modes.
 
 use super::algebra::{self, LARGEST, Row, Square, congruent, for_size, keep, load_matrix};
 use super::block::{Block, POSITIVE};
@@ -11,7 +11,7 @@ use crate::modes::CLUSTER_GAP;
 use crate::rounding::{SLOW, of_elements};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
-/// What kernels write on the way.
+/// Buffers for intermediate kernel results.
 pub(super) struct Scratch<'a> {
     pub(super) residual: &'a mut [Batch],
     pub(super) stiffness: &'a mut [Batch],
@@ -19,7 +19,7 @@ pub(super) struct Scratch<'a> {
 }
 
 impl<'a> Scratch<'a> {
-    /// How many batches it takes.
+    /// Number of batches that it takes.
     pub(super) fn size(n: usize) -> usize {
         3 * n + n * n
     }
@@ -36,8 +36,10 @@ impl<'a> Scratch<'a> {
     }
 }
 
-/// Completes the states of a block. `shapes` are modes near by, one in each row, that tell the modes apart. Keeps the flags of
-/// lanes that are solved to rounding, a clear minimum, each mode recognised, oscillating and apart from the others.
+/// Completes the states of a block.
+///
+/// `shapes` are nearby modes, one per row, that identify the modes. Keeps the flags of lanes that are solved to rounding
+/// and clearly a minimum, with each mode recognised, oscillating and apart from the others.
 pub(super) fn state<'m>(
     kernels: &dyn BatchKernels,
     instructions: Instructions,
@@ -114,8 +116,8 @@ impl Task for State<'_, '_> {
     }
 }
 
-/// Greatest residual relative to the forces of its equation and what small motions restore there; the flag says that it, and
-/// the displacement behind it, are rounding, and that the stiffness is positive definite.
+/// Largest residual, relative to the forces of its equation and to what small motions restore there. The flag says that
+/// it and the resulting displacement are rounding, and that the stiffness is positive definite.
 #[inline(always)]
 fn remainder<V: Lanes>(
     n: usize,
@@ -148,7 +150,8 @@ fn remainder<V: Lanes>(
     (most, flag)
 }
 
-/// `lambda` and vectors, by those near by; the flag says that each is recognised and clear of zero and of the others.
+/// `lambda` and vectors, identified by the nearby ones; the flag says that each is recognised and clear of zero and of
+/// the others.
 #[inline(always)]
 fn modes<V: Lanes>(
     n: usize,
@@ -178,7 +181,7 @@ fn modes<V: Lanes>(
             }
         }
         positive_lead(n, &mut vectors[r]);
-        // What is nearer to zero the solver for one state decides.
+        // Eigenvalues closer to zero are left to the solver for one state.
         flag = keep(flag, least.at_most(lambda[r]));
         for s in 0..r {
             let gap = (lambda[r] - lambda[s]).abs();
@@ -189,7 +192,7 @@ fn modes<V: Lanes>(
     (lambda, vectors, flag)
 }
 
-/// Makes the largest component positive; a margin keeps the choice when two are equal but for rounding.
+/// Makes the largest component positive; a margin keeps the choice stable when two are equal up to rounding.
 #[inline(always)]
 fn positive_lead<V: Lanes>(n: usize, vector: &mut Row<V>) {
     let mut lead = vector[0];
@@ -203,8 +206,8 @@ fn positive_lead<V: Lanes>(n: usize, vector: &mut Row<V>) {
     }
 }
 
-/// Greatest component of `Khat phi - lambda Mhat phi` relative to the greatest sum of terms in a row, the error of `lambda`, and
-/// whether the first is as small as no refinement makes it.
+/// Largest component of `Khat phi - lambda Mhat phi` relative to the largest sum of terms in a row, the error of
+/// `lambda`, and whether the first is too small for refinement to improve.
 #[inline(always)]
 fn mode_residual<V: Lanes>(
     n: usize,

@@ -1,4 +1,5 @@
-//! Constraints: which unknowns are what, which directions they leave free, and which of them say the same.
+//! Constraints: the roles of the unknowns, the directions that constraints leave free, and which constraints are
+//! redundant.
 
 mod rows;
 mod state;

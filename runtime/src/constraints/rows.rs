@@ -7,44 +7,48 @@
 
 use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest};
 
-/// What may remain of a row that others explain, relative to the row itself. Rows of compiled constraints carry rounding
-/// of some 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this have no use as two.
+/// Relative remainder below which a row counts as explained by others. Rows of compiled constraints carry rounding of
+/// about 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this are of no use as two.
 const DEPENDENT: f64 = 1e-10;
-/// The same for rows that may become dependent nearby.
+/// The counterpart of [`DEPENDENT`] for rows that may become dependent nearby.
 pub(crate) const NEARLY: f64 = 1e-2;
-/// A row this much smaller than the greatest is zero but for rounding.
+/// A row smaller than the largest one by this factor is zero up to rounding.
 const VANISHING: f64 = 1e-13;
-/// Least share of a column in the balanced metric: what is fainter is not blown up, lest its rounding count as independence.
+/// Smallest share of a column in the balanced metric: fainter columns are not scaled up, so that their rounding cannot
+/// pass for independence.
 const FAINT: f64 = 1e-4;
 
 /// Rows `h_k`, of which `rank` are independent, in the metric `sum (scale_j x_j)^2` of vectors `x`.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows {
     pub(crate) rank: usize,
-    /// Least share of a row, of those taken into the basis, that the ones before did not explain; one for a single row.
+    /// Smallest share, among the rows taken into the basis, that the preceding rows did not explain; one for a single
+    /// row.
     pub(crate) least: f64,
     /// The row numbers: independent ones first, in the order of elimination, then the dependent ones.
     pub(crate) order: Vec<usize>,
-    /// Euclidean norm of each row over `scale`: what makes rows of different units comparable. One for a zero row.
+    /// Euclidean norm of each row divided by `scale`, which makes rows of different units comparable. One for a zero
+    /// row.
     pub(crate) size: Vector,
     scale: Vector,
-    /// The rows over `size` and `scale`.
+    /// The rows divided by `size` and `scale`.
     row: Matrix,
-    /// The first `rank`: orthonormal basis of the row space, in columns times `scale`. The others are rounding.
+    /// The first `rank` rows are an orthonormal basis of the row space, with columns multiplied by `scale`. The others
+    /// are rounding.
     unit: Matrix,
-    /// The first `rank`: `unit[i] = sum_k combination[i][k] h_k / (size_k scale)`. The others: orthonormal left null vectors
-    /// of the rows over `size`.
+    /// The first `rank` rows satisfy `unit[i] = sum_k combination[i][k] h_k / (size_k scale)`. The others are
+    /// orthonormal left null vectors of the rows divided by `size`.
     combination: Matrix,
 }
 
 impl Rows {
-    /// Of rows that are known to be independent.
+    /// Rows that are known to be independent.
     pub(crate) fn independent(rows: Matrix, scale: Vector) -> Self {
         Self::with_threshold(rows, scale, 0.0)
     }
 
-    /// In the metric in which the greatest share of a row that each column has is one: the one to decide ranks in, because
-    /// it does not depend on units, nor on masses.
+    /// Rows in the metric in which the largest share that each column has of a row is one. Ranks are decided in this
+    /// metric, because it depends neither on units nor on masses.
     pub(crate) fn balanced(rows: Matrix) -> Self {
         let mut scale = Vector::filled(rows.column_count(), FAINT);
         for row in rows.iter() {
@@ -58,12 +62,12 @@ impl Rows {
         Self::with_threshold(rows, scale, DEPENDENT)
     }
 
-    /// In the metric of these scales.
+    /// Rows in the metric of these scales.
     pub(crate) fn new(rows: Matrix, scale: Vector) -> Self {
         Self::with_threshold(rows, scale, DEPENDENT)
     }
 
-    /// As [`Self::new`]; rows that nearly depend on others count as dependent.
+    /// Like [`Self::new`], but rows that nearly depend on others count as dependent.
     pub(crate) fn nearly(rows: Matrix, scale: Vector) -> Self {
         Self::with_threshold(rows, scale, NEARLY)
     }
@@ -107,7 +111,7 @@ impl Rows {
         rows
     }
 
-    /// Takes the greatest remaining row into the basis until what remains is rounding.
+    /// Takes the largest remaining row into the basis until only rounding remains.
     fn eliminate(&mut self, threshold: f64) {
         for i in 0..self.count() {
             let mut best = i;
@@ -118,7 +122,7 @@ impl Rows {
                     (best, most) = (k, size);
                 }
             }
-            // Against the basis once more: what is left of a small remainder is not orthogonal to it.
+            // Orthogonalises once more: a small remainder is not orthogonal to the basis.
             for known in 0..i {
                 self.take_off(known, best);
             }
@@ -139,7 +143,7 @@ impl Rows {
         }
     }
 
-    /// Takes the direction of basis vector `i` off remaining row `k`, in what that is made of, too.
+    /// Subtracts the direction of basis vector `i` from remaining row `k`, and from its combination too.
     fn take_off(&mut self, i: usize, k: usize) {
         let (unit, rest) = pair(&mut self.unit, i, k);
         let along = dot(unit, rest);
@@ -148,7 +152,7 @@ impl Rows {
         add_to(made, -along, combination);
     }
 
-    /// The basis with what each vector is made of.
+    /// The basis vectors with their combinations of rows.
     fn basis(&self) -> impl Iterator<Item = (&[f64], &[f64])> {
         self.unit
             .iter()
@@ -156,26 +160,29 @@ impl Rows {
             .take(self.rank)
     }
 
-    /// The left null vectors of the rows over `size`.
+    /// The left null vectors of the rows divided by `size`.
     fn dependencies(&self) -> impl Iterator<Item = &[f64]> {
         self.combination.iter().skip(self.rank)
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub(crate) fn count(&self) -> usize {
         self.order.len()
     }
 
-    /// Basis vector `i` of the row space, raised by the metric: `x = sum_i c_i normal(i)` is what is orthogonal, in the
-    /// metric, to the null space.
+    /// Basis vector `i` of the row space, raised by the metric: the vectors `x = sum_i c_i normal(i)` are orthogonal, in
+    /// the metric, to the null space.
     pub(crate) fn normal(&self, i: usize) -> Vector {
         let mut normal = Vector::from(&self.unit[i]);
         divide_each(&mut normal, &self.scale);
         normal
     }
 
-    /// The direction `x` of the row space that the rows hold least, and how: `w` by row with `sum_k w_k h_k = ` the covector
-    /// of `x`, so that `sum_k w_k h_k . x = 1`. Both are zero without rows.
+    /// The direction `x` of the row space in which the rows give the least support, and the combination of rows that
+    /// supports it.
+    ///
+    /// The combination `w`, by row, has `sum_k w_k h_k` equal to the covector of `x`, so that `sum_k w_k h_k . x = 1`.
+    /// Both are zero if there are no rows.
     pub(crate) fn weakest(&self) -> (Vector, Vector) {
         match self.rank.checked_sub(1) {
             Some(last) => {
@@ -187,7 +194,7 @@ impl Rows {
         }
     }
 
-    /// A vector in the units of the metric: its norm is the length in the metric.
+    /// Converts a vector to the units of the metric: its norm is then its length in the metric.
     pub(crate) fn scaled(&self, x: &[f64]) -> Vector {
         x.iter()
             .zip(&self.scale)
@@ -195,32 +202,32 @@ impl Rows {
             .collect()
     }
 
-    /// How many rows the others explain.
+    /// Number of rows explained by the others.
     pub(crate) fn dependent(&self) -> usize {
         self.count() - self.rank
     }
 
-    /// Left null vector `k`, `sum_i n_i h_i = 0`, in terms of the rows as given.
+    /// Left null vector `k`, `sum_i n_i h_i = 0`, for the rows as given.
     pub(crate) fn null_left(&self, k: usize) -> Vector {
         let mut left = Vector::from(&self.combination[self.rank + k]);
         divide_each(&mut left, &self.size);
         left
     }
 
-    /// The same times the squares of the sizes: what a gauge is made of, and a measure of contradiction (`null_left` and
-    /// this one have the product one).
+    /// [`Self::null_left`] times the squares of the sizes: the basis of a gauge and a measure of contradiction (the
+    /// product of the two vectors is one).
     pub(crate) fn null_left_scaled(&self, k: usize) -> Vector {
         let left = self.combination[self.rank + k].iter().zip(&self.size);
         left.map(|(left, size)| left * size).collect()
     }
 
-    /// Basis of the null space over the first `columns` columns, orthonormal in the metric: `columns - rank` vectors. Later
-    /// columns of the rows have to be zero.
+    /// Basis of the null space over the first `columns` columns, orthonormal in the metric: `columns - rank` vectors.
+    /// The remaining columns of the rows must be zero.
     pub(crate) fn null_basis(&self, columns: usize) -> Vec<Vector> {
         let n = self.scale.len();
         let known = || self.unit.iter().take(self.rank);
         let mut basis: Vec<Vector> = Vec::new();
-        // What remains of each unit vector after projection on the null space; the greatest comes next.
+        // Remainders of the unit vectors after projection onto the null space; the largest comes next.
         let mut rest = Matrix::from_fn(columns, n, |j, i| if i == j { 1.0 } else { 0.0 });
         for vector in rest.iter_mut() {
             make_orthogonal(vector, known);
@@ -230,7 +237,7 @@ impl Rows {
             let mut most = norm(&rest[0]);
             for j in 1..columns {
                 let size = norm(&rest[j]);
-                // A margin keeps the first of equals, whatever rounding says.
+                // A margin makes the first of equal ones win, regardless of rounding.
                 if size > most * (1.0 + 1e-9) {
                     (best, most) = (j, size);
                 }
@@ -252,7 +259,7 @@ impl Rows {
         basis
     }
 
-    /// The shortest `x` with `h_k x = right_k` for the independent rows, in the metric.
+    /// The shortest `x`, in the metric, with `h_k x = right_k` for the independent rows.
     pub(crate) fn shortest_of_independent(&self, right: &[f64]) -> Vector {
         let mut wanted = Vector::zeros(self.count());
         for &k in &self.order[..self.rank] {
@@ -261,8 +268,8 @@ impl Rows {
         self.solution(&wanted)
     }
 
-    /// The shortest `x` with `h_k x = right_k`, in the metric; of rows that contradict each other the least squares, each
-    /// row over its size.
+    /// The shortest `x`, in the metric, with `h_k x = right_k`; the least-squares solution, each row divided by its
+    /// size, if rows contradict each other.
     pub(crate) fn shortest(&self, right: &[f64]) -> Vector {
         let mut wanted = Vector::from(right);
         divide_each(&mut wanted, &self.size);
@@ -273,7 +280,7 @@ impl Rows {
         self.solution(&wanted)
     }
 
-    /// From values over sizes, by the independent rows.
+    /// The solution from scaled values of the independent rows.
     fn solution(&self, wanted: &[f64]) -> Vector {
         let mut x = Vector::zeros(self.scale.len());
         for (unit, combination) in self.basis() {
@@ -283,8 +290,8 @@ impl Rows {
         x
     }
 
-    /// `x = sum_k h_k right_k` in the metric, rows over their sizes as `right` is: the way on which the squares of what rows
-    /// leave open fall fastest. In units of the metric.
+    /// `x = sum_k h_k right_k` in the metric, with rows and `right` divided by the sizes: the direction in which the
+    /// squared gaps of the rows fall fastest. In units of the metric.
     pub(crate) fn descent(&self, right: &[f64]) -> Vector {
         let mut x = Vector::zeros(self.scale.len());
         for (row, right) in self.row.iter().zip(right) {
@@ -293,8 +300,8 @@ impl Rows {
         x
     }
 
-    /// `x` with the least `sum_k (h_k x / size_k - right_k)^2 + damping |x|^2` in the metric: [`Self::shortest`] with a
-    /// damper, for rows over their sizes.
+    /// The `x` with the smallest `sum_k (h_k x / size_k - right_k)^2 + damping |x|^2` in the metric: a damped
+    /// [`Self::shortest`], for rows divided by their sizes.
     pub(crate) fn damped(&self, right: &[f64], damping: f64) -> Option<Vector> {
         let count = self.count();
         let normal = Matrix::from_fn(count, count, |i, j| {
@@ -306,7 +313,7 @@ impl Rows {
         Some(x)
     }
 
-    /// Multipliers `mu` with `sum_k mu_k h_k = force` in the sense of least squares (forces over `scale`), the shortest in
+    /// Least-squares multipliers `mu` with `sum_k mu_k h_k = force` (forces divided by `scale`), the shortest in
     /// `mu_k size_k`.
     pub(crate) fn multipliers(&self, force: &[f64]) -> Vector {
         let mut force = Vector::from(force);
@@ -324,7 +331,7 @@ impl Rows {
     }
 }
 
-/// Takes the part in the span of orthonormal `known` off a vector.
+/// Subtracts from a vector its part in the span of the orthonormal `known`.
 fn make_orthogonal<'a, K>(vector: &mut [f64], known: impl Fn() -> K)
 where
     K: Iterator<Item = &'a [f64]>,
@@ -337,7 +344,7 @@ where
     }
 }
 
-/// Row `k`, to be written to, and row `i` before it.
+/// Row `k`, mutable, and row `i` before it.
 fn pair(matrix: &mut Matrix, i: usize, k: usize) -> (&[f64], &mut [f64]) {
     let n = matrix.column_count();
     let (before, own) = matrix.as_flattened_mut().split_at_mut(k * n);

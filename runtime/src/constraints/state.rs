@@ -1,33 +1,33 @@
-//! What constraints are at one state: how much freedom they leave, which say the same, whether the state is singular.
+//! The constraints at one state: the freedom they leave, which are redundant, and whether the state is singular.
 
 use super::{Structure, Tangent};
 use crate::algebra::{Matrix, Vector, add_to, form, largest_element};
 use crate::kernels::{Gradient, Kernels};
 
-/// The constraints at one state. Rows have the places of their reactions among the unknowns.
+/// The constraints at one state. Rows are at the positions of their reactions among the unknowns.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ConstraintState {
-    /// Number of directions in which the coordinates can move: all of them for an open mechanism.
+    /// Number of directions in which the coordinates can move: all for an open mechanism.
     pub freedom: usize,
-    /// Number of constraints that follow from the others. Of the reactions of constraints that say the same only combinations are determined; those
-    /// reported have the least sum of squares of the forces they cause.
+    /// Number of constraints that follow from the others. Redundant constraints determine only combinations of their
+    /// reactions; the reported reactions cause forces with the smallest sum of squares.
     pub redundant: usize,
-    /// The rows involved: any [`redundant`](Self::redundant) of them follow from the rest.
+    /// The rows involved: any [`redundant`](Self::redundant) of them follow from the others.
     pub dependent: Vector<bool>,
-    /// Rows become dependent at exactly this configuration (within rounding) and are independent around it: a flat
-    /// parallelogram, a chain stretched to its limit. The linearised mechanism does not say how it can move.
+    /// Rows become dependent at exactly this configuration (within rounding) but are independent around it, as for a
+    /// flat parallelogram or a chain stretched to its limit. The linearised mechanism does not say how it can move.
     pub singular: bool,
 }
 
-/// Share of a null left vector that counts as taking part.
+/// Share of a left null vector above which a row takes part in it.
 const TAKES_PART: f64 = 1e-8;
-/// Part of the curvatures of dependent constraints that rounding leaves where they say the same in a neighbourhood.
+/// Relative curvature that rounding leaves in dependent constraints which stay redundant in a neighbourhood.
 const CURVED: f64 = 1e-6;
 
 impl ConstraintState {
-    /// Of `size` unknowns without constraints.
+    /// The state of `size` unknowns without constraints.
     pub(crate) fn open(size: usize) -> Self {
         Self {
             freedom: size,
@@ -37,7 +37,7 @@ impl ConstraintState {
         }
     }
 
-    /// Of a mechanism that is not open.
+    /// The state of a constrained mechanism.
     pub(crate) fn new(
         mechanism: &dyn Kernels,
         (q, u, b): (&[f64], &[f64], &[f64]),
@@ -61,8 +61,10 @@ impl ConstraintState {
     }
 }
 
-/// Whether dependent constraints on positions curve apart: `n . Phi_qq`, `n^T H = 0`, is zero on the null space of `H` where
-/// they say the same in a neighbourhood (the second derivative of `Phi = 0` along a motion, times `n`).
+/// Whether dependent constraints on positions separate at second order.
+///
+/// For left null vectors, `n^T H = 0`, the curvature `n . Phi_qq` vanishes on the null space of `H` if the constraints
+/// stay redundant in a neighbourhood (the second derivative of `Phi = 0` along a motion, times `n`).
 fn singular(
     mechanism: &dyn Kernels,
     (q, u, b): (&[f64], &[f64], &[f64]),
@@ -74,7 +76,7 @@ fn singular(
     }
     let (f, basis) = (tangent.freedom, &tangent.basis);
     let size: Vec<Vector> = basis.iter().map(|vector| vector.map(f64::abs)).collect();
-    // `Phi_qq` of each row on the null space, and the size of what it is summed from.
+    // `Phi_qq` of each row on the null space, and the magnitude of its terms.
     let on_null_space = |row: usize| {
         let curvature = curvature(mechanism, (q, u, b), tangent.structure, row);
         let terms = curvature.map(f64::abs);

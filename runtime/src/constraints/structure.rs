@@ -1,10 +1,10 @@
-//! How many unknowns of each role a mechanism has, and where they stand.
+//! Numbers and positions of the unknowns by role.
 
 use core::ops::Range;
 
 use crate::{Description, Role};
 
-/// Numbers of unknowns by role; they stand in this order, and so do the rows of the residual ([`Role`]).
+/// Numbers of unknowns by role; unknowns and rows of the residual are both in this order ([`Role`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Structure {
     pub(crate) coordinates: usize,
@@ -37,12 +37,13 @@ impl Structure {
         self.motions() + self.constraints()
     }
 
-    /// Every unknown is a coordinate: no speeds, no constraints.
+    /// Whether every unknown is a coordinate: no speeds, no constraints.
     pub(crate) fn open(&self) -> bool {
         self.speeds == 0 && self.constraints() == 0
     }
 
-    /// Neither speeds nor constraints on velocities: the free directions are those of the coordinates alone.
+    /// Whether there are neither speeds nor constraints on velocities: the free directions are those of the coordinates
+    /// alone.
     pub(crate) fn holonomic(&self) -> bool {
         self.speeds == 0 && self.velocity_constraints == 0
     }
@@ -51,28 +52,28 @@ impl Structure {
         self.position_constraints + self.velocity_constraints
     }
 
-    /// Number of coordinates and speeds: the unknowns that are no reactions.
+    /// Number of coordinates and speeds, the unknowns that are not reactions.
     pub(crate) fn motions(&self) -> usize {
         self.coordinates + self.speeds
     }
 
-    /// Places of the speeds.
+    /// Positions of the speeds.
     pub(crate) fn speed_range(&self) -> Range<usize> {
         self.coordinates..self.motions()
     }
 
-    /// Places of the constraints on positions and of their reactions.
+    /// Positions of the constraints on positions and of their reactions.
     pub(crate) fn position_rows(&self) -> Range<usize> {
         self.motions()..self.motions() + self.position_constraints
     }
 
-    /// Places of the constraints on velocities and of their reactions.
+    /// Positions of the constraints on velocities and of their reactions.
     pub(crate) fn velocity_rows(&self) -> Range<usize> {
         let start = self.motions() + self.position_constraints;
         start..start + self.velocity_constraints
     }
 
-    /// Places of all constraints and reactions.
+    /// Positions of all constraints and reactions.
     pub(crate) fn constraint_rows(&self) -> Range<usize> {
         self.motions()..self.motions() + self.constraints()
     }

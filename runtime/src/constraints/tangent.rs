@@ -1,10 +1,11 @@
 //! The directions that constraints leave free, and the gauge of multipliers that they leave undetermined.
 //!
-//! `H = Phi_q` are the constraints on positions, `A = [A_q, A_v]` those on velocities (see [`crate::Role`]); the columns of
-//! `Khat` that belong to their multipliers are the transposes. Dependent rows leave combinations of multipliers
-//! undetermined, and `Khat` singular. `Khat[mu, mu] -= gamma sum_k m_k m_k^T`, `m_k` the null left vectors `n_k` of the
-//! rows times the squares of their sizes, makes it regular again: multiplied by `n_k^T` from the left, `Khat x = f` then
-//! says `m_k^T mu = 0` where the constraints agree, and all else is as it was: solutions, eigenvalues, and the rows of `H`.
+//! `H = Phi_q` are the constraints on positions, `A = [A_q, A_v]` those on velocities (see [`crate::Role`]); the columns
+//! of `Khat` for their multipliers are the transposes. Dependent rows leave combinations of multipliers undetermined,
+//! and make `Khat` singular. The gauge `Khat[mu, mu] -= gamma sum_k m_k m_k^T`, with `m_k` the left null vectors `n_k`
+//! of the rows times the squares of their sizes, makes it regular again. Multiplied by `n_k^T` from the left,
+//! `Khat x = f` then gives `m_k^T mu = 0` where the constraints agree; solutions, eigenvalues and the rows of `H` are
+//! otherwise unchanged.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -14,14 +15,14 @@ use super::{Rows, Structure};
 use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest, times};
 use crate::kernels::Linear;
 
-/// What constraints leave free at one state.
+/// The directions that constraints leave free at one state.
 #[derive(Clone, Debug)]
 pub(crate) struct Tangent {
     pub(crate) structure: Structure,
     /// Number of directions in which the coordinates can move, `f`.
     pub(crate) freedom: usize,
-    /// They span the null space of `H`: `delta q = sum_i y_i basis[i]`. Orthonormal in the metric of the diagonal of
-    /// `Mhat`, so that the reduced masses are of order one; zero in all places but those of coordinates.
+    /// Basis of the null space of `H`: `delta q = sum_i y_i basis[i]`. Orthonormal in the metric of the diagonal of
+    /// `Mhat`, so that the reduced masses are of order one; zero except at coordinates.
     pub(crate) basis: Vec<Vector>,
     /// The rows of `H` over the coordinates, numbered from zero.
     pub(crate) positions: Rows,
@@ -31,11 +32,11 @@ pub(crate) struct Tangent {
     pub(crate) all: Rows,
 }
 
-/// Least mass in the metric of the basis, relative to the greatest: what a massless coordinate gets.
+/// Smallest mass in the metric of the basis, relative to the largest: used for a massless coordinate.
 const LIGHT: f64 = 1e-8;
 
 impl Tangent {
-    /// At a state with these matrices, before or after [`fix_gauge`].
+    /// The free directions at a state with these matrices, before or after [`fix_gauge`].
     pub(crate) fn new(linear: &Linear, structure: Structure) -> Self {
         let all = all_rows(&linear.stiffness, structure);
         let positions = if structure.velocity_constraints == 0 {
@@ -57,26 +58,26 @@ impl Tangent {
         }
     }
 
-    /// How many constraints follow from the others.
+    /// Number of constraints that follow from the others.
     pub(crate) fn redundant(&self) -> usize {
         self.all.dependent()
     }
 
-    /// Left null vector `k` of all constraints, in the places of their rows: `n^T [[H, 0], [A_q, A_v]] = 0`.
+    /// Left null vector `k` of all constraints, at the positions of their rows: `n^T [[H, 0], [A_q, A_v]] = 0`.
     pub(crate) fn null_left(&self, k: usize) -> Vector {
         placed(self.structure, &self.all.null_left(k))
     }
 
-    /// Multipliers, in their places, that balance a force by coordinate and speed: `H^T mu_1 + A_q^T mu_2 = force` by
-    /// coordinate, `A_v^T mu_2 = force` by speed. Exact where it can be, else in the sense of least squares; undetermined
-    /// parts are zero, as [`fix_gauge`] has them.
+    /// Multipliers, at their positions, that balance a force by coordinate and speed: `H^T mu_1 + A_q^T mu_2 = force` by
+    /// coordinate, `A_v^T mu_2 = force` by speed. Exact where possible, otherwise least squares; undetermined parts are
+    /// zero, consistent with [`fix_gauge`].
     pub(crate) fn multipliers(&self, force: &[f64]) -> Vector {
         let mut force = Vector::from(force);
         force[self.structure.motions()..].fill(0.0);
         placed(self.structure, &self.all.multipliers(&force))
     }
 
-    /// The coordinate that moves most along the first free direction without a mass of its own.
+    /// The coordinate that moves most along the first massless free direction.
     pub(crate) fn massless(&self, linear: &Linear) -> usize {
         match Cholesky::new(&self.reduce(&linear.mass)) {
             Err(direction) => self.foremost(direction),
@@ -113,7 +114,7 @@ impl Tangent {
             .collect()
     }
 
-    /// `P^T matrix P`; of a symmetric matrix exactly symmetric.
+    /// `P^T matrix P`; exactly symmetric for a symmetric matrix.
     pub(crate) fn reduce(&self, matrix: &Matrix) -> Matrix {
         let images: Vec<Vector> = self.basis.iter().map(|x| times(matrix, x)).collect();
         let mut reduced = Matrix::from_fn(self.freedom, self.freedom, |i, j| {
@@ -130,7 +131,7 @@ impl Tangent {
         reduced
     }
 
-    /// `P^T M P`, `P^T C P`, `P^T K_c P`. Complete where there are neither speeds nor constraints on velocities.
+    /// `P^T M P`, `P^T C P`, `P^T K_c P`. Complete if there are neither speeds nor constraints on velocities.
     pub(crate) fn reduce_linear(&self, linear: &Linear) -> Linear {
         Linear {
             mass: self.reduce(&linear.mass),
@@ -144,7 +145,7 @@ fn is_symmetric(matrix: &Matrix) -> bool {
     (0..matrix.row_count()).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]))
 }
 
-/// Values by constraint, numbered from zero, in the places of their rows; zero elsewhere.
+/// Puts values by constraint, numbered from zero, at the positions of their rows; zero elsewhere.
 pub(crate) fn placed(structure: Structure, by_constraint: &[f64]) -> Vector {
     let mut placed = Vector::zeros(structure.size());
     placed[structure.constraint_rows()].copy_from_slice(by_constraint);
@@ -166,7 +167,7 @@ pub(crate) fn fix_gauge(stiffness: &mut Matrix, structure: Structure) {
     }
 }
 
-/// A choice of constraints, in the places of their rows, that follow from the others.
+/// A choice of constraints, at the positions of their rows, that follow from the others.
 pub(crate) fn redundant_rows(stiffness: &Matrix, structure: Structure) -> Vec<bool> {
     let rows = all_rows(stiffness, structure);
     let mut redundant = vec![false; structure.size()];
@@ -181,14 +182,14 @@ pub(crate) fn all_rows(stiffness: &Matrix, structure: Structure) -> Rows {
     first_rows(stiffness, structure, structure.constraints())
 }
 
-/// So many constraints: those on positions come first.
+/// The first `count` constraints; those on positions come first.
 fn first_rows(stiffness: &Matrix, structure: Structure, count: usize) -> Rows {
     Rows::balanced(Matrix::from_fn(count, structure.size(), |k, j| {
         gradient(stiffness, structure, k, j)
     }))
 }
 
-/// Column `j` of row `k` of `[[H, 0], [A_q, A_v]]`, from the column of `Khat` that belongs to its multiplier.
+/// Column `j` of row `k` of `[[H, 0], [A_q, A_v]]`, taken from the column of `Khat` for its multiplier.
 fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64 {
     let motions = structure.motions();
     if j < motions {
@@ -198,8 +199,8 @@ fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64
     }
 }
 
-/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), none far below the greatest; one where there
-/// are none, and in the places of reactions.
+/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a lower limit relative to the largest;
+/// one if there are none, and at reactions.
 pub(crate) fn inertias(linear: &Linear, structure: Structure) -> Vector {
     let mut mass = Vector::filled(structure.size(), 1.0_f64);
     for block in [0..structure.coordinates, structure.speed_range()] {

@@ -9,7 +9,7 @@ fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-/// Four rows of six columns in units that are 1e6 apart; the third is twice the first less the second.
+/// Four rows of six columns, in units 1e6 apart; the third is twice the first minus the second.
 fn rows(random: &mut ChaCha8Rng) -> Matrix {
     let units = [1.0, 1e-3, 1e3, 1.0, 1e-2, 1e3];
     let mut rows = [[0.0; 6]; 4];
@@ -62,7 +62,7 @@ fn multipliers_balance_what_can_be_balanced() {
     assert!(dot(&again, &found.null_left_scaled(0)).abs() <= 1e-12);
 }
 
-/// Three coordinates (two metres, one radian), three constraints of which two say the same in other units.
+/// Three coordinates (two metres, one radian) and three constraints, two of which are equivalent in different units.
 fn bordered() -> (Linear, Structure) {
     let h = [[1.0, 2.0, 0.5], [1e3, 2e3, 5e2], [0.0, 1.0, -0.1]];
     let mut linear = Linear::zeros(6);
@@ -95,7 +95,7 @@ fn a_gauge_makes_redundant_constraints_regular_and_moves_nothing() {
     let x = lu.solve(&force);
     let rest = add_scaled(&times(&linear.stiffness, &x), -1.0, &force);
     assert!(largest(&rest) < 1e-12, "{rest:?}");
-    // The same rows once only.
+    // The same rows, without the repeated one.
     let kept = [0, 1, 2, 3, 5];
     let single = Matrix::from_fn(5, 5, |i, j| linear.stiffness[kept[i]][kept[j]]);
     let once = Lu::new(&single)

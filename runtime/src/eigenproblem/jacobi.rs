@@ -1,16 +1,19 @@
-//! Eigenvalues of a symmetric matrix by rotations, in place: no allocation, always converging, one vector carried along.
+//! Eigenvalues of a symmetric matrix by rotations, in place: no allocation, guaranteed convergence, with one vector
+//! rotated along.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
 )]
 
-/// Sweeps after which the rest is left as it is; convergence is quadratic and takes fewer than ten.
+/// Number of sweeps after which the remainder is left as it is; convergence is quadratic and takes fewer than ten.
 const SWEEPS: usize = 40;
 
-/// Reduces the symmetric `n` x `n` matrix (row by row) to diagonal form by cyclic Jacobi rotations (Golub and Van Loan,
-/// Matrix Computations, section 8.5); on return its diagonal holds the eigenvalues, in no particular order, to a few
-/// rounding errors of the largest. `vector` becomes `Q^T vector`, where the columns of `Q` are the eigenvectors; it may be
-/// empty. Elements must be finite and their sum not overflow.
+/// Diagonalises the symmetric `n` x `n` matrix (row by row) by cyclic Jacobi rotations (Golub and Van Loan, Matrix
+/// Computations, section 8.5).
+///
+/// On return its diagonal holds the eigenvalues, in no particular order, accurate to a few rounding errors of the
+/// largest. `vector` becomes `Q^T vector`, where the columns of `Q` are the eigenvectors; it may be empty. Elements must
+/// be finite and their sum must not overflow.
 pub(crate) fn diagonalise(matrix: &mut [f64], n: usize, vector: &mut [f64]) {
     let size = matrix
         .iter()
@@ -32,7 +35,7 @@ pub(crate) fn diagonalise(matrix: &mut [f64], n: usize, vector: &mut [f64]) {
     }
 }
 
-/// One rotation that makes element (`p`, `q`) zero, by the smaller of the two angles.
+/// One rotation that zeros element (`p`, `q`), by the smaller of the two angles.
 fn rotate(matrix: &mut [f64], n: usize, vector: &mut [f64], p: usize, q: usize) {
     let off = matrix[p * n + q];
     let half = (matrix[q * n + q] - matrix[p * n + p]) / (2.0 * off);

@@ -1,4 +1,4 @@
-//! Eigenproblems: `K phi = lambda M phi` with symmetric matrices, and `(s^2 M + s C + K) phi = 0` with any.
+//! Eigenproblems: `K phi = lambda M phi` with symmetric matrices, and `(s^2 M + s C + K) phi = 0` with any matrices.
 
 pub(crate) mod general;
 mod jacobi;

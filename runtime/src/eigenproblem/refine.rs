@@ -1,5 +1,5 @@
-//! Inverse iteration for the pairs that the eigensolver left inaccurate: where eigenvalues spread over many orders of
-//! magnitude, the small ones come out with the rounding of the great ones.
+//! Inverse iteration for pairs that the eigensolver left inaccurate: where eigenvalues spread over many orders of
+//! magnitude, the small ones carry the rounding of the large ones.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -12,7 +12,8 @@ const STEPS: usize = 4;
 /// Eigenvalues closer than this, relative to the larger, may mix in an inverse iteration.
 const NEAR: f64 = 1e-3;
 
-/// Improves pair `r`; keeps it mass-orthogonal to the earlier pairs near it. Leaves it alone when that does not help.
+/// Improves pair `r` and keeps it mass-orthogonal to the earlier pairs near it. Leaves it unchanged if that does not
+/// help.
 #[cold]
 pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64], r: usize) {
     let n = matrices.n;
@@ -74,8 +75,8 @@ fn multiply(matrix: &[f64], x: &[f64], into: &mut [f64]) {
     }
 }
 
-/// Solves in place by elimination with row exchanges; `false` when a pivot does not rise above the rounding of the
-/// matrix. Destroys the matrix.
+/// Solves in place by elimination with row exchanges and destroys the matrix; `false` if a pivot does not exceed the
+/// rounding of the matrix.
 fn solve(n: usize, matrix: &mut [f64], x: &mut [f64]) -> bool {
     let threshold = 8.0 * n as f64 * f64::EPSILON;
     for i in 0..n {

@@ -1,4 +1,4 @@
-//! What a pair leaves of `K phi - lambda M phi`, and how far that puts its eigenvalue off.
+//! The residual `K phi - lambda M phi` of a pair, and the resulting error of its eigenvalue.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -15,21 +15,21 @@ pub(crate) struct Matrices<'a> {
 }
 
 impl Matrices<'_> {
-    /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
+    /// Largest component of `K phi - lambda M phi`, relative to the sums of absolute terms in the rows.
     #[inline(always)]
     pub(crate) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
         self.rest(self.n, lambda, phi).relative()
     }
 
-    /// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
-    /// that act, and their terms are no measure.
+    /// Whether rounding of `phi` explains the residual: a shape that `K` maps to zero has nothing but rounding in the
+    /// active rows, so their terms are no measure.
     pub(super) fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
         let most = self.rest(self.n, lambda, phi).most;
         let matrices = largest(self.k) + lambda.abs() * largest(self.m);
         most <= of_elements(self.n) * matrices * largest(phi)
     }
 
-    /// What the parts of other modes in shape `r` make of its eigenvalue: of second order, twice the sum of
+    /// Error of an eigenvalue caused by components of other modes in its shape `r`: of second order, twice the sum of
     /// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`.
     #[cold]
     pub(super) fn error_of_shape(&self, lambda: &[f64], shapes: &[f64], r: usize) -> f64 {
@@ -48,21 +48,21 @@ impl Matrices<'_> {
             let part: f64 = own.iter().zip(&rest).map(|(a, b)| a * b).sum();
             let part = part.abs();
             if part > 0.0 {
-                // Of equal eigenvalues to first order.
+                // For equal eigenvalues the error is of first order.
                 sum += part * (part / greater(part, (lambda[s] - lambda[r]).abs()));
             }
         }
         2.0 * sum
     }
 
-    /// The relative residual of a pair of matrices of size `n`, and the error of its eigenvalue.
+    /// The relative residual of a pair, for matrices of size `n`, and the error of its eigenvalue.
     #[inline(always)]
     pub(super) fn measured(&self, n: usize, lambda: f64, phi: &[f64]) -> (f64, f64) {
         let rest = self.rest(n, lambda, phi);
         (rest.relative(), rest.error(n))
     }
 
-    /// What `lambda` and `phi` leave of `K phi - lambda M phi`.
+    /// The residual `K phi - lambda M phi`.
     #[inline(always)]
     fn rest(&self, n: usize, lambda: f64, phi: &[f64]) -> Rest {
         let mut rest = Rest::default();
@@ -87,14 +87,14 @@ impl Matrices<'_> {
     }
 }
 
-/// `K phi - lambda M phi`, summed up.
+/// `K phi - lambda M phi`, summarised.
 #[derive(Default)]
 struct Rest {
-    /// Greatest component.
+    /// Largest component.
     most: f64,
-    /// Greatest sum of absolute terms in a row.
+    /// Largest sum of absolute terms in a row.
     size: f64,
-    /// `phi^T (K - lambda M) phi`, and its absolute terms.
+    /// `phi^T (K - lambda M) phi` and its absolute terms.
     along: f64,
     terms: f64,
 }
@@ -109,7 +109,7 @@ impl Rest {
         }
     }
 
-    /// Error of `lambda`: by rounding of the elements, and by twice what it is away from the quotient of `phi`.
+    /// Error of `lambda`: rounding of the elements plus twice its distance from the Rayleigh quotient of `phi`.
     #[inline(always)]
     fn error(&self, n: usize) -> f64 {
         of_elements(n) * self.terms + 2.0 * self.along.abs()

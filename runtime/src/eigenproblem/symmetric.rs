@@ -1,4 +1,4 @@
-//! The symmetric generalised eigenproblem `K phi = lambda M phi`, by code of its own for each small size.
+//! The symmetric generalised eigenproblem `K phi = lambda M phi`, with separate code for each small size.
 
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
@@ -11,11 +11,12 @@ use crate::algebra::{Matrix, Vector, for_size, largest};
 pub(crate) enum Trouble {
     /// The mass matrix has no positive pivot in this row.
     SingularMass(usize),
-    /// This pair did not pass its residual check.
+    /// This pair failed its residual check.
     Inaccurate { mode: usize, residual: f64 },
 }
 
-/// Eigenvalues ascending; `shapes[r]` the vector of eigenvalue `r` with `phi^T M phi = 1`, largest component positive.
+/// Eigenvalues, ascending; `shapes[r]` is the vector of eigenvalue `r` with `phi^T M phi = 1` and its largest component
+/// positive.
 #[derive(Debug, Default)]
 pub(crate) struct Pairs {
     pub(crate) lambda: Vector,
@@ -32,14 +33,14 @@ impl Pairs {
     }
 }
 
-/// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
+/// Largest residual of an accepted pair, relative to `|K| + |lambda| |M|`.
 const ACCEPTED: f64 = 1e-9;
-/// Residual of a pair that has nothing but rounding in it.
+/// Residual of a pair that is exact up to rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Residual beyond which a pair is improved by inverse iteration.
+/// Residual above which a pair is improved by inverse iteration.
 pub(crate) const INACCURATE: f64 = 1e-13;
 
-/// Share of the greatest eigenvalue below which one may be nothing but what the other modes leave in its shape.
+/// Share of the largest eigenvalue below which an eigenvalue may be no more than the effect of other modes in its shape.
 const SMALL: f64 = 1e-6;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
@@ -49,7 +50,7 @@ pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble>
     Ok(pairs)
 }
 
-/// As [`solve`]: writes over other pairs.
+/// Like [`solve`], overwriting existing pairs.
 pub(crate) fn solve_into(
     stiffness: &Matrix,
     mass: &Matrix,
@@ -94,7 +95,7 @@ fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
     Ok(())
 }
 
-/// Size two directly: Cholesky reduction by hand and one Jacobi rotation.
+/// Size two directly: explicit Cholesky reduction and one Jacobi rotation.
 #[inline]
 fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
     let threshold = 16.0 * f64::EPSILON;
@@ -134,7 +135,7 @@ fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
     Ok(())
 }
 
-/// One function for each size.
+/// Defines one function per size.
 macro_rules! small {
     ($($name:ident $size:literal)*) => {$(
         fn $name(
@@ -170,7 +171,7 @@ fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], Trouble> {
     Ok(lower)
 }
 
-/// Lower Cholesky factor of a mass matrix, row by row; what is above the diagonal of `lower` stays as it is.
+/// Lower Cholesky factor of a mass matrix, row by row; the part of `lower` above the diagonal is unchanged.
 pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), Trouble> {
     let threshold = 8.0 * n as f64 * f64::EPSILON;
     for i in 0..n {
@@ -245,7 +246,7 @@ fn finish(
                     residual: residuals[r],
                 });
             }
-            // Relative to the matrices instead of to terms that are rounding themselves.
+            // Relative to the matrices, because the terms are rounding themselves.
             residuals[r] = ROUNDING;
         }
     }
@@ -285,7 +286,7 @@ fn sort(
     }
 }
 
-/// Makes the largest component positive; a margin keeps the choice when two are equal but for rounding.
+/// Makes the largest component positive; a margin keeps the choice stable when two are equal up to rounding.
 #[inline(always)]
 pub(crate) fn fix_sign(shape: &mut [f64]) {
     let mut lead = 0;

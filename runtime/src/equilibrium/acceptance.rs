@@ -1,22 +1,22 @@
-//! The candidate solution: the last Newton step, and the acceptance tests of the state it leads to.
+//! Candidate solutions: the last Newton step, and the acceptance tests of the state it reaches.
 
 use super::convergence::{TOLERANCE, is_rounding, relative_to, residual_is_small};
 use super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector, add_scaled, all_finite, largest};
 use crate::kernels::Linear;
 
-/// What a solver found, before its stability is judged.
+/// The result of a solver, before its stability is judged.
 pub(crate) struct Found {
     pub(crate) coordinates: Vector,
     pub(crate) residual: Vector,
-    /// Where it is known.
+    /// The measurement, if already made.
     pub(crate) measured: Option<Measured>,
     pub(crate) iterations: usize,
     pub(crate) left_unstable_region: bool,
 }
 
 impl Found {
-    /// A state to which no unstable region was on the way.
+    /// A result reached without passing through an unstable region.
     pub(crate) fn new(end: Candidate, iterations: usize) -> Self {
         Self {
             coordinates: end.coordinates,
@@ -28,23 +28,24 @@ impl Found {
     }
 }
 
-/// What is asked of a state that may be the result.
+/// The values by which a possible result is accepted.
 pub(crate) struct Measured {
     pub(crate) linear: Linear,
-    /// Infinite unless all is finite.
+    /// Infinite unless everything is finite.
     pub(crate) relative_residual: f64,
 }
 
-/// A state that may be the result.
+/// A state that may become the result.
 pub(crate) struct Candidate {
     pub(crate) coordinates: Vector,
     pub(crate) residual: Vector,
-    /// Without constraints.
+    /// Only without constraints.
     pub(crate) measured: Option<Measured>,
 }
 
 impl Candidate {
-    /// The state at `q`. Without constraints the parts of the residual, with which a result is measured, are the residual as well.
+    /// The state at `q`. Without constraints, the parts of the residual that measure a result also give the residual
+    /// itself.
     #[inline]
     pub(crate) fn at(point: &OperatingPoint<'_>, q: Vector) -> Self {
         if !point.structure.open() {
@@ -72,7 +73,7 @@ impl Candidate {
         }
     }
 
-    /// Whether the relative residual is finite and within `tolerance`; `stiffness` is near to that of the state.
+    /// Whether the relative residual is finite and within `tolerance`; `stiffness` is that of a nearby state.
     #[inline]
     pub(crate) fn is_solved(
         &self,
@@ -90,8 +91,8 @@ impl Candidate {
     }
 }
 
-/// The last Newton step; the stiffness is not needed again, only that the residual fell to rounding: to a small share, or to
-/// what `displacement`, from a residual to the Newton step it asks for, says is nothing.
+/// Takes the last Newton step. The stiffness is not evaluated again; the residual must only have fallen to a small
+/// share, or to rounding as judged by `displacement`, which maps a residual to its Newton step.
 #[inline]
 pub(crate) fn last_step(
     point: &OperatingPoint<'_>,

@@ -1,4 +1,4 @@
-//! Assembly: positions in which the loops of a mechanism close, from values that need not.
+//! Assembly: finds positions that close the loops of a mechanism, from values that need not.
 
 use super::constraint_projection::{close, close_speeds, free, gaps};
 use super::operating_point::{Failure, OperatingPoint};
@@ -8,10 +8,12 @@ use crate::kernels::Kernels;
 use crate::state::dependent_names;
 use crate::{Coordinate, Description, Error, Shared, Text};
 
-/// On which side of the dead centres a mechanism is assembled: the sign of the determinant of `Phi_q` by the coordinates
-/// that are not held, constraints and coordinates in the order of their declaration (of constraints that depend on each other
-/// the first). Any motion from one side to the other, with the held coordinates free to move, passes through a dead centre:
-/// states on different sides are in different assembly modes. States on the same side may be, too.
+/// The assembly mode: on which side of the dead centres a mechanism is assembled.
+///
+/// It is the sign of the determinant of `Phi_q` over the coordinates that are not held, with constraints and coordinates
+/// in the order of their declaration (of dependent constraints, the first ones). Any motion from one side to the other,
+/// with the held coordinates free to move, passes through a dead centre, so states on different sides are in different
+/// assembly modes. States on the same side may be in different modes, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AssemblyMode {
@@ -26,28 +28,28 @@ pub enum AssemblyMode {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Assembly {
-    /// Coordinates that meet the constraints, rad or m; speeds that meet those on velocities as far as speeds can; reactions
-    /// that balance the forces as far as reactions can. SI.
+    /// The assembled state, SI: coordinates that meet the constraints, rad or m; speeds that meet the constraints on
+    /// velocities, and reactions that balance the forces, as far as possible.
     pub coordinates: Vector,
     /// Which coordinates were held.
     pub held: Vec<bool>,
     /// How far each coordinate and speed moved from its start value; zero for reactions.
     pub moved: Vector,
-    /// The gap left in each constraint, listed where its reaction is and counted in its direction, m or rad (on velocities
-    /// m/s or rad/s): rounding.
+    /// The remaining gap of each constraint, at the position of its reaction and in its direction, m or rad (on
+    /// velocities m/s or rad/s): rounding only.
     pub gaps: Vector,
     /// Iterations spent.
     pub iterations: usize,
-    /// How many degrees of freedom the constraints leave, and which of them are redundant.
+    /// The degrees of freedom that the constraints leave, and which constraints are redundant.
     pub constraints: ConstraintState,
-    /// The assembly mode; known when as many coordinates are held as there are degrees of freedom and the state is not a
+    /// The assembly mode; known if as many coordinates are held as there are degrees of freedom and the state is not a
     /// dead centre.
     pub mode: Option<AssemblyMode>,
     /// How well the constraints determine the coordinates that are not held: one at best, zero at a dead centre.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub margin: f64,
-    /// The state is a dead centre or a singular configuration: to first order, coordinates that are not held can move by
-    /// themselves, or cannot follow those that are.
+    /// The state is a dead centre or a singular configuration: to first order, coordinates that are not held can move on
+    /// their own or cannot follow those that are.
     pub singular: bool,
     /// The inputs it belongs to, SI.
     pub inputs: Vector,
@@ -56,30 +58,32 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
+    /// Names of the constraints that depend on each other; [`ConstraintState::redundant`] of them can be removed.
     pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
         dependent_names(&self.description, &self.constraints.dependent)
     }
 
-    /// Of coordinates and speeds the motions, of constraints the gaps.
+    /// The moves of coordinates and speeds and the gaps of constraints, in one vector.
     pub(crate) fn changes(&self) -> Vector {
         add_scaled(&self.moved, 1.0, &self.gaps)
     }
 }
 
-/// Margin below which a state is a dead centre to working accuracy: constraints meet there as a double root, which rounding
-/// leaves at half of the digits.
+/// Margin below which a state counts as a dead centre: the constraints meet there in a double root, so rounding leaves
+/// only half of the digits.
 const DEAD_CENTRE: f64 = 1e-6;
 
-/// Assembles a mechanism: moves the coordinates that are not in `held` from `start` to the nearest place
-/// where the constraints are met.
+/// Assembles a mechanism: moves the coordinates that are not in `held` from `start` to the nearest position that meets
+/// the constraints.
 ///
-/// `u` inputs, `b` design variables, `start` coordinates (then speeds; values for reactions are ignored), all SI. Start values of the coordinates that are not held choose the assembly mode. A mechanism
-/// without constraints stays where it is.
+/// `u` are inputs, `b` design variables, `start` coordinates (then speeds; values for reactions are ignored), all SI.
+/// The start values of the coordinates that are not held select the assembly mode. A mechanism without constraints stays
+/// where it is.
 ///
 /// # Errors
-/// [`Error::NotAssembled`] with the gaps that remain: too many coordinates held, links too short, constraints that
-/// contradict each other. [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::OutsideDomain`], [`Error::UnknownHandle`].
+/// [`Error::NotAssembled`] with the gaps that remain, if too many coordinates are held, links are too short, or
+/// constraints contradict each other. [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`],
+/// [`Error::OutsideDomain`], [`Error::UnknownHandle`].
 pub fn assemble(
     mechanism: &dyn Kernels,
     u: &[f64],
@@ -158,8 +162,8 @@ fn assembled(
     })
 }
 
-/// The state nearest to `start` that meets the constraints, with the reactions that balance best, and the iterations it
-/// took.
+/// The state nearest to `start` that meets the constraints, with the reactions that balance it best, and the number of
+/// iterations.
 pub(super) fn closed(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -181,8 +185,8 @@ pub(super) fn closed(
     Ok((x, iterations))
 }
 
-/// The sign of the determinant of the first independent rows by the coordinates that are not held; `None` where their
-/// numbers differ.
+/// The sign of the determinant of the first independent rows over the coordinates that are not held; `None` if the
+/// matrix is not square.
 fn mode(rows: &Matrix, rank: usize, held: &[bool], structure: Structure) -> Option<AssemblyMode> {
     let columns: Vec<usize> = (0..structure.coordinates).filter(|&j| !held[j]).collect();
     if rank == 0 || columns.len() != rank {

@@ -1,7 +1,9 @@
-//! When a solve is finished: its Newton step is small against the coordinates, or rounding lets the residual fall no
-//! further. The residual alone cannot tell near a critical state, where a small one hides a large displacement; a small
-//! step alone cannot tell where stiffnesses of very different size meet, so a finished state passes both. The gap of a
-//! constraint is measured by motions too, and a reaction by the largest.
+//! When a solve is finished: its Newton step is small relative to the coordinates, or rounding keeps the residual from
+//! falling further.
+//!
+//! The residual alone is no criterion near a critical state, where a small one hides a large displacement. A small step
+//! alone is no criterion where stiffnesses of very different size meet. A finished state therefore passes both tests.
+//! The gap of a constraint is measured by motions too, and a reaction relative to the largest one.
 
 use super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector, greater, largest};
@@ -9,29 +11,30 @@ use crate::kernels::RestParts;
 
 /// Relative residual that counts as solved once it no longer falls.
 pub(crate) const TOLERANCE: f64 = 1e-10;
-/// Relative residual that a result may have; beyond it, it is no equilibrium.
+/// Largest relative residual of a result; beyond it, a state is no equilibrium.
 pub(crate) const ACCEPTED: f64 = 2.0 * TOLERANCE;
-/// A step this small changes nothing.
+/// A step this small, relative to the coordinates, changes nothing.
 pub(crate) const FLOOR: f64 = 2.0 * f64::EPSILON;
-/// A displacement this small may be the rounding of the residual.
+/// A displacement this small may be rounding of the residual.
 pub(crate) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A Newton step this small leaves a remainder at rounding.
 pub(crate) const LAST_STEP: f64 = 1e-8;
-/// A residual that keeps this share in a step has stopped falling: even where `Khat` is singular at the solution, Newton
-/// steps leave less than 1/e of it.
+/// A residual that keeps this share in a step has stopped falling: Newton steps leave less than 1/e of it even where
+/// `Khat` is singular at the solution.
 const STALLED: f64 = 0.5;
-/// Displacement (rad or m) that coordinates near zero are compared with.
+/// Displacement (rad or m) against which coordinates near zero are measured.
 pub(crate) const SMALL_MOTION: f64 = 1e-3;
-/// Share of a coordinate that counts as a displacement in the scale of a residual: times [`TOLERANCE`] it is some seven
-/// roundings of the coordinate, which is what a far-off coordinate can resolve.
+/// Share of a coordinate that counts as a displacement in the scale of a residual. Multiplied by [`TOLERANCE`] it is
+/// about seven rounding units of the coordinate, the resolution of a large coordinate.
 pub(crate) const ROUNDED: f64 = 1.5e-5;
-/// LineModel, relative to where the residual last fell, on which a residual that stays the same is not small but left behind.
+/// Distance, relative to the state where the residual last fell, beyond which an unchanged residual means that the state
+/// runs away.
 const DRIFT: f64 = 1e3;
 
 /// How far a solve has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Progress {
-    /// Go on.
+    /// Not finished.
     Underway,
     /// One more Newton step reaches rounding.
     LastStep,
@@ -39,10 +42,10 @@ pub(crate) enum Progress {
     Finished,
 }
 
-/// Watches a residual fall and tells when it has reached rounding.
+/// Monitors a falling residual and detects when it has reached rounding.
 pub(crate) struct Watch {
     previous: f64,
-    /// Where the residual last fell.
+    /// The state at which the residual last fell.
     fell_at: Vector,
 }
 
@@ -54,8 +57,7 @@ impl Watch {
         }
     }
 
-    /// Judges a state by its residual and by the full step that would come next; without a step only the residual
-    /// counts.
+    /// Judges a state by its residual and the full step that would come next; without a step, by the residual alone.
     #[inline]
     pub(crate) fn judge(
         &mut self,
@@ -84,8 +86,8 @@ impl Watch {
         }
     }
 
-    /// Whether the state runs away under a residual that stays what it is: forces that grow on the way make it small by
-    /// comparison only.
+    /// Whether the state runs away while its residual stays the same: growing forces make the residual small only by
+    /// comparison.
     fn drifts(&self, q: &[f64]) -> bool {
         q.iter()
             .zip(&self.fell_at)
@@ -93,7 +95,7 @@ impl Watch {
     }
 }
 
-/// What a full Newton step says about the way that is left.
+/// Remaining Newton steps, judged from a full step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum StepsLeft {
     /// More than one step.
@@ -104,7 +106,7 @@ pub(crate) enum StepsLeft {
     Reached,
 }
 
-/// How many steps are left, by the next one from `q`.
+/// How many steps remain, judged from the next one at `q`.
 #[inline]
 pub(crate) fn last(step: &[f64], q: &[f64], motions: usize) -> StepsLeft {
     if !within(LAST_STEP, step, q, motions) {
@@ -116,14 +118,14 @@ pub(crate) fn last(step: &[f64], q: &[f64], motions: usize) -> StepsLeft {
     }
 }
 
-/// Whether a displacement of the unknowns is of the size of rounding.
+/// Whether a displacement of the unknowns is as small as rounding.
 #[inline]
 pub(crate) fn is_rounding(displacement: &[f64], q: &[f64], motions: usize) -> bool {
     within(ROUNDING, displacement, q, motions)
 }
 
-/// Whether every change of a coordinate is within `tolerance` of the coordinate or of a small motion, and every change of a
-/// reaction within that of the reaction or of the greatest one.
+/// Whether every change of a coordinate is within `tolerance` of the coordinate or of a small motion, and every change
+/// of a reaction within `tolerance` of that reaction or of the largest one.
 #[inline]
 fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
     let reaction = largest_of(&q[motions..]);
@@ -133,7 +135,8 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
     })
 }
 
-/// Whether the relative residual is within `tolerance`; asks for the forces only where stiffness does not show it.
+/// Whether the relative residual is within `tolerance`; evaluates the forces only if the stiffness does not already show
+/// it.
 pub(crate) fn residual_is_small(
     point: &OperatingPoint<'_>,
     q: &[f64],
@@ -146,9 +149,11 @@ pub(crate) fn residual_is_small(
         || relative_residual(point, q, residual, stiffness) <= tolerance
 }
 
-/// Greatest residual, each relative to its own parts (inertia, applied forces) and to what a small motion of each
-/// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, one that is nothing
-/// but rounding as a small share of the greatest; the gap of a constraint is relative to what those motions open.
+/// The largest residual, each relative to its own scale.
+///
+/// The scale consists of the parts of the residual (inertia, applied forces) and of what a small motion of each
+/// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, a reaction that
+/// is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions open.
 pub(crate) fn relative_residual(
     point: &OperatingPoint<'_>,
     q: &[f64],
@@ -158,7 +163,7 @@ pub(crate) fn relative_residual(
     relative_to(point, &point.parts(q), q, residual, stiffness)
 }
 
-/// As [`relative_residual`] with the parts of the residual at `q`.
+/// Like [`relative_residual`], with the parts of the residual at `q` given.
 #[inline]
 pub(crate) fn relative_to(
     point: &OperatingPoint<'_>,
@@ -172,8 +177,8 @@ pub(crate) fn relative_to(
     relative_of((q.len(), point.motions()), forces, q, residual, stiffness)
 }
 
-/// The same of `n` unknowns of which so many are motions; `forces` are inertia and applied forces. See
-/// [`for_size`](crate::algebra::for_size).
+/// The relative residual for `n` unknowns, the first `motions` of which are motions; `forces` are inertia and applied
+/// forces. See [`for_size`](crate::algebra::for_size).
 #[inline(always)]
 pub(crate) fn relative_of(
     (n, motions): (usize, usize),
@@ -213,19 +218,19 @@ pub(crate) fn relative_of(
     most
 }
 
-/// A small motion of a coordinate: [`SMALL_MOTION`] and a few roundings.
+/// The small motion of a coordinate: [`SMALL_MOTION`] plus a few rounding units.
 #[inline]
 fn small_motion(q: f64) -> f64 {
     SMALL_MOTION + ROUNDED * q.abs()
 }
 
-/// The gap of one constraint relative to what small motions, by the row of its derivatives, open.
+/// The gap of one constraint relative to what small motions open, given the row of its derivatives.
 pub(crate) fn relative_gap(gap: f64, motions: &[f64], row: &[f64]) -> f64 {
     relative(gap, 0.0, motions, row)
 }
 
-/// One equation's residual relative to `force` and the row of stiffnesses against motions `q`; a scale that overflows is
-/// formed anew from smaller numbers.
+/// One equation's residual relative to `force` and the row of stiffnesses times the motions `q`; a scale that overflows
+/// is recomputed from smaller numbers.
 #[inline]
 fn relative(residual: f64, force: f64, q: &[f64], row: &[f64]) -> f64 {
     let scale = |unit: f64| {
@@ -253,12 +258,12 @@ fn ratio(residual: f64, scale: f64) -> f64 {
     }
 }
 
-/// Coordinates and speeds beyond this are taken as an escape to infinity.
+/// Limit beyond which coordinates and speeds count as escaping to infinity.
 pub(crate) fn horizon(start: &[f64]) -> f64 {
     1e12 * (1.0 + largest_of(start))
 }
 
-/// Greatest absolute value.
+/// Largest absolute value.
 #[inline]
 pub(crate) fn largest_of(values: &[f64]) -> f64 {
     values

@@ -1,7 +1,9 @@
 //! Stable equilibria of a mechanism with symmetric `Khat`: the residual is then the gradient of an amended potential,
-//! and stable equilibria are its minima. Newton's method where the potential is convex, descent along every mode with
-//! its curvature made positive where it is not, and a step along the unstable mode away from a saddle. With constraints on
-//! positions the same along the directions they leave free.
+//! whose minima are the stable equilibria.
+//!
+//! The search uses Newton's method where the potential is convex. Elsewhere it descends along every mode with the
+//! curvature made positive, and leaves saddles along the unstable mode. With constraints on positions the same holds
+//! along the directions they leave free.
 
 use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
@@ -16,24 +18,24 @@ use crate::rounding::{Sign, sign};
 
 const MAX_ITERATIONS: usize = 300;
 pub(super) const MAX_DEPARTURES: usize = 8;
-/// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well.
+/// Largest change of a coordinate in the first step, rad or m; grows while the linear model predicts well.
 const FIRST_RADIUS: f64 = 1.0;
-/// By how much it grows at a time.
+/// Factor of each increase.
 pub(super) const GROWTH: f64 = 4.0;
-/// Displacement (rad or m) by which an unstable equilibrium, or a singular configuration, is left.
+/// Displacement (rad or m) with which an unstable equilibrium or a singular configuration is left.
 pub(super) const DEPARTURE: f64 = 1e-3;
 
-/// Where a search has come to.
+/// The current state of a search.
 pub(super) struct SearchState {
     pub(super) q: Vector,
-    /// Greatest change of a coordinate in the next step, rad or m.
+    /// Largest change of a coordinate in the next step, rad or m.
     pub(super) radius: f64,
-    /// Spent so far.
+    /// Iterations spent so far.
     pub(super) iterations: usize,
 }
 
 impl SearchState {
-    /// The start.
+    /// The state at the start of a search.
     #[inline]
     pub(super) fn first(q: &[f64]) -> Self {
         Self {
@@ -44,9 +46,11 @@ impl SearchState {
     }
 }
 
-/// Descends to a minimum of the amended potential from `from`, a place on the way from `start`; both meet the constraints. Asks
-/// `straight` for the minimum once a region is left where the potential is not convex: it is found faster where the rest of the way
-/// is easy.
+/// Descends from `from`, a state on the way from `start`, to a minimum of the amended potential; both states meet the
+/// constraints.
+///
+/// Once the search leaves a region where the potential is not convex, it calls `straight`, which finds the minimum
+/// faster if the remaining way is easy.
 pub(super) fn stable<S>(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -160,7 +164,7 @@ where
 struct Curved {
     pairs: symmetric::Pairs,
     mass: Matrix,
-    /// The potential falls along the first mode.
+    /// The potential decreases along the first mode.
     unstable: bool,
 }
 
@@ -192,7 +196,8 @@ fn outside(q: &[f64]) -> Failure {
     }
 }
 
-/// Descent along every mode with the size of its curvature, so that the unstable ones are left, not approached.
+/// A descent step along every mode scaled by the magnitude of its curvature, so that the step leaves unstable modes
+/// instead of approaching the saddle.
 fn curved_step(pairs: &symmetric::Pairs, residual: &[f64]) -> Vector {
     let floor = 1e-8 * largest(&pairs.lambda);
     let mut step = Vector::zeros(residual.len());
@@ -207,12 +212,12 @@ fn curved_step(pairs: &symmetric::Pairs, residual: &[f64]) -> Vector {
     step
 }
 
-/// A small step along the unstable mode, towards the user's start value when that tells a side.
+/// A small step along the unstable mode, towards the user's start value if that indicates a side.
 fn departure(shape: &[f64], mass: &Matrix, q: &[f64], start: &[f64]) -> Vector {
     let offset = add_scaled(start, -1.0, q);
     let side = dot(&offset, &times(mass, shape));
     let size = form(&offset, mass, &offset).max(0.0).sqrt();
-    // Below a thousandth of the distance the projection says nothing about a side.
+    // Below a thousandth of the distance the projection does not indicate a side.
     let sign = if side.abs() > 1e-3 * size && largest(&offset) > 1e-9 {
         side.signum()
     } else {
@@ -226,19 +231,21 @@ struct Next {
     trial: Trial,
     /// Accepted fraction of the step.
     length: f64,
-    /// The linear model predicted the slope at the end.
+    /// The linear model predicted the slope at the end correctly.
     predicted: bool,
 }
 
-/// The potential along a step, at its beginning: derivatives by the share of the step.
+/// The potential along a step, at its beginning: derivatives with respect to the share of the step.
 pub(super) struct LineModel {
     pub(super) slope: f64,
     pub(super) curvature: f64,
 }
 
 impl LineModel {
-    /// Whether the potential is lower at a share `length` of the step, where it has these derivatives: its minimum along the
-    /// step is near, or it fell by their integral (corrected trapezoidal rule), since the potential itself is not available.
+    /// Whether the potential is lower at a share `length` of the step, where it has these derivatives.
+    ///
+    /// Either its minimum along the step is near, or it fell according to the integral of the derivatives (corrected
+    /// trapezoidal rule), since the potential itself is not available.
     #[inline]
     pub(super) fn falls(&self, length: f64, slope: f64, curvature: f64) -> bool {
         let near = slope.abs() <= 0.5 * self.slope.abs() && curvature >= 0.0;
@@ -247,7 +254,7 @@ impl LineModel {
         near || change <= 1e-4 * length * self.slope
     }
 
-    /// Whether the derivatives at the beginning told the slope there.
+    /// Whether the derivatives at the beginning predicted the slope there.
     #[inline]
     pub(super) fn predicts(&self, length: f64, slope: f64) -> bool {
         let expected = self.slope + length * self.curvature;
@@ -255,7 +262,7 @@ impl LineModel {
     }
 }
 
-/// Line search on the change of the potential.
+/// Line search based on the change of the potential.
 fn search<S>(point: &OperatingPoint<'_>, base: &Base<S>, step: &[f64]) -> Option<Next>
 where
     S: SearchSpace,

@@ -1,4 +1,4 @@
-//! Dynamic equilibria: where a mechanism can rest relative to its drives, and whether it would stay there.
+//! Dynamic equilibria: where a mechanism can rest relative to its drives, and whether it stays there.
 
 mod acceptance;
 mod assembly;
@@ -38,27 +38,29 @@ pub use crate::state::{Equilibrium, Stability};
 use crate::kernels::Kernels;
 use crate::{Error, Mode};
 
-/// Which equilibrium is wanted.
+/// Which equilibrium to find.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Policy {
-    /// A stable one, by descent in the amended potential; where descent finds none, the nearest one, whose
-    /// [`Stability`] then says what it is. From a start without positive stiffness the nearest one is taken when
-    /// gyroscopic forces hold it. Needs a symmetric `Khat`; without it the same as `Nearest`.
+    /// A stable equilibrium, by descent in the amended potential.
+    ///
+    /// If descent finds none, the nearest equilibrium; its [`Stability`] then tells what it is. From a start without
+    /// positive stiffness, the nearest one is taken if gyroscopic forces hold it. Needs a symmetric `Khat`; otherwise
+    /// the same as `Nearest`.
     #[default]
     Stable,
-    /// The one that Newton's method reaches from the start value, whatever its stability.
+    /// The equilibrium that Newton's method reaches from the start value, whatever its stability.
     Nearest,
 }
 
 /// Finds a dynamic equilibrium from the start value `start`.
 ///
-/// `u` inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an
+/// `u` are inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an
 /// unstable equilibrium is left along its most unstable mode, towards positive values of the mode's largest component.
 ///
-/// A mechanism with constraints is first moved from `start` to the nearest place where it closes ([`assemble`] does that with
-/// some coordinates held); the reactions in `start` are ignored.
+/// A mechanism with constraints is first moved from `start` to the nearest position that closes its loops ([`assemble`]
+/// does that with some coordinates held); the reactions in `start` are ignored.
 ///
 /// # Errors
 /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`], [`Error::OutsideDomain`],
@@ -75,7 +77,8 @@ pub fn equilibrium(
     Ok(state)
 }
 
-/// As [`equilibrium`]: writes over a blank state at these inputs and design variables, and returns [`Judged::modes`].
+/// Like [`equilibrium`], but overwrites a blank state at these inputs and design variables, and returns
+/// [`Judged::modes`].
 pub(crate) fn equilibrium_into(
     mechanism: &dyn Kernels,
     u: &[f64],

@@ -1,4 +1,4 @@
-//! Several equilibria of one mechanism, from a reproducible set of start values.
+//! Finds several equilibria of one mechanism from a reproducible set of start values.
 
 use eigentol_statistics::random::RandomNumbers;
 
@@ -9,19 +9,20 @@ use crate::kernels::Kernels;
 use crate::setters::setters;
 use crate::{Equilibrium, Error, Stability};
 
-/// Where to start from.
+/// Where to start a search for several equilibria.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Search {
-    /// Least start value of each coordinate, rad or m; then of speeds and reactions, of which the latter are ignored.
+    /// Smallest start value of each coordinate, rad or m, then of each speed and reaction; those of reactions are
+    /// ignored.
     pub lower: Vector,
-    /// Greatest start value of each coordinate, rad or m.
+    /// Largest start value of each coordinate, rad or m.
     pub upper: Vector,
-    /// Least number of random starts; each is followed to a stable and to the nearest equilibrium. More follow until, by what
-    /// was found, no other is to be expected. 32 unless set.
+    /// Minimum number of random starts; each is followed to a stable and to the nearest equilibrium. More starts follow
+    /// until the finds so far suggest that no equilibrium is missing. Default 32.
     pub starts: usize,
-    /// The same seed gives the same starts. 0 unless set.
+    /// Seed of the starts; the same seed gives the same starts. Default 0.
     pub seed: u64,
 }
 
@@ -39,18 +40,19 @@ impl Search {
     }
 }
 
-/// Most starts beyond those asked for.
+/// Maximum number of starts beyond those requested.
 const MOST_STARTS: usize = 2000;
 
 /// Finds distinct equilibria from random starts in a box and from `start`, in the order of discovery.
 ///
-/// After [`Search::starts`] the search goes on until less than half a further equilibrium is to be expected. Having met `w`
-/// equilibria `n` times in all, one expects `w (w + 1) / (n - w - 2)` others, unless some are much harder to meet (Boender and
-/// Rinnooy Kan 1987). It ends after 2000 further starts at the latest; zero starts stay zero.
+/// After [`Search::starts`] the search continues until less than half a further equilibrium is expected. After meeting
+/// `w` equilibria `n` times in all, one expects `w (w + 1) / (n - w - 2)` others, unless some are much harder to meet
+/// (Boender and Rinnooy Kan 1987). The search ends after 2000 further starts at the latest. With [`Search::starts`] set
+/// to zero there are no random starts.
 ///
-/// States that differ by full turns of an angle count as one where a full turn leaves forces and stiffnesses the same, not where
-/// a spring or a screw counts the turns. An empty list means that no
-/// start led to an equilibrium; completeness is not promised.
+/// States that differ by full turns of an angle count as one if a full turn leaves forces and stiffnesses unchanged, but
+/// not if a spring or a screw counts the turns. An empty list means that no start led to an equilibrium; completeness is
+/// not guaranteed.
 ///
 /// # Errors
 /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`].
@@ -92,12 +94,12 @@ pub fn find_equilibria(
     Ok(found)
 }
 
-/// Whether half an equilibrium or more is to be expected beside these, which were met so often.
+/// Whether half an equilibrium or more is still expected, after `found` distinct ones were met `met` times.
 fn more_expected(found: usize, met: usize) -> bool {
     2 * found * (found + 1) >= met.saturating_sub(found + 2)
 }
 
-/// Whether two equilibria are one place.
+/// Whether two equilibria are the same place.
 fn same(point: &OperatingPoint<'_>, known: &Equilibrium, state: &Equilibrium) -> bool {
     let description = &point.description;
     let (q, other) = (&known.coordinates, &state.coordinates);

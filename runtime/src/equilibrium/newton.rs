@@ -1,4 +1,5 @@
-//! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
+//! The equilibrium nearest to a start value, regardless of its stability: Newton's method with a line search on the
+//! residual.
 
 use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
@@ -8,7 +9,7 @@ use crate::algebra::{Cholesky, Lu, Matrix, Vector, times};
 use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 300;
-/// Greatest change of a coordinate or speed in the first step, SI; grows while steps succeed.
+/// Largest change of a coordinate or speed in the first step, SI; grows while steps succeed.
 const FIRST_RADIUS: f64 = 1.0;
 
 /// Solves `g = 0` from `start`, which lies in the space.
@@ -76,7 +77,7 @@ where
     Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
 }
 
-/// The state at a base as the result.
+/// Converts a base to the result.
 fn found<S>(base: Base<S>, iterations: usize) -> Found {
     let end = Candidate {
         coordinates: base.q,
@@ -102,7 +103,7 @@ fn merit(residual: &[f64], weight: &[f64]) -> f64 {
     })
 }
 
-/// A damped least-squares step, for where `Khat` is singular.
+/// A damped least-squares step, used where `Khat` is singular.
 fn damped_step(residual: &[f64], stiffness: &Matrix, weight: &[f64]) -> Vector {
     let n = residual.len();
     let weighted = Matrix::from_fn(n, n, |i, j| stiffness[i][j] * weight[i]);

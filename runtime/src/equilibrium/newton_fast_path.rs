@@ -1,6 +1,7 @@
-//! The usual case of a stable equilibrium: a start in the valley of the answer, from which Newton steps lead to it. They are the
-//! steps that [`descent`](super::descent) takes, as long as each passes its tests at once; from where one does not, descent
-//! goes on with all that it has for hard cases.
+//! The usual case of a stable equilibrium: the start lies in the valley of the answer, and Newton steps lead to it.
+//!
+//! These are the steps that [`descent`](super::descent) takes, as long as each passes its tests immediately. At the
+//! first one that fails, descent takes over with its methods for hard cases.
 
 use super::Equilibrium;
 use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};
@@ -11,12 +12,13 @@ use crate::algebra::{
 };
 use crate::kernels::RestParts;
 
-/// Newton's method doubles the digits: a start in the valley takes few steps.
+/// Newton's method doubles the digits: a start in the valley needs few steps.
 const MAX_ITERATIONS: usize = 8;
 
-/// The minimum of the amended potential to which Newton steps lead from `place`, all of them through states where it is
-/// convex, written over `state` but for its stability; otherwise where that ended: at the last such state, or at `place`.
-/// For mechanisms without constraints.
+/// Finds the minimum of the amended potential by Newton steps from `place`, all of them through states where it is
+/// convex. For mechanisms without constraints.
+///
+/// Overwrites `state` except for its stability. On failure, returns the last convex state, or `place`.
 pub(super) fn newton_fast_path(
     point: &OperatingPoint<'_>,
     place: SearchState,
@@ -29,7 +31,7 @@ pub(super) fn newton_fast_path(
     )
 }
 
-/// As [`newton_fast_path`], for `n` unknowns.
+/// Like [`newton_fast_path`], for `n` unknowns.
 #[inline(always)]
 fn newton(
     n: usize,
@@ -84,7 +86,7 @@ fn newton(
                 .for_each(|value| *value = *value * place.radius / size);
         }
         let slope = dot(step, residual);
-        // A Newton step has as much curvature as it has slope.
+        // A Newton step has as much curvature as slope.
         let way = LineModel {
             slope,
             curvature: -share * slope,
@@ -111,8 +113,9 @@ fn newton(
     Err(place)
 }
 
-/// Completes the state at the coordinates that the last step has reached. Whether it is solved: from `residual` before it, what
-/// remains fell to a small share or to rounding, as [`last_step`](super::acceptance::last_step) wants it.
+/// Completes the state at the coordinates reached by the last step, and returns whether it is solved: the remainder of
+/// `residual`, the value before the step, has fallen to a small share or to rounding, as
+/// [`last_step`](super::acceptance::last_step) requires.
 #[inline(always)]
 fn ends(
     n: usize,

@@ -1,4 +1,4 @@
-//! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
+//! One equilibrium problem: a mechanism with validated inputs and design variables, evaluated with checks.
 
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
 use crate::arguments::{check_count, check_finite};
@@ -17,16 +17,16 @@ pub(crate) struct OperatingPoint<'a> {
     pub(crate) structure: Structure,
     pub(crate) inputs: &'a [f64],
     pub(crate) design: &'a [f64],
-    /// Constraints that are left out, because the others imply them where they are met: rows with a zero residual and minus
-    /// one on the diagonal (each constraint gives `Khat` a negative eigenvalue). Away from there dependent rows do not look
-    /// dependent, and only hinder each other. Empty where none is left out.
+    /// Constraints that are left out because the others imply them where they are met. Their rows have a zero residual
+    /// and minus one on the diagonal (each constraint gives `Khat` a negative eigenvalue). Away from there dependent
+    /// rows do not look dependent and only hinder each other. Empty if none is left out.
     dropped: Vec<bool>,
-    /// The modes of a state near by, from which those of this one are found in less time; may be empty.
+    /// The modes of a nearby state, which speed up the computation of those of this one; may be empty.
     pub(super) nearby: &'a [Mode],
 }
 
 impl<'a> OperatingPoint<'a> {
-    /// Checks that the values are as many as they have to be, finite, and describe bodies that can exist.
+    /// Checks that the values have the right number, are finite, and describe bodies that can exist.
     pub(crate) fn new(
         mechanism: &'a dyn Kernels,
         inputs: &'a [f64],
@@ -37,7 +37,7 @@ impl<'a> OperatingPoint<'a> {
         Ok(point)
     }
 
-    /// Checks inputs and design variables as [`Self::new`].
+    /// Checks inputs and design variables like [`Self::new`].
     pub(super) fn check_values(&self) -> Result<(), Error> {
         let (names, inputs, design) = (&self.description, self.inputs, self.design);
         check_count("inputs", inputs, names.inputs.len())?;
@@ -54,7 +54,7 @@ impl<'a> OperatingPoint<'a> {
         }
     }
 
-    /// For values that a caller has checked itself.
+    /// Skips the checks: inputs and design variables must be validated.
     pub(crate) fn unchecked(
         mechanism: &'a dyn Kernels,
         inputs: &'a [f64],
@@ -72,7 +72,7 @@ impl<'a> OperatingPoint<'a> {
         }
     }
 
-    /// The same, not far from a state with these modes.
+    /// This point with the modes of a nearby state.
     pub(crate) fn near(self, modes: &'a Modes) -> Self {
         Self {
             nearby: modes.general(),
@@ -85,12 +85,12 @@ impl<'a> OperatingPoint<'a> {
         self.description.coordinates.len()
     }
 
-    /// Number of coordinates and speeds: they come first, and reactions after them.
+    /// Number of coordinates and speeds, which come first, before the reactions.
     pub(crate) fn motions(&self) -> usize {
         self.structure.motions()
     }
 
-    /// The same without the constraints that are redundant at `x`, which meets them.
+    /// This point without the constraints that are redundant at `x`, a state that meets them.
     pub(crate) fn without_redundant(&self, x: &[f64]) -> Self {
         let plain = if self.structure.constraints() > 1 {
             self.evaluate_plain(x)
@@ -103,7 +103,7 @@ impl<'a> OperatingPoint<'a> {
         )
     }
 
-    /// The same without these constraints.
+    /// This point without the constraints marked in `dropped`.
     pub(crate) fn without(&self, dropped: &[bool]) -> Self {
         Self {
             dropped: dropped.to_vec(),
@@ -111,7 +111,7 @@ impl<'a> OperatingPoint<'a> {
         }
     }
 
-    /// What its state is written over.
+    /// An empty state, to be overwritten.
     #[inline]
     pub(crate) fn blank_state(&self) -> Equilibrium {
         Equilibrium::blank(&self.description, self.inputs, self.design)
@@ -123,7 +123,7 @@ impl<'a> OperatingPoint<'a> {
         check_finite("start value of coordinate", |k| &unknowns[k].name, start)
     }
 
-    /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
+    /// Residual and stiffness with the gauge fixed; `None` if either is not finite.
     pub(crate) fn evaluate(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let mut found = self.evaluate_plain(q);
         if !self.structure.open()
@@ -138,7 +138,7 @@ impl<'a> OperatingPoint<'a> {
         found
     }
 
-    /// The residual alone; it may not be finite.
+    /// The residual alone, which may not be finite.
     pub(crate) fn residual(&self, q: &[f64]) -> Vector {
         let mut residual = self.mechanism.residual(q, self.inputs, self.design);
         if !self.structure.open() {
@@ -147,7 +147,7 @@ impl<'a> OperatingPoint<'a> {
         residual
     }
 
-    /// Inertia and applied forces at rest; they may not be finite.
+    /// Inertia and applied forces at rest, which may not be finite.
     pub(crate) fn parts(&self, q: &[f64]) -> RestParts {
         self.mechanism.residual_parts(q, self.inputs, self.design)
     }
@@ -165,7 +165,7 @@ impl<'a> OperatingPoint<'a> {
         }
     }
 
-    /// As [`Self::evaluate`], with every constraint and the gauge as it is.
+    /// Like [`Self::evaluate`], but with every constraint, and without fixing the gauge.
     pub(crate) fn evaluate_plain(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let kernels = self.mechanism;
         let found = kernels.residual_and_stiffness(q, self.inputs, self.design);
@@ -179,7 +179,7 @@ impl<'a> OperatingPoint<'a> {
         })
     }
 
-    /// The linearised mechanism, its gauge fixed.
+    /// The linearised mechanism with the gauge fixed.
     pub(crate) fn linear(&self, q: &[f64]) -> Result<Linear, Failure> {
         let mut linear = self.mechanism.linear(q, self.inputs, self.design);
         self.check(q, &linear)?;
@@ -189,8 +189,8 @@ impl<'a> OperatingPoint<'a> {
         Ok(linear)
     }
 
-    /// [`Self::parts`] and the linearised mechanism, neither of which may be finite, its gauge as it is. Of a small mechanism
-    /// the sines, and what else both need, are computed once.
+    /// [`Self::parts`] and the linearised mechanism, either of which may not be finite, without fixing the gauge. For a
+    /// small mechanism the sines and other common terms are computed once.
     #[inline]
     pub(crate) fn parts_and_linear(&self, q: &[f64]) -> (RestParts, Linear) {
         self.mechanism.parts_and_linear(q, self.inputs, self.design)
@@ -229,19 +229,20 @@ pub(crate) enum Failure {
         iterations: usize,
         relative: f64,
     },
-    /// The constraints stay open by `gaps`, in the places of their rows; zero where they are met.
+    /// The constraints stay open by `gaps`, at the positions of their rows; zero where a constraint is met.
     NotAssembled {
         reason: NotClosed,
         coordinates: Vec<f64>,
         gaps: Vec<f64>,
-        /// The row that stays open most, relative to what motions can close.
+        /// The row with the largest gap relative to what motions can close.
         worst: usize,
         iterations: usize,
     },
-    /// Beside a singular configuration, in which the forces do not balance.
+    /// The state is next to a singular configuration in which the forces do not balance.
     Unbalanced {
         coordinates: Vec<f64>,
-        /// The direction that constraints do not hold there, down the applied forces; its greatest component is one.
+        /// The direction, down the applied forces, in which the constraints give no support there; its largest component
+        /// is one.
         downhill: Vec<f64>,
         /// The constraints that become dependent there.
         dependent: Vector<bool>,
@@ -316,7 +317,7 @@ impl Failure {
     }
 }
 
-/// Unit of the gap of a constraint: what its reaction does work on.
+/// Unit of the gap of a constraint, on which its reaction does work.
 pub(crate) fn gap_unit(description: &Description, row: usize) -> &'static str {
     let Some(info) = description.coordinates.get(row) else {
         return "";

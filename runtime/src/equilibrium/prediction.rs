@@ -1,13 +1,13 @@
-//! Where an equilibrium goes along an input, by the last states on its way.
+//! Predicts where an equilibrium moves along an input, from the last states of the path.
 
 use crate::algebra::{Vector, all_finite, greater, largest};
 
-/// Share of the way that a prediction may miss.
+/// Share of the distance by which a prediction may miss.
 pub(crate) const MISSED: f64 = 0.25;
-/// Coordinates that differ by no more than this do not move.
+/// Largest difference between coordinates that count as unchanged.
 pub(crate) const STILL: f64 = 1e-9;
 
-/// The last states on the way: at most three, the latest first.
+/// The last states of the path: at most three, the latest first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Path {
     states: [(f64, Vector); 3],
@@ -15,7 +15,7 @@ pub(crate) struct Path {
 }
 
 impl Path {
-    /// Goes on to a state at another value of the input.
+    /// Moves on to the state at another value of the input.
     pub(crate) fn go(&mut self, value: f64, q: &[f64]) {
         self.states.rotate_right(1);
         let (last, state) = &mut self.states[0];
@@ -28,13 +28,13 @@ impl Path {
         self.count = (self.count + 1).min(3);
     }
 
-    /// The last three states; `None` with fewer.
+    /// The last three states; `None` if there are fewer.
     pub(crate) fn last_three(&self) -> Option<&[(f64, Vector); 3]> {
         (self.count == 3).then_some(&self.states)
     }
 
-    /// The state at a value of the input: by the parabola or the straight line through the last states. `None` with fewer
-    /// than two states, or where values of the input repeat.
+    /// Extrapolates the state to a value of the input, by a parabola or straight line through the last states. `None` if
+    /// there are fewer than two states, or if values of the input repeat.
     pub(crate) fn at(&self, value: f64) -> Option<Vector> {
         let [(u0, q0), (u1, q1), (u2, q2)] = &self.states;
         if self.count < 2 {
@@ -53,7 +53,7 @@ impl Path {
     }
 }
 
-/// Whether a state found from a predicted one is what the prediction meant: much nearer to it than to the last state.
+/// Whether the state found from a prediction is the predicted one: much closer to the prediction than to the last state.
 pub(crate) fn confirmed(found: &[f64], predicted: &[f64], last: &[f64]) -> bool {
     let distance = |from: &[f64]| {
         let pairs = found.iter().zip(from);

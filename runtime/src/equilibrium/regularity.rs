@@ -1,11 +1,12 @@
-//! Whether an equilibrium is one where constraints are about to become dependent.
+//! Detects equilibria at which constraints are about to become dependent.
 //!
-//! Let `s` be the distance from a singular configuration of the constraints, and `F` the applied force in the direction that
-//! they no longer hold there. Beside it their reactions grow as `F / s`. A gap `d` turns the directions they leave free by
-//! `d / s^2`, so that an imbalance `F d / s^2` goes unseen; a stiffness `K` makes a displacement of it, which at
-//! `s^3 = F d / K` reaches the singular configuration. For gaps of rounding this is about a micrometre in a metre: there states
-//! stand at random, balanced to all digits, by reactions of a million times the weight, that are no equilibria. The test is
-//! therefore not a residual, but how far rounding moves a state towards the singular configuration.
+//! Let `s` be the distance from a singular configuration of the constraints, and `F` the applied force in the direction
+//! in which they give no support there. Close to it their reactions grow as `F / s`. A gap `d` rotates the directions
+//! that they leave free by `d / s^2`, so that an imbalance `F d / s^2` goes unnoticed. With a stiffness `K` this makes a
+//! displacement, which reaches the singular configuration at `s^3 = F d / K`. For gaps of rounding this is about a
+//! micrometre in a metre: states found there are random, balanced to all digits by reactions of a million times the
+//! weight, and are no equilibria. The test is therefore not a residual, but how far rounding moves a state towards the
+//! singular configuration.
 
 use super::convergence::FLOOR;
 use super::operating_point::{Failure, OperatingPoint};
@@ -13,19 +14,22 @@ use crate::algebra::{Lu, Vector, dot, greater, largest};
 use crate::constraints::{ConstraintState, NEARLY, Tangent, placed};
 use crate::kernels::Linear;
 
-/// Share of the distance from a singular configuration by which rounding may move an equilibrium: beyond it, reactions and
-/// stiffness have less than three digits.
+/// Share of the distance from a singular configuration by which rounding may move an equilibrium. Beyond it, reactions
+/// and stiffness have less than three correct digits.
 const KNOWN: f64 = 1e-3;
-/// Forces beside a singular configuration are those in it, but for what stiffness makes of the distance, times this.
+/// The force close to a singular configuration counts as zero up to this multiple of what the stiffness contributes over
+/// the distance.
 const BESIDE: f64 = 10.0;
-/// Share in the weakest combination of constraints that counts as taking part.
+/// Share in the weakest combination of constraints above which a constraint takes part in it.
 const TAKES_PART: f64 = 1e-3;
 
-/// What the constraints are at a state that is at rest to rounding. A state that rounding takes to a singular configuration
-/// counts as being there, and is an equilibrium if forces balance there by finite reactions.
+/// The state of the constraints at a configuration that is at rest to rounding.
+///
+/// If rounding can move it to a singular configuration, it counts as being there; it is an equilibrium if finite
+/// reactions balance the forces there.
 ///
 /// # Errors
-/// [`Failure::Unbalanced`] where they do not.
+/// [`Failure::Unbalanced`] if they do not.
 pub(crate) fn constraint_state(
     point: &OperatingPoint<'_>,
     q: &[f64],
@@ -63,7 +67,7 @@ pub(crate) fn constraint_state(
     })
 }
 
-/// Why a search that ended at `q` found nothing, if that is a singular configuration beside it in which forces do not balance.
+/// Explains a failed search that ended at `q` next to a singular configuration in which forces do not balance.
 #[cold]
 pub(crate) fn unbalanced(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Failure> {
     let linear = point.linear(q).ok()?;
@@ -75,7 +79,7 @@ pub(crate) fn unbalanced(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Failur
     if !state.singular {
         return None;
     }
-    // In the singular configuration itself all its directions are free.
+    // In the singular configuration itself all of these directions are free.
     let tangent = Tangent::new(&linear, point.structure);
     let uphill = tangent.lift(&tangent.project(&residual));
     let steepest = largest(&uphill);
@@ -86,12 +90,13 @@ pub(crate) fn unbalanced(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Failur
     })
 }
 
-/// The direction of motion that constraints hold least.
+/// The direction of motion in which the constraints give the least support.
 struct Weakest {
     direction: Vector,
-    /// Multipliers of constraints that together hold it: the force of one in it, and no force across.
+    /// Multipliers of the constraints that together support it: their force along it is one, across it zero.
     combination: Vector,
-    /// Derivative by every unknown of what they hold it by, relative to that: the inverse of the distance from where they do not.
+    /// Derivative of that support with respect to every unknown, relative to the support: the inverse of the distance to
+    /// where it vanishes.
     approach: Vector,
 }
 
@@ -99,7 +104,7 @@ impl Weakest {
     fn new(point: &OperatingPoint<'_>, q: &[f64], tangent: &Tangent) -> Self {
         let (direction, combination) = tangent.all.weakest();
         let combination = placed(tangent.structure, &combination);
-        // What they hold it by is `combination^T Khat direction`.
+        // The support is `combination^T Khat direction`.
         let none = Vector::zeros(point.size());
         let approach = point.mechanism.pencil_gradient(
             q,
@@ -114,7 +119,8 @@ impl Weakest {
         }
     }
 
-    /// The greatest share of the distance by which residuals of this size move a state; infinite where its stiffness is singular.
+    /// The largest share of the distance by which residuals of this size move a state; infinite if its stiffness is
+    /// singular.
     fn moved(&self, linear: &Linear, residual: &[f64]) -> f64 {
         Lu::new(&linear.stiffness.transpose()).map_or(f64::INFINITY, |lu| {
             let by_residual = lu.solve(&self.approach);
@@ -122,8 +128,8 @@ impl Weakest {
         })
     }
 
-    /// The force in the direction that is left to reactions; zero where it may be the stiffness over the distance from the singular
-    /// configuration that makes it.
+    /// The force along the direction that only reactions support; zero if the stiffness over the distance from the
+    /// singular configuration can explain it.
     fn force(&self, point: &OperatingPoint<'_>, q: &[f64]) -> f64 {
         let motions = point.motions();
         let mut released = Vector::from(q);
@@ -147,14 +153,14 @@ impl Weakest {
     }
 }
 
-/// What a residual cannot tell from zero: what is left of it, or the rounding of what it is summed from.
+/// Residual that cannot be distinguished from zero: the remaining residual, or the rounding of its terms.
 fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linear) -> Vector {
     let parts = point.parts(q);
     let unknowns = &point.description.coordinates;
     Vector::from_fn(q.len(), |i| {
         let terms = (0..q.len()).fold(parts.inertia[i].abs() + parts.applied[i].abs(), |sum, j| {
             let angle = unknowns[j].unit.symbol == *"rad";
-            // A length that turns is rounded as a whole.
+            // A length that rotates is rounded as a whole.
             let size = if angle {
                 greater(1.0, q[j].abs())
             } else {

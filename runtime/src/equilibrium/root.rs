@@ -1,7 +1,7 @@
-//! Roots of a function of one variable between two values of opposite sign: Newton's method where a slope is known and it
-//! stays inside, secants otherwise, bisection where both are slow.
+//! Roots of a function of one variable between two values of opposite sign: Newton's method where a slope is known and
+//! the step stays inside, secants otherwise, bisection where both are slow.
 
-/// A bracket `[low, high]` with the values of the function at its ends.
+/// A bracket `[low, high]` with the values of the function at both ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bracket {
     pub(crate) low: f64,
@@ -12,8 +12,8 @@ pub(crate) struct Bracket {
 
 /// Shrinks the bracket to rounding and returns its best point.
 ///
-/// `function` returns its value and, where it knows it, its slope; `None` where it is not defined: such a point counts as
-/// lying on the side of `high`.
+/// `function` returns its value and, if known, its slope; `None` if it is not defined: the point then counts as lying on
+/// the side of `high`.
 pub(crate) fn refine(
     mut bracket: Bracket,
     mut function: impl FnMut(f64) -> Option<(f64, Option<f64>)>,
@@ -69,7 +69,7 @@ pub(crate) fn refine(
                 last_side = -1;
             }
         }
-        // A Newton step below rounding: nothing is gained by closing the other side of the bracket.
+        // The Newton step is below rounding: closing the other side of the bracket gains nothing.
         if let Some(next) = newton
             && (next - trial).abs() <= f64::EPSILON * scale
         {

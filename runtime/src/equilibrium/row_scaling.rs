@@ -1,12 +1,13 @@
-//! What makes the equations of Newton's method on all unknowns comparable.
+//! Weights that make the equations comparable when Newton's method runs on all unknowns.
 
 use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::Vector;
 use crate::constraints::inertias;
 
-/// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
-/// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it; a reaction is the
-/// stiffness against a motion of one unit, for mechanisms that have no other.
+/// Inverse generalised masses, which make the squares of forces and moments comparable.
+///
+/// The gap of a constraint counts as the force with which the largest stiffness of the mechanism would resist the motion
+/// that closes it. In mechanisms without any other stiffness, a reaction acts as the stiffness against a unit motion.
 pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
     let structure = point.structure;
     let linear = &point.linear(q)?;
@@ -39,7 +40,7 @@ pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, F
         if mobility > 0.0 {
             weight[i] = stiffest * stiffest / mobility;
         } else {
-            // Nothing closes it from here; what it weighs is no matter as long as it is seen.
+            // Nothing can close the gap from here; any weight will do as long as the gap is seen.
             weight[i] =
                 stiffest * stiffest * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b));
         }

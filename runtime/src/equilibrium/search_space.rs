@@ -1,14 +1,16 @@
-//! Where solvers look: among all values of all unknowns, or among the positions that meet the constraints.
+//! Search spaces of the solvers: all values of all unknowns, or the positions that meet the constraints.
 //!
-//! Positions that meet `Phi(q) = 0` near a base `q_0` are written over its tangent directions `P`: `q(y) = q_0 + P y + n(y)`,
-//! `n` in the span of the normals at the base, which is orthogonal to `P` in the metric of masses. For a potential `V`
-//! with gradient `g` and multipliers `mu` that balance it along those normals, `n_k . (g + H^T mu) = 0`,
+//! Near a base `q_0`, positions that meet `Phi(q) = 0` are parametrised by its tangent directions `P`:
+//! `q(y) = q_0 + P y + n(y)`, with `n` in the span of the normals at the base, which is orthogonal to `P` in the mass
+//! metric. For a potential `V` with gradient `g`, and multipliers `mu` that balance it along those normals,
+//! `n_k . (g + H^T mu) = 0`,
 //!
-//! - the derivative of `V` by `y` is `P^T (g + H^T mu)`;
-//! - the second one along `y` is `t^T K_c(mu) t`, `t = P y + dn` tangent at `q(y)`, `K_c = d(g + H^T mu)/dq`.
+//! - the first derivative of `V` with respect to `y` is `P^T (g + H^T mu)`;
+//! - the second derivative along `y` is `t^T K_c(mu) t`, `t = P y + dn` tangent at `q(y)`, `K_c = d(g + H^T mu)/dq`.
 //!
-//! (Differentiate `Phi(q(y)) = 0` twice; `n''` is a combination of normals, on which `g` is `-mu . H n'' = mu . Phi_qq t t`.)
-//! The first holds without a potential too. Nothing else of the solvers differs from those of an open mechanism.
+//! (Differentiate `Phi(q(y)) = 0` twice; `n''` is a combination of normals, on which `g` is
+//! `-mu . H n'' = mu . Phi_qq t t`.) The first formula holds without a potential too. Otherwise the solvers do the same
+//! as for an open mechanism.
 
 use super::convergence::{TOLERANCE, relative_gap};
 use super::operating_point::{Failure, OperatingPoint};
@@ -16,7 +18,7 @@ use super::row_scaling::weights;
 use crate::algebra::{Lu, Matrix, Vector, add_scaled, add_to, all_finite_matrix, dot, times};
 use crate::constraints::Tangent;
 
-/// A state with what a step from it needs.
+/// A state with the data needed for a step from it.
 pub(super) struct Base<S> {
     pub(super) q: Vector,
     pub(super) residual: Vector,
@@ -30,7 +32,8 @@ pub(super) struct Trial {
     /// Its product with the step is the slope of the potential along the step.
     pub(super) residual: Vector,
     pub(super) stiffness: Matrix,
-    /// Direction of the way at its end: its form with the stiffness is the curvature of the potential along the way.
+    /// Direction of the path at its end: its quadratic form with the stiffness is the curvature of the potential along
+    /// the path.
     pub(super) direction: Vector,
 }
 
@@ -42,22 +45,22 @@ pub(super) trait SearchSpace: Sized {
     /// The base at the end of a step.
     fn arrive(point: &OperatingPoint<'_>, trial: Trial) -> Result<Base<Self>, Failure>;
 
-    /// Slopes of the potential by free direction.
+    /// Slopes of the potential along the free directions.
     fn slopes(&self, residual: &[f64]) -> Vector;
 
-    /// Stiffness over free directions.
+    /// Stiffness along the free directions.
     fn stiffness(&self, stiffness: &Matrix) -> Matrix;
 
-    /// Masses over free directions.
+    /// Masses along the free directions.
     fn mass(&self, mass: &Matrix) -> Matrix;
 
     /// Weights that make the squares of the slopes comparable.
     fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure>;
 
-    /// Displacement of all unknowns for a displacement along free directions.
+    /// Displacement of all unknowns caused by a displacement along the free directions.
     fn lift(&self, y: &[f64]) -> Vector;
 
-    /// The state at a share `length` of `step`; `None` where there is none.
+    /// The state at a share `length` of `step`; `None` if there is none.
     fn trial(
         &self,
         point: &OperatingPoint<'_>,
@@ -67,7 +70,7 @@ pub(super) trait SearchSpace: Sized {
     ) -> Option<Trial>;
 }
 
-/// All unknowns, constraints equations like the others.
+/// All unknowns, with constraints treated as ordinary equations.
 pub(super) struct Unconstrained;
 
 impl SearchSpace for Unconstrained {
@@ -128,25 +131,25 @@ impl SearchSpace for Unconstrained {
     }
 }
 
-/// With constraints on positions.
+/// The positions that meet the constraints.
 pub(super) struct ConstraintManifold {
     tangent: Tangent,
     /// `n_k`.
     normals: Vec<Vector>,
 }
 
-/// Most Newton steps back onto the constraints.
+/// Maximum number of Newton steps back onto the constraints.
 const MAX_RETURNS: usize = 12;
-/// A step back must leave less than this share of the gaps, or rounding.
+/// Each step back must reduce the gaps below this share, or to rounding.
 const CONTRACTION: f64 = 0.5;
 
 impl ConstraintManifold {
-    /// The place among the unknowns of independent constraint `i`.
+    /// The position of independent constraint `i` among the unknowns.
     fn row(&self, i: usize) -> usize {
         self.tangent.structure.motions() + self.tangent.positions.order[i]
     }
 
-    /// `a_ik = h_i . n_k` of the independent constraints at a state and the normals at the base.
+    /// `a_ik = h_i . n_k` of the independent constraints at a state with the normals at the base.
     fn crossed(&self, stiffness: &Matrix) -> Matrix {
         let rank = self.normals.len();
         Matrix::from_fn(rank, rank, |i, k| {
@@ -154,7 +157,7 @@ impl ConstraintManifold {
         })
     }
 
-    /// Values by independent constraint.
+    /// Selects the values of the independent constraints.
     fn independent(&self, values: &[f64]) -> Vector {
         Vector::from_fn(self.normals.len(), |i| values[self.row(i)])
     }
@@ -168,8 +171,8 @@ impl ConstraintManifold {
         sum
     }
 
-    /// Displacement along the normals at the base that brings `from` back onto the constraints; not longer than `reach` in
-    /// the metric. Also the residual and the stiffness there.
+    /// Displacement along the normals at the base that brings `from` back onto the constraints, no longer than `reach`
+    /// in the mass metric; also returns the residual and the stiffness there.
     fn back(
         &self,
         point: &OperatingPoint<'_>,
@@ -199,7 +202,7 @@ impl ConstraintManifold {
     }
 }
 
-/// Greatest gap of the constraints on positions, relative to what small motions open.
+/// Largest gap of the constraints on positions, relative to what small motions open.
 pub(super) fn greatest_gap(
     point: &OperatingPoint<'_>,
     q: &[f64],
@@ -253,7 +256,7 @@ impl SearchSpace for ConstraintManifold {
         self.tangent.reduce(mass)
     }
 
-    /// The basis is orthonormal in the metric of masses.
+    /// All ones: the basis is orthonormal in the mass metric.
     fn weights(_: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
         Ok(Vector::filled(q.len(), 1.0))
     }

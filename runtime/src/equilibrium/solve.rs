@@ -1,4 +1,4 @@
-//! From a start value to an equilibrium that is finished: solved to rounding, judged, its reactions determined.
+//! From a start value to a finished equilibrium: solved to rounding, stability judged, reactions determined.
 
 use super::acceptance::{Found, Measured};
 use super::convergence::{ACCEPTED, relative_residual};
@@ -18,11 +18,11 @@ use crate::{DampingKind, Mode, Stability};
 /// A finished state.
 pub(crate) struct Judged {
     pub(crate) state: Equilibrium,
-    /// Its general modes, where its stability was judged by them; empty otherwise.
+    /// Its general modes if they were needed to judge its stability; empty otherwise.
     pub(crate) modes: Vec<Mode>,
 }
 
-/// As [`equilibrium`](super::equilibrium), for values already checked.
+/// Like [`equilibrium`](super::equilibrium), for validated values.
 pub(crate) fn solve(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -33,7 +33,7 @@ pub(crate) fn solve(
     Ok(Judged { state, modes })
 }
 
-/// As [`solve`]: writes over a state of the same mechanism at these inputs and design variables, and returns
+/// Like [`solve`], but overwrites a state of the same mechanism at these inputs and design variables, and returns
 /// [`Judged::modes`].
 pub(crate) fn solve_into(
     point: &OperatingPoint<'_>,
@@ -54,12 +54,12 @@ pub(crate) fn solve_into(
     Ok(found.modes)
 }
 
-/// Whether stable states are minima of a potential of coordinates that no constraint holds.
+/// Whether stable states are minima of a potential in coordinates that no constraint restricts.
 fn has_open_potential(point: &OperatingPoint<'_>) -> bool {
     point.description.symmetric_stiffness && point.structure.open()
 }
 
-/// As [`solve`], for mechanisms with constraints and for those without a potential.
+/// Like [`solve`], for mechanisms with constraints or without a potential.
 fn solve_slowly(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -96,15 +96,17 @@ fn solve_slowly(
     found
 }
 
-/// Beside a singular configuration, on the way that the forces take there.
+/// Leaves a singular configuration in the direction in which the forces drive.
 #[cold]
 fn departed(point: &OperatingPoint<'_>, from: &[f64], downhill: &[f64]) -> Result<Vector, Failure> {
     let beside = add_scaled(from, descent::DEPARTURE, downhill);
     assembly::closed(point, &beside, &vec![false; point.size()]).map(|(start, _)| start)
 }
 
-/// As [`solve_into`], for the stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight
-/// way leads there and it is what was predicted. For mechanisms with a potential and without constraints.
+/// Like [`solve_into`], for the stable equilibrium next to a predicted state; `last` is the one before it.
+///
+/// `None` unless the fast path leads to a state that confirms the prediction. For mechanisms with a potential and
+/// without constraints.
 pub(crate) fn solve_from_prediction(
     point: &OperatingPoint<'_>,
     last: &[f64],
@@ -122,7 +124,7 @@ pub(crate) fn solve_from_prediction(
     judge(point, state).ok()
 }
 
-/// As [`solve`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
+/// Like [`solve`], for a stable equilibrium that the fast path does not reach; the search continues at `place`.
 #[cold]
 fn from_afar(
     point: &OperatingPoint<'_>,
@@ -171,8 +173,8 @@ fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<F
     })
 }
 
-/// The equilibrium nearest to `start`, which meets the constraints: along the positions that do where these are all there is
-/// to it, else on all unknowns together.
+/// The equilibrium nearest to `start`, a state that meets the constraints. Searches along the positions that meet them
+/// if there are only constraints on positions, otherwise over all unknowns together.
 fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure> {
     let structure = point.structure;
     let whole = || {
@@ -187,7 +189,7 @@ fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure> 
         .or_else(|failure| whole().map_err(|_| failure))
 }
 
-/// The last steps on coordinates and reactions together.
+/// Takes the last steps in coordinates and reactions together.
 fn polished(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> {
     let independent = point.without_redundant(&found.coordinates);
     let last = newton::nearest::<search_space::Unconstrained>(&independent, &found.coordinates)?;
@@ -198,7 +200,7 @@ fn polished(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> 
     })
 }
 
-/// The equilibrium nearest to `start` if that is a saddle which gyroscopic forces hold; descent would leave it.
+/// The equilibrium nearest to `start` if it is a saddle held by gyroscopic forces; descent would leave it.
 fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
     if point.description.damping == DampingKind::Zero {
         return None;
@@ -250,7 +252,7 @@ fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failur
     Ok(Judged { state, modes })
 }
 
-/// What a solved state is: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
+/// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
 fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<Vec<Mode>, Failure> {
     let verdict = if state.constraints.singular {
         Verdict::undecided()
@@ -272,7 +274,7 @@ fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<Vec<Mode
     Ok(verdict.modes)
 }
 
-/// Determines the reactions of a state and measures it.
+/// Determines and measures the reactions of a state.
 fn measure(point: &OperatingPoint<'_>, found: &mut Found) -> Result<Measured, Failure> {
     let mut linear = point.linear(&found.coordinates)?;
     if point.structure.constraints() > 1 {
@@ -280,7 +282,7 @@ fn measure(point: &OperatingPoint<'_>, found: &mut Found) -> Result<Measured, Fa
             linear = point.linear(&least)?;
             found.coordinates = least;
         }
-        // With the gaps of constraints that were left out.
+        // Includes the gaps of constraints that were left out.
         found.residual = point.residual(&found.coordinates);
     }
     let (q, residual) = (&found.coordinates, &found.residual);
@@ -296,7 +298,8 @@ fn at_rest_by_stiffness(point: &OperatingPoint<'_>) -> bool {
     undamped && point.description.symmetric_stiffness && point.structure.open()
 }
 
-/// The state with the least of the reactions that redundant constraints leave undetermined; `None` where they leave nothing.
+/// The state with the smallest reactions among those that redundant constraints allow; `None` if the reactions are
+/// determined.
 fn least_reactions(x: &[f64], linear: &Linear, structure: Structure) -> Option<Vector> {
     let rows = all_rows(&linear.stiffness, structure);
     let mut least = Vector::from(x);

@@ -1,4 +1,4 @@
-//! What the linearised mechanism says about the stability of an equilibrium.
+//! Stability of an equilibrium according to the linearised mechanism.
 
 use super::operating_point::Failure;
 use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element};
@@ -9,17 +9,17 @@ use crate::modes::{Family, Modes, SYMMETRIC, free_pairs};
 use crate::rounding::{self, CheckedState, Sign, of_form, sign};
 use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
 
-/// What a state is.
+/// The judgement of a state.
 pub(crate) struct Verdict {
     pub(crate) stability: Stability,
-    /// Eigenvalues `lambda` up to this size cannot be told from zero.
+    /// Eigenvalues `lambda` up to this size cannot be distinguished from zero.
     pub(crate) rounding: f64,
-    /// The general modes, where these were asked; empty where theorems decided.
+    /// The general modes if they were needed; empty where theorems decided.
     pub(crate) modes: Vec<Mode>,
 }
 
 impl Verdict {
-    /// Of a state that nobody can judge.
+    /// The verdict for a state whose stability cannot be decided.
     pub(crate) fn undecided() -> Self {
         Self::without_modes(Stability::Undecided, 0.0)
     }
@@ -33,13 +33,13 @@ impl Verdict {
     }
 }
 
-/// Whether `Khat` is positive definite beyond any doubt.
+/// Whether `Khat` is positive definite beyond doubt.
 #[inline]
 pub(crate) fn clearly_definite(linear: &Linear) -> bool {
     Cholesky::new(&linear.stiffness).is_ok_and(|factors| rounding::clear(factors.pivots(), linear))
 }
 
-/// Whether `Mhat` and `Khat` are positive definite, `Khat` beyond any doubt.
+/// Whether `Mhat` and `Khat` are positive definite, `Khat` beyond doubt.
 #[inline]
 pub(super) fn clearly_stable(linear: &Linear) -> bool {
     for_size(
@@ -54,11 +54,13 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
     )
 }
 
-/// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is
-/// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise, also with an odd
-/// number of negative directions beside free ones, by the general eigenvalues. With constraints on positions the theorems
-/// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide, found
-/// from the modes of a state `nearby` where there are any.
+/// Judges stability by theorems where they decide, otherwise by the general eigenvalues.
+///
+/// A positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is stable (Kelvin, Tait, Chetaev);
+/// `det Khat < 0` has a growing real solution whatever `Chat` is. The general eigenvalues decide all other cases,
+/// including an odd number of negative directions next to free ones. With constraints on positions the theorems hold for
+/// the directions they leave free. With speeds or constraints on velocities the general eigenvalues decide; they are
+/// found from the modes `nearby`, if given.
 pub(crate) fn judge(
     mechanism: &dyn Kernels,
     at: &CheckedState<'_>,
@@ -86,8 +88,10 @@ pub(crate) fn judge(
     })
 }
 
-/// As [`judge`], by the matrices over free directions; `whole` are those of all unknowns, `doubt` tells how far rounding of the
-/// data moves an eigenvalue, `general` what the general eigenvalues say ([`by_eigenvalues`]).
+/// Like [`judge`], for the matrices along the free directions.
+///
+/// `whole` are the matrices over all unknowns, `doubt` tells how far rounding of the data moves an eigenvalue, and
+/// `general` judges by the general eigenvalues ([`by_eigenvalues`]).
 fn judge_free(
     description: &Shared<Description>,
     whole: &Linear,
@@ -142,8 +146,8 @@ fn judge_free(
     Ok(Verdict::without_modes(stability, floor))
 }
 
-/// What the general eigenvalues say, where `negative` directions have negative stiffness and `free` ones none; a `lambda` not
-/// beyond `floor` is zero.
+/// Judges by the general eigenvalues, with `negative` directions of negative and `free` ones of zero stiffness; a
+/// `lambda` not beyond `floor` counts as zero.
 fn by_eigenvalues(
     (linear, nearby): (&Linear, &[Mode]),
     description: &Shared<Description>,
@@ -169,7 +173,7 @@ fn by_eigenvalues(
     } else if growing > 0 {
         Stability::Flutter { growing }
     } else if zero > 0 {
-        // A direction that nothing resists has two zero eigenvalues `s`.
+        // A direction without resistance has two zero eigenvalues `s`.
         Stability::Neutral {
             zero: if free > 0 { free } else { zero },
         }

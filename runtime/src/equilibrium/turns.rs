@@ -1,18 +1,18 @@
-//! States that differ by full turns of angles: one place, if the mechanism is the same there.
+//! States that differ by full turns of angles: they are one place if the mechanism is the same there.
 
 use super::operating_point::OperatingPoint;
 use crate::Description;
 use crate::algebra::{Vector, largest_element};
 use crate::constraints::Structure;
 
-/// Difference of coordinates, and share of the greatest stiffness, that counts as none.
+/// Difference of coordinates, and share of the largest stiffness, that counts as none.
 const CLOSE: f64 = 1e-6;
-/// The same between states at a singular configuration, which rounding lets us know no better.
+/// The counterpart of [`CLOSE`] at a singular configuration, where rounding limits the accuracy of states.
 const CLOSE_SINGULAR: f64 = 1e-4;
 /// Share of its terms by which a residual may differ after full turns, which are rounded.
 const ROUNDED: f64 = 1e-10;
 
-/// `q` with its angles turned to the side of `other` by full turns.
+/// Turns the angles of `q` towards `other` by full turns.
 pub(crate) fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Vector {
     Vector::from_fn(q.len(), |i| {
         let angle = description.coordinates[i].unit.symbol == *"rad";
@@ -25,7 +25,7 @@ pub(crate) fn turned_towards(q: &[f64], other: &[f64], description: &Description
     })
 }
 
-/// Whether coordinates and speeds are equal but for rounding. Reactions follow from them, but not as well.
+/// Whether coordinates and speeds are equal up to rounding. Reactions follow from them, but less accurately.
 pub(crate) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description) -> bool {
     let close = if singular { CLOSE_SINGULAR } else { CLOSE };
     let motions = Structure::of(description).motions();
@@ -33,7 +33,8 @@ pub(crate) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Descr
     pairs.all(|(a, b)| (a - b).abs() <= close * (1.0 + a.abs()))
 }
 
-/// Whether the mechanism is the same at two states that differ by full turns: no spring or screw counts the turns.
+/// Whether the mechanism is the same in two states that differ by full turns, so that no spring or screw counts the
+/// turns.
 pub(crate) fn turns_do_not_count(point: &OperatingPoint<'_>, q: &[f64], turned: &[f64]) -> bool {
     let (Some(a), Some(b)) = (point.evaluate_plain(q), point.evaluate_plain(turned)) else {
         return false;

@@ -1,4 +1,4 @@
-//! What can go wrong when a mechanism is solved, in the user's terms.
+//! Errors of solving a mechanism, in the user's terms.
 
 mod reason;
 
@@ -8,7 +8,7 @@ use thiserror::Error as ThisError;
 
 use crate::Text;
 
-/// A constant of the program. By this name serde does not look for it in what is read.
+/// A constant of the program. Under this name, serde does not expect it in the data it reads.
 type Word = &'static str;
 
 /// A failure of one of the solvers. Values are SI.
@@ -19,38 +19,38 @@ pub enum Error {
     /// An input, a design variable or a start value is NaN or infinite.
     #[error("{kind} `{name}` is {value}: give a finite value")]
     NotFinite {
-        /// What kind of quantity it is: `input`, `design variable`, `start value of coordinate` ...
+        /// Kind of quantity: `input`, `design variable`, `start value of coordinate` ...
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         kind: Word,
         /// Its declared name.
         name: Text,
-        /// What it is.
+        /// Its value.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         value: f64,
     },
-    /// A list has not one value for each input, design variable or unknown.
+    /// A list does not have one value for each input, design variable or unknown.
     #[error("{found} {kind} given where the mechanism has {expected}")]
     WrongLength {
-        /// What kind of list it is: `inputs`, `design variables`, `start values` ...
+        /// Kind of list: `inputs`, `design variables`, `start values` ...
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         kind: Word,
-        /// How many values were given.
+        /// Number of values given.
         found: usize,
-        /// How many the mechanism has.
+        /// Number of values that the mechanism needs.
         expected: usize,
     },
-    /// A physical requirement is not met.
+    /// A physical requirement is violated.
     #[error("{quantity} must be {requirement}, but is {}", six_digits(*value))]
     Unphysical {
-        /// What is wrong, for example `mass of bar1`.
+        /// The quantity at fault, for example `mass of bar1`.
         quantity: Text,
-        /// What it has to be.
+        /// The requirement.
         requirement: Text,
-        /// What it is.
+        /// Its value.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         value: f64,
     },
-    /// The residual or its derivatives are NaN or infinite although everything given is finite.
+    /// The residual or its derivatives are NaN or infinite although all arguments are finite.
     #[error(
         "{what} of `{mechanism}` is not finite at q = {coordinates:?}: the state lies outside the \
          domain of an expression"
@@ -61,7 +61,7 @@ pub enum Error {
         /// What was evaluated.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         what: Word,
-        /// Where.
+        /// State at which it was evaluated.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
     },
@@ -78,54 +78,55 @@ pub enum Error {
         /// Last state.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
-        /// Residual there, relative to the forces and stiffnesses in it.
+        /// Residual there, relative to its forces and stiffnesses.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         relative_residual: f64,
     },
-    /// The constraints cannot be met together from the start values.
+    /// The constraints cannot all be met from the start values.
     #[error(
         "the mechanism cannot be assembled: {reason}. `{constraint}` stays open by {gap:.6e} {unit}{}",
         listed(.others)
     )]
     NotAssembled {
-        /// Why.
+        /// Why it cannot.
         reason: NotClosed,
-        /// The row that stays open most, in relation to the motions that could close it.
+        /// The row with the largest gap, relative to the motions that could close it.
         constraint: Text,
-        /// By how much, SI.
+        /// Its gap, SI.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         gap: f64,
-        /// Unit of the gap: `m` or `rad`, of a constraint on velocities `m/s` or `rad/s`; empty for a pure number.
+        /// Unit of the gap: `m` or `rad`, for a constraint on velocities `m/s` or `rad/s`; empty for a dimensionless
+        /// number.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         unit: Word,
-        /// The other rows that stay open, and by how much, SI.
+        /// The other open rows and their gaps, SI.
         others: Vec<(Text, f64)>,
-        /// Where the gaps are least.
+        /// State with the smallest gaps.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
         /// Iterations spent.
         iterations: usize,
     },
-    /// Constraints become dependent at exactly this configuration: how the mechanism can move from here, its linearisation
-    /// does not say.
+    /// Constraints become dependent at exactly this configuration, so the linearisation does not determine how the
+    /// mechanism can move.
     #[error(
         "singular configuration: {} become dependent at exactly this configuration, so the linearised \
          mechanism does not say how it can move",
         names(.constraints)
     )]
     SingularConfiguration {
-        /// The rows.
+        /// The dependent rows.
         constraints: Vec<Text>,
     },
-    /// The search ended beside a singular configuration in which the forces do not balance. On the way there they seem to,
-    /// by reactions that grow without bound.
+    /// The search ended next to a singular configuration in which the forces do not balance. On the way there they seem
+    /// to balance, through reactions that grow without bound.
     #[error(
         "no equilibrium: {} become dependent at q = {coordinates:?}, where no finite reactions balance the forces: \
          start farther away, on the side to which the mechanism is to move",
         names(.constraints)
     )]
     UnboundedReactions {
-        /// The rows.
+        /// The dependent rows.
         constraints: Vec<Text>,
         /// Last state.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
@@ -146,13 +147,13 @@ pub enum Error {
          critical state `critical_sensitivity` has the answer; a direction without stiffness needs a spring or a drive"
     )]
     CriticalState,
-    /// A redundant constraint agrees with the others at these values of the variables only.
+    /// A redundant constraint agrees with the others only at these values of the variables.
     #[error(
         "constraint `{constraint}` agrees with the others at these values only: the mechanism cannot be assembled with \
          another `{variable}`, so there are no derivatives. Free a direction that the constraints hold twice"
     )]
     ClosesHereOnly {
-        /// The constraint.
+        /// The redundant constraint.
         constraint: Text,
         /// The input or design variable that breaks it.
         variable: Text,
@@ -162,16 +163,16 @@ pub enum Error {
         "the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): ask for general modes"
     )]
     NonsymmetricStiffness {
-        /// Greatest difference of mirrored elements relative to the greatest element.
+        /// Largest difference of mirrored elements, relative to the largest element.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         asymmetry: f64,
     },
-    /// Undamped modes were asked for, but speeds or constraints on velocities make motions of first order.
+    /// Undamped modes were requested, but speeds or constraints on velocities make motions of first order.
     #[error(
         "speeds and constraints on velocities have no undamped symmetric modes: ask for general modes"
     )]
     NoUndampedModes,
-    /// The eigenvalue iteration did not converge or gave a pair that fails its residual check.
+    /// The eigenvalue iteration did not converge, or a pair failed its residual check.
     #[error("mode {} was not found to working accuracy: relative residual {residual:.3e}", .mode + 1)]
     ModesNotFound {
         /// Position of the worst pair, from 0.
@@ -193,7 +194,7 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         size: f64,
     },
-    /// A mode's frequency was asked for that does not oscillate.
+    /// The frequency of a mode was requested that does not oscillate.
     #[error("mode {} does not oscillate (lambda = {lambda:.6e}): it has no frequency", .mode + 1)]
     NotOscillating {
         /// Position of the mode, from 0.
@@ -202,15 +203,15 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         lambda: f64,
     },
-    /// A mode was asked for that does not exist.
+    /// A mode was requested that does not exist.
     #[error("there is no mode {}: there are {count}", .mode + 1)]
     NoSuchMode {
-        /// The position asked for.
+        /// The position requested.
         mode: usize,
         /// How many modes there are.
         count: usize,
     },
-    /// A mode is one of a cluster of nearly equal eigenvalues: it has no derivative of its own.
+    /// A mode belongs to a cluster of nearly equal eigenvalues and has no derivative of its own.
     #[error(
         "mode {} lies in a cluster of nearly equal eigenvalues: it has no derivative of its own",
         .mode + 1
@@ -219,8 +220,8 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
     },
-    /// Modes have merged into one defective eigenvalue (a single one with its conjugate), or are too near to that for their
-    /// couplings to be told from rounding.
+    /// Modes have merged into one defective eigenvalue (a single mode with its conjugate), or are so close to that that
+    /// rounding hides their coupling.
     #[error(
         "merged into a defective eigenvalue: modes {modes:?} (counted from 0). It splits as the square root of any \
          change and has no derivative; move the operating point or sample the whole problem"
@@ -232,28 +233,28 @@ pub enum Error {
     /// No sign change was found in the range.
     #[error("no {what} in the range {low} to {high} of input `{input}`")]
     NotInRange {
-        /// What was looked for: `critical value` or `crossing`.
+        /// What was searched for: `critical value` or `crossing`.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         what: Word,
         /// Name of the input.
         input: Text,
-        /// Low end, SI.
+        /// Lower end, SI.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         low: f64,
-        /// High end, SI.
+        /// Upper end, SI.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
     /// A derivative of a critical value, a crossing or an output does not exist.
     #[error("the sensitivity does not exist: {reason}")]
     NoSensitivity {
-        /// Why.
+        /// Why there is none.
         reason: NoDerivative,
     },
     /// A setting makes no sense.
     #[error("{setting}: {reason}")]
     Setting {
-        /// Which one.
+        /// The setting.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         setting: Word,
         /// Why it is refused.
@@ -269,7 +270,7 @@ pub enum Error {
         index: usize,
         /// Name of the mechanism.
         mechanism: Text,
-        /// How many there are.
+        /// How many of that kind the mechanism has.
         count: usize,
     },
     /// Nothing has this name.
@@ -278,14 +279,14 @@ pub enum Error {
         /// `coordinate`, `input`, `design variable` or `output`.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         kind: Word,
-        /// The name that was looked for.
+        /// The name that was searched for.
         name: String,
         /// Name of the mechanism.
         mechanism: Text,
         /// The names that exist.
         known: Vec<Text>,
     },
-    /// There is no probability by way of a design point.
+    /// The probability cannot be computed from a design point.
     #[error("{0}. Sampling needs no design point")]
     NoReliability(Box<eigentol_statistics::Error>),
     /// No tolerances within their limits meet the requirements.
@@ -295,18 +296,18 @@ pub enum Error {
         .requirement + 1
     )]
     Infeasible {
-        /// The best nominal values that were found, SI.
+        /// The best nominal values found, SI.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         nominal: Vec<f64>,
-        /// The best half-widths, SI.
+        /// The best half-widths found, SI.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         half_widths: Vec<f64>,
-        /// Position of the requirement that is missed most.
+        /// Position of the requirement that is missed by most.
         requirement: usize,
         /// Its probability of failure to first order.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         probability: f64,
-        /// The one that is allowed.
+        /// The probability that is allowed.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         wanted: f64,
     },
@@ -318,39 +319,39 @@ pub enum Error {
     NoResponse {
         /// Position of the response, from 0.
         response: usize,
-        /// At how many designs it has none.
+        /// Number of designs at which it has no value.
         missing: usize,
-        /// How many designs there are.
+        /// Number of designs needed.
         needed: usize,
-        /// What needs them.
+        /// The method that needs them.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         method: Word,
     },
-    /// Samples of different runs were to be put together.
+    /// Samples of different runs cannot be merged.
     #[error("these samples are of another run: {what} is {own} here and {other} there")]
     OtherRun {
-        /// What differs.
+        /// The fact that differs.
         what: String,
-        /// What it is in the run that was to be added to.
+        /// Its value in the run being added to.
         own: String,
-        /// What it is in the other.
+        /// Its value in the other run.
         other: String,
     },
-    /// Samples were to be added that are there already.
+    /// Samples to be added are already there.
     #[error("samples {start} to below {end} have been added already")]
     SamplesOverlap {
-        /// The first of them.
+        /// Number of the first such sample.
         start: u64,
-        /// The one behind the last.
+        /// One past the last such sample.
         end: u64,
     },
-    /// Samples of a run are not done.
+    /// Samples of a run are missing.
     #[error("samples are missing: {}", ranges(.missing))]
     SamplesMissing {
-        /// Which ones.
+        /// The missing ranges.
         missing: Vec<core::ops::Range<u64>>,
     },
-    /// The work was stopped before there was anything to show.
+    /// The work was stopped before there was any result.
     #[error("stopped before there was an answer")]
     Stopped,
     /// The worker threads could not be started.
@@ -409,7 +410,7 @@ impl From<eigentol_statistics::Error> for Error {
     }
 }
 
-/// What rounding has left of a value that was computed.
+/// Rounds away the digits of a computed value that rounding errors affect.
 fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

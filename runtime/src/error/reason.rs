@@ -1,4 +1,4 @@
-//! Why a question has no answer: each reason is a value to match on, and prints as a sentence.
+//! Reasons why a question has no answer: each one can be matched on, and prints as a sentence.
 
 use core::fmt;
 

@@ -1,8 +1,8 @@
-//! The kernels at several states at once, in the vector instructions of the processor.
+//! The kernels at several states at once, with the processor's vector instructions.
 //!
-//! A [`Batch`] holds one number of each of [`WIDTH`] states, so that a list of `N` batches is `WIDTH` sets of unknowns. Every
-//! number that comes out is, bit for bit, what the kernel gives for that state alone, whatever the processor: the operations
-//! are the same, one rounding each, and none are fused.
+//! A [`Batch`] holds one number for each of [`WIDTH`] states, so that a list of `N` batches is `WIDTH` sets of unknowns.
+//! Every result is, bit for bit, what the kernel gives for that state alone, whatever the processor: the operations are
+//! the same, each is rounded once, and none are fused.
 
 use super::DirectionalKernels;
 use crate::mechanism::{Array, Gradient, Linear, LinearPartials, Mechanism, RestParts, Square};
@@ -20,17 +20,18 @@ pub struct BatchPoint<'a> {
     pub b: &'a [Batch],
 }
 
-/// Room for the residual in two parts.
+/// Buffers for the residual in two parts.
 pub type BatchParts<'a> = RestParts<&'a mut [Batch]>;
-/// Room for mass, damping and stiffness, row by row. A damping matrix that is always zero is not written: its room may be empty.
+/// Buffers for mass, damping and stiffness, row by row. A damping matrix that is always zero is not written: its buffer
+/// may be empty.
 pub type BatchLinear<'a> = Linear<&'a mut [Batch]>;
-/// Room for derivatives of the three matrices: of each matrix by one variable after the other.
+/// Buffers for derivatives of the three matrices: of each matrix with respect to one variable after the other.
 pub type BatchPartials<'a> = LinearPartials<BatchLinear<'a>>;
-/// Room for derivatives of one number.
+/// Buffers for derivatives of one number.
 pub type BatchGradient<'a> = Gradient<&'a mut [Batch]>;
 
-/// The kernels that sweeps and Monte Carlo need, at every state of a batch. Results go to slices that are as long as they are;
-/// matrices row by row.
+/// The kernels that sweeps and Monte Carlo need, evaluated at every state of a batch. Results are written to slices of
+/// exactly their length, matrices row by row.
 pub trait BatchKernels: DirectionalKernels {
     /// [`Kernels::residual_and_stiffness_into`](super::Kernels::residual_and_stiffness_into).
     fn residual_and_stiffness_batch(
@@ -58,7 +59,8 @@ pub trait BatchKernels: DirectionalKernels {
         linear: &mut BatchLinear<'_>,
     );
 
-    /// [`Kernels::partials_into`](super::Kernels::partials_into); those of the residual by inputs and by design variables.
+    /// [`Kernels::partials_into`](super::Kernels::partials_into); `residual` holds the derivatives with respect to
+    /// inputs and to design variables.
     fn partials_batch(
         &self,
         instructions: Instructions,
@@ -67,7 +69,7 @@ pub trait BatchKernels: DirectionalKernels {
         residual: [&mut [Batch]; 2],
     );
 
-    /// [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into), each state with a mode of its own.
+    /// [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into), with a separate mode for each state.
     fn mode_gradient_batch(
         &self,
         instructions: Instructions,
@@ -89,7 +91,7 @@ pub trait BatchKernels: DirectionalKernels {
 
 #[inline(always)]
 fn load<V: Lanes, A: Array<V>>(from: &[Batch], at: usize) -> A {
-    // Loops, here and below: an adaptor of an iterator that is not inlined leaves the instructions behind.
+    // Loops, here and below: an iterator adaptor that is not inlined loses the vector instructions.
     let mut vectors = A::filled(V::constant(0.0));
     let from = &from[..A::LEN];
     for (k, vector) in vectors.as_mut().iter_mut().enumerate() {
@@ -106,7 +108,7 @@ fn store<V: Lanes>(from: &[V], to: &mut [Batch], at: usize) {
     }
 }
 
-/// A matrix row by row.
+/// Stores a matrix row by row.
 #[inline(always)]
 fn store_rows<V: Lanes, R: Array<V>>(from: &[R], to: &mut [Batch], at: usize) {
     let to = &mut to[..R::LEN * from.len()];
@@ -115,7 +117,8 @@ fn store_rows<V: Lanes, R: Array<V>>(from: &[R], to: &mut [Batch], at: usize) {
     }
 }
 
-/// Matrices one after the other; a damping that is always zero is not read, so that the kernel need not write it.
+/// Stores matrices one after the other. A damping matrix that is always zero is not read, so the kernel need not write
+/// it.
 #[inline(always)]
 fn store_linears<V: Lanes, M: Mechanism>(
     from: &[Linear<Square<M, V>>],
@@ -133,7 +136,7 @@ fn store_linears<V: Lanes, M: Mechanism>(
     }
 }
 
-/// A kernel of a compiled mechanism as a task for some instructions.
+/// A kernel of a compiled mechanism, as a task for a set of instructions.
 struct Call<'a, M, F> {
     mechanism: &'a M,
     at: BatchPoint<'a>,
@@ -147,7 +150,7 @@ type Point<'a, M, V> = (
     &'a <M as Mechanism>::Design<V>,
 );
 
-/// What a [`Call`] does with the states from `at` on.
+/// The body of a [`Call`] for the states from `at` on.
 trait Kernel<M: Mechanism> {
     fn run<V: Lanes>(&mut self, mechanism: &M, point: Point<'_, M, V>, at: usize);
 }
@@ -166,7 +169,7 @@ impl<M: Mechanism, F: Kernel<M>> Task for Call<'_, M, F> {
     }
 }
 
-/// A kernel and its buffers.
+/// Defines a kernel with its buffers.
 macro_rules! kernel {
     ($task:ident<$($life:lifetime),+> { $($field:ident: $kind:ty),* }, $m:ident, ($q:ident, $u:ident, $b:ident), $at:ident, $v:ident => $body:block) => {
         struct $task<$($life),+> {
@@ -188,7 +191,7 @@ macro_rules! kernel {
     };
 }
 
-/// A kernel in the form that is inlined, which vectors need, or as it is compiled for other callers, who have one state.
+/// Calls a kernel in its inlined form, which vectors need, or in the form compiled for callers with a single state.
 macro_rules! call {
     ($v:ident: $m:ident.$kernel:ident or $inlined:ident $arguments:tt) => {
         if const { pays::<M>() && $v::WIDTH > 1 } {
@@ -255,16 +258,16 @@ kernel! {
     }
 }
 
-/// Whether vectors pay: of larger mechanisms rustc takes minutes for each kind of vectors, and of others than these solvers take one
-/// state at a time.
+/// Whether vectors pay. For larger mechanisms rustc takes minutes per vector type, and the solvers take other mechanisms
+/// one state at a time.
 const fn pays<M: Mechanism>() -> bool {
     let description = const { &M::DESCRIPTION };
     let conservative = !damped(description) && description.symmetric_stiffness;
     M::Coordinates::<f64>::LEN <= 16 && conservative
 }
 
-/// Runs a kernel; one for which vectors do not pay, or that the compiler did not generate, and so not in the form that is inlined, is
-/// called state by state.
+/// Runs a kernel. If vectors do not pay, or the compiler did not generate the kernel and so there is no inlined form, it
+/// is called state by state.
 #[inline]
 fn run<M: Mechanism>(
     mechanism: &M,

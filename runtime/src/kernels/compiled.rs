@@ -1,4 +1,4 @@
-//! The table of a compiled mechanism.
+//! The kernel table of a compiled mechanism.
 
 use super::interval::Interval;
 use super::{
@@ -12,10 +12,11 @@ use crate::mechanism::{
 };
 use crate::{Real, mechanism};
 
-/// Unknowns up to which two kernels in one function pay: code for more is long.
+/// Number of unknowns up to which two kernels in one function pay: the code grows long beyond that.
 const FEW_COORDINATES: usize = 4;
 
-/// Partial derivatives of the matrices of at most this size, bytes, are passed by value; larger ones would fill the stack.
+/// Largest size, bytes, of the partial derivatives of the matrices that are passed by value; larger ones would fill the
+/// stack.
 const ON_STACK: usize = 1 << 16;
 
 #[inline(always)]
@@ -38,7 +39,7 @@ fn copy_rows<A: Array<R>, R: Array<f64>>(from: &A, to: &mut [f64]) {
     }
 }
 
-/// One by one: few numbers go from registers to their places.
+/// Copies one by one: a few numbers go straight from registers to memory.
 #[inline(always)]
 fn copy_array<A: Array<f64>>(from: &A, to: &mut [f64]) {
     for (to, from) in to[..A::LEN].iter_mut().zip(from.as_ref()) {
@@ -46,7 +47,7 @@ fn copy_array<A: Array<f64>>(from: &A, to: &mut [f64]) {
     }
 }
 
-/// Copies the changes of the matrices with some of the variables.
+/// Copies the changes of the matrices with several variables.
 #[inline(always)]
 fn copy_changes<M: Mechanism>(from: &[mechanism::Linear<Square<M, f64>>], to: &mut [f64]) {
     let n = M::Coordinates::<f64>::LEN;
@@ -159,7 +160,7 @@ impl<M: Mechanism> Kernels for M {
             copy_rows(&found.1, stiffness);
             return;
         }
-        // Results of few numbers go from registers to their places.
+        // A few results go straight from registers to memory.
         let found = self.residual_and_stiffness_inlined(q, u, b);
         copy_array(&found.0, residual);
         copy_rows(&found.1, stiffness);

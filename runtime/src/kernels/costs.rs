@@ -1,31 +1,31 @@
-//! What the kernels cost of which gradients can be made.
+//! Costs of the kernels from which gradients can be computed.
 
 use crate::Description;
 use crate::mechanism::KernelInfo;
 
-/// What an elementary function costs, in additions and multiplications.
+/// Cost of an elementary function, in additions and multiplications.
 const FUNCTION: usize = 40;
 
-/// Costs in additions and multiplications of the kernels that derivatives of modes can come from; `None` where one is not written
-/// out.
+/// Costs, in additions and multiplications, of the kernels from which derivatives of modes can be computed; `None` for a
+/// kernel that was not generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Costs {
-    /// Of [`Kernels::linear_partials_into`](super::Kernels::linear_partials_into).
+    /// Cost of [`Kernels::linear_partials_into`](super::Kernels::linear_partials_into).
     pub linear_partials: Option<usize>,
-    /// Of [`Kernels::residual_partials_into`](super::Kernels::residual_partials_into).
+    /// Cost of [`Kernels::residual_partials_into`](super::Kernels::residual_partials_into).
     pub residual_partials: Option<usize>,
-    /// Of [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into).
+    /// Cost of [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into).
     pub mode_gradient: Option<usize>,
-    /// Of [`Kernels::pencil_gradient_into`](super::Kernels::pencil_gradient_into).
+    /// Cost of [`Kernels::pencil_gradient_into`](super::Kernels::pencil_gradient_into).
     pub pencil_gradient: Option<usize>,
-    /// Of [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
+    /// Cost of [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
     pub residual_gradient: Option<usize>,
 }
 
 impl Costs {
-    /// Of a mechanism with this description.
+    /// Costs for a mechanism with this description.
     #[must_use]
     pub fn of(description: &Description) -> Self {
         let of = |name: &str| cost(description.kernel(name));
@@ -38,7 +38,7 @@ impl Costs {
         }
     }
 
-    /// The same where the description is a constant: looked up when the program is compiled.
+    /// Like [`Self::of`] for a constant description: looked up at compile time.
     pub(super) const fn of_constant(description: &Description) -> Self {
         Self {
             linear_partials: cost(description.static_kernel("linear_partials")),

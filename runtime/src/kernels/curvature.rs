@@ -1,5 +1,5 @@
-//! Derivatives of the gradients of modes and outputs along a direction: what their second derivatives need. They are long, and few
-//! questions ask for them: only what does compiles them.
+//! Derivatives of the gradients of modes and outputs along a direction, as needed for second derivatives. They are long,
+//! and few callers need them: only those that do compile them.
 
 use super::{DirectionalKernels, Gradient, output_partials_zeros};
 use crate::algebra::Matrix;
@@ -20,8 +20,8 @@ pub trait CurvatureKernels: DirectionalKernels {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::pencil_gradient_along`](crate::Mechanism::pencil_gradient_along); `direction` is `dq`, `du`, `db`, and
-    /// `changes` that of `vectors`.
+    /// [`Mechanism::pencil_gradient_along`](crate::Mechanism::pencil_gradient_along); `direction` is `dq`, `du`, `db`,
+    /// and `changes` is the change of `vectors`.
     #[allow(clippy::too_many_arguments)]
     fn pencil_gradient_along_into(
         &self,

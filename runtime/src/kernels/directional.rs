@@ -1,8 +1,8 @@
-//! Derivatives of kernels along a direction: the kernels in dual numbers. Second derivatives need them.
+//! Derivatives of kernels along a direction, for second derivatives: the kernels in dual numbers.
 
 use super::{Gradient, Kernels, Linear};
 
-/// The kernels that have a derivative along a direction.
+/// The kernels with a derivative along a direction.
 pub trait DirectionalKernels: Kernels {
     /// [`Mechanism::linear_along`](crate::Mechanism::linear_along); `direction` is `dq`, `du`, `db`.
     fn linear_along_into(

@@ -1,12 +1,12 @@
-//! Interval arithmetic: what a physical requirement can come out as while the design varies in a box.
+//! Interval arithmetic: the possible values of a physical requirement while the design varies in a box.
 
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Real;
 
-/// All numbers that an expression takes while its variables run through their ranges; rounding included, since it keeps
-/// the order of numbers. Where nothing better is known, all numbers.
+/// All values that an expression takes while its variables run through their ranges, including rounding, since rounding
+/// preserves the order of numbers. If nothing better is known, all numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     low: f64,
@@ -19,7 +19,7 @@ const ALL: Interval = Interval {
 };
 
 impl Interval {
-    /// `value` and what is within `distance` of it.
+    /// `value` and everything within `distance` of it.
     #[must_use]
     pub fn about(value: f64, distance: f64) -> Self {
         Self::between([value - distance, value + distance])
@@ -37,7 +37,7 @@ impl Interval {
     }
 }
 
-/// Ordered where no number of one equals or crosses a number of the other.
+/// Ordered if no number of one interval equals or crosses a number of the other.
 impl PartialOrd for Interval {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         if self.low > other.high {
@@ -172,7 +172,7 @@ mod tests {
             }
         }
         assert!(a > zero && b < zero && (a + b).partial_cmp(&zero).is_none());
-        // Nothing is known of these, and nothing is claimed.
+        // Nothing is known about these, and nothing is claimed.
         for unknown in [
             a / (a + b),
             b.sqrt(),

@@ -1,12 +1,13 @@
-//! The kernels of a mechanism as a table over slices: what the solvers see of it. A compiled mechanism has it through its
-//! contract, one read at run time through the interpreter.
+//! The kernels of a mechanism as a table over slices, as the solvers see them. A compiled mechanism provides them
+//! through its contract, a mechanism read at run time through the interpreter.
 //!
-//! Arguments are those of [`Mechanism`](crate::Mechanism): `q` the unknowns, `u` the inputs, `b` the design variables, SI.
-//! A method named `.._into` writes over every entry of buffers that have the sizes of the mechanism; the one without the suffix
-//! makes them.
+//! Arguments are those of [`Mechanism`](crate::Mechanism): `q` the unknowns, `u` the inputs, `b` the design variables,
+//! SI. A method named `.._into` overwrites every entry of buffers that have the sizes of the mechanism; the one without
+//! the suffix allocates them.
 //!
 //! # Panics
-//! A slice whose length is not the mechanism's is a bug of the caller: kernels may panic. What users pass is checked first.
+//! Kernels may panic on a slice whose length does not match the mechanism: this is a bug in the caller. Values passed by
+//! users are checked first.
 
 mod batch;
 mod compiled;
@@ -43,10 +44,10 @@ pub type RestParts<T = f64> = mechanism::RestParts<Vector<T>>;
 pub type Gradient<T = f64> = mechanism::Gradient<Vector<T>>;
 /// Derivatives of the three matrices.
 pub type LinearPartials<T = f64> = mechanism::LinearPartials<Vec<Linear<T>>>;
-/// Derivatives of the residual by every input and every design variable, a row for each unknown.
+/// Derivatives of the residual with respect to every input and every design variable, one row per unknown.
 pub type ResidualPartials<T = f64> = (Matrix<T>, Matrix<T>);
 
-/// How many unknowns, inputs, design variables and outputs there are.
+/// Numbers of unknowns, inputs, design variables and outputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
     /// Unknowns.
@@ -132,21 +133,22 @@ fn output_partials_zeros(sizes: Sizes) -> [Matrix; 3] {
         .map(|columns| Matrix::zeros(sizes.outputs, columns))
 }
 
-/// The kernels that every question about one state needs.
+/// The kernels needed at any single state.
 pub trait Kernels: Sync {
     /// Names, units, nominal values and what the compiler proved.
     fn description(&self) -> Shared<Description>;
 
-    /// How many unknowns, inputs, design variables and outputs there are.
+    /// Numbers of unknowns, inputs, design variables and outputs.
     fn sizes(&self) -> Sizes;
 
-    /// The input of which a design variable is the deviation ([`DeviatingInputs`]): what follows that input, as an engine order
-    /// follows the speed, follows the deviation too.
+    /// The input of which a design variable is the deviation ([`DeviatingInputs`]).
+    ///
+    /// Anything that follows that input, as an engine order follows the speed, follows the deviation too.
     fn input_of_deviation(&self, _design: usize) -> Option<usize> {
         None
     }
 
-    /// What the kernels cost of which gradients can be made.
+    /// Costs of the kernels from which gradients can be computed.
     fn costs(&self) -> Costs {
         Costs::of(&self.description())
     }
@@ -157,7 +159,7 @@ pub trait Kernels: Sync {
     /// [`Mechanism::residual_parts`](crate::Mechanism::residual_parts).
     fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts);
 
-    /// [`Mechanism::residual_and_stiffness`](crate::Mechanism::residual_and_stiffness); the matrix row by row.
+    /// [`Mechanism::residual_and_stiffness`](crate::Mechanism::residual_and_stiffness), with the matrix row by row.
     fn residual_and_stiffness_into(
         &self,
         q: &[f64],
@@ -170,7 +172,7 @@ pub trait Kernels: Sync {
     /// [`Mechanism::linear`](crate::Mechanism::linear).
     fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear);
 
-    /// [`Kernels::residual_parts_into`] and [`Kernels::linear_into`]: what both need is computed once where that pays.
+    /// [`Kernels::residual_parts_into`] and [`Kernels::linear_into`]; common terms are computed once where that pays.
     fn parts_and_linear_into(
         &self,
         q: &[f64],
@@ -195,7 +197,7 @@ pub trait Kernels: Sync {
     /// [`Mechanism::linear_partials`](crate::Mechanism::linear_partials).
     fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices);
 
-    /// Both partial derivatives: what they need is computed once where that pays.
+    /// Partial derivatives of the matrices and of the residual; common terms are computed once where that pays.
     fn partials_into(
         &self,
         q: &[f64],
@@ -246,7 +248,8 @@ pub trait Kernels: Sync {
     /// [`Mechanism::violation`](crate::Mechanism::violation).
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>>;
 
-    /// Whether no design within `reach` of `b`, each variable by itself, has a violation. False says nothing.
+    /// Whether certainly no design within `reach` of `b`, each variable independently, has a violation. `false` means
+    /// unknown.
     fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool;
 
     /// [`Mechanism::pose_margin`](crate::Mechanism::pose_margin).
@@ -255,13 +258,13 @@ pub trait Kernels: Sync {
     /// [`Mechanism::outputs`](crate::Mechanism::outputs).
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]);
 
-    /// [`Mechanism::output_partials`](crate::Mechanism::output_partials): by unknowns, inputs and design variables, a row for
-    /// each output.
+    /// [`Mechanism::output_partials`](crate::Mechanism::output_partials), with respect to unknowns, inputs and design
+    /// variables, one row per output.
     fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]);
 }
 
 impl dyn Kernels + '_ {
-    /// What an input deviates by, SI.
+    /// The deviation of an input, SI.
     pub(crate) fn deviation(&self, input: usize, b: &[f64]) -> f64 {
         let of_input =
             |(design, _): &(usize, &f64)| self.input_of_deviation(*design) == Some(input);
@@ -306,7 +309,7 @@ impl dyn Kernels + '_ {
         (parts, linear)
     }
 
-    /// Derivatives of the residual by inputs and design variables.
+    /// Derivatives of the residual with respect to inputs and design variables.
     pub fn residual_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> ResidualPartials {
         let mut partials = residual_partials_zeros(self.sizes());
         self.residual_partials_into(q, u, b, &mut partials);
@@ -320,7 +323,7 @@ impl dyn Kernels + '_ {
         partials.to_lists()
     }
 
-    /// Derivatives of the three matrices; those of the residual are written to `residual`.
+    /// Derivatives of the three matrices; the derivatives of the residual are written to `residual`.
     pub fn partials(
         &self,
         q: &[f64],
@@ -374,7 +377,7 @@ impl dyn Kernels + '_ {
         outputs
     }
 
-    /// Explicit derivatives of the outputs by unknowns, inputs and design variables, a row for each output.
+    /// Explicit derivatives of the outputs with respect to unknowns, inputs and design variables, one row per output.
     pub fn output_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> [Matrix; 3] {
         let mut partials = output_partials_zeros(self.sizes());
         self.output_partials_into(q, u, b, partials.each_mut());

@@ -1,4 +1,4 @@
-//! The kernels of the nonlinear motion.
+//! The kernels of nonlinear motion.
 
 use super::{DirectionalKernels, Linear};
 use crate::algebra::{Matrix, Vector};

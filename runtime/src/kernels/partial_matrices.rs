@@ -7,11 +7,12 @@ use super::{Linear, LinearPartials, Sizes};
 use crate::algebra::Matrix;
 use crate::mechanism;
 
-/// Partial derivatives of the linearised matrices by every coordinate, input and design variable, in one block.
+/// Partial derivatives of the linearised matrices with respect to every coordinate, input and design variable, in one
+/// block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartialMatrices {
     sizes: Sizes,
-    /// Of each variable `Mhat`, `Chat` and `Khat`, row by row.
+    /// `Mhat`, `Chat` and `Khat` for each variable, row by row.
     entries: Vec<f64>,
 }
 
@@ -26,7 +27,7 @@ impl PartialMatrices {
         }
     }
 
-    /// The same as lists of matrices.
+    /// Converts to lists of matrices.
     #[must_use]
     pub fn to_lists(&self) -> LinearPartials {
         LinearPartials {
@@ -36,7 +37,7 @@ impl PartialMatrices {
         }
     }
 
-    /// Some of the derivatives as matrices.
+    /// Converts some of the derivatives to matrices.
     pub(crate) fn matrices<'a>(
         &self,
         changes: &'a [f64],
@@ -47,20 +48,20 @@ impl PartialMatrices {
         each.map(move |change| parts(change).map(matrix))
     }
 
-    /// The derivatives by the coordinates, one after the other, of each [`parts`].
+    /// The derivatives with respect to the coordinates, one after the other, each as in [`parts`].
     #[inline]
     pub(crate) fn by_coordinate(&self) -> &[f64] {
         self.of(0..self.sizes.coordinates)
     }
 
-    /// Those by the inputs.
+    /// The derivatives with respect to the inputs.
     #[inline]
     pub(crate) fn by_input(&self) -> &[f64] {
         let first = self.sizes.coordinates;
         self.of(first..first + self.sizes.inputs)
     }
 
-    /// Those by the design variables.
+    /// The derivatives with respect to the design variables.
     #[inline]
     pub(crate) fn by_design(&self) -> &[f64] {
         let first = self.sizes.coordinates + self.sizes.inputs;
@@ -73,7 +74,7 @@ impl PartialMatrices {
         &self.entries[variables.start * each..variables.end * each]
     }
 
-    /// All three, to be written.
+    /// All three blocks, mutable.
     #[inline]
     pub(crate) fn lists_mut(&mut self) -> [&mut [f64]; 3] {
         let each = entries_of(self.sizes.coordinates);
@@ -82,8 +83,8 @@ impl PartialMatrices {
         [by_coordinate, by_input, by_design]
     }
 
-    /// The derivatives by each variable, coordinates first, then inputs, then design variables; of each matrix its entries row by
-    /// row.
+    /// The derivatives with respect to each variable: coordinates first, then inputs, then design variables; each matrix
+    /// row by row.
     #[inline]
     pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = mechanism::Linear<&mut [f64]>> {
         let each = entries_of(self.sizes.coordinates);
@@ -101,13 +102,13 @@ impl PartialMatrices {
     }
 }
 
-/// Entries of three matrices of size `n`.
+/// Number of entries of three matrices of size `n`.
 #[inline(always)]
 pub(crate) fn entries_of(n: usize) -> usize {
     3 * n * n
 }
 
-/// The derivatives of the three matrices by one variable, row by row.
+/// The derivatives of the three matrices with respect to one variable, row by row.
 #[inline(always)]
 pub(crate) fn parts(change: &[f64]) -> mechanism::Linear<&[f64]> {
     let size = change.len() / 3;

@@ -1,13 +1,13 @@
-//! The kernel of pictures.
+//! The picture kernel.
 
 use super::Kernels;
 use crate::mechanism::{PictureInfo, Shared};
 
-/// What there is to see of a mechanism.
+/// The visible geometry of a mechanism.
 pub trait PictureKernels: Kernels {
     /// [`Mechanism::PICTURE`](crate::Mechanism::PICTURE).
     fn picture_info(&self) -> Shared<PictureInfo>;
 
-    /// [`Mechanism::picture`](crate::Mechanism::picture): a number for each place in [`PictureInfo::computed`].
+    /// [`Mechanism::picture`](crate::Mechanism::picture): one number for each position in [`PictureInfo::computed`].
     fn picture_into(&self, q: &[f64], u: &[f64], b: &[f64], computed: &mut [f64]);
 }

@@ -1,8 +1,8 @@
-//! Every kernel that tells what tolerances do: derivatives to second order, and samples side by side.
+//! All kernels needed to analyse tolerances: derivatives to second order, and samples side by side.
 
 use super::{BatchKernels, CurvatureKernels};
 
-/// A table that is both of these.
+/// A table that provides both.
 pub trait SummaryKernels: CurvatureKernels + BatchKernels {}
 
 impl<K: CurvatureKernels + BatchKernels + ?Sized> SummaryKernels for K {}

@@ -1,20 +1,20 @@
-//! Arrays whose length a mechanism knows and its users need not name.
+//! Arrays whose length a mechanism knows and its users need not spell out.
 
-/// A plain array `[T; N]`; nothing else implements it.
+/// A plain array `[T; N]`; no other type implements it.
 pub trait Array<T>: Copy + AsRef<[T]> + AsMut<[T]> + sealed::Sealed {
     /// Number of entries.
     const LEN: usize;
 
-    /// An array with `value(k)` in place `k`.
+    /// An array with `value(k)` at position `k`.
     fn from_fn(value: impl FnMut(usize) -> T) -> Self;
 
-    /// The same value everywhere.
+    /// An array with the same value everywhere.
     fn filled(value: T) -> Self;
 
-    /// A slice of this length as an array.
+    /// Views a slice of this length as an array.
     ///
     /// # Panics
-    /// When the slice has another length.
+    /// If the slice has another length.
     fn view(slice: &[T]) -> &Self;
 }
 
@@ -46,7 +46,7 @@ fn wrong_length(found: usize, expected: usize) -> ! {
 }
 
 mod sealed {
-    /// What keeps other types out.
+    /// Prevents other types from implementing the trait.
     pub trait Sealed {}
     impl<T, const N: usize> Sealed for [T; N] {}
 }

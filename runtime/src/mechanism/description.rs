@@ -1,17 +1,17 @@
-//! What a mechanism is made of: names, units, what the compiler proved, what its kernels cost.
+//! Description of a mechanism: names, units, properties proved by the compiler, and costs of its kernels.
 
 #[cfg(feature = "std")]
 use super::shared::Shared;
 use super::shared::{List, Text};
 use super::tolerance::ToleranceInfo;
 
-/// What a mechanism is made of, and what the compiler proved about it.
+/// The parts of a mechanism, and what the compiler proved about it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Description {
     /// Name of the declared type.
     pub name: Text,
-    /// Unknowns, in the order of `q`: the free coordinates and, where there are any, speeds and reactions.
+    /// Unknowns, in the order of `q`: the free coordinates, followed by speeds and reactions, if any.
     pub coordinates: List<CoordinateInfo>,
     /// Inputs, in the order of `u`.
     pub inputs: List<InputInfo>,
@@ -21,20 +21,20 @@ pub struct Description {
     pub outputs: List<OutputInfo>,
     /// `Khat` is symmetric for every design, input and position.
     pub symmetric_stiffness: bool,
-    /// What `Chat` can be.
+    /// The kind of `Chat`.
     pub damping: DampingKind,
-    /// The generated functions and their cost.
+    /// The generated functions and their costs.
     pub kernels: List<KernelInfo>,
 }
 
 impl Description {
-    /// The cost of a generated function; `None` where the compiler wrote none of this name.
+    /// The cost of a generated function; `None` if the compiler did not generate one of this name.
     #[must_use]
     pub fn kernel(&self, name: &str) -> Option<&KernelInfo> {
         self.kernels.iter().find(|kernel| kernel.name == *name)
     }
 
-    /// [`Self::kernel`] of a description that is a constant, where the compiler can tell.
+    /// [`Self::kernel`] of a constant description, evaluated at compile time where possible.
     #[cfg(feature = "std")]
     pub(crate) const fn static_kernel(&self, name: &str) -> Option<&KernelInfo> {
         let Shared::Static(kernels) = &self.kernels else {
@@ -85,20 +85,20 @@ pub enum DampingKind {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unit {
-    /// As declared, for example `mm` or `N*m/rad`; empty for a pure number.
+    /// As declared, for example `mm` or `N*m/rad`; empty for a dimensionless number.
     pub symbol: Text,
     /// SI value of one unit.
     pub scale: f64,
 }
 
 impl Unit {
-    /// A value in this unit as one in SI.
+    /// Converts a value from this unit to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
         value * self.scale
     }
 
-    /// A value in SI as one in this unit.
+    /// Converts a value from SI to this unit.
     #[must_use]
     pub fn from_si(&self, value: f64) -> f64 {
         value / self.scale
@@ -109,18 +109,18 @@ impl Unit {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CoordinateInfo {
-    /// Declared name; of a reaction the constraint's, with the component where it has several: `pin.x`.
+    /// Declared name. A reaction has the name of its constraint, with the component if there are several: `pin.x`.
     pub name: Text,
-    /// Of a coordinate `rad` or `m`, of a speed `rad/s` or `m/s`, of a reaction `N` or `N*m`.
+    /// `rad` or `m` for a coordinate, `rad/s` or `m/s` for a speed, `N` or `N*m` for a reaction.
     pub unit: Unit,
-    /// What it is.
+    /// Its role.
     pub role: Role,
 }
 
-/// What an unknown is, and with it the equation in the same place of the residual.
+/// The kind of an unknown, and of the equation at the same position of the residual.
 ///
-/// The unknowns stand in this order: coordinates, speeds, reactions of constraints on positions, reactions of
-/// constraints on velocities. With `q` the coordinates, `v` the speeds, `mu` the reactions the residual is
+/// The unknowns are in this order: coordinates, speeds, reactions of constraints on positions, reactions of constraints
+/// on velocities. With the coordinates `q`, the speeds `v` and the reactions `mu`, the residual is
 ///
 /// ```text
 /// g(qddot, vdot, qdot, q, v) + Phi_q^T mu_1 + A_q^T mu_2     by coordinate
@@ -129,26 +129,34 @@ pub struct CoordinateInfo {
 /// A_q(q) qdot + A_v(q) v + a(q)                              by constraint on velocities
 /// ```
 ///
-/// so that constraints exert `-Phi_q^T mu_1` and `-A_q^T mu_2` on the coordinates. Their equations have the sign that makes a
-/// reaction what the `from` side exerts on the `to` side: `Phi` of a displacement of `to` from `from` is its negative, that of a
-/// distance its excess, so that the reaction is a tension, that of a coupling or an equation the negative of what is to be
-/// zero, so that the reaction acts in the direction in which that grows. What outputs call a reaction is the same number, or, of
-/// a constraint with several equations, the force or moment that these sum up to.
+/// so that constraints exert `-Phi_q^T mu_1` and `-A_q^T mu_2` on the coordinates. The sign of a constraint equation is
+/// chosen so that its reaction is what the `from` side exerts on the `to` side:
 ///
-/// In the arguments `velocity` and `acceleration` of [`Mechanism::motion_residual`](crate::Mechanism::motion_residual) the place of a speed `v` holds `vdot`
-/// and nothing, that of a reaction nothing; so `Mhat`, `Chat`, `Khat` are the derivatives of the whole by the second, first
-/// and no time derivative of all unknowns. Without speeds and constraints on velocities
+/// - for a displacement of `to` from `from`, `Phi` is the negative displacement;
+/// - for a distance, `Phi` is the excess, so that the reaction is a tension;
+/// - for a coupling or an equation, `Phi` is the negative of the expression that is to be zero, so that the reaction
+///   acts in the direction in which that expression grows.
+///
+/// A reaction in outputs is the same number or, for a constraint with several equations, the force or moment that these
+/// add up to.
+///
+/// In the arguments `velocity` and `acceleration` of [`Mechanism::motion_residual`](crate::Mechanism::motion_residual),
+/// the position of a speed `v` holds `vdot` in `velocity` and is unused in `acceleration`; that of a reaction is unused
+/// in both. `Mhat`, `Chat`, `Khat` are therefore the derivatives of the whole residual with respect to the second, first
+/// and zeroth time derivative of all unknowns. Without speeds and constraints on velocities
 /// `Khat = [[K_c, Phi_q^T], [Phi_q, 0]]`, `K_c = d(g + Phi_q^T mu)/dq`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Role {
-    /// A coordinate that rests in steady motion; the equation is that of its motion.
+    /// A coordinate that is constant in steady motion; the equation is its equation of motion.
     Position,
-    /// The speed of a coordinate that runs at a constant rate, on which nothing depends; the equation is that of its motion.
+    /// The speed of a coordinate that runs at a constant rate and on which nothing depends; the equation is its equation
+    /// of motion.
     Speed,
-    /// The multiplier of a constraint `Phi(q) = 0` on positions, which is the equation.
+    /// The multiplier of a constraint `Phi(q) = 0` on positions; the equation is the constraint.
     PositionReaction,
-    /// The multiplier of a constraint on velocities, which is the equation: rolling, or the coupling of running coordinates.
+    /// The multiplier of a constraint on velocities (rolling, or a coupling of running coordinates); the equation is the
+    /// constraint.
     VelocityReaction,
 }
 

@@ -1,9 +1,9 @@
-//! Handles: names of a declaration as constants of its type.
+//! Handles: declared names as constants of the mechanism's type.
 
 use core::fmt;
 use core::marker::PhantomData;
 
-/// In place of a mechanism: a handle that no longer says which one it belongs to.
+/// Stands for the mechanism in a handle that no longer says which one it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Any {}
 
@@ -11,24 +11,24 @@ macro_rules! handle {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
         ///
-        /// It belongs to mechanism `M`; no other accepts it.
+        /// It belongs to mechanism `M` and is not accepted by any other.
         pub struct $name<M = Any> {
             index: usize,
             mechanism: PhantomData<fn() -> M>,
         }
 
         impl<M> $name<M> {
-            /// The one at this position.
+            /// The handle for this position.
             pub const fn new(index: usize) -> Self {
                 Self { index, mechanism: PhantomData }
             }
 
-            /// Its position: where its value stands in lists.
+            /// Its position in lists of values.
             pub const fn index(self) -> usize {
                 self.index
             }
 
-            /// The same handle without its mechanism.
+            /// The same handle without its mechanism type.
             pub const fn any(self) -> $name {
                 $name::new(self.index)
             }

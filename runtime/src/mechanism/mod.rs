@@ -35,7 +35,7 @@ pub type PartialsOf<M, T> = LinearPartials<
     <M as Mechanism>::Inputs<Linear<Square<M, T>>>,
     <M as Mechanism>::Design<Linear<Square<M, T>>>,
 >;
-/// Partial derivatives of the residual by every input and every design variable, a row for each unknown.
+/// Partial derivatives of the residual with respect to every input and every design variable, one row per unknown.
 pub type ResidualPartialsOf<M, T> = (
     <M as Mechanism>::Coordinates<<M as Mechanism>::Inputs<T>>,
     <M as Mechanism>::Coordinates<<M as Mechanism>::Design<T>>,
@@ -49,16 +49,16 @@ pub type GradientOf<M, T> = Gradient<
 
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
 ///
-/// Implemented by `mechanism!`. Every method is a straight line of arithmetic over plain arrays: no allocation, no
-/// branch, no panic. All quantities are SI, angles in radians. Arguments everywhere:
+/// Implemented by `mechanism!`. Every method is straight-line arithmetic over plain arrays: no allocation, no branch, no
+/// panic. All quantities are SI, angles in radians. Conventions for all methods:
 ///
 /// - `q`: free coordinates, `u`: inputs, `b`: design variables, in the order of [`Mechanism::DESCRIPTION`];
-/// - matrices are arrays of rows, `matrix[i][j]` the derivative of residual `i` by coordinate `j`;
-/// - the residual is `g(qddot, qdot, q; u, b) = M* qddot + h` (eq. 12): equal to zero along a motion, positive
-///   when inertia exceeds the applied forces.
+/// - matrices are arrays of rows; `matrix[i][j]` is the derivative of residual `i` with respect to coordinate `j`;
+/// - the residual is `g(qddot, qdot, q; u, b) = M* qddot + h` (eq. 12): zero along a motion, positive when inertia
+///   exceeds the applied forces.
 ///
-/// A method never fails: outside its domain (a negative length under a root, NaN in) it returns NaN or infinity, which
-/// the solvers of this crate turn into typed errors.
+/// A method never fails: outside its domain (a negative length under a root, NaN as input) it returns NaN or infinity,
+/// which the solvers of this crate turn into typed errors.
 pub trait Mechanism: Clone + Sync + Sized {
     /// A number for each of the `N` unknowns.
     type Coordinates<T: Copy>: Array<T>;
@@ -68,13 +68,13 @@ pub trait Mechanism: Clone + Sync + Sized {
     type Design<T: Copy>: Array<T>;
     /// A number for each of the `O` outputs.
     type Outputs<T: Copy>: Array<T>;
-    /// What [`Mechanism::picture`] computes.
+    /// The numbers computed by [`Mechanism::picture`].
     type Picture<T: Copy>: Array<T>;
 
     /// Names, units, nominal values and what the compiler proved.
     const DESCRIPTION: Description;
 
-    /// How the numbers of [`Mechanism::picture`] are read.
+    /// How to read the numbers of [`Mechanism::picture`].
     const PICTURE: PictureInfo = PictureInfo::EMPTY;
 
     /// Residual at rest, `g(0, 0, q; u, b)` (eq. 10): zero at a dynamic equilibrium.
@@ -112,11 +112,12 @@ pub trait Mechanism: Clone + Sync + Sized {
         b: &Self::Design<T>,
     ) -> (Square<Self, T>, Self::Coordinates<T>);
 
-    /// The equations of motion linearised along any motion: `dg/dqddot = M*` (`mass`), `dg/dqdot` (`damping`) and `dg/dq`
-    /// (`stiffness`), what implicit integration and inverse dynamics with derivatives need. Without velocity and
-    /// acceleration they are [`Mechanism::linear`].
+    /// The equations of motion linearised along any motion: `dg/dqddot = M*` (`mass`), `dg/dqdot` (`damping`) and
+    /// `dg/dq` (`stiffness`).
     ///
-    /// Generated up to some 50,000 operations; of a larger mechanism each column is differentiated by itself, as here.
+    /// Implicit integration and inverse dynamics with derivatives need these. For zero velocity and acceleration they
+    /// are [`Mechanism::linear`]. They are generated up to about 50,000 operations; for a larger mechanism each column
+    /// is differentiated separately, as here.
     fn motion_linear<T: Real>(
         &self,
         acceleration: &Self::Coordinates<T>,
@@ -149,7 +150,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         }
     }
 
-    /// Residual at rest and its Jacobian `Khat`: what a Newton step needs.
+    /// Residual at rest and its Jacobian `Khat`, as a Newton step needs them.
     fn residual_and_stiffness<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -165,7 +166,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         b: &Self::Design<T>,
     ) -> Linear<Square<Self, T>>;
 
-    /// Explicit partial derivatives of the residual at rest by every input and design variable.
+    /// Explicit partial derivatives of the residual at rest with respect to every input and design variable.
     fn residual_partials<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -173,9 +174,11 @@ pub trait Mechanism: Clone + Sync + Sized {
         b: &Self::Design<T>,
     ) -> ResidualPartialsOf<Self, T>;
 
-    /// Explicit partial derivatives of `Mhat`, `Chat` and `Khat` by every coordinate, input and design variable.
+    /// Explicit partial derivatives of `Mhat`, `Chat` and `Khat` with respect to every coordinate, input and design
+    /// variable.
     ///
-    /// Generated for small mechanisms; a large one takes them one direction at a time, as here, because straight-line
+    /// Generated for small mechanisms. A large one computes them one direction at a time, as here, because straight-line
+    /// code for all of them grows with the cube of its size.
     /// code for all of them grows with the cube of its size.
     fn linear_partials<T: Real>(
         &self,
@@ -191,9 +194,11 @@ pub trait Mechanism: Clone + Sync + Sized {
         }
     }
 
-    /// [`Mechanism::linear_partials`], written into an existing buffer: sets every entry that can differ from zero and leaves the
-    /// others as they are. Start from zeros ([`LinearPartials::default`]) and pass the same result on, always of the same mechanism:
-    /// of thousands of entries a fifth of the time is setting them to zero.
+    /// [`Mechanism::linear_partials`], written into an existing buffer.
+    ///
+    /// Sets every entry that can differ from zero and leaves the others unchanged. Start from zeros
+    /// ([`LinearPartials::default`]) and keep passing the same buffer, always for the same mechanism: with thousands of
+    /// entries, a fifth of the time would go into zeroing them.
     fn linear_partials_into<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -204,8 +209,10 @@ pub trait Mechanism: Clone + Sync + Sized {
         *result = self.linear_partials(q, u, b);
     }
 
-    /// [`Mechanism::linear_partials`] and [`Mechanism::residual_partials`] in one: of a small mechanism with the sines, and what
-    /// else both need, computed once; a large one is asked for them one after the other.
+    /// [`Mechanism::linear_partials`] and [`Mechanism::residual_partials`] in one call.
+    ///
+    /// For a small mechanism the sines and other common terms are computed once; a large one computes the two
+    /// separately.
     #[inline]
     #[allow(clippy::type_complexity)]
     fn partials<T: Real>(
@@ -228,8 +235,9 @@ pub trait Mechanism: Clone + Sync + Sized {
         }
     }
 
-    /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`). Like the other kernels along a direction
-    /// not generated: [`Mechanism::linear`] in dual numbers.
+    /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`).
+    ///
+    /// Like the other kernels along a direction, this one is not generated: it is [`Mechanism::linear`] in dual numbers.
     fn linear_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -244,7 +252,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         linear.map(|matrix| Array::from_fn(|i| slopes(&matrix.as_ref()[i])))
     }
 
-    /// Gradient of `a(q, u, b) = phi^T (Khat - lambda Mhat) phi`, `phi` and `lambda` held fixed, by reverse
+    /// Gradient of `a(q, u, b) = phi^T (Khat - lambda Mhat) phi`, with `phi` and `lambda` held fixed, by reverse
     /// differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
     fn mode_gradient<T: Real>(
         &self,
@@ -255,13 +263,13 @@ pub trait Mechanism: Clone + Sync + Sized {
         lambda: T,
     ) -> GradientOf<Self, T>;
 
-    /// Gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`, the four vectors held fixed, by reverse
-    /// differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
+    /// Gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`, with the four vectors held fixed, by
+    /// reverse differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
     ///
-    /// `psi^T (s^2 Mhat + s Chat + Khat) phi` of a damped mode, `s`, `psi` and `phi` complex, is linear in `left` and in
-    /// the other three together: its gradient takes four calls, real and imaginary part of `psi` against those of
-    /// (`s^2 phi`, `s phi`, `phi`). [`Mechanism::mode_gradient`] is the case `left` = `position` = `phi`, `acceleration`
-    /// = `-lambda phi`, `velocity` = 0.
+    /// For a damped mode, `psi^T (s^2 Mhat + s Chat + Khat) phi` with complex `s`, `psi` and `phi` is linear in `left`
+    /// and in the other three vectors together. Its gradient takes four calls: real and imaginary part of `psi` with
+    /// each of the real and imaginary parts of (`s^2 phi`, `s phi`, `phi`). [`Mechanism::mode_gradient`] is the case
+    /// `left` = `position` = `phi`, `acceleration` = `-lambda phi`, `velocity` = 0.
     #[allow(clippy::too_many_arguments)]
     fn pencil_gradient<T: Real>(
         &self,
@@ -355,24 +363,25 @@ pub trait Mechanism: Clone + Sync + Sized {
         gradient_slopes::<Self, T>(&self.residual_gradient(&q, &u, &b, &along(w, dw)))
     }
 
-    /// Whether the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`, circles in the sense in which the bodies
-    /// spin: `[moment, size]`, `-size <= moment <= size` up to rounding.
+    /// Whirl of the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`: whether it circles in the direction in
+    /// which the bodies spin.
     ///
-    /// `moment / size` is one where every orbit is a circle in the sense of the spin (forward whirl), minus one where it is
-    /// a circle against it (backward whirl), zero on straight lines. Both are zero where nothing turns, or where nothing
-    /// that turns moves across its axis; so are they, exactly, for a mechanism in which no massive body is driven to turn.
+    /// Returns `[moment, size]`, `-size <= moment <= size` up to rounding. `moment / size` is one if every orbit is a
+    /// circle in the direction of the spin (forward whirl), minus one if every orbit is a circle against it (backward
+    /// whirl), and zero on straight lines. Both are zero if nothing rotates, or if nothing that rotates moves transverse
+    /// to its axis. They are exactly zero for a mechanism in which no massive body is driven to rotate.
     ///
-    /// Sums over the bodies, `omega` the angular velocity in the state of rest, `r` and `s` the displacements of the centre
-    /// of mass along `real` and `imaginary`, `m` the mass:
+    /// They are sums over the bodies, with `omega` the angular velocity in the state of rest, `r` and `s` the
+    /// displacements of the centre of mass along `real` and `imaginary`, and `m` the mass:
     ///
     /// - `moment = -sum |omega| omega . m (r x s)`,
     /// - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`,
     ///
-    /// and the same of the small rotations with `integral |rho|^2 dm` about the centre of mass for `m`: kg m^2 rad^2/s^2
-    /// for displacements in metres and radians. A joint beyond a drive is seen from the turning side: coordinates of a
-    /// turning shaft tell the sense in which an orbit runs against the shaft.
+    /// plus the same sums for the small rotations, with `integral |rho|^2 dm` about the centre of mass in place of `m`:
+    /// kg m^2 rad^2/s^2 for displacements in metres and radians. A joint beyond a drive is seen from the rotating side:
+    /// coordinates of a rotating shaft give the direction of an orbit relative to the shaft.
     ///
-    /// Meant for values, not to be differentiated: `|omega|` is a root, whose derivative fails at zero speed.
+    /// Only the values are meaningful, not derivatives: `|omega|` is a root, whose derivative fails at zero speed.
     fn whirl<T: Real>(
         &self,
         _q: &Self::Coordinates<T>,
@@ -384,8 +393,8 @@ pub trait Mechanism: Clone + Sync + Sized {
         zeros()
     }
 
-    /// Where bodies are, and what they, joints and points look like: the numbers in the places [`PictureInfo::computed`] of
-    /// [`Mechanism::PICTURE`], SI.
+    /// Positions of the bodies, and the geometry of bodies, joints and points: the numbers at the positions
+    /// [`PictureInfo::computed`] of [`Mechanism::PICTURE`], SI.
     fn picture<T: Real>(
         &self,
         _q: &Self::Coordinates<T>,
@@ -395,16 +404,16 @@ pub trait Mechanism: Clone + Sync + Sized {
         zeros()
     }
 
-    /// The first physical requirement that the inputs and design variables break: a mass or a length that is not
-    /// positive, an inertia that no body can have. NaN breaks every requirement.
+    /// The first physical requirement that the inputs and design variables violate: a mass or a length that is not
+    /// positive, or an inertia that no body can have. NaN violates every requirement.
     fn violation<T: Real + PartialOrd>(
         &self,
         u: &Self::Inputs<T>,
         b: &Self::Design<T>,
     ) -> Option<Violation<T>>;
 
-    /// The joint of three turns that is nearest to its singular pose; `None` without such a joint. The generated equations
-    /// stay finite there, but two coordinates do the same, and the mass matrix becomes singular.
+    /// The joint of three turns closest to its singular pose; `None` if there is no such joint. The generated equations
+    /// stay finite in that pose, but two coordinates have the same effect, and the mass matrix becomes singular.
     fn pose_margin<T: Real + PartialOrd>(
         &self,
         _q: &Self::Coordinates<T>,
@@ -422,7 +431,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         b: &Self::Design<T>,
     ) -> Self::Outputs<T>;
 
-    /// Explicit partial derivatives of the outputs by every coordinate, input and design variable.
+    /// Explicit partial derivatives of the outputs with respect to every coordinate, input and design variable.
     #[allow(clippy::type_complexity)]
     fn output_partials<T: Real>(
         &self,
@@ -459,8 +468,8 @@ pub trait Mechanism: Clone + Sync + Sized {
         )
     }
 
-    /// [`Mechanism::residual_and_stiffness`], and like the others below written where it is called: what vectors of the
-    /// processor need. Generated code overrides it.
+    /// [`Mechanism::residual_and_stiffness`], inlined at the call site (like the others below), as vector instructions
+    /// require. Generated code overrides it.
     #[doc(hidden)]
     #[inline(always)]
     fn residual_and_stiffness_inlined<T: Real>(
@@ -554,7 +563,8 @@ pub trait Mechanism: Clone + Sync + Sized {
     }
 }
 
-/// Entries of one matrix's derivatives up to which all partials in one function pay: more do not stay in registers.
+/// Number of entries of one matrix's derivatives up to which computing all partials in one function pays: more do not
+/// stay in registers.
 const FEW_PARTIALS: usize = 256;
 
 pub(crate) const fn few_partials<M: Mechanism>() -> bool {
@@ -574,12 +584,12 @@ fn unit<T: Real, A: Array<T>>(k: usize) -> A {
     unit
 }
 
-/// Values that stand still.
+/// Values that are constant.
 fn fixed<T: Real, D: Array<Dual<T>>>(values: &impl Array<T>) -> D {
     D::from_fn(|k| Dual::fixed(values.as_ref()[k]))
 }
 
-/// Values that move in a direction.
+/// Values that change along a direction.
 fn along<T: Real, A: Array<T>, D: Array<Dual<T>>>(values: &A, direction: &A) -> D {
     let mut duals = D::filled(Dual::fixed(T::constant(0.0)));
     for ((dual, value), slope) in duals

@@ -1,22 +1,24 @@
-//! How the numbers of a picture are read: which bodies, solids, joints and points they belong to.
+//! How to read the numbers of a picture: which bodies, solids, joints and points they belong to.
 
 use super::shared::{List, Shared, Text};
 
 /// What [`Mechanism::picture`](crate::Mechanism::picture) shows, in the order of its numbers.
 ///
-/// The numbers of a picture, SI, are those of the bodies, then of their solids, of the joints, of the points, of the wheels, of gravity:
+/// The numbers of a picture, SI, belong to the bodies, their solids, the joints, the points, the wheels and gravity, in
+/// this order:
 ///
-/// - a body has 12: the place of its origin in the common frame, and the rows of the rotation that takes vectors of the body into
-///   the common frame. That is the frame of the ground at the instant at which all running coordinates are zero;
-/// - a solid has as many as its kind ([`SolidKind::numbers`]);
-/// - a joint has 12: its place and the axis of its first motion on the `from` side, its place and the axis of its last motion on the
-///   `to` side, each in the frame of that side;
-/// - a point has 3: its place in the frame it is fixed in;
-/// - a wheel has 7: its radius, its axle in the frame that carries it, the normal of the plane in the frame of the plane. Of a
-///   ball the axle is zero;
-/// - gravity has 3: its acceleration in the common frame, zero where none is declared.
+/// - a body has 12: the position of its origin in the common frame, and the rows of the rotation that takes vectors of
+///   the body into the common frame. That frame is the ground frame at the instant at which all running coordinates are
+///   zero;
+/// - a solid has as many as its kind requires ([`SolidKind::numbers`]);
+/// - a joint has 12: its position and the axis of its first motion on the `from` side, and its position and the axis of
+///   its last motion on the `to` side, each in the frame of that side;
+/// - a point has 3: its position in the frame in which it is fixed;
+/// - a wheel has 7: its radius, its axle in the frame that carries it, and the normal of the plane in the frame of the
+///   plane. The axle of a ball is zero;
+/// - gravity has 3: its acceleration in the common frame, zero if none is declared.
 ///
-/// Most of them are the same for every state and design. These stand in `numbers`; the kernel computes the others.
+/// Most of them are the same for every state and design. These are stored in `numbers`; the kernel computes the others.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PictureInfo {
@@ -28,18 +30,18 @@ pub struct PictureInfo {
     pub points: List<PointInfo>,
     /// Forces and constraints between two points.
     pub links: List<LinkInfo>,
-    /// What rolls.
+    /// Wheels and balls that roll.
     pub wheels: List<WheelInfo>,
-    /// What acts and what binds, in words.
+    /// Forces and constraints, in words.
     pub elements: List<ElementInfo>,
-    /// All numbers; zero in the places of those that the kernel computes.
+    /// All numbers; zero at the positions of those that the kernel computes.
     pub numbers: List<f64>,
-    /// The places of the numbers that the kernel computes, in the order of its results.
+    /// The positions of the numbers that the kernel computes, in the order of its results.
     pub computed: List<u32>,
 }
 
 impl PictureInfo {
-    /// Nothing to see: of mechanisms that say nothing of their bodies.
+    /// An empty picture, for mechanisms without information about their bodies.
     pub const EMPTY: Self = Self {
         bodies: Shared::Static(&[]),
         joints: Shared::Static(&[]),
@@ -58,25 +60,25 @@ impl PictureInfo {
 pub struct BodyInfo {
     /// Declared name.
     pub name: Text,
-    /// What its mass is made of; nothing when massless.
+    /// The solids that make up its mass; empty for a massless body.
     pub solids: List<SolidInfo>,
 }
 
-/// A piece of a body's mass.
+/// One solid of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SolidInfo {
-    /// What it is.
+    /// Its kind.
     pub kind: SolidKind,
-    /// The piece is missing from the others.
+    /// It is a hole: it is subtracted from the others.
     pub hole: bool,
 }
 
-/// Kinds of solids, and their numbers: places and directions in the frame of the body.
+/// Kinds of solids, with their numbers: positions and directions are in the frame of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SolidKind {
-    /// Place, mass.
+    /// Position, mass.
     Point,
     /// Centre, direction, length.
     Rod,
@@ -90,13 +92,13 @@ pub enum SolidKind {
     Box,
     /// Centre, radius.
     Sphere,
-    /// Centre of mass, the three axes of the frame in which the tensor is given, mass, the tensor's xx, yy, zz, xy, yz, xz in this
-    /// frame, the point that it is about from the centre of mass in this frame.
+    /// Centre of mass; the three axes of the frame in which the tensor is given; mass; the tensor's xx, yy, zz, xy, yz,
+    /// xz in this frame; the reference point of the tensor relative to the centre of mass, in this frame.
     Rigid,
 }
 
 impl SolidKind {
-    /// How many numbers it has.
+    /// The number of its numbers.
     #[must_use]
     pub const fn numbers(self) -> usize {
         match self {
@@ -116,7 +118,7 @@ impl SolidKind {
 pub struct JointInfo {
     /// Declared name.
     pub name: Text,
-    /// The word it was declared with, for example `revolute`.
+    /// The keyword it was declared with, for example `revolute`.
     pub kind: Text,
     /// The body on its `from` side; `None` for the ground.
     pub from: Option<u32>,
@@ -144,7 +146,7 @@ pub struct PointInfo {
 pub struct LinkInfo {
     /// Declared name.
     pub name: Text,
-    /// The word it is declared with, for example `spring_damper`.
+    /// The keyword it was declared with, for example `spring_damper`.
     pub kind: Text,
     /// The points at its ends.
     pub ends: [u32; 2],
@@ -162,14 +164,16 @@ pub struct WheelInfo {
     pub on: u32,
 }
 
-/// Something that acts on the mechanism or binds it, as it was declared: gravity, a drive, a force, a constraint, a curve.
+/// An element that acts on the mechanism or constrains it, as declared: gravity, a drive, a force, a constraint, a
+/// curve.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ElementInfo {
     /// Declared name.
     pub name: Text,
-    /// The word it is declared with, for example `bushing`; `drive` of a driven coordinate.
+    /// The keyword it was declared with, for example `bushing`; `drive` for a driven coordinate.
     pub kind: Text,
-    /// What it acts on and its law, without arguments that are zero, with numbers in SI: `on theta stiffness k rest 0.1`.
+    /// What it acts on, and its law, without arguments that are zero and with numbers in SI:
+    /// `on theta stiffness k rest 0.1`.
     pub law: Text,
 }

@@ -1,20 +1,20 @@
-//! What kernels return.
+//! Return types of kernels.
 
 use super::shared::Text;
 
-/// A physical requirement that is not met.
+/// A physical requirement that is violated.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Violation<T> {
-    /// What is wrong, for example `mass of bar1`.
+    /// The quantity at fault, for example `mass of bar1`.
     pub quantity: Text,
-    /// What it has to be, for example `positive`.
+    /// The requirement, for example `positive`.
     pub requirement: Text,
-    /// What it is, SI.
+    /// Its value, SI.
     pub value: T,
 }
 
-/// How far a joint is from the pose in which its coordinates fail.
+/// How far a joint is from the pose in which its coordinates become singular.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseMargin<T> {
@@ -24,7 +24,7 @@ pub struct PoseMargin<T> {
     pub margin: T,
 }
 
-/// The residual at rest in two parts, `g = inertia - applied` (eq. 10); `V` a list of `N` numbers.
+/// The residual at rest in two parts, `g = inertia - applied` (eq. 10); `V` is a list of `N` numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RestParts<V> {
@@ -34,7 +34,7 @@ pub struct RestParts<V> {
     pub applied: V,
 }
 
-/// Linearised mass, damping and stiffness (eqs. 15-17), or a derivative of the three; `A` an `N` by `N` matrix.
+/// Linearised mass, damping and stiffness (eqs. 15-17), or a derivative of the three; `A` is an `N` by `N` matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Linear<A> {
@@ -47,7 +47,7 @@ pub struct Linear<A> {
 }
 
 impl<A> Linear<A> {
-    /// The same of each matrix.
+    /// Applies a function to each matrix.
     pub fn map<B>(self, mut matrix: impl FnMut(A) -> B) -> Linear<B> {
         Linear {
             mass: matrix(self.mass),
@@ -57,27 +57,27 @@ impl<A> Linear<A> {
     }
 }
 
-/// Explicit partial derivatives of the linearised matrices, each list one of [`Linear`]; `by_coordinate[k]` is the derivative
-/// by coordinate `k`.
+/// Explicit partial derivatives of the linearised matrices, each a list of [`Linear`]; `by_coordinate[k]` is the
+/// derivative with respect to coordinate `k`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinearPartials<C, I = C, D = C> {
-    /// By each free coordinate.
+    /// With respect to each free coordinate.
     pub by_coordinate: C,
-    /// By each input.
+    /// With respect to each input.
     pub by_input: I,
-    /// By each design variable.
+    /// With respect to each design variable.
     pub by_design: D,
 }
 
-/// Partial derivatives of one scalar by everything it depends on.
+/// Partial derivatives of one scalar with respect to everything it depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gradient<C, I = C, D = C> {
-    /// By each free coordinate.
+    /// With respect to each free coordinate.
     pub coordinates: C,
-    /// By each input.
+    /// With respect to each input.
     pub inputs: I,
-    /// By each design variable.
+    /// With respect to each design variable.
     pub design: D,
 }

@@ -1,4 +1,4 @@
-//! Shared values as the values, handles as their positions.
+//! Serialisation: shared values as plain values, handles as their positions.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -1,15 +1,15 @@
-//! Names and lists that are constants of generated code, or owned by a mechanism that was read at run time.
+//! Names and lists that are constants of generated code or belong to a mechanism read at run time.
 
 use core::fmt;
 use core::ops::Deref;
 #[cfg(feature = "std")]
 use std::sync::Arc;
 
-/// A value that lives as long as the program, or as long as its last owner; cheap to clone. Derefs to the value.
+/// A value that lives as long as the program or its last owner; cheap to clone. Dereferences to the value.
 pub enum Shared<T: ?Sized + 'static> {
     /// A constant.
     Static(&'static T),
-    /// Made at run time.
+    /// Created at run time.
     #[cfg(feature = "std")]
     Counted(Arc<T>),
 }

@@ -1,4 +1,5 @@
-//! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
+//! Tracking modes: which modes of two sets are the same motion (modal assurance criterion), and which cannot be told
+//! apart.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -10,17 +11,18 @@ use crate::algebra::{Matrix, Vector, for_size, greater, times_complex};
 use crate::kernels::Linear;
 use crate::{Complex, Modes};
 
-/// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
+/// Largest share of the assurance that a difference of eigenvalues can remove: it decides between modes of equal shape.
 pub(crate) const EIGENVALUE_SHARE: f64 = 0.05;
-/// Beyond this assurance a mode is recognised without looking at the others of its set.
+/// Above this assurance a mode is recognised without looking at the other modes of its set.
 const CERTAIN: f64 = 0.6;
 
-/// How much mode `j` of `to` is the same motion as mode `i` of `from`, from 0 to 1: `table[i][j]`.
+/// Similarity, from 0 to 1, of mode `i` of `from` to mode `j` of `to`: `table[i][j]`.
 ///
-/// For undamped modes the modal assurance criterion: the squared cosine between the shapes, weighted with the mass matrix
-/// of `linear`; with speeds, with that of the kinetic energy, displacements brought to velocities by the greatest `|s|`.
-/// General modes are motions of positions and velocities: the phase of the eigenvalue counts as well, and of modes with
-/// equal shapes the one with the nearer eigenvalue has up to 5 % more. Both sets and the matrices belong to one mechanism.
+/// For undamped modes this is the modal assurance criterion: the squared cosine between the shapes, weighted with the
+/// mass matrix of `linear`. With speeds the weight is that of the kinetic energy, with displacements converted to
+/// velocities by the largest `|s|`. General modes are motions of positions and velocities: the phase of the eigenvalue
+/// counts as well, and among modes of equal shape the one with the nearer eigenvalue scores up to 5 % more. Both sets and
+/// the matrices must belong to one mechanism.
 #[must_use]
 pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     let own = kinetic(from, to, linear);
@@ -49,7 +51,7 @@ pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     })
 }
 
-/// `(1 + cos of the phase difference) / 2`, less a little for the distance; the eigenvalues with their sizes.
+/// `(1 + cos of the phase difference) / 2`, reduced slightly with the distance; takes both eigenvalues and their sizes.
 fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
     let sizes = size_a * size_b;
     let phase = if sizes > 0.0 {
@@ -95,23 +97,24 @@ fn real_form(n: usize, x: &[Complex], mass: &[f64], y: &[Complex]) -> f64 {
     sum
 }
 
-/// For each mode of `from` the position of the mode of `to` that is the same motion; `None` where `to` has fewer.
+/// Matches modes: for each mode of `from`, the position of the mode of `to` that is the same motion; `None` if `to` has
+/// fewer modes.
 ///
-/// Pairs are taken in descending order of assurance, ties in order of position: no position occurs twice, and the answer is always
-/// the same.
+/// Pairs are assigned in descending order of assurance, ties in order of position. No position occurs twice, and the
+/// result is deterministic.
 #[must_use]
 pub fn match_modes(from: &Modes, to: &Modes, linear: &Linear) -> Vec<Option<usize>> {
     let found = match_with_assurance(from, to, linear).into_iter();
     found.map(position).collect()
 }
 
-/// The position in what [`match_with_assurance`] finds of a mode.
+/// The position in a match found by [`match_with_assurance`].
 #[inline]
 pub(crate) fn position(found: Option<(usize, f64)>) -> Option<usize> {
     found.map(|(position, _)| position)
 }
 
-/// As [`match_modes`], with the assurance of each pair.
+/// Like [`match_modes`], with the assurance of each pair.
 pub(crate) fn match_with_assurance(
     from: &Modes,
     to: &Modes,
@@ -121,7 +124,8 @@ pub(crate) fn match_with_assurance(
     if here == 1 && there == 1 {
         return [Some((0, 1.0))].into();
     }
-    // Shapes of one undamped set are orthogonal, so each has at most one above one half in another set.
+    // The shapes of one undamped set are orthogonal, so each matches at most one shape of another set with more than one
+    // half.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
         let pairs = from.modes.iter().zip(&to.modes);
@@ -152,15 +156,16 @@ pub(crate) fn match_with_assurance(
 }
 
 impl Modes {
-    /// These modes in the order and with the labels of those of `before` that they continue; modes without a predecessor
-    /// come last, under labels from `next` on.
+    /// These modes in the order, and with the labels, of the modes of `before` that they continue.
+    ///
+    /// Modes without a predecessor come last, labelled from `next` on.
     pub(crate) fn continuing(mut self, before: &Self, linear: &Linear, next: usize) -> Self {
         let order = match_modes(before, &self, linear);
         self.arrange(before, &order, next);
         self
     }
 
-    /// Brings the modes into the order of those of `before`, `order` by position, as [`Self::continuing`].
+    /// Reorders and relabels the modes as in [`Self::continuing`], given the matching positions `order`.
     pub(crate) fn arrange(&mut self, before: &Self, order: &[Option<usize>], mut next: usize) {
         let in_place = |(i, place): (usize, &Option<usize>)| *place == Some(i);
         if order.len() == self.modes.len() && order.iter().enumerate().all(in_place) {
@@ -190,11 +195,14 @@ impl Modes {
     }
 }
 
-/// Whether mode `r` has merged with another, or with its own conjugate, into a defective eigenvalue, as far as its
-/// accuracy can tell: it has no derivative, and its shapes are those of the other.
+/// Whether mode `r` has merged, to within its accuracy, with another mode or with its own conjugate into a defective
+/// eigenvalue.
+///
+/// A merged mode has no derivative, and shares its shapes with the other.
 #[inline]
 pub(crate) fn merged(modes: &Modes, r: usize) -> bool {
-    /// Semisimple eigenvalues that meet are far better conditioned; defective ones that are told apart far worse.
+    /// Semisimple eigenvalues that meet are conditioned far better; defective ones that can still be told apart, far
+    /// worse.
     const ILL_CONDITIONED: f64 = 1e5;
     let own = &modes.modes[r];
     if modes.family == Family::Undamped || own.condition <= ILL_CONDITIONED {
@@ -206,8 +214,10 @@ pub(crate) fn merged(modes: &Modes, r: usize) -> bool {
     !own.condition.is_finite() || gaps.chain(conjugate).any(|gap| gap <= own.error)
 }
 
-/// Marks the modes whose eigenvalue (`lambda` of undamped modes, `s` of general ones) lies within `gap` of another one,
-/// relative to the larger of the two: they share a cluster and have no derivative of their own.
+/// Marks the modes whose eigenvalue (`lambda` for undamped modes, `s` for general ones) lies within `gap` of another one,
+/// relative to the larger of the two.
+///
+/// Marked modes share a cluster and have no derivative of their own.
 #[must_use]
 pub fn clusters(modes: &Modes, gap: f64) -> Vec<bool> {
     let clustered = |i| merged(modes, i) || near_another(modes, i, gap);

@@ -1,4 +1,4 @@
-//! Weights of shapes that have speeds: those of the kinetic energy.
+//! Weights for shapes with speeds, from the kinetic energy.
 
 use super::Mode;
 use crate::algebra::{Matrix, Vector, largest_element, times_complex};
@@ -9,8 +9,9 @@ use crate::{Complex, Modes};
 /// Share of the greatest possible weight below which a shape counts as massless.
 const MASSLESS: f64 = 1e-12;
 
-/// The weights of shapes with displacements and speeds, brought to one unit by the greatest `|s|`; without masses all weigh
-/// the same. `None` where `Mhat` weighs all that moves.
+/// The weight matrix for shapes with displacements and speeds, which the largest `|s|` brings to one unit.
+///
+/// Without masses every component weighs the same. `None` where `Mhat` already weighs everything that moves.
 pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matrix> {
     let structure = Structure::of(&to.description);
     if structure.holonomic() {

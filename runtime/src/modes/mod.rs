@@ -1,11 +1,11 @@
 //! Natural modes of small vibrations about an equilibrium.
 //!
-//! Undamped modes solve `Khat phi = lambda Mhat phi`; they are complete where `Chat` is zero and `Khat` symmetric.
-//! Everything else has general modes, `(s^2 Mhat + s Chat + Khat) phi = 0` with left vectors
-//! `psi^T (s^2 Mhat + s Chat + Khat) = 0`. Both are described by one type: an undamped mode is one with `s^2 = -lambda`.
+//! Undamped modes solve `Khat phi = lambda Mhat phi`; they describe the motion completely where `Chat` is zero and `Khat`
+//! symmetric. Every other case needs general modes, `(s^2 Mhat + s Chat + Khat) phi = 0` with left vectors
+//! `psi^T (s^2 Mhat + s Chat + Khat) = 0`. One type describes both: an undamped mode has `s^2 = -lambda`.
 //!
-//! With constraints and speeds the same equations hold for all unknowns, reactions included; there are as many modes as
-//! the constraints leave free.
+//! With constraints and speeds the same equations hold over all unknowns, reactions included; the number of modes is the
+//! number of motions that the constraints leave free.
 
 mod assurance;
 mod constrained;
@@ -30,11 +30,11 @@ use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::rounding::{Sign, sign};
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
 
-/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances are: rounding mixes their
+/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances: rounding mixes their
 /// shapes.
 pub(crate) const CLUSTER_GAP: f64 = 1e-6;
 
-/// Which equation modes solve.
+/// The equation that a set of modes solves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Family {
@@ -45,7 +45,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// The family that neglects nothing: undamped where the compiler proved `Chat` zero and `Khat` symmetric.
+    /// The family that neglects nothing: undamped if the compiler proved `Chat` zero and `Khat` symmetric.
     #[must_use]
     pub fn of(description: &Description) -> Self {
         if description.damping == DampingKind::Zero && description.symmetric_stiffness {
@@ -56,7 +56,9 @@ impl Family {
     }
 }
 
-/// All modes at one equilibrium: undamped ones ascending in `lambda`, general ones in `|s|`, unless they follow another
+/// All modes at one equilibrium.
+///
+/// Undamped modes are sorted by `lambda`, general ones by `|s|`, both ascending, unless they follow the order of another
 /// set.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -64,18 +66,18 @@ impl Family {
 pub struct Modes {
     /// The modes.
     pub modes: Vec<Mode>,
-    /// Which equation they solve.
+    /// The equation they solve.
     pub family: Family,
-    /// `Chat` is not zero here and was neglected: these are the modes of `Mhat` and `Khat` alone.
+    /// `Chat` is non-zero here and was neglected: these are the modes of `Mhat` and `Khat` alone.
     pub damping_ignored: bool,
-    /// The inputs they belong to, SI; empty for modes of given matrices.
+    /// The inputs they belong to, SI; empty for the modes of given matrices.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
 impl Modes {
-    /// Frequencies of the modes in their order, rad/s.
+    /// Frequencies of all modes, in order, rad/s.
     pub fn frequencies(&self) -> Vec<Option<f64>> {
         self.modes.iter().map(Mode::frequency).collect()
     }
@@ -107,7 +109,7 @@ impl Modes {
         self.columns(|mode| &mode.shape)
     }
 
-    /// The left vectors likewise: column `r` is [`Mode::left`] of mode `r`.
+    /// The matrix of left vectors: column `r` is [`Mode::left`] of mode `r`.
     #[must_use]
     pub fn left_shapes(&self) -> Matrix<Complex> {
         self.columns(|mode| &mode.left)
@@ -118,7 +120,7 @@ impl Modes {
         Matrix::from_fn(rows, self.modes.len(), |i, r| of(&self.modes[r])[i])
     }
 
-    /// The same modes of the mechanism whose inputs deviate, deviations zero.
+    /// Reassigns these modes to the mechanism with deviating inputs, all deviations zero.
     #[must_use]
     pub fn with_deviations<K: Kernels + ?Sized>(&self, of: &DeviatingInputs<'_, K>) -> Self {
         Self {
@@ -127,7 +129,7 @@ impl Modes {
         }
     }
 
-    /// The modes, if they are general ones.
+    /// The modes if they are general, otherwise an empty slice.
     pub(crate) fn general(&self) -> &[Mode] {
         match self.family {
             Family::General => &self.modes,
@@ -135,21 +137,23 @@ impl Modes {
         }
     }
 
-    /// The least `lambda`; infinite without modes.
+    /// The smallest `lambda`; infinite if there are no modes.
     pub(crate) fn least_lambda(&self) -> f64 {
         let lambda = self.modes.iter().map(|mode| mode.lambda);
         lambda.fold(f64::INFINITY, f64::min)
     }
 
-    /// Real parts of the shapes, one in each row.
+    /// Real parts of the shapes, one shape per row.
     pub(crate) fn real_shapes(&self) -> Matrix {
         let columns = self.modes.first().map_or(0, |mode| mode.shape.len());
         Matrix::from_fn(self.modes.len(), columns, |r, i| self.modes[r].shape[i].re)
     }
 
-    /// Positions of the modes whose eigenvalues rounding cannot tell from that of number `mode`, its own included, ascending:
-    /// a chain in which each is within 1e-6 of the next, relative to the greater. Tolerances bring more together
-    /// ([`clusters::clusters`](crate::clusters::clusters)). Empty when there is no such mode.
+    /// Positions, ascending, of the modes whose eigenvalues rounding cannot distinguish from that of mode `mode`, itself
+    /// included.
+    ///
+    /// They form a chain in which each eigenvalue is within 1e-6 of the next, relative to the larger. Tolerances can
+    /// merge more modes ([`clusters::clusters`](crate::clusters::clusters)). Empty if there is no such mode.
     #[must_use]
     pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
         let mut members: Vec<usize> = (mode < self.modes.len())
@@ -167,35 +171,35 @@ impl Modes {
         members
     }
 
-    /// Whether every small disturbance stays small.
+    /// Whether no small disturbance grows.
     #[must_use]
     pub fn stable(&self) -> bool {
         !self.modes.iter().any(|mode| mode.behaviour.grows())
     }
 }
 
-/// The modes about an equilibrium, of the family that neglects nothing ([`Family::of`]).
+/// The modes about an equilibrium, in the family that neglects nothing ([`Family::of`]).
 ///
 /// # Errors
-/// [`Error::SingularMass`] when a coordinate moves no mass, [`Error::ModesNotFound`] when a pair fails its residual
-/// check, [`Error::SingularConfiguration`] where constraints become dependent.
+/// [`Error::SingularMass`] if a coordinate moves no mass, [`Error::ModesNotFound`] if a pair fails its residual check,
+/// [`Error::SingularConfiguration`] where constraints become dependent.
 pub fn modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     equilibrium.regular()?;
     let family = Family::of(&equilibrium.description);
     modes_at(equilibrium, family, Vec::new())
 }
 
-/// Undamped modes about an equilibrium: `Chat` is neglected, and the result says so where it is not zero.
+/// Undamped modes about an equilibrium: `Chat` is neglected, and the result says so where it is non-zero.
 ///
 /// # Errors
-/// As [`modes`], [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric, and [`Error::NoUndampedModes`] with speeds
-/// or constraints on velocities.
+/// Those of [`modes`], [`Error::NonsymmetricStiffness`] if `Khat` is not symmetric, and [`Error::NoUndampedModes`] with
+/// speeds or constraints on velocities.
 pub fn undamped_modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     equilibrium.regular()?;
     modes_at(equilibrium, Family::Undamped, Vec::new())
 }
 
-/// The modes of a family about an equilibrium; `judged` as in [`Modes::solve_at`].
+/// The modes of the given family about an equilibrium; for `judged` see [`Modes::solve_at`].
 pub(crate) fn modes_at(
     at: &Equilibrium,
     family: Family,
@@ -206,11 +210,13 @@ pub(crate) fn modes_at(
     Ok(found)
 }
 
-/// Modes of given matrices, which belong to the mechanism that `description` describes. Elements are taken to
-/// be accurate to rounding: only an [`Equilibrium`] knows where one is the small difference of large terms, as at a critical speed.
+/// Modes of given matrices that belong to the mechanism described by `description`.
+///
+/// The elements are assumed to be accurate to rounding: only an [`Equilibrium`] knows where an element is a small
+/// difference of large terms, as at a critical speed.
 ///
 /// # Errors
-/// As [`undamped_modes`], and [`Error::WrongLength`] when the matrices are not as large as `description` says.
+/// Those of [`undamped_modes`], and [`Error::WrongLength`] if the matrices do not have the size that `description` gives.
 pub fn modes_of(
     linear: &Linear,
     family: Family,
@@ -220,7 +226,8 @@ pub fn modes_of(
     solve_modes(linear, family, description, 0.0).map_err(|failure| failure.explain(description))
 }
 
-/// Refuses matrices that are not square, of one size, and that of the mechanism; of an open one any size will do.
+/// Refuses matrices that are not square or differ in size. Constrained mechanisms also fix the size; open ones accept
+/// any.
 fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> {
     let expected = if Structure::of(description).open() {
         linear.mass.row_count()
@@ -243,10 +250,10 @@ fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> 
     }
 }
 
-/// Why there are no modes; allocates nothing.
+/// Why there are no modes; the error allocates nothing.
 pub(crate) enum ModesFailure {
     Asymmetric(f64),
-    /// Undamped modes were asked for where speeds or constraints on velocities leave none.
+    /// Undamped modes were requested, but speeds or constraints on velocities rule them out.
     NotHolonomic,
     Pencil(Trouble),
     /// The square of this eigenvalue exceeds the range of a double.
@@ -273,10 +280,10 @@ impl ModesFailure {
     }
 }
 
-/// `Khat` counts as symmetric up to this relative difference.
+/// Relative asymmetry up to which `Khat` counts as symmetric.
 pub(crate) const SYMMETRIC: f64 = 1e-11;
 
-/// The modes of given matrices, in which a `lambda` that is not beyond `floor` is zero.
+/// The modes of given matrices; a `lambda` not beyond `floor` counts as zero.
 pub(crate) fn solve_modes(
     linear: &Linear,
     family: Family,
@@ -289,7 +296,7 @@ pub(crate) fn solve_modes(
 }
 
 impl Modes {
-    /// None yet.
+    /// An empty set of modes.
     #[inline]
     pub(crate) fn empty(family: Family, description: &Shared<Description>) -> Self {
         Self {
@@ -301,8 +308,8 @@ impl Modes {
         }
     }
 
-    /// Writes the modes about an equilibrium over those there are. `judged` are its general modes if its stability was judged by
-    /// them, empty otherwise.
+    /// Overwrites this set with the modes about an equilibrium. `judged` holds its general modes if they were needed to
+    /// judge its stability, and is empty otherwise.
     pub(crate) fn solve_at(&mut self, at: &Equilibrium, judged: Vec<Mode>) -> Result<(), Error> {
         self.solve_judged(at, judged, &[])
             .map_err(|failure| failure.explain(&at.description))?;
@@ -310,7 +317,7 @@ impl Modes {
         Ok(())
     }
 
-    /// The same near an equilibrium of which all modes are known, without its inputs.
+    /// Like [`Self::solve_at`], but leaves the inputs alone and starts from all modes of a nearby equilibrium, if given.
     pub(crate) fn solve_judged(
         &mut self,
         at: &Equilibrium,
@@ -324,8 +331,8 @@ impl Modes {
         self.solve_near(&at.linear, at.rounding, nearby)
     }
 
-    /// Writes the modes of these matrices over those there are, whose vectors are used again. A `lambda` that is not beyond
-    /// `floor` is zero. Damped modes of an open mechanism take less time from all modes of one near by.
+    /// Overwrites this set with the modes of these matrices, reusing its vectors. A `lambda` not beyond `floor` counts as
+    /// zero. For damped modes of an open mechanism, passing all modes of a nearby one saves time.
     pub(crate) fn solve_near(
         &mut self,
         linear: &Linear,
@@ -386,7 +393,7 @@ fn damped(
         constrained::general_roots(linear, structure)
     };
     let roots = roots.map_err(ModesFailure::Pencil)?;
-    // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
+    // Without dissipation, a motion that stays bounded has imaginary eigenvalues.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;
     modes.clear();
@@ -432,7 +439,8 @@ fn damped(
     Ok(())
 }
 
-/// How far a change of the pencil by `floor phi^H Mhat phi` moves a root: `d` with `d (|psi^T (2 s M + C) phi| + d) = floor`.
+/// How far a change `floor phi^H Mhat phi` of the pencil moves a root: `d` with
+/// `d (|psi^T (2 s M + C) phi| + d) = floor`.
 #[cold]
 fn moved_by(linear: &Linear, root: &Root, floor: f64) -> f64 {
     let slope = pencil_slope_times(linear, root.s, &root.right);
@@ -440,8 +448,8 @@ fn moved_by(linear: &Linear, root: &Root, floor: f64) -> f64 {
     2.0 * floor / (slope + (slope * slope + 4.0 * floor).sqrt())
 }
 
-/// Position of the component that tells the phase of a vector: the greatest; a margin keeps the choice when two are equal
-/// but for rounding.
+/// Position of the component that fixes the phase of a vector: the largest one, with a margin that keeps the choice
+/// stable when two are equal up to rounding.
 pub(crate) fn lead(x: &[Complex]) -> usize {
     let mut lead = 0;
     for (i, value) in x.iter().enumerate().skip(1) {

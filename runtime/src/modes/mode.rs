@@ -1,4 +1,4 @@
-//! One mode, and what it means.
+//! One mode and its interpretation.
 
 use crate::Complex;
 use crate::algebra::Vector;
@@ -45,37 +45,37 @@ impl Behaviour {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mode {
-    /// Eigenvalue, 1/s: the motion goes as `exp(s t)`. Of a conjugate pair the one with positive imaginary part; of an
-    /// undamped divergent mode the growing one.
+    /// Eigenvalue, 1/s: the motion varies as `exp(s t)`. For a conjugate pair, the one with positive imaginary part; for
+    /// an undamped divergent mode, the growing one.
     pub s: Complex,
-    /// `-Re s^2`, 1/s^2. Of an undamped mode the eigenvalue of `Khat phi = lambda Mhat phi`: the square of the frequency,
-    /// negative for divergence.
+    /// `-Re s^2`, 1/s^2. For an undamped mode, the eigenvalue of `Khat phi = lambda Mhat phi`: the square of the
+    /// frequency, negative for divergence.
     pub lambda: f64,
-    /// Right vector `phi`, by unknown, the reactions of constraints included: `phi^H Mhat phi = 1`, its largest component
-    /// of a coordinate real and positive. With speeds or constraints on velocities, where a mode may move speeds only, the
-    /// largest component of a coordinate or speed is one. Real for an undamped mode.
+    /// Right vector `phi` over all unknowns, reactions of constraints included: `phi^H Mhat phi = 1`, with its largest
+    /// coordinate component real and positive. With speeds or constraints on velocities, where a mode may move speeds
+    /// only, the largest component of a coordinate or speed is one. Real for an undamped mode.
     pub shape: Vector<Complex>,
-    /// Left vector `psi`, normalised alike; with speeds or constraints on velocities its largest component of all is one.
-    /// Of an undamped mode the same as `shape`.
+    /// Left vector `psi`, normalised in the same way, except that with speeds or constraints on velocities the largest of
+    /// all its components is one. Equal to `shape` for an undamped mode.
     pub left: Vector<Complex>,
-    /// What `s` means.
+    /// What `s` means physically.
     pub behaviour: Behaviour,
-    /// Greatest component of the equation of the mode, left or right, relative to the terms in it.
+    /// Largest component of the mode's equation, left or right, relative to the terms in it.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub residual: f64,
     /// Estimated absolute error of `s`, 1/s.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub error: f64,
-    /// Condition number of `s` as an eigenvalue of the balanced first-order system: 1 for an undamped mode, great where
-    /// eigenvalues and their vectors are about to merge, infinite where they have.
+    /// Condition number of `s` as an eigenvalue of the balanced first-order system: 1 for an undamped mode, large where
+    /// eigenvalues and their vectors are about to merge, infinite where they have merged.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub condition: f64,
-    /// Number of the motion: modes with one number along a sweep are one motion. Without a sweep, the position.
+    /// Identifies the motion: modes with the same label along a sweep are one motion. Without a sweep, the position.
     pub label: usize,
 }
 
 impl Mode {
-    /// As what predicts the mode of a problem near by.
+    /// This mode as a predictor for the modes of a nearby problem.
     pub(crate) fn near(&self) -> Near<'_> {
         Near {
             s: self.s,
@@ -84,19 +84,19 @@ impl Mode {
         }
     }
 
-    /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
+    /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` if it does not oscillate.
     #[must_use]
     pub fn frequency(&self) -> Option<f64> {
         self.behaviour.frequency()
     }
 
-    /// Natural angular frequency `|s|`, rad/s; `None` for a mode that does not oscillate.
+    /// Natural angular frequency `|s|`, rad/s; `None` if the mode does not oscillate.
     #[must_use]
     pub fn natural_frequency(&self) -> Option<f64> {
         self.frequency().map(|_| self.s.norm())
     }
 
-    /// Damping ratio `-Re s / |s|`; negative for a mode that grows, `None` for a neutral one.
+    /// Damping ratio `-Re s / |s|`; negative for a growing mode, `None` for a neutral one.
     #[must_use]
     pub fn damping_ratio(&self) -> Option<f64> {
         match self.behaviour {
@@ -106,7 +106,7 @@ impl Mode {
         }
     }
 
-    /// What a mode is written over.
+    /// An empty mode, to be overwritten.
     pub(super) fn blank() -> Self {
         Self {
             s: Complex::ZERO,
@@ -121,7 +121,7 @@ impl Mode {
         }
     }
 
-    /// Writes an undamped mode with an eigenvalue and its error over this one, whose vectors are used again.
+    /// Overwrites this mode with an undamped mode given by its eigenvalue and error, reusing the vectors.
     #[inline]
     pub(crate) fn set_undamped(
         &mut self,
@@ -146,7 +146,7 @@ impl Mode {
             *left = *right;
         }
         self.residual = residual;
-        // `sqrt(error)`, or `error / rate` where that is less.
+        // `sqrt(error)`, or `error / rate` if that is smaller.
         self.error = if rate * rate > error {
             error / rate
         } else {
@@ -156,7 +156,7 @@ impl Mode {
         self.label = label;
     }
 
-    /// Real parts of the shape: all of it for an undamped mode.
+    /// Real part of the shape, which is all of it for an undamped mode.
     pub(crate) fn real_shape(&self) -> Vector {
         self.shape.map(|value| value.re)
     }

@@ -4,7 +4,7 @@ use crate::Complex;
 use crate::algebra::{Matrix, Vector, times_complex};
 use crate::kernels::Linear;
 
-/// `(s^2 M + s C + K) x` for three given matrices.
+/// `(s^2 M + s C + K) x` for the given matrices.
 pub(crate) fn pencil_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
     Vector::from_fn(linear.mass.row_count(), |i| {
         let rows = linear.mass[i].iter().zip(&linear.damping[i]);
@@ -17,7 +17,7 @@ pub(crate) fn pencil_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector
     })
 }
 
-/// `(2 s M + C) x`: the derivative of the pencil by `s`.
+/// `(2 s M + C) x`: the derivative of the pencil with respect to `s`, times `x`.
 pub(crate) fn pencil_slope_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
     let m = times_complex(&linear.mass, x);
     let c = times_complex(&linear.damping, x);

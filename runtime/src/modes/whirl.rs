@@ -1,9 +1,9 @@
-//! Whirl: whether a vibration circles in the sense in which the bodies spin.
+//! Whirl: whether a vibration circles in the direction in which the bodies spin.
 
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Mode, Modes};
 
-/// Sense in which a vibration circles about the axes of the spinning bodies.
+/// Direction in which a vibration circles about the axes of the spinning bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sense {
@@ -11,7 +11,7 @@ pub enum Sense {
     Forward,
     /// Against the spin.
     Backward,
-    /// Along a line, or circles of both senses that cancel.
+    /// Along a line, or circles in both directions that cancel.
     Planar,
 }
 
@@ -20,15 +20,16 @@ pub enum Sense {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Whirl {
-    /// From 1 (every orbit a circle run through with the spin) through 0 (straight) to -1 (circles against it). Orbits are
-    /// those of the centres of mass and of the small rotations of the bodies, weighted with mass, second moment and
-    /// the square of the spin, as seen by an observer who moves with the coordinates: where they are declared behind the
-    /// drive, in the turning frame.
+    /// From 1 (every orbit a circle traversed with the spin) through 0 (straight lines) to -1 (circles against the spin).
+    ///
+    /// The orbits are those of the centres of mass and of the small rotations of the bodies, weighted with mass, second
+    /// moment and the square of the spin. They are seen by an observer who moves with the coordinates: in the rotating
+    /// frame if the coordinates are declared behind the drive.
     pub ratio: f64,
 }
 
 impl Whirl {
-    /// The sense; ratios within 1e-6 of zero are planar.
+    /// The direction; ratios within 1e-6 of zero are planar.
     #[must_use]
     pub fn sense(self) -> Sense {
         if self.ratio > 1e-6 {
@@ -41,8 +42,9 @@ impl Whirl {
     }
 }
 
-/// The whirl of each mode; `None` where it does not apply: for a mode that does not oscillate, or that moves nothing
-/// across the axis of a spin.
+/// The whirl of each mode.
+///
+/// `None` for a mode that does not oscillate, or that moves nothing transverse to a spin axis.
 pub fn whirls(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Vec<Option<Whirl>> {
     let whirl = |mode: &Mode| {
         mode.frequency()?;

@@ -1,9 +1,9 @@
-//! One number of each of several states.
+//! One number for each of several states.
 
-/// States in a batch.
+/// Number of states in a batch.
 pub const WIDTH: usize = 8;
 
-/// One number of each of [`WIDTH`] states, aligned for the widest vector.
+/// One number for each of [`WIDTH`] states, aligned for the widest vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct Batch(pub [f64; WIDTH]);

@@ -1,4 +1,4 @@
-//! Numbers with one derivative: a generated kernel evaluated in them is differentiated along any direction.
+//! Numbers with one derivative: evaluating a generated kernel in them differentiates it along any direction.
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,8 +7,8 @@ use super::real::Real;
 
 /// A value and its derivative along some direction (forward differentiation).
 ///
-/// Kernels are generic over their scalar: evaluated in duals whose slopes are a direction, they return values and exact
-/// directional derivatives, at about three times the operations. Duals of duals carry second derivatives.
+/// Kernels are generic over their scalar. Evaluated in duals whose slopes form a direction, they return values and exact
+/// directional derivatives at about three times the cost. Duals of duals carry second derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T> {
     /// The number.
@@ -18,7 +18,7 @@ pub struct Dual<T> {
 }
 
 impl<T: Real> Dual<T> {
-    /// A value that stands still.
+    /// A value that is constant.
     #[inline]
     pub fn fixed(value: T) -> Self {
         Self {
@@ -27,7 +27,7 @@ impl<T: Real> Dual<T> {
         }
     }
 
-    /// Values that move in a direction.
+    /// Values that change along a direction.
     #[inline]
     pub fn along<const K: usize>(values: &[T; K], direction: &[T; K]) -> [Self; K] {
         from_fn(|k| Self {

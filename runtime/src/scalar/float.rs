@@ -4,7 +4,7 @@ use super::real::{Real, integer_power};
 use super::spline::spline;
 use super::trigonometry::sin_cos;
 
-/// [`sin_cos`] of several angles, in vectors where the target has them.
+/// [`sin_cos`] of several angles, with vector instructions if the target has them.
 #[inline(always)]
 fn sin_cos_all<const K: usize>(angles: [f64; K]) -> [(f64, f64); K] {
     #[cfg(target_arch = "x86_64")]
@@ -13,8 +13,8 @@ fn sin_cos_all<const K: usize>(angles: [f64; K]) -> [(f64, f64); K] {
     angles.map(sin_cos)
 }
 
-/// One implementation for the two floating-point types, over the standard library's functions or libm's. Sine and cosine
-/// of `f64` are our own.
+/// One implementation for both floating-point types, based on the standard library or libm. Sine and cosine of `f64` are
+/// our own.
 macro_rules! float {
     ($float:ident, $sin_cos:expr, $sin_cos_all:expr, $($libm:ident),*) => {
         impl Real for $float {

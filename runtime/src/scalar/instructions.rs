@@ -1,10 +1,10 @@
-//! Which vector instructions the processor has, detected at run time.
+//! Vector instructions of the processor, detected at run time.
 
 use super::lanes::Task;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
 
-/// A set of vector instructions that this processor has.
+/// A set of vector instructions that this processor supports.
 ///
 /// Results do not depend on the choice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl Instructions {
         Self::SCALAR
     }
 
-    /// All that this processor has, the narrowest first.
+    /// All sets that this processor supports, the narrowest first.
     pub fn available() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
         let vectors = [

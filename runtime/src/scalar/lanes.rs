@@ -1,35 +1,36 @@
-//! What a vector of the processor can do: everything a [`Real`] can, one state in each lane, and a choice by lane.
+//! Vectors of the processor: all operations of a [`Real`], with one state in each lane, and selection by lane.
 
 use super::batch::{Batch, WIDTH};
 use super::real::Real;
 
-/// As many states as the processor computes at once. Every lane of every operation gives the bits that [`f64`] gives.
+/// A vector of as many states as the processor computes at once. Every lane of every operation gives the same bits as
+/// [`f64`].
 pub trait Lanes: Real {
     /// Number of lanes; divides [`WIDTH`](super::WIDTH).
     const WIDTH: usize;
     /// A truth value in each lane.
     type Mask: Copy;
-    /// The states from `at` on.
+    /// Loads the states from `at` on.
     fn load(from: &Batch, at: usize) -> Self;
-    /// Writes the states from `at` on.
+    /// Stores the states from `at` on.
     fn store(self, to: &mut Batch, at: usize);
-    /// `function` in each lane.
+    /// Applies `function` to each lane.
     fn each(self, function: impl Fn(f64) -> f64) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
-    /// `self <= bound`; false for what is not a number.
+    /// `self <= bound`; false for NaN.
     fn at_most(self, bound: Self) -> Self::Mask;
     /// `yes` where `mask` is true, `no` elsewhere.
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// Lane `l` in bit `l`.
+    /// Bit `l` is the value in lane `l`.
     fn bits(mask: Self::Mask) -> u32;
-    /// With an integer in the last bits of `self`: (`sine`, `cosine`) turned by so many right angles.
+    /// Rotates (`sine`, `cosine`) by as many right angles as the integer in the last bits of `self`.
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self);
     /// (`e`, `m`) with `self = m 2^e` and `m` between 0.7 and 1.5, for positive normal numbers.
     fn split(self) -> (Self, Self);
 
-    /// `(k + 1/2) / 2^52` of the first 52 bits `k` of random numbers from `at` on: strictly inside (0, 1), one bit less than a
-    /// double has.
+    /// `(k + 1/2) / 2^52` for the first 52 bits `k` of the random numbers from `at` on: strictly inside (0, 1), with one
+    /// bit less than a double has.
     fn probability(bits: &[u64; WIDTH], at: usize) -> Self;
 
     /// True in every lane.
@@ -39,18 +40,19 @@ pub trait Lanes: Real {
     }
 }
 
-/// Work that is written once for all vectors.
+/// A task that is written once for all vector types.
 pub trait Task {
-    /// What comes out.
+    /// The result.
     type Output;
-    /// Does it; to be marked `#[inline(always)]`, as everything that it calls with vectors, or the instructions of
-    /// the processor do not reach it.
+    /// Runs the task. Mark it, and everything that it calls with vectors, `#[inline(always)]`; otherwise the vector
+    /// instructions do not reach it.
     fn run<V: Lanes>(self) -> Self::Output;
 }
 
-/// Bits of the least mantissa of [`Lanes::split`], next to the root of 1/2.
+/// Bits of the smallest mantissa of [`Lanes::split`], next to the square root of 1/2.
 pub(super) const LEAST: u64 = 0x3fe6_a09e_0000_0000;
-/// Added to the bits of a number it makes the bits above [`MANTISSA`] 1023 more than the exponent for that mantissa.
+/// Added to the bits of a number, it makes the bits above [`MANTISSA`] equal to 1023 plus the exponent for that
+/// mantissa.
 pub(super) const SHIFT: u64 = (1023 << 52) - LEAST;
 /// The bits below the exponent.
 pub(super) const MANTISSA: u64 = (1 << 52) - 1;
@@ -58,7 +60,7 @@ pub(super) const MANTISSA: u64 = (1 << 52) - 1;
 pub(super) const ONE: u64 = 1023 << 52;
 /// `1 - 2^-53`.
 pub(super) const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
-/// 2^52: what is added to its bits is added to its value.
+/// 2^52: adding an integer to its bits adds it to its value.
 pub(super) const INTEGER: f64 = 4503599627370496.0;
 
 impl Lanes for f64 {

@@ -1,4 +1,4 @@
-//! Numbers that kernels compute with: one state, eight states side by side in the vectors of the processor, dual numbers.
+//! Number types for kernels: one state, eight states side by side in vectors of the processor, and dual numbers.
 
 #[cfg(any(feature = "std", feature = "libm"))]
 mod batch;

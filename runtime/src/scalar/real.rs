@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A real-number type: `f64`, `f32`, or a type that carries more than a value (dual numbers, intervals).
 ///
-/// Generated kernels are generic over it and use nothing else of a number. Angles are in radians.
+/// Generated kernels are generic over it and use no other operations. Angles are in radians.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -13,7 +13,7 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The number `value`, exactly or rounded to the nearest.
+    /// The number `value`, exact or rounded to nearest.
     fn constant(value: f64) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
@@ -33,22 +33,22 @@ pub trait Real:
     fn ln(self) -> Self;
     /// Power with an integer exponent.
     fn powi(self, exponent: i32) -> Self;
-    /// Power with a real exponent; the base is positive.
+    /// Power with a real exponent; the base must be positive.
     fn powf(self, exponent: Self) -> Self;
-    /// A cubic spline in pieces, or its derivative of some order: see [`spline`](crate::scalar::spline).
+    /// A piecewise cubic spline, or its derivative of a given order: see [`spline`](crate::scalar::spline).
     fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self;
-    /// Sine alone.
+    /// Sine only.
     fn sin(self) -> Self {
         self.sin_cos().0
     }
-    /// Cosine alone.
+    /// Cosine only.
     fn cos(self) -> Self {
         self.sin_cos().1
     }
-    /// Sines and cosines of several angles, the same numbers as one by one.
+    /// Sines and cosines of several angles, with the same results as one by one.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
-        // A loop: what an adaptor of an iterator calls leaves the instructions of the lanes behind.
+        // A loop: code called by an iterator adaptor loses the vector instructions.
         let zero = Self::constant(0.0);
         let mut results = [(zero, zero); K];
         for (result, angle) in results.iter_mut().zip(&angles) {
@@ -56,8 +56,8 @@ pub trait Real:
         }
         results
     }
-    /// Runs a kernel with the instructions of the processor that suit it. Its result does not depend on them. Generated
-    /// code calls it; the kernel is to be marked `#[inline(always)]`.
+    /// Runs a kernel with suitable instructions of the processor, which do not affect the result. Called by generated
+    /// code; the kernel must be marked `#[inline(always)]`.
     #[doc(hidden)]
     #[inline(always)]
     fn run<R>(kernel: impl FnOnce() -> R) -> R {
@@ -65,7 +65,7 @@ pub trait Real:
     }
 }
 
-/// Power by repeated squaring; written out, because the standard library leaves open which products are formed.
+/// Power by repeated squaring, written out because the standard library does not specify which products are formed.
 #[cfg(any(feature = "std", feature = "libm"))]
 #[inline(always)]
 pub(crate) fn integer_power<T: Real>(base: T, exponent: i32) -> T {

@@ -1,22 +1,23 @@
-//! Sine and cosine without a branch, for `f64` and for vectors of the processor, and without fused operations, so that
+//! Sine and cosine without branches, for `f64` and for vectors of the processor, and without fused operations, so that
 //! all give the same bits everywhere.
 
 use core::f64::consts::FRAC_2_PI;
 
 use super::lanes::Lanes;
 
-/// Greatest `|x|` that [`sin_cos_within`] takes, rad: beyond it the multiple of pi/2 has more bits than [`PI_2`] leaves free.
+/// Largest `|x|` that [`sin_cos_within`] accepts, rad: beyond it the multiple of pi/2 has more bits than [`PI_2`] leaves
+/// free.
 pub(crate) const LIMIT: f64 = 1e5;
 
-/// pi/2 in three parts, the first two of 36 bits: their products with an integer up to 2^16 are exact. What is missing is
-/// below 2^-130.
+/// pi/2 in three parts, the first two of 36 bits: their products with an integer up to 2^16 are exact. The missing
+/// remainder is below 2^-130.
 const PI_2: [f64; 3] = [
     1.5707963267923333,
     2.5633441515839558e-12,
     1.0562999066987428e-23,
 ];
 
-/// 1.5 * 2^52: added and subtracted, it rounds to an integer, and the last bits of the sum are those of the integer.
+/// 1.5 * 2^52: adding and subtracting it rounds to an integer, and the last bits of the sum are those of the integer.
 const ROUND: f64 = 6755399441055744.0;
 
 /// `sin r = r + r^3 (S0 + S1 r^2 + ..)` on `|r| <= pi/4`, relative error below 2^-57 (Remez, coefficients rounded in turn).
@@ -39,11 +40,11 @@ const COSINE: [f64; 6] = [
     -1.1359917371461161e-11,
 ];
 
-/// Sine and cosine of `x` rad for `|x| <=` [`LIMIT`], each within one unit in the last place. In other lanes the result means
-/// nothing.
+/// Sine and cosine of `x` rad for `|x| <=` [`LIMIT`], each within one unit in the last place; meaningless in other
+/// lanes.
 ///
-/// Reduction by multiples of pi/2 after Cody and Waite (1980), with the rounding error of the difference carried on, so that
-/// digits stay where `x` is next to a multiple.
+/// The argument is reduced by multiples of pi/2 after Cody and Waite (1980), carrying the rounding error of the
+/// difference along, so that no digits are lost where `x` is close to a multiple.
 #[inline(always)]
 pub(crate) fn sin_cos_within<V: Lanes>(x: V) -> (V, V) {
     let number = V::constant;
@@ -67,7 +68,7 @@ pub(crate) fn sin_cos_within<V: Lanes>(x: V) -> (V, V) {
     shifted.turn(sine, cosine)
 }
 
-/// Sine and cosine of an angle in full turns, between zero and one, to a few units of rounding of one.
+/// Sine and cosine of an angle in full turns, between zero and one, to a few rounding units of one.
 #[inline(always)]
 #[cfg(feature = "std")]
 pub(crate) fn sin_cos_of_turns<V: Lanes>(turns: V) -> (V, V) {
@@ -100,8 +101,8 @@ fn cosine_terms<V: Lanes>(z: V, w: V) -> V {
     low + (z * w) * high
 }
 
-/// Sine and cosine of `x` rad, each within one unit in the last place; the same bits on every machine. NaN for what is not
-/// finite.
+/// Sine and cosine of `x` rad, each within one unit in the last place, with the same bits on every machine. NaN for
+/// arguments that are not finite.
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     let near = sin_cos_within(x);

@@ -1,6 +1,8 @@
-//! Derivatives of all modes by all variables through the adjoint. For undamped modes
-//! `dlambda/db = da/db - (dg/db)^T w`, `a = phi^T (Khat - lambda Mhat) phi`; for general ones the same with
-//! `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both `Khat^T w = da/dq`.
+//! Derivatives of all modes with respect to all variables by the adjoint method.
+//!
+//! For undamped modes `dlambda/db = da/db - (dg/db)^T w`, `a = phi^T (Khat - lambda Mhat) phi`. For general modes the
+//! same holds with `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both cases
+//! `Khat^T w = da/dq`.
 
 use super::gradients::{Source, changes, of_general, rate};
 use super::pencil::{ComplexGradient, Form, form_gradient};
@@ -12,11 +14,11 @@ use crate::kernels::{
 use crate::modes::{Family, pencil_slope_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
-/// Total derivatives of every mode by every input and design variable.
+/// Total derivatives of every mode with respect to every input and design variable.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::ClosesHereOnly`] where redundant constraints contradict each
-/// other as soon as a variable changes, [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::ClosesHereOnly`] if redundant constraints contradict each
+/// other as soon as a variable changes, [`Error::OutsideDomain`] if a derivative is not finite.
 pub fn sensitivities(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
@@ -27,11 +29,11 @@ pub fn sensitivities(
     Ok(found)
 }
 
-/// [`sensitivities`] of one state after the other.
+/// Computes [`sensitivities`] for a sequence of states.
 pub(crate) struct Adjoint<'a> {
     mechanism: &'a dyn Kernels,
     source: Source,
-    /// Explicit partials, where gradients come from them; of no variables otherwise.
+    /// Explicit partials, if gradients are computed from them; sized for no variables otherwise.
     matrices: PartialMatrices,
     residual: ResidualPartials,
 }
@@ -49,7 +51,7 @@ impl<'a> Adjoint<'a> {
         }
     }
 
-    /// Writes over derivatives of modes of the same family.
+    /// Overwrites derivatives of modes of the same family.
     pub(crate) fn sensitivities_into(
         &mut self,
         at: &Equilibrium,
@@ -107,17 +109,17 @@ impl<'a> Adjoint<'a> {
     }
 }
 
-/// What all modes share.
+/// Data shared by all modes.
 struct Shared<'a> {
     mechanism: &'a dyn Kernels,
     at: &'a Equilibrium,
     factors: &'a Factors,
-    /// Explicit partials of the residual, where its gradients come from them.
+    /// Explicit partials of the residual, if its gradients are computed from them.
     residual: Option<&'a ResidualPartials>,
 }
 
 impl Shared<'_> {
-    /// The derivatives of an undamped mode, from explicit partials alone.
+    /// The derivatives of an undamped mode from explicit partials alone.
     fn undamped_from_partials(
         &self,
         matrices: &PartialMatrices,
@@ -147,7 +149,7 @@ impl Shared<'_> {
         );
     }
 
-    /// The derivatives of an undamped mode, the gradient of its form by reverse differentiation.
+    /// The derivatives of an undamped mode, with the gradient of its form from reverse differentiation.
     fn undamped(
         &self,
         gradient: &mut Gradient,
@@ -191,7 +193,7 @@ impl Shared<'_> {
         own.set_general(mode, by_input, by_design);
     }
 
-    /// Takes what the motion of the equilibrium changes into a gradient.
+    /// Adds the effect of the equilibrium shift to a gradient.
     fn total(&self, direct: &mut Gradient, shift: &mut Gradient) {
         let w = &mut direct.coordinates;
         self.factors.solve(w.len(), w);
@@ -228,7 +230,7 @@ impl Factors {
         factors.map(Self::General).ok_or(Error::CriticalState)
     }
 
-    /// Writes the solution over the right-hand side, `n` numbers; see [`for_size`].
+    /// Solves in place for a right-hand side of `n` numbers; see [`for_size`].
     #[inline(always)]
     fn solve(&self, n: usize, x: &mut [f64]) {
         match self {
@@ -238,8 +240,8 @@ impl Factors {
     }
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi - w^T dg` with each of some variables, from the derivatives of
-/// matrices and residual by them.
+/// `phi^T (dKhat - lambda dMhat) phi - w^T dg` for several variables, from the derivatives of matrices and residual with
+/// respect to them.
 #[inline(always)]
 fn total_rates(
     n: usize,
@@ -254,7 +256,7 @@ fn total_rates(
     }
 }
 
-/// `w^T partials` in column `k`, `partials` of `n` rows.
+/// `w^T partials` in column `k`; `partials` has `n` rows.
 #[inline(always)]
 fn column_times(n: usize, w: &[f64], partials: &Matrix, k: usize) -> f64 {
     let (columns, entries) = (partials.column_count(), partials.as_flattened());

@@ -1,4 +1,4 @@
-//! Eigenvalues of a small complex matrix, in place: bounded, no allocation.
+//! Eigenvalues of a small complex matrix, in place, with bounded effort and no allocation.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -6,11 +6,11 @@
 
 use crate::Complex;
 
-/// QR steps for each eigenvalue; two or three are usual.
+/// Most QR steps per eigenvalue; two or three are usual.
 const STEPS: usize = 40;
 
 /// Fills `values` with the eigenvalues of the `n` x `n` matrix (row by row), in no particular order, and destroys the
-/// matrix. `false` when the iteration did not converge. Elements must be finite.
+/// matrix. Returns `false` if the iteration did not converge. Elements must be finite.
 pub(crate) fn eigenvalues(matrix: &mut [Complex], values: &mut [Complex]) -> bool {
     let n = values.len();
     let size = matrix
@@ -69,7 +69,7 @@ fn turn_columns(a: &mut [Complex], n: usize, j: usize, (c, s): (Complex, Complex
     }
 }
 
-/// Makes everything below the subdiagonal zero by unitary similarity.
+/// Zeros everything below the subdiagonal by a unitary similarity transformation.
 fn hessenberg(a: &mut [Complex], n: usize) {
     for k in 0..n.saturating_sub(2) {
         for i in (k + 1..n - 1).rev() {
@@ -81,8 +81,8 @@ fn hessenberg(a: &mut [Complex], n: usize) {
     }
 }
 
-/// Explicit QR iteration with Wilkinson's shift on a Hessenberg matrix (Golub and Van Loan, Matrix Computations, sections
-/// 7.5 and 8.3, for complex numbers).
+/// Explicit QR iteration with Wilkinson's shift on a complex Hessenberg matrix (Golub and Van Loan, Matrix Computations,
+/// sections 7.5 and 8.3).
 fn iterate(a: &mut [Complex], n: usize, values: &mut [Complex]) -> bool {
     let mut end = n;
     let mut steps = 0;
@@ -123,7 +123,7 @@ fn active_start(a: &mut [Complex], n: usize, last: usize) -> usize {
     0
 }
 
-/// The eigenvalue of the last 2 x 2 block that is nearer to the last element.
+/// The eigenvalue of the last 2 x 2 block that is closer to the last element.
 fn wilkinson(a: &[Complex], n: usize, last: usize) -> Complex {
     let at = |i: usize, j: usize| a[i * n + j];
     let corner = at(last, last);
@@ -145,7 +145,7 @@ fn step(a: &mut [Complex], n: usize, (start, end): (usize, usize), shift: Comple
     for i in start..end {
         a[i * n + i] -= shift;
     }
-    // The columns follow one rotation behind the rows, which still need their elements.
+    // The columns lag one rotation behind the rows, which still need their elements.
     let mut before = None;
     for i in start..end - 1 {
         let turn = rotation(a[i * n + i], a[(i + 1) * n + i]);
@@ -174,7 +174,7 @@ mod tests {
         values
     }
 
-    /// Every one of `wanted` is found once, to `tolerance`.
+    /// Whether every element of `wanted` is found exactly once, to within `tolerance`.
     fn same(mut found: Vec<Complex>, wanted: &[Complex], tolerance: f64) {
         assert_eq!(found.len(), wanted.len());
         for want in wanted {
@@ -189,7 +189,7 @@ mod tests {
         }
     }
 
-    /// `1 + 2 + ...` of a generator of this test's own, in the square of side 2 about zero.
+    /// A random number in the square of side 2 about zero, from this test's own generator.
     fn random(seed: &mut u64) -> Complex {
         let mut next = || {
             *seed = seed

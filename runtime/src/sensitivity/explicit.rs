@@ -1,5 +1,5 @@
-//! Derivatives of all modes from explicit partial derivatives of the matrices: the way of eqs. 19-21, which checks the
-//! adjoint, and the way that forgets the shift of the equilibrium.
+//! Derivatives of all modes from explicit partial derivatives of the matrices: the method of eqs. 19-21, used to check
+//! the adjoint, and the variant that ignores the shift of the equilibrium.
 
 use core::borrow::Borrow;
 
@@ -11,10 +11,10 @@ use crate::kernels::{Kernels, Linear, PartialMatrices};
 use crate::modes::{Family, pencil_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
-/// Total derivatives of every mode, from explicit partials and the shift (eqs. 19-21 completed).
+/// Total derivatives of every mode from explicit partials and the shift (eqs. 19-21 completed).
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite.
 pub fn sensitivities_explicit(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
@@ -42,11 +42,13 @@ pub fn sensitivities_explicit(
     })
 }
 
-/// Derivatives with the equilibrium held still. **Not** the derivatives of the frequencies wherever the equilibrium
-/// moves: for the rotating pendulum above its critical speed they are -1/2 of the true ones. For comparison only.
+/// Derivatives with the equilibrium held fixed, for comparison only.
+///
+/// **Not** the derivatives of the frequencies wherever the equilibrium moves: for the rotating pendulum above its
+/// critical speed they are -1/2 of the true ones.
 ///
 /// # Errors
-/// [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::OutsideDomain`] if a derivative is not finite.
 pub fn sensitivities_with_frozen_equilibrium(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
@@ -70,7 +72,7 @@ fn partials_at(mechanism: &dyn Kernels, at: &Equilibrium) -> PartialMatrices {
     partials
 }
 
-/// How the eigenvalue of a mode moves with its matrices: of an undamped mode `lambda`, of a general one `s`.
+/// How the eigenvalue of a mode changes with its matrices: `lambda` for an undamped mode, `s` for a general one.
 pub(crate) struct Rate<'a> {
     family: Family,
     mode: &'a Mode,
@@ -86,7 +88,7 @@ impl<'a> Rate<'a> {
         }
     }
 
-    /// From the changes of the matrices with each variable.
+    /// Derivatives from the changes of the matrices with each variable.
     pub(crate) fn slopes<L: Borrow<Linear>>(
         &self,
         by_input: impl Iterator<Item = L>,
@@ -99,7 +101,8 @@ impl<'a> Rate<'a> {
         }
     }
 
-    /// Along a change of the matrices: `phi^T (dK - lambda dM) phi` (eq. 20), and the same for general modes.
+    /// Derivative along a change of the matrices: `phi^T (dK - lambda dM) phi` (eq. 20), and its counterpart for general
+    /// modes.
     pub(crate) fn along(&self, change: &Linear) -> Complex {
         let mode = self.mode;
         match self.family {

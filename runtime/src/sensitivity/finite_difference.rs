@@ -1,4 +1,4 @@
-//! The paper's own way: central differences of the matrices at re-solved equilibria, then eqs. 20-21. A reference
+//! The method of the paper: central differences of the matrices at re-solved equilibria, then eqs. 20-21. A reference
 //! for the exact derivatives.
 
 use super::explicit::Rate;
@@ -7,11 +7,13 @@ use crate::algebra::Matrix;
 use crate::kernels::{Kernels, Linear};
 use crate::{Equilibrium, Error, Modes, Policy, equilibrium::equilibrium};
 
-/// Total derivatives of every mode by central differences; `step` is relative to each variable (5e-6 is about best),
-/// absolute for a variable that is zero.
+/// Total derivatives of every mode by central differences.
+///
+/// `step` is relative to each variable (about 5e-6 is best), and absolute for a variable that is zero.
 ///
 /// # Errors
-/// [`Error::Setting`] for a step that is not positive, [`Error::OutsideDomain`] when a derivative is not finite; otherwise those of the re-solved equilibria.
+/// [`Error::Setting`] for a step that is not positive, [`Error::OutsideDomain`] if a derivative is not finite, and the
+/// errors of the re-solved equilibria.
 pub fn sensitivities_by_finite_difference(
     mechanism: &dyn Kernels,
     at: &Equilibrium,

@@ -1,5 +1,5 @@
-//! Gradients of the forms of the modes at one state: by reverse differentiation, one kernel call for each, or from explicit
-//! partial derivatives, which all modes share. A small mechanism has few partials, and they cost less.
+//! Gradients of the forms of the modes at one state: by reverse differentiation, with one kernel call each, or from
+//! explicit partial derivatives, which all modes share. A small mechanism has few partials, so they cost less.
 
 use super::pencil::ComplexGradient;
 use crate::algebra::Matrix;
@@ -11,20 +11,20 @@ use crate::{Complex, Mode};
 /// Where the gradients of all modes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
-    /// From explicit partials of the matrices and of the residual.
+    /// Explicit partials of the matrices and of the residual.
     Partials,
-    /// Of the forms by reverse differentiation, of the residual from explicit partials.
+    /// Reverse differentiation for the forms, explicit partials for the residual.
     ResidualPartials,
-    /// By reverse differentiation.
+    /// Reverse differentiation for everything.
     Reverse,
 }
 
 impl Source {
-    /// The cheapest one for the modes of a mechanism.
+    /// The cheapest source for the modes of a mechanism.
     pub(crate) fn cheapest(costs: Costs, sizes: Sizes, family: Family) -> Self {
         let n = sizes.coordinates;
         let variables = sizes.inputs + sizes.design;
-        // What partials take for each mode, and the gradients that it takes without them.
+        // Operations per mode with partials, and gradients needed per mode without them.
         let (matrices, form, residual, forces) = match family {
             Family::Undamped => (
                 2 * n * (n + 1) * (n + variables),
@@ -50,7 +50,7 @@ impl Source {
     }
 }
 
-/// Whether one call of `shared` with `use_of_it` operations for each mode costs less than `calls` of `own` for each mode.
+/// Whether one call of `shared` plus `use_of_it` operations per mode costs less than `calls` of `own` per mode.
 fn pays(
     modes: usize,
     (shared, use_of_it): (Option<usize>, usize),
@@ -62,14 +62,14 @@ fn pays(
     }
 }
 
-/// The changes of matrices of size `n`, one after the other, with each of the variables.
+/// The changes of matrices of size `n` with each variable, one after the other.
 #[inline(always)]
 pub(crate) fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[f64]> {
     all.chunks_exact(entries_of(n).max(1))
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi` of a change of matrices of size `n`, vector and eigenvalue held fixed; `dKhat` is
-/// `symmetric` or not.
+/// `phi^T (dKhat - lambda dMhat) phi` for a change of matrices of size `n`, with vector and eigenvalue held fixed;
+/// `symmetric` refers to `dKhat`.
 #[inline(always)]
 pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
     let Linear {
@@ -91,7 +91,7 @@ pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric
     own + (mixed + mixed)
 }
 
-/// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi`, vectors and eigenvalue held fixed, from explicit partials.
+/// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi` from explicit partials, with vectors and eigenvalue held fixed.
 pub(crate) fn of_general(partials: &PartialMatrices, mode: &Mode, gradient: &mut ComplexGradient) {
     let n = mode.shape.len();
     let s = mode.s;

@@ -1,5 +1,5 @@
-//! Total derivatives: how an equilibrium, its modes and the outputs move with inputs and design variables, the shift of
-//! the equilibrium included (eqs. 19-21 completed).
+//! Total derivatives of an equilibrium, its modes and the outputs with respect to inputs and design variables, including
+//! the shift of the equilibrium (eqs. 19-21 completed).
 
 mod adjoint;
 mod eigenvalues;
@@ -38,7 +38,7 @@ use crate::kernels::Kernels;
 use crate::modes::{CLUSTER_GAP, Family, merged, near_another};
 use crate::{Description, Equilibrium, Error, Mode, Modes, Shared};
 
-/// How derivatives were found.
+/// How derivatives were computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -47,7 +47,7 @@ pub enum Method {
     Adjoint,
     /// Explicit partial derivatives and the shift of the equilibrium.
     Explicit,
-    /// The equilibrium held still: wrong wherever it moves; for comparison only.
+    /// Equilibrium held fixed: wrong wherever it moves; for comparison only.
     FrozenEquilibrium,
     /// Central differences of the matrices at re-solved equilibria.
     FiniteDifference,
@@ -60,9 +60,9 @@ pub enum Method {
 pub struct Sensitivities {
     /// One entry for each mode.
     pub modes: Vec<ModeSensitivity>,
-    /// How they were found.
+    /// How they were computed.
     pub method: Method,
-    /// Which modes they belong to.
+    /// The family of the modes.
     pub family: Family,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
@@ -71,7 +71,7 @@ pub struct Sensitivities {
 }
 
 impl Sensitivities {
-    /// Room for the derivatives of these modes.
+    /// Empty derivatives for these modes, to be overwritten.
     #[inline]
     pub(crate) fn blank(at: &Equilibrium, modes: &Modes, method: Method) -> Self {
         Self {
@@ -88,7 +88,7 @@ impl Sensitivities {
     }
 }
 
-/// The derivatives of every mode that has not merged with another from `set`. Refuses what is not finite.
+/// Calls `set` for every mode that has not merged with another, and refuses derivatives that are not finite.
 fn assemble(
     at: &Equilibrium,
     modes: &Modes,
@@ -100,7 +100,7 @@ fn assemble(
     Ok(found)
 }
 
-/// The same: writes over derivatives of the same mechanism and family, found by the same method.
+/// Like [`assemble`], overwriting derivatives of the same mechanism, family and method.
 fn assemble_into(
     at: &Equilibrium,
     modes: &Modes,

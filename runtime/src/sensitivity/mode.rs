@@ -5,7 +5,7 @@ use crate::algebra::{Vector, all_finite, greater, unless_finite};
 use crate::modes::Family;
 use crate::{Complex, Mode};
 
-/// First derivatives of one number by every input and design variable.
+/// First derivatives of one number with respect to every input and design variable.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -14,9 +14,9 @@ use crate::{Complex, Mode};
     serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
 )]
 pub struct Slopes<T> {
-    /// By each input, per SI unit.
+    /// With respect to each input, per SI unit.
     pub by_input: Vector<T>,
-    /// By each design variable, per SI unit.
+    /// With respect to each design variable, per SI unit.
     pub by_design: Vector<T>,
 }
 
@@ -32,7 +32,7 @@ impl<T: Copy + Default> Slopes<T> {
         self.by_input.iter().chain(&self.by_design).copied()
     }
 
-    /// What slopes are written over.
+    /// Empty slopes, to be overwritten.
     #[inline]
     fn blank() -> Self {
         Self {
@@ -41,7 +41,7 @@ impl<T: Copy + Default> Slopes<T> {
         }
     }
 
-    /// Makes room for so many inputs and design variables; what stands in it is not said.
+    /// Makes room for the given numbers of inputs and design variables; the contents are unspecified.
     #[inline(always)]
     fn make_room(&mut self, inputs: usize, design: usize) -> [&mut [T]; 2] {
         [
@@ -56,23 +56,25 @@ impl<T: Copy + Default> Slopes<T> {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeSensitivity {
-    /// Derivatives of `lambda = -Re s^2`, 1/s^2 per SI unit. Zero where `s` has no derivative because it has merged with another
-    /// eigenvalue.
+    /// Derivatives of `lambda = -Re s^2`, 1/s^2 per SI unit. Zero if `s` has no derivative because it has merged with
+    /// another eigenvalue.
     pub lambda: Slopes<f64>,
-    /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`](crate::Modes::cluster_of)): these numbers belong to the
-    /// computed basis of the cluster and would differ in another. What does exist are [`directional_derivatives`](crate::clusters::directional_derivatives).
+    /// The mode belongs to a cluster of nearly equal eigenvalues ([`Modes::cluster_of`](crate::Modes::cluster_of)):
+    /// these numbers hold for the computed basis of the cluster and would differ in another. Only its
+    /// [`directional_derivatives`](crate::clusters::directional_derivatives) are well defined.
     pub clustered: bool,
-    /// The eigenvalue they belong to.
+    /// The eigenvalue `s` of the mode.
     value: Complex,
-    /// It is that of an undamped mode, a root: `s^2 = -lambda`.
+    /// The mode is undamped: `s^2 = -lambda`.
     undamped: bool,
-    /// Derivatives of the eigenvalue of a general mode that has not merged with another.
+    /// Derivatives of `s` for a general mode that has not merged with another.
     general: Option<Box<Slopes<Complex>>>,
 }
 
 impl ModeSensitivity {
-    /// Derivatives of the eigenvalue `s`, 1/s per SI unit; `None` where it has none: of an undamped neutral mode, of a general
-    /// one that has merged with another.
+    /// Derivatives of the eigenvalue `s`, 1/s per SI unit.
+    ///
+    /// `None` for an undamped neutral mode and for a general mode that has merged with another.
     #[must_use]
     pub fn s(&self) -> Option<Slopes<Complex>> {
         if self.undamped {
@@ -81,19 +83,20 @@ impl ModeSensitivity {
         self.general.as_deref().cloned()
     }
 
-    /// Those of the eigenvalue of a general mode, where there are any.
+    /// Derivatives of `s` for a general mode that has them.
     pub(crate) fn general(&self) -> Option<&Slopes<Complex>> {
         self.general.as_deref()
     }
 
-    /// Derivatives of the angular frequency `Im s`, rad/s per SI unit (eq. 21); `None` for a mode that does not oscillate or
-    /// whose eigenvalue has no derivative.
+    /// Derivatives of the angular frequency `Im s`, rad/s per SI unit (eq. 21).
+    ///
+    /// `None` if the mode does not oscillate or its eigenvalue has no derivative.
     #[must_use]
     pub fn frequency(&self) -> Option<Slopes<f64>> {
         self.of(Quantity::Frequency)
     }
 
-    /// Total derivatives of a quantity of the mode; `None` where it has none, or one beyond the range of a double.
+    /// Total derivatives of a quantity of the mode; `None` if it has none or if one exceeds the range of a double.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<Slopes<f64>> {
         if !self.oscillates() && quantity != Quantity::Growth {
@@ -115,7 +118,7 @@ impl ModeSensitivity {
         self.value.im > 0.0
     }
 
-    /// What stands where derivatives are going to be written.
+    /// Empty derivatives, to be overwritten.
     #[inline]
     pub(crate) fn blank() -> Self {
         Self {
@@ -127,8 +130,8 @@ impl ModeSensitivity {
         }
     }
 
-    /// Goes to a mode, apart from all others, with these derivatives of its eigenvalue: of `lambda` (real part) for an undamped
-    /// mode, of `s` for a general one.
+    /// Assigns a mode, ignoring all others, and the derivatives of its eigenvalue: of `lambda` (real part) for an
+    /// undamped mode, of `s` for a general one.
     pub(crate) fn set(&mut self, mode: &Mode, family: Family, slopes: &Slopes<Complex>) {
         let (by_input, by_design) = (slopes.by_input.iter(), slopes.by_design.iter());
         match family {
@@ -140,7 +143,7 @@ impl ModeSensitivity {
         }
     }
 
-    /// Goes to an undamped mode, apart from all others, with these derivatives of `lambda`.
+    /// Assigns an undamped mode, ignoring all others, and its derivatives of `lambda`.
     #[inline]
     pub(crate) fn set_undamped(
         &mut self,
@@ -157,7 +160,7 @@ impl ModeSensitivity {
         by_design.for_each(|(own, slope)| *own = slope);
     }
 
-    /// The same; the derivatives by so many inputs and design variables are to be written where it says.
+    /// Like [`Self::set_undamped`], but returns the places into which the caller writes the derivatives.
     #[inline(always)]
     pub(crate) fn make_undamped(
         &mut self,
@@ -171,7 +174,7 @@ impl ModeSensitivity {
         self.lambda.make_room(inputs, design)
     }
 
-    /// Goes to a general mode with these derivatives of `s`; where they are not finite, it has merged with another.
+    /// Assigns a general mode and its derivatives of `s`; if they are not finite, it has merged with another.
     pub(crate) fn set_general(
         &mut self,
         mode: &Mode,
@@ -197,7 +200,7 @@ impl ModeSensitivity {
         }
     }
 
-    /// Goes to a general mode that has merged with another: it has no derivatives by so many variables.
+    /// Assigns a general mode that has merged with another and has no derivatives.
     pub(crate) fn set_merged(&mut self, mode: &Mode, inputs: usize, design: usize) {
         for slopes in self.lambda.make_room(inputs, design) {
             slopes.fill(0.0);
@@ -220,18 +223,18 @@ impl ModeSensitivity {
             let rest = |dlambda| unless_finite(rate * dlambda);
             return slopes.map(rest).sum::<f64>() == 0.0;
         }
-        // Those of a general mode are as finite as those of `lambda`, which come from them.
+        // For a general mode, `s` is checked through `lambda`: derivatives of `lambda` are computed from those of `s`.
         self.lambda_is_finite()
     }
 }
 
-/// `|ds / dlambda|` of an undamped mode whose `s`, real or imaginary, is not zero: `s^2 = -lambda`.
+/// `|ds / dlambda|` of an undamped mode with non-zero `s`, real or imaginary: `s^2 = -lambda`.
 #[inline(always)]
 pub(crate) fn root_rate(s: Complex) -> f64 {
     0.5 / greater(s.re, s.im)
 }
 
-/// `ds = -dlambda / (2 s)` of an undamped mode; `None` where `s`, real or imaginary, is zero.
+/// `ds = -dlambda / (2 s)` of an undamped mode; `None` if `s`, real or imaginary, is zero.
 #[inline]
 fn root_slope(s: Complex) -> Option<impl Fn(f64) -> Complex> {
     let rate = root_rate(s);

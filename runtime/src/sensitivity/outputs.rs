@@ -12,10 +12,10 @@ use crate::{Description, Equilibrium, Error, Shared};
 pub struct OutputSensitivities {
     /// Values.
     pub values: Vector,
-    /// `by_input[o][j]`: derivative of output `o` by input `j`; `None` where the output has a value but no derivative, as
-    /// the distance from an axis has none on it.
+    /// `by_input[o][j]`: derivative of output `o` with respect to input `j`; `None` if the output has a value but no
+    /// derivative, like the distance from an axis on that axis.
     pub by_input: Vec<Option<Vector>>,
-    /// `by_design[o][j]`: derivative of output `o` by design variable `j`; `None` likewise.
+    /// `by_design[o][j]`: derivative of output `o` with respect to design variable `j`; `None` as in `by_input`.
     pub by_design: Vec<Option<Vector>>,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
@@ -23,10 +23,10 @@ pub struct OutputSensitivities {
     pub description: Shared<Description>,
 }
 
-/// Values and total derivatives of the outputs, the shift of the equilibrium included.
+/// Values and total derivatives of the outputs, including the shift of the equilibrium.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a value is not finite.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a value is not finite.
 pub fn output_sensitivities(
     mechanism: &dyn Kernels,
     at: &Equilibrium,

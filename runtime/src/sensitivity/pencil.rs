@@ -1,17 +1,17 @@
-//! The quadratic pencil `s^2 Mhat + s Chat + Khat` between complex vectors, by the real kernels.
+//! The quadratic pencil `s^2 Mhat + s Chat + Khat` between complex vectors, evaluated with the real kernels.
 
 use crate::algebra::{Values, Vector};
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear};
 use crate::{Complex, Equilibrium, Mode};
 
-/// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of the four
+/// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of its four
 /// vectors, in this order.
 pub(crate) struct Form {
     re: [Vector; 4],
     im: [Vector; 4],
 }
 
-/// Picks the real or the imaginary part of a form.
+/// Selects the real or the imaginary part of a form.
 type Part = fn(&Form) -> &[Vector; 4];
 const RE: Part = |form| &form.re;
 const IM: Part = |form| &form.im;
@@ -44,7 +44,7 @@ impl Form {
         self.im.iter().flatten().all(|value| *value == 0.0)
     }
 
-    /// The left vector from one part, the others from one, as kernels take them.
+    /// The left vector from one part and the other vectors from another, as kernels take them.
     fn parts(&self, left: Part, others: Part) -> [&[f64]; 4] {
         let ([left, ..], [_, acceleration, velocity, position]) = (left(self), others(self));
         [left, acceleration, velocity, position]
@@ -63,17 +63,18 @@ impl Direction {
         [&self.coordinates, &self.inputs, &self.design]
     }
 
-    /// Total derivatives of the linearised matrices along it.
+    /// Total derivatives of the linearised matrices along this direction.
     pub(crate) fn linear(&self, mechanism: &dyn DirectionalKernels, at: &Equilibrium) -> Linear {
         mechanism.linear_along(&at.coordinates, &at.inputs, &at.design, self.parts())
     }
 }
 
-/// The gradient of a complex number: of its real and of its imaginary part.
+/// The gradients of the real and the imaginary part of a complex number.
 pub(crate) type ComplexGradient = [Gradient; 2];
 
-/// A gradient from real kernel calls; `call(left, others, ..)` is linear in each of the two parts of forms that it is to take.
-/// Needs room for one more.
+/// A complex gradient from real kernel calls.
+///
+/// `call(left, others, ..)` must be linear in both of the parts of the form that it selects. `room` is scratch space.
 fn complex(
     [re, im]: &mut ComplexGradient,
     room: &mut Gradient,
@@ -108,7 +109,7 @@ fn each(to: &mut Gradient, from: &Gradient, f: impl Fn(&mut f64, f64)) {
     }
 }
 
-/// Gradient of a form by coordinates, inputs and design variables, its vectors held fixed.
+/// Gradient of a form with respect to coordinates, inputs and design variables, its vectors held fixed.
 pub(crate) fn form_gradient(
     mechanism: &dyn Kernels,
     at: &Equilibrium,

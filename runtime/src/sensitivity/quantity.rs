@@ -1,4 +1,4 @@
-//! What is asked of a mode: its frequency, its damping ratio; values and derivatives from those of its eigenvalue.
+//! Quantities of a mode, such as frequency and damping ratio: values and derivatives from those of its eigenvalue.
 
 use crate::{Complex, Mode};
 
@@ -26,8 +26,7 @@ impl Quantity {
         Self::Growth,
     ];
 
-    /// The value for a mode; `None` where the mode has none: a frequency without oscillation, a damping ratio of a neutral
-    /// mode.
+    /// The value for a mode; `None` if it has none: a frequency without oscillation, a damping ratio of a neutral mode.
     #[must_use]
     pub fn of(self, mode: &Mode) -> Option<f64> {
         match self {
@@ -38,7 +37,7 @@ impl Quantity {
         }
     }
 
-    /// The value for the eigenvalue of a mode that decays or keeps its amplitude, as [`Self::of`] has it.
+    /// Like [`Self::of`], for the eigenvalue of a mode that decays or keeps its amplitude.
     pub(crate) fn of_stable(self, s: Complex) -> Option<f64> {
         match self {
             Self::Frequency | Self::NaturalFrequency if s.im <= 0.0 => None,
@@ -47,7 +46,7 @@ impl Quantity {
         }
     }
 
-    /// The value for an eigenvalue that is not zero.
+    /// The value for a non-zero eigenvalue.
     pub(crate) fn value(self, s: Complex) -> f64 {
         match self {
             Self::Frequency => s.im,
@@ -57,21 +56,22 @@ impl Quantity {
         }
     }
 
-    /// First derivative along a direction in which `s` moves at the rate `ds`.
+    /// First derivative along a direction in which `s` changes at the rate `ds`.
     pub(crate) fn slope(self, s: Complex, ds: Complex) -> f64 {
-        // Along the unit vector of `s`: powers of `|s|` may exceed the range of a double.
+        // Uses the unit vector of `s`: powers of `|s|` may exceed the range of a double.
         let size = s.norm();
         let unit = s / size;
         match self {
             Self::Frequency => ds.im,
             Self::Growth => ds.re,
             Self::NaturalFrequency => (unit.conj() * ds).re,
-            // -Im s Im(conj(s) ds) / |s|^3, negated: exact where s is imaginary.
+            // -Im s Im(conj(s) ds) / |s|^3, negated: exact for imaginary `s`.
             Self::DampingRatio => unit.im * (unit.conj() * ds).im / size,
         }
     }
 
-    /// Second derivative along two directions in which `s` moves at the rates `a` and `b` and by `ab` along both.
+    /// Second derivative along two directions in which `s` changes at the rates `a` and `b`, with the second derivative
+    /// `ab`.
     pub(crate) fn curvature(self, s: Complex, a: Complex, b: Complex, ab: Complex) -> f64 {
         let size = s.norm();
         let unit = s / size;
@@ -79,12 +79,12 @@ impl Quantity {
             Self::Frequency => ab.im,
             Self::Growth => ab.re,
             Self::NaturalFrequency => {
-                // The part of both slopes across `s` bends it.
+                // The components of both slopes across `s` bend it.
                 let across = |x: Complex| (unit.conj() * x).im;
                 (unit.conj() * ab).re + across(a) * (across(b) / size)
             }
             Self::DampingRatio => {
-                // -Re (s / |s|) by the logarithms of s: s/|s| = exp(i arg s), arg = Im ln s.
+                // -Re (s / |s|) from the logarithm of s: s/|s| = exp(i arg s), arg = Im ln s.
                 let (la, lb) = (over(a, s), over(b, s));
                 let lab = over(ab, s) - la * lb;
                 unit.re * la.im * lb.im + unit.im * lab.im
@@ -93,18 +93,18 @@ impl Quantity {
     }
 }
 
-/// Of undamped modes: derivatives of `s` from those of `lambda = -s^2`.
+/// For undamped modes: the derivative of `s` from that of `lambda = -s^2`.
 pub(crate) fn eigenvalue_slope(s: Complex, dlambda: f64) -> Complex {
     over((-0.5 * dlambda).into(), s)
 }
 
-/// `a / s` without the square of `|s|`, which may exceed the range of a double.
+/// `a / s` without squaring `|s|`, which may exceed the range of a double.
 fn over(a: Complex, s: Complex) -> Complex {
     let size = s.norm();
     a * (s.conj() / size) / size
 }
 
-/// Second derivative of `s` from the first ones and the second derivative of `lambda = -s^2`.
+/// Second derivative of `s` from its first derivatives and the second derivative of `lambda = -s^2`.
 pub(crate) fn eigenvalue_curvature(s: Complex, a: Complex, b: Complex, ddlambda: f64) -> Complex {
     -(over((0.5 * ddlambda).into(), s) + a * over(b, s))
 }

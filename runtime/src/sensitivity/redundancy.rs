@@ -1,18 +1,19 @@
-//! Redundant constraints: whether they go on saying the same when a variable changes.
+//! Redundant constraints: whether they stay consistent when a variable changes.
 
 use crate::algebra::Matrix;
 use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error};
 
-/// What remains of a sum of terms that cancel but for rounding, relative to the terms.
+/// Relative remainder below which the terms of a sum count as cancelling.
 const ROUNDING: f64 = 1e-9;
 
-/// Checks that redundant constraints stay consistent: with `n` their null left vectors, `n^T dPhi/du = 0` and
-/// `n^T dPhi/db = 0`. Otherwise the mechanism closes at these values only, and nothing has a derivative.
+/// Checks that redundant constraints stay consistent: with `n` their left null vectors, `n^T dPhi/du = 0` and
+/// `n^T dPhi/db = 0`. Otherwise the mechanism closes only at these values, and nothing has a derivative.
 ///
 /// # Errors
-/// [`Error::ClosesHereOnly`], and [`Error::SingularConfiguration`] where constraints are dependent here alone.
+/// [`Error::ClosesHereOnly`], and [`Error::SingularConfiguration`] if constraints become dependent at exactly this
+/// configuration.
 pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
     let description = &at.description;
     let structure = Structure::of(description);
@@ -43,8 +44,8 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
     Ok(())
 }
 
-/// Whether `n` cancels the constraints at rest as well: a constraint on velocities that repeats one on positions says
-/// nothing there.
+/// Whether `n` also cancels the constraints at rest, where a constraint on velocities that repeats one on positions is
+/// void.
 fn at_rest(n: &[f64], at: &Equilibrium, structure: Structure) -> bool {
     (0..structure.motions()).all(|j| {
         let terms = structure
@@ -61,7 +62,7 @@ fn cancels(terms: impl Iterator<Item = f64>) -> bool {
     f64::abs(sum) <= ROUNDING * size
 }
 
-/// A variable that moves `n^T Phi`, and the constraint that feels it most.
+/// A variable that changes `n^T Phi`, and the constraint most affected.
 fn broken(n: &[f64], partials: &Matrix) -> Option<(usize, usize)> {
     let rows = partials.row_count();
     let rests = |j: usize| cancels((0..rows).map(|i| n[i] * partials[i][j]));

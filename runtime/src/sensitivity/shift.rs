@@ -1,4 +1,4 @@
-//! How the equilibrium itself moves: `Khat dq* = -dg` for every input and design variable with one factorisation.
+//! The shift of the equilibrium: `Khat dq* = -dg` for every input and design variable, with one factorisation.
 
 use super::pencil::Direction;
 use super::{check_state, redundancy};
@@ -21,11 +21,11 @@ pub struct EquilibriumShift {
     pub description: Shared<Description>,
 }
 
-/// The shift of an equilibrium by every input and design variable.
+/// The shift of an equilibrium with every input and design variable.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::ClosesHereOnly`] where redundant constraints contradict each
-/// other as soon as a variable changes, [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::ClosesHereOnly`] if redundant constraints contradict each
+/// other as soon as a variable changes, [`Error::OutsideDomain`] if a derivative is not finite.
 pub fn equilibrium_shift(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
@@ -48,7 +48,8 @@ pub fn equilibrium_shift(
     }
 }
 
-/// The directions in which a state moves with each input and each design variable, the equilibrium included.
+/// The directions in which a state moves with each input and each design variable, including the shift of the
+/// equilibrium.
 pub(crate) fn directions(
     mechanism: &dyn Kernels,
     at: &Equilibrium,

@@ -1,4 +1,4 @@
-//! What samples were drawn of, and how: parts of a run are put together only where all of it agrees.
+//! Identifies what samples were drawn from and how: parts of a run merge only if all of it agrees.
 
 use core::fmt;
 
@@ -7,13 +7,13 @@ use crate::kernels::{Kernels, Linear};
 use crate::modes::Family;
 use crate::{Description, Equilibrium, Error, Modes};
 
-/// What a run of samples was asked for, as facts with a name and a value. Samples of runs with equal fingerprints belong together.
+/// Identifies a run of samples, as named facts. Samples of runs with equal fingerprints belong together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fingerprint(Vec<(String, String)>);
 
 impl Fingerprint {
-    /// Of the state that samples are drawn about.
+    /// The fingerprint of the state that samples are drawn about.
     pub(crate) fn new(
         mechanism: &dyn Kernels,
         at: &Equilibrium,
@@ -54,7 +54,7 @@ impl Fingerprint {
         all
     }
 
-    /// One fact more.
+    /// Adds a fact.
     pub(crate) fn with(mut self, name: impl fmt::Display, value: impl fmt::Display) -> Self {
         self.add(name, value);
         self
@@ -64,18 +64,18 @@ impl Fingerprint {
         self.0.push((name.to_string(), value.to_string()));
     }
 
-    /// Names and values.
+    /// The facts, as names and values.
     pub fn facts(&self) -> impl Iterator<Item = (&str, &str)> {
         self.0.iter().map(|(name, value)| (&**name, &**value))
     }
 
-    /// The value of a fact that is a whole number.
+    /// The value of a fact that is an integer.
     pub(crate) fn number(&self, name: &str) -> Option<u64> {
         let (_, value) = self.facts().find(|(own, _)| *own == name)?;
         value.parse().ok()
     }
 
-    /// Refuses that of another run.
+    /// Refuses the fingerprint of another run.
     pub(crate) fn check(&self, other: &Self) -> Result<(), Error> {
         let value_of = |all: &Self, name: &str| {
             let found = all.facts().find(|(own, _)| *own == name);
@@ -105,10 +105,11 @@ impl fmt::Display for Fingerprint {
     }
 }
 
-/// Where kernels are evaluated: steps from one value to the next, in SI units and as a share of nominal values.
+/// Points at which kernels are evaluated: steps from one value to the next, in SI units and as a share of nominal
+/// values.
 const PROBES: [f64; 3] = [0.01, -0.03, 0.07];
 
-/// What the kernels give at some states, the same for every study: other kernels give something else.
+/// A digest of kernel results at fixed states, the same for every study, which identifies the kernels.
 fn probes(mechanism: &dyn Kernels, description: &Description) -> String {
     let sizes = mechanism.sizes();
     let mut digest = Digest::default();
@@ -129,7 +130,7 @@ fn probes(mechanism: &dyn Kernels, description: &Description) -> String {
     digest.to_string()
 }
 
-/// The hash of Fowler, Noll and Vo (FNV-1a, 64 bits): the same on every machine.
+/// The hash of Fowler, Noll and Vo (FNV-1a, 64 bits), the same on every machine.
 struct Digest(u64);
 
 impl Default for Digest {
@@ -153,7 +154,7 @@ impl Digest {
 
     fn numbers(&mut self, numbers: &[f64]) {
         for number in numbers {
-            // Processors differ in the bits of what is no number, and zeros are equal.
+            // Processors differ in the bits of NaN, and both zeros are equal.
             let number = if number.is_nan() {
                 f64::NAN
             } else {

@@ -1,4 +1,4 @@
-//! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to trust it.
+//! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of its reliability.
 
 use super::{Spread, Tolerances};
 use crate::algebra::Vector;
@@ -6,13 +6,13 @@ use crate::modes::Family;
 use crate::sensitivity::{ModeSensitivity, Quantity, root_rate};
 use crate::{Behaviour, Complex, Description, Error, Mode, Modes, Sensitivities, Shared};
 
-/// Nearer to the critical state, or to another mode, than this many standard deviations, first order is not to be
-/// trusted: its error grows without bound.
+/// Closer to the critical state or to another mode than this many standard deviations, first order is not reliable: its
+/// error grows without bound.
 ///
-/// It is a warning, not a bound on the error beyond. For the rotating bar, against quadrature of the exact
-/// distribution, first order misses the standard deviation at this distance by -3.4, -4.5 and -7.4 % for tolerances of
-/// 3, 6 and 12 %; for 12 % an error of a few percent needs about 6 standard deviations. Under large tolerances the
-/// frequency itself is nonlinear, which a distance to the critical state does not show.
+/// This is a warning threshold, not a bound on the error beyond it. For the rotating bar, compared with quadrature of
+/// the exact distribution, first order misses the standard deviation at this distance by -3.4, -4.5 and -7.4 % for
+/// tolerances of 3, 6 and 12 %; at 12 % an error of a few percent needs about 6 standard deviations. Under large
+/// tolerances the frequency itself is nonlinear, which a distance to the critical state does not show.
 pub const TRUSTED_DISTANCE: f64 = 4.5;
 
 /// First-order spread of one mode.
@@ -20,28 +20,31 @@ pub const TRUSTED_DISTANCE: f64 = 4.5;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeTolerance {
-    /// What it does, with the nominal frequency of a mode that oscillates.
+    /// The behaviour of the mode, including the nominal frequency if it oscillates.
     pub behaviour: Behaviour,
-    /// `-Re s^2`, 1/s^2: of an undamped mode the eigenvalue. Its standard deviation is infinite for a general mode without a
-    /// derivative (a defective eigenvalue).
+    /// `-Re s^2`, 1/s^2: for an undamped mode, the eigenvalue. The standard deviation is infinite for a general mode
+    /// without a derivative (a defective eigenvalue).
     pub lambda: Spread,
-    /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda` over its own, with
-    /// `|s|^2` for `lambda` of a general mode; negative when the mode diverges, zero when it is neutral, infinite when nothing moves it or when
-    /// it has no derivative.
+    /// Distance, in standard deviations, between this mode and the state where its stiffness vanishes.
+    ///
+    /// This is `lambda` over its standard deviation, with `|s|^2` in place of `lambda` for a general mode. Negative if
+    /// the mode diverges, zero if it is neutral, infinite if nothing moves it or it has no derivative.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_critical: f64,
-    /// Standard deviations between the growth of this mode and zero: negative when it grows, zero when it neither grows nor
-    /// decays within rounding though tolerances move its growth. Infinite when nothing moves the growth beyond rounding, as for undamped
-    /// modes.
+    /// Distance, in standard deviations, between the growth of this mode and zero.
+    ///
+    /// Negative if the mode grows; zero if it neither grows nor decays within rounding although tolerances move its
+    /// growth; infinite if nothing moves the growth beyond rounding, as for undamped modes.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_instability: f64,
-    /// Standard deviations of the difference between this mode's eigenvalue and the nearest one: where it is small, samples
-    /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
+    /// Distance, in standard deviations of the difference, between this mode's eigenvalue and the nearest one. Where it
+    /// is small, samples exchange the two modes or mix their shapes. Infinite for a single mode or if nothing moves the
+    /// difference.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_neighbour: f64,
-    /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to it,
-    /// and the numbers here belong to the computed basis of the cluster. Whether tolerances mix modes
-    /// farther apart, [`clusters`](crate::clusters::clusters) and [`summary`](crate::summary::summary) tell.
+    /// The mode belongs to a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to
+    /// it, and the numbers here hold for the computed basis of the cluster. Whether tolerances mix modes farther apart
+    /// is reported by [`clusters`](crate::clusters::clusters) and [`summary`](crate::summary::summary).
     pub clustered: bool,
     /// The nominal eigenvalue.
     value: Complex,
@@ -52,17 +55,17 @@ pub struct ModeTolerance {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Quantities {
-    /// Of an undamped mode that of `lambda`, scaled: its eigenvalue is a root.
+    /// For an undamped mode, the spread of `lambda` is scaled: the eigenvalue is a root.
     Undamped {
-        /// What means beside the nominal values add to `lambda`.
+        /// Contribution to `lambda` of means that differ from the nominal values.
         shift: f64,
     },
-    /// Of a general mode, in the order of [`Quantity::ALL`].
+    /// For a general mode, in the order of [`Quantity::ALL`].
     General(Box<[Option<Spread>; 4]>),
 }
 
 impl ModeTolerance {
-    /// What the spread of a mode is written over.
+    /// An empty spread of a mode, to be overwritten.
     fn blank() -> Self {
         Self {
             behaviour: Behaviour::Neutral,
@@ -76,8 +79,10 @@ impl ModeTolerance {
         }
     }
 
-    /// The spread of a quantity of the mode; `None` where it has none or no derivative: only the growth of a mode that does not
-    /// oscillate has one.
+    /// The spread of a quantity of the mode.
+    ///
+    /// `None` if the mode has no such quantity or it has no derivative; a mode that does not oscillate only has a
+    /// growth.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<Spread> {
         let shift = match &self.of {
@@ -100,31 +105,31 @@ impl ModeTolerance {
         }
     }
 
-    /// The spread of the frequency `Im s`, rad/s, as [`Self::of`].
+    /// The spread of the frequency `Im s`, rad/s; see [`Self::of`].
     #[must_use]
     pub fn frequency(&self) -> Option<Spread> {
         self.of(Quantity::Frequency)
     }
 
-    /// The spread of the natural frequency `|s|`, rad/s, as [`Self::of`].
+    /// The spread of the natural frequency `|s|`, rad/s; see [`Self::of`].
     #[must_use]
     pub fn natural_frequency(&self) -> Option<Spread> {
         self.of(Quantity::NaturalFrequency)
     }
 
-    /// The spread of the damping ratio, as [`Self::of`].
+    /// The spread of the damping ratio; see [`Self::of`].
     #[must_use]
     pub fn damping_ratio(&self) -> Option<Spread> {
         self.of(Quantity::DampingRatio)
     }
 
-    /// The spread of the growth `Re s`, 1/s, as [`Self::of`].
+    /// The spread of the growth `Re s`, 1/s; see [`Self::of`].
     #[must_use]
     pub fn growth(&self) -> Option<Spread> {
         self.of(Quantity::Growth)
     }
 
-    /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without one.
+    /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without a frequency.
     #[must_use]
     pub fn variance_shares(&self) -> &[f64] {
         let frequency = match &self.of {
@@ -134,7 +139,7 @@ impl ModeTolerance {
         &frequency.unwrap_or(&self.lambda).variance_shares
     }
 
-    /// Whether no other mode is so near that tolerances bring the two together.
+    /// Whether every other mode is far enough away that tolerances do not bring the two together.
     #[must_use]
     pub fn alone(&self) -> bool {
         !self.clustered && self.distance_to_neighbour >= TRUSTED_DISTANCE
@@ -148,13 +153,13 @@ impl ModeTolerance {
 pub struct FirstOrder {
     /// One entry for each mode.
     pub modes: Vec<ModeTolerance>,
-    /// How many standard deviations a tolerance and a band hold.
+    /// How many standard deviations a tolerance and a band span.
     pub sigma_level: f64,
-    /// The least of the modes' distances to the critical state. Beyond the critical state the equilibrium changes
-    /// branch, which changes every mode, so the nearest mode limits the trust in all.
+    /// Smallest distance of any mode to the critical state. Beyond the critical state the equilibrium changes branch,
+    /// which changes every mode, so the nearest mode limits the reliability of all.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_critical: f64,
-    /// Which modes they belong to.
+    /// The family of the modes.
     pub family: Family,
     /// The inputs it belongs to, SI.
     pub inputs: Vector,
@@ -163,8 +168,10 @@ pub struct FirstOrder {
 }
 
 impl FirstOrder {
-    /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]). It looks at each
-    /// mode alone; [`summary`](crate::summary::summary) also sees which modes mix and how nonlinear frequencies are.
+    /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]).
+    ///
+    /// It considers each mode alone; [`summary`](crate::summary::summary) also detects which modes mix and how nonlinear
+    /// frequencies are.
     pub fn trusted(&self) -> bool {
         self.distance_to_critical >= TRUSTED_DISTANCE && self.modes.iter().all(ModeTolerance::alone)
     }
@@ -211,7 +218,7 @@ pub fn first_order(
     })
 }
 
-/// The spread of an undamped mode, its neighbours left out.
+/// The spread of an undamped mode, ignoring its neighbours.
 fn undamped(
     mode: &Mode,
     own: &ModeSensitivity,
@@ -231,7 +238,7 @@ fn undamped(
     found.clustered = own.clustered;
 }
 
-/// The spread of a general mode, its neighbours left out: that of each quantity by its own derivatives.
+/// The spread of a general mode, ignoring its neighbours; each quantity is spread by its own derivatives.
 fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &mut ModeTolerance) {
     let slopes = &own.lambda.by_design;
     let lambda = &mut found.lambda;
@@ -257,12 +264,12 @@ fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &
     found.of = Quantities::General(Box::new(all));
 }
 
-/// Whether neither the growth nor what tolerances add to it can be told from zero.
+/// Whether neither the growth nor the contribution of tolerances to it can be distinguished from zero.
 fn keeps_amplitude(mode: &Mode, growth: &Spread) -> bool {
     matches!(mode.behaviour, Behaviour::Oscillating(_)) && growth.sigma <= mode.error
 }
 
-/// Distance of a general mode to `s = 0`: that of `|s|^2` for an oscillation, that of `s` otherwise.
+/// Distance of a general mode to `s = 0`: of `|s|^2` for an oscillation, of `s` otherwise.
 fn distance_to_zero(mode: &Mode, natural: Option<&Spread>, growth: Option<&Spread>) -> f64 {
     match (mode.behaviour, natural, growth) {
         (Behaviour::Neutral, ..) => 0.0,
@@ -272,7 +279,7 @@ fn distance_to_zero(mode: &Mode, natural: Option<&Spread>, growth: Option<&Sprea
     }
 }
 
-/// A value in standard deviations; infinite, with its sign, when nothing moves it.
+/// A value in standard deviations; infinite, with its sign, if nothing moves it.
 fn in_sigmas(value: f64, sigma: f64) -> f64 {
     if sigma > 0.0 {
         value / sigma
@@ -283,7 +290,7 @@ fn in_sigmas(value: f64, sigma: f64) -> f64 {
     }
 }
 
-/// Distance of two modes in standard deviations of their difference, as either of them sees it.
+/// Distance of two modes in standard deviations of their difference, as seen from either of them.
 fn distances(
     r: usize,
     other: usize,
@@ -293,7 +300,7 @@ fn distances(
 ) -> [f64; 2] {
     let (a, b) = (&modes.modes[r], &modes.modes[other]);
     let (da, db) = (&sensitivities.modes[r], &sensitivities.modes[other]);
-    // Halves, because a difference may exceed the range of a double.
+    // Halved, because a difference may exceed the range of a double.
     let (gap, sigma) = match (modes.family, da.general(), db.general()) {
         (Family::Undamped, ..) => {
             let slopes = da.lambda.by_design.iter().zip(&db.lambda.by_design);
@@ -310,7 +317,8 @@ fn distances(
             let gap = 0.5 * (a.s - b.s).norm();
             (gap, part(|value| value.re).hypot(part(|value| value.im)))
         }
-        // One that has merged did so perhaps with the other: nothing tells what moves them. To the other it says nothing.
+        // A merged mode may have merged with the other one, so its distance is unknown (zero). For the other mode it
+        // does not count.
         (Family::General, one, another) => {
             return [one, another].map(|slopes| slopes.map_or(0.0, |_| f64::INFINITY));
         }

@@ -1,4 +1,4 @@
-//! Samples in parallel. What is gathered has the same bits for any number of threads and any split into ranges.
+//! Samples in parallel. The gathered results have the same bits for any number of threads and any split into ranges.
 
 use core::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,37 +9,37 @@ use super::pool;
 use crate::Error;
 use crate::scalar::{Instructions, Lanes, Task};
 
-/// Pieces that a thread works on before what they gave is put together.
+/// Pieces that a thread works on before results are combined.
 const ROUND: u64 = 4;
-/// Most chunks of a piece: threads should not wait long for the last one.
+/// Maximum number of chunks per piece: threads should not wait long for the last one.
 const MOST: u64 = 64;
 
-/// Who works on samples, and who watches.
+/// How samples are processed, and who watches.
 pub(crate) struct Work<'a> {
-    /// 0 for as many as the machine has.
+    /// Number of threads; 0 for as many as the machine has.
     pub(crate) threads: usize,
-    /// Unknowns and design variables, on which the stack of a thread depends.
+    /// Numbers of unknowns and design variables, which determine the stack size of a thread.
     pub(crate) size: (usize, usize),
-    /// As many chunks are worth a thread of their own.
+    /// Number of chunks that justify a thread of their own.
     pub(crate) least: u64,
     /// Called with the number of samples done since the last call.
     pub(crate) progress: Option<&'a (dyn Fn(usize) + Sync)>,
-    /// Ends the work when it becomes true.
+    /// Stops the work when it becomes true.
     pub(crate) stop: Option<&'a AtomicBool>,
 }
 
-/// Samples of one chunk that are to be solved.
+/// Samples of one chunk to be solved.
 pub(crate) struct Part<'a, K> {
     pub(crate) group: usize,
     pub(crate) samples: Range<u64>,
     pub(crate) chunk: &'a mut Chunk,
-    /// What is kept of the samples so far.
+    /// Results kept from the samples so far.
     pub(crate) kept: &'a mut Vec<K>,
 }
 
 impl Work<'_> {
-    /// The samples of a range of each group, or those that are done when the work is stopped; and what `solve` keeps, in order. Each
-    /// thread has a room of its own.
+    /// Processes the samples of one range per group, or as many as are done when the work is stopped. Returns them
+    /// together with what `solve` keeps, in order. Each thread has its own workspace.
     pub(crate) fn gather<R, K: Send>(
         &self,
         plan: &Plan,
@@ -73,7 +73,7 @@ impl Work<'_> {
         Ok((all.into_iter().map(done).collect(), kept))
     }
 
-    /// The samples of a range of a group, or those that are done.
+    /// The samples of a range of a group, or as many as are done.
     fn piece<R, K>(
         &self,
         plan: &Plan,
@@ -110,7 +110,7 @@ impl Work<'_> {
         Ok((part, kept))
     }
 
-    /// The ranges in pieces of whole chunks.
+    /// Splits the ranges into pieces of whole chunks.
     fn pieces(&self, groups: &[Range<u64>]) -> impl Iterator<Item = (usize, Range<u64>)> {
         let size = CHUNK as u64;
         let lengths = groups.iter().map(|own| own.end.saturating_sub(own.start));
@@ -148,7 +148,7 @@ impl Work<'_> {
     }
 }
 
-/// Adding is summing, which vectors do as well.
+/// Accumulates a chunk, with vector instructions if available.
 struct Add<'a>(&'a mut Partial, &'a Chunk);
 
 impl Task for Add<'_> {

@@ -8,8 +8,8 @@ use crate::mechanism::{Law, ToleranceInfo};
 /// The distribution of a variable with this value and tolerance, SI.
 ///
 /// # Errors
-/// [`Error::Setting`] for limits that are not finite or in the wrong order, a sigma level that is not positive, and what the law
-/// refuses.
+/// [`Error::Setting`] for limits that are not finite or in the wrong order, a sigma level that is not positive, and
+/// parameters that the distribution refuses.
 pub fn distribution(
     value: f64,
     tolerance: &ToleranceInfo,
@@ -64,7 +64,7 @@ pub fn distribution(
     }?)
 }
 
-/// The standard deviation of which a half-width holds a number.
+/// The standard deviation, from a half-width that spans `sigma_level` of them.
 pub(super) fn standard_deviation(half_width: f64, sigma_level: f64) -> Result<f64, Error> {
     let refuse = |setting, reason| Err(Error::Setting { setting, reason });
     if !(0.0..=f64::MAX).contains(&half_width) {

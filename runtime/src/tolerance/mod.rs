@@ -24,9 +24,9 @@ mod spread;
 mod standard_normal;
 mod tolerances;
 
-/// Statistics of samples, their quantiles and histograms, from [`eigentol_statistics`].
+/// Statistics of samples with their quantiles and histograms, from [`eigentol_statistics`].
 pub use eigentol_statistics::summary::{Histogram, Sketch, Statistics};
-/// Distributions of one variable and of several, from [`eigentol_statistics`].
+/// Distributions of one and of several variables, from [`eigentol_statistics`].
 pub use eigentol_statistics::{Distribution, Joint};
 pub use fingerprint::Fingerprint;
 pub use first_order::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, first_order};

@@ -1,4 +1,4 @@
-//! Monte Carlo: every sample solves its own equilibrium and its own eigenproblem, and every failure is counted.
+//! Monte Carlo: every sample solves its own equilibrium and eigenproblem, and every failure is counted.
 
 use core::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -16,7 +16,7 @@ use crate::scalar::Instructions;
 use crate::setters::setters;
 use crate::{Equilibrium, Error, Modes, Watch};
 
-/// Chunks of samples that are worth a thread of their own: side by side they take some ten microseconds each.
+/// Chunks of samples that justify a thread of their own: side by side, a chunk takes about ten microseconds.
 const CHUNKS_SIDE_BY_SIDE: u64 = 4;
 
 /// How to sample.
@@ -25,25 +25,29 @@ const CHUNKS_SIDE_BY_SIDE: u64 = 4;
 pub struct Sampling<'a> {
     /// Number of samples.
     pub samples: usize,
-    /// The same seed gives the same samples and bit-identical results for any number of threads.
+    /// Seed of the random numbers; the same seed gives the same samples and bit-identical results for any number of
+    /// threads.
     pub seed: u64,
-    /// Which of the seed's independent sequences: points of a sweep that must not share samples take one each.
+    /// Which of the seed's independent sequences to use; points of a sweep that must not share samples take one each.
     pub stream: u64,
-    /// Number of threads; 0 takes as many as the machine has. The limit is 256, or as many as the machine has if that is more.
-    /// Started threads wait for the next run.
+    /// Number of threads; 0 takes as many as the machine has. The limit is 256, or the number the machine has if that is
+    /// larger. Threads, once started, wait for the next run.
     pub threads: usize,
-    /// Return every sample, not only the statistics.
+    /// Returns every sample, not only the statistics.
     pub keep_samples: bool,
-    /// Solve several samples side by side with these vector instructions where the mechanism allows it: at most sixteen unknowns, no
-    /// constraints on velocities. Samples that are not clearly what the nominal state has become are solved alone. Statistics are
-    /// those of the samples one by one up to rounding, and do not depend on which instructions are taken; `None` takes the
-    /// samples one by one. The result says which it was ([`MonteCarlo::side_by_side`]).
+    /// Vector instructions that solve several samples side by side where the mechanism allows it: at most sixteen
+    /// unknowns, no constraints on velocities. `None` solves the samples one by one.
+    ///
+    /// Samples that do not clearly continue the nominal state are solved alone. The statistics are those of the samples
+    /// solved one by one, up to rounding, and do not depend on the instructions. [`MonteCarlo::side_by_side`] reports
+    /// which way was used.
     pub vectors: Option<Instructions>,
-    /// Which of the samples to take now; all unless set. Results of other ranges are added by [`PartialMonteCarlo::merge`].
+    /// Which of the samples to process now; all by default. Results of other ranges are added by
+    /// [`PartialMonteCarlo::merge`].
     pub range: Option<Range<u64>>,
     /// Called with the number of samples done since the last call, from any thread.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
-    /// Ends the run soon after it becomes true, with the samples that are done.
+    /// Stops the run soon after it becomes true, with the samples done so far.
     pub stop: Option<&'a AtomicBool>,
 }
 
@@ -60,12 +64,12 @@ impl<'a> Sampling<'a> {
         stop: Option<&'a AtomicBool>,
     );
 
-    /// Who waits for them.
+    /// The progress callback and the stop flag.
     pub(crate) fn watch(&self) -> Watch<'a> {
         Watch::default().progress(self.progress).stop(self.stop)
     }
 
-    /// The samples to take now.
+    /// The samples to process now.
     pub(crate) fn now(&self) -> Result<Range<u64>, Error> {
         let total = self.samples as u64;
         let range = self.range.clone().unwrap_or(0..total);
@@ -95,13 +99,15 @@ impl Default for Sampling<'_> {
     }
 }
 
-/// Samples the design variables about those of `nominal` (by `tolerances`), re-solves each sample from the
-/// nominal equilibrium and gathers the statistics of its frequencies, matched to the nominal modes by shape. Samples
-/// settle on a stable equilibrium, whatever policy found the nominal one.
+/// Samples the design variables about those of `nominal` (according to `tolerances`) and gathers statistics of the
+/// frequencies.
+///
+/// Each sample is re-solved from the nominal equilibrium, and its modes are matched to the nominal modes by shape.
+/// Samples settle on a stable equilibrium, whatever policy found the nominal one.
 ///
 /// # Errors
-/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that is none of the samples,
-/// [`Error::Threads`] when worker threads cannot be started. Samples that fail are counted, not errors.
+/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that lies outside the
+/// samples, [`Error::Threads`] if worker threads cannot be started. Samples that fail are counted and are not errors.
 pub fn monte_carlo(
     mechanism: &dyn BatchKernels,
     nominal: &Equilibrium,
@@ -110,16 +116,16 @@ pub fn monte_carlo(
     sampling: &Sampling<'_>,
 ) -> Result<MonteCarlo, Error> {
     let about = (nominal, modes);
-    // Nothing will be merged with it: nobody asks what it was drawn about.
+    // Nothing will be merged with this run, so its fingerprint may stay empty.
     let fingerprint = |method: &str| drawn(Fingerprint::default(), method, sampling);
     let all = gathered(mechanism, about, tolerances, sampling, fingerprint)?;
     Ok(all.into_result())
 }
 
-/// As [`monte_carlo`], to be merged with other ranges of the same run.
+/// Like [`monte_carlo`], for one range of a run, to be merged with the others.
 ///
 /// # Errors
-/// As [`monte_carlo`].
+/// Those of [`monte_carlo`].
 pub fn partial_monte_carlo(
     mechanism: &dyn BatchKernels,
     nominal: &Equilibrium,
@@ -140,7 +146,7 @@ pub fn partial_monte_carlo(
     )
 }
 
-/// How samples are drawn, added to what they are drawn about.
+/// Adds how samples are drawn to the fingerprint of what they are drawn about.
 fn drawn(about: Fingerprint, method: &str, sampling: &Sampling<'_>) -> Fingerprint {
     about
         .with("method", method)

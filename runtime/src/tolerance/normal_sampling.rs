@@ -1,13 +1,13 @@
-//! Normal variables from random bits, one pair of each or vectors of them, without a function of the system's library: the
+//! Normal variables from random bits, one pair at a time or in vectors, without calls to the system's math library: the
 //! same bits everywhere.
 
 use crate::scalar::{Lanes, sin_cos_of_turns};
 
-/// No value that is drawn is greater: the least probability is 2^-53, and `sqrt(-2 ln 2^-53) = 8.572`.
+/// Upper bound of all values drawn: the smallest probability is 2^-53, and `sqrt(-2 ln 2^-53) = 8.572`.
 pub(super) const GREATEST_NORMAL: f64 = 8.6;
 
 /// Two independent standard normal values from two independent probabilities, strictly between 0 and 1 (Box and Muller
-/// 1958): a radius with `P(R > r) = exp(-r^2/2)` from the first, an angle from the second.
+/// 1958): the first gives a radius with `P(R > r) = exp(-r^2/2)`, the second an angle.
 #[inline(always)]
 pub(super) fn standard_normal_pair<V: Lanes>(radius: V, angle: V) -> (V, V) {
     let radius = (ln(radius) * V::constant(-2.0)).sqrt();
@@ -15,7 +15,7 @@ pub(super) fn standard_normal_pair<V: Lanes>(radius: V, angle: V) -> (V, V) {
     (radius * cosine, radius * sine)
 }
 
-/// Natural logarithm of a positive normal number: of its mantissa `m` by `2 artanh((m - 1) / (m + 1))`.
+/// Natural logarithm of a positive normal number; that of its mantissa `m` is `2 artanh((m - 1) / (m + 1))`.
 #[inline(always)]
 fn ln<V: Lanes>(x: V) -> V {
     let number = V::constant;
@@ -29,7 +29,8 @@ fn ln<V: Lanes>(x: V) -> V {
     exponent * number(core::f64::consts::LN_2) + s * (number(2.0) + z * sum)
 }
 
-/// `(2 artanh(s) / s - 2) / s^2` in powers of `s^2` for mantissas about 1, relative error of the logarithm below 2^-59.
+/// `(2 artanh(s) / s - 2) / s^2` in powers of `s^2` for mantissas around 1; the relative error of the logarithm is below
+/// 2^-59.
 const LN: [f64; 7] = [
     0.6666666666666735,
     0.39999999999409136,
@@ -45,7 +46,7 @@ mod tests {
     use super::*;
     use crate::scalar::{Batch, Instructions, Task, WIDTH};
 
-    /// Probabilities from the least that is drawn to the greatest, close together at both ends.
+    /// Probabilities from the smallest to the largest that is drawn, closely spaced at both ends.
     fn probabilities() -> Vec<f64> {
         let tails = (0..=200).map(|k| 2.0_f64.powf(-53.0 + 0.26 * f64::from(k)));
         let tails: Vec<f64> = tails.filter(|&p| p < 0.5).collect();

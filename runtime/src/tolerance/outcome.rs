@@ -1,28 +1,28 @@
-//! What became of samples.
+//! Outcomes of samples.
 
 use crate::Stability;
 use crate::equilibrium::Failure;
 
-/// What became of one sample.
+/// The outcome of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Outcome {
-    /// It has a stable equilibrium, or one that is marginal, held by gyroscopic forces, or free in some directions.
+    /// A stable equilibrium, or one that is marginal, held by gyroscopic forces, or free in some directions.
     Stable,
-    /// Its equilibrium is unstable without oscillation.
+    /// An equilibrium that is unstable without oscillation.
     Divergent,
-    /// Its equilibrium is unstable in a growing oscillation.
+    /// An equilibrium that is unstable in a growing oscillation.
     Flutter,
-    /// The stability of its equilibrium could not be decided.
+    /// An equilibrium whose stability could not be decided.
     Undecided,
     /// No equilibrium was found.
     NoEquilibrium,
-    /// Its constraints cannot be met: its loops do not close.
+    /// The constraints cannot be met: the loops do not close.
     NotAssembled,
-    /// Its design describes bodies that cannot exist, or lies outside the domain of an expression.
+    /// The design describes bodies that cannot exist, or lies outside the domain of an expression.
     Unphysical,
-    /// Its eigenproblem could not be solved.
+    /// The eigenproblem could not be solved.
     NoModes,
 }
 
@@ -62,7 +62,7 @@ impl From<Stability> for Outcome {
     }
 }
 
-/// How many samples had each outcome; the numbers sum to the number of samples.
+/// The number of samples with each outcome; they sum to the number of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -99,7 +99,7 @@ impl Counts {
             + self.no_modes
     }
 
-    /// From numbers in the order of [`Outcome::ALL`].
+    /// Counts from numbers in the order of [`Outcome::ALL`].
     pub(crate) fn of_all(numbers: &[u64]) -> Self {
         let mut counts = Self::default();
         for (outcome, number) in Outcome::ALL.into_iter().zip(numbers) {
@@ -108,7 +108,7 @@ impl Counts {
         counts
     }
 
-    /// How many had this outcome.
+    /// The number of samples with this outcome.
     #[must_use]
     pub fn of(mut self, outcome: Outcome) -> usize {
         *self.place(outcome)

@@ -10,11 +10,11 @@ use crate::{Description, Error, Shared};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutputTolerances {
-    /// Nominal values in the order of the declaration, SI.
+    /// Nominal values in the order of declaration, SI.
     pub values: Vector,
-    /// Their spreads; `None` where the output has no derivative.
+    /// Their spreads; `None` if the output has no derivative.
     pub spreads: Vec<Option<Spread>>,
-    /// Standard deviations that a tolerance holds.
+    /// Standard deviations that a tolerance spans.
     pub sigma_level: f64,
     /// The inputs they belong to, SI.
     pub inputs: Vector,

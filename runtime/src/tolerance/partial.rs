@@ -1,4 +1,4 @@
-//! Some samples of a run, to be put together with others.
+//! Part of the samples of a run, to be merged with others.
 
 use core::ops::Range;
 
@@ -12,14 +12,14 @@ use crate::algebra::Vector;
 use crate::modes::Family;
 use crate::{Description, Error, Shared};
 
-/// The facts of a fingerprint that say which random numbers were taken.
+/// The fingerprint facts that identify the random numbers.
 pub(super) const SEED: &str = "seed";
 pub(super) const STREAM: &str = "stream";
 
-/// Some samples of a Monte Carlo run. Parts of a run merge to the same bits as the whole, however it was split.
+/// Part of the samples of a Monte Carlo run. Parts of a run merge to the same bits as the whole, however it was split.
 ///
-/// With the feature `serde` it can be written and read, by the same version of the format only. In JSON, numbers keep their last
-/// digit if the reader cares for it, as `serde_json` does with its feature `float_roundtrip`.
+/// With the feature `serde` it can be written and read back, by the same version of the format only. In JSON, numbers
+/// keep their last digit only if the reader preserves it, as `serde_json` does with its feature `float_roundtrip`.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -43,8 +43,8 @@ impl PartialMonteCarlo {
     /// Adds other samples of the same run.
     ///
     /// # Errors
-    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for those that have been added already; nothing has
-    /// been added then.
+    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that were already added; in
+    /// either case nothing is added.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
         let own = core::slice::from_mut(&mut self.part);
         self.run.merge(own, (&other.run, vec![other.part]))?;
@@ -59,40 +59,41 @@ impl PartialMonteCarlo {
         Ok(())
     }
 
-    /// The ranges of samples that are done, in order and apart.
+    /// The ranges of samples that are done, sorted and disjoint.
     #[must_use]
     pub fn ranges(&self) -> Vec<Range<u64>> {
         self.run.ranges(self.parts())
     }
 
-    /// The ranges of samples that are not done, in order and apart.
+    /// The ranges of samples that are missing, sorted and disjoint.
     #[must_use]
     pub fn missing(&self) -> Vec<Range<u64>> {
         self.run.missing(self.parts())
     }
 
-    /// Refuses a run that is not complete.
+    /// Refuses an incomplete run.
     ///
     /// # Errors
-    /// [`Error::SamplesMissing`], which names the gaps.
+    /// [`Error::SamplesMissing`], which lists the gaps.
     pub fn check_complete(&self) -> Result<(), Error> {
         self.run.check_complete(self.parts())
     }
 
-    /// What the run was asked for: equal for parts that can be merged.
+    /// Identifies the run: equal for parts that can be merged.
     #[must_use]
     pub fn fingerprint(&self) -> &Fingerprint {
         &self.run.fingerprint
     }
 
-    /// Statistics of the samples that are done.
+    /// Statistics of the samples done so far.
     #[must_use]
     pub fn result(&self) -> MonteCarlo {
         self.clone().into_result()
     }
 
-    /// Takes out the samples that were kept, each with its number in the run, counted from 0; none where they were not. The statistics
-    /// stay, and what is merged later keeps no samples: a run of any length needs the memory of one part.
+    /// Takes out the kept samples, each with its number in the run, counted from 0; none if samples were not kept.
+    ///
+    /// The statistics stay, and later merges keep no samples: a run of any length needs only the memory of one part.
     ///
     /// ```
     /// # use eigentol::{Study, mechanism};
@@ -119,7 +120,7 @@ impl PartialMonteCarlo {
         core::slice::from_ref(&self.part)
     }
 
-    /// Seed and stream; `None` where the fingerprint of a file has none.
+    /// Seed and stream; `None` if the fingerprint of a file lacks them.
     fn sequence(&self) -> Option<(u64, u64)> {
         let number = |name| self.run.fingerprint.number(name);
         Some((number(SEED)?, number(STREAM)?))
@@ -158,7 +159,7 @@ impl PartialMonteCarlo {
     }
 }
 
-/// A [`PartialMonteCarlo`] as it was read.
+/// A [`PartialMonteCarlo`] as read, before validation.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 struct Unchecked {

@@ -1,4 +1,4 @@
-//! Worker threads, kept for the next run: starting them costs as much as a small run.
+//! Worker threads that are kept for the next run: starting them costs as much as a small run.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,14 +8,16 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::Error;
 
-/// Up to this many matrix elements of coordinates by coordinates and design variables the stack of any thread will do.
+/// Number of matrix elements (coordinates by coordinates and design variables) up to which the stack of any thread is
+/// large enough.
 const SMALL: usize = 256;
-/// Stack of a sample, and what it grows by with an element: some hundred copies of every matrix and gradient. Memory that is
-/// not used is not taken.
+/// Stack size for a sample, and its growth per matrix element: about a hundred copies of every matrix and gradient.
+/// Unused memory is not allocated.
 const STACK: usize = 16 << 20;
 const STACK_PER_ELEMENT: usize = 4 << 10;
 
-/// Stack for samples of a mechanism of `n` unknowns and `p` design variables; `None` where that of any thread will do.
+/// Stack for samples of a mechanism of `n` unknowns and `p` design variables; `None` if that of any thread is large
+/// enough.
 const fn stack(n: usize, p: usize) -> Option<usize> {
     let elements = n * (n + p);
     if elements <= SMALL || cfg!(target_family = "wasm") {
@@ -25,20 +27,21 @@ const fn stack(n: usize, p: usize) -> Option<usize> {
     }
 }
 
-/// By number of threads, and by stack size where it is not the usual one.
+/// Pools by number of threads and by stack size, if that is not the default.
 type Pools = BTreeMap<(usize, Option<usize>), Arc<ThreadPool>>;
 
-/// Most threads of a run, unless the machine has more: beyond the processors they only cost.
+/// Maximum number of threads of a run, unless the machine has more: beyond the processors they only cost time.
 pub(super) const MOST: usize = 256;
 
 static POOLS: Mutex<Pools> = Mutex::new(BTreeMap::new());
 
-/// The pool of this many threads, as many as the machine has for 0 and [`MOST`] where more are asked for, each with this stack or
-/// the usual one; started when first asked for, then idle between runs until the program ends.
+/// The pool with this number of threads, each with this stack or the default one; 0 means as many as the machine has,
+/// and larger requests are limited to [`MOST`]. It is started on first use, then stays idle between runs until the
+/// program ends.
 fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.min(MOST.max(processors));
-    // Nothing that can panic changes the map, so a poisoned one is as good as any.
+    // Nothing that can panic modifies the map, so a poisoned one is still valid.
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(pool) = pools.get(&(threads, stack)) {
         return Ok(Arc::clone(pool));
@@ -55,8 +58,8 @@ fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
     Ok(pool)
 }
 
-/// Does so many pieces of work on a mechanism of `n` unknowns and `p` design variables, each thread in a room of its own, and
-/// returns what they give in order. 0 threads are as many as the machine has.
+/// Runs the given number of work items on a mechanism of `n` unknowns and `p` design variables, each thread with its own
+/// workspace, and returns the results in order. 0 threads means as many as the machine has.
 pub(crate) fn run<R, T: Send>(
     threads: usize,
     (n, p): (usize, usize),

@@ -1,4 +1,4 @@
-//! What a Monte Carlo run gives.
+//! The result of a Monte Carlo run.
 
 use core::ops::Range;
 
@@ -7,39 +7,39 @@ use crate::algebra::Vector;
 use crate::modes::Family;
 use crate::{Description, Shared};
 
-/// Result of a Monte Carlo run, of the samples that are done.
+/// Result of a Monte Carlo run, over the samples that are done.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MonteCarlo {
     /// Number of samples.
     pub samples: usize,
-    /// Number of samples that were asked for: more where the run was stopped, or where this is a part of one.
+    /// Number of samples requested: more than `samples` if the run was stopped, or if this is only part of it.
     pub planned: usize,
-    /// Seed of the random numbers: with stream and ranges it gives the same samples again.
+    /// Seed of the random numbers; together with stream and ranges it reproduces the samples.
     pub seed: u64,
-    /// Which of the seed's independent sequences.
+    /// Which of the seed's independent sequences was used.
     pub stream: u64,
-    /// The samples by their numbers, in order and apart; one range from 0 where none is missing.
+    /// The numbers of the samples, sorted and disjoint; one range from 0 if none is missing.
     pub ranges: Vec<Range<u64>>,
-    /// What became of them.
+    /// Number of samples with each outcome.
     pub counts: Counts,
-    /// Stable samples for which the nominal position itself is unstable: they settled on another branch.
+    /// Stable samples whose nominal position is itself unstable: they settled on another branch.
     pub left_nominal_branch: usize,
-    /// Statistics of the frequency over the stable samples where the mode oscillates, rad/s, by nominal mode; `None`
-    /// without any value. Quantiles and a histogram are among them ([`Statistics::quantile`], [`Statistics::sketch`]).
+    /// Statistics of the frequency, rad/s, by nominal mode, over the stable samples in which the mode oscillates; `None`
+    /// if there are none. They include quantiles and a histogram ([`Statistics::quantile`], [`Statistics::sketch`]).
     pub modes: Vec<Option<Statistics>>,
     /// Statistics of the damping ratio over the same samples.
     pub damping_ratios: Vec<Option<Statistics>>,
-    /// Samples were solved side by side in vectors ([`Sampling::vectors`](super::Sampling::vectors)), except those that had to be solved alone. Solved one by
-    /// one, the statistics differ in the last bits.
+    /// Samples were solved side by side in vectors ([`Sampling::vectors`](super::Sampling::vectors)), except those that
+    /// had to be solved alone. If solved one by one, the statistics differ in the last bits.
     pub side_by_side: bool,
-    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode is matched to is arbitrary, and only
-    /// statistics of all of them together mean something ([`clusters`](crate::clusters::clusters)).
+    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode matches is arbitrary, so only statistics
+    /// over all of them together are meaningful ([`clusters`](crate::clusters::clusters)).
     pub clustered: bool,
-    /// Every sample in order, when asked for.
+    /// Every sample, in order, if requested.
     pub all: Option<Vec<Sample>>,
-    /// Which modes they belong to.
+    /// The family of the modes.
     pub family: Family,
     /// The inputs they belong to, SI.
     pub inputs: Vector,

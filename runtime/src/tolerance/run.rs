@@ -1,4 +1,4 @@
-//! A run of samples of which any range can be taken by itself: what belongs to it, what is missing.
+//! A run of samples, any range of which can be processed separately: its identity and its missing samples.
 
 use core::ops::Range;
 
@@ -7,7 +7,7 @@ use eigentol_statistics::summary::Partial;
 use super::Fingerprint;
 use crate::Error;
 
-/// Version of the layout in which partial results are written. Another one is refused when it is read.
+/// Version of the layout of stored partial results; other versions are refused on reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -44,24 +44,24 @@ impl TryFrom<u32> for Format {
     }
 }
 
-/// What is asked of a run, and how its samples are numbered: those of one randomisation after the other.
+/// Identity of a run, and the numbering of its samples: one randomisation after the other.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Run {
     pub(crate) fingerprint: Fingerprint,
-    /// How many randomisations there are.
+    /// Number of randomisations.
     pub(crate) groups: u64,
-    /// Samples of each.
+    /// Number of samples in each.
     pub(crate) of_each: u64,
 }
 
 impl Run {
-    /// Number of samples when all are done.
+    /// Number of samples of the complete run.
     pub(crate) fn total(&self) -> u64 {
         self.of_each * self.groups
     }
 
-    /// The ranges of samples that are done, in order and apart; `parts` are those of each randomisation.
+    /// The ranges of samples that are done, sorted and disjoint; `parts` holds one part per randomisation.
     pub(crate) fn ranges(&self, parts: &[Partial]) -> Vec<Range<u64>> {
         let mut all: Vec<Range<u64>> = Vec::new();
         for (group, part) in parts.iter().enumerate() {
@@ -77,7 +77,7 @@ impl Run {
         all
     }
 
-    /// The ranges of samples that are not done, in order and apart.
+    /// The ranges of samples that are missing, sorted and disjoint.
     pub(crate) fn missing(&self, parts: &[Partial]) -> Vec<Range<u64>> {
         let mut missing = Vec::new();
         let mut next = 0;
@@ -90,7 +90,7 @@ impl Run {
         missing
     }
 
-    /// Refuses a run of which samples are missing.
+    /// Refuses a run with missing samples.
     pub(crate) fn check_complete(&self, parts: &[Partial]) -> Result<(), Error> {
         let missing = self.missing(parts);
         if missing.is_empty() {
@@ -99,7 +99,7 @@ impl Run {
         Err(Error::SamplesMissing { missing })
     }
 
-    /// Adds other samples of the same run; nothing where some of them are there already.
+    /// Adds other samples of the same run; adds nothing if some of them are already there.
     pub(crate) fn merge(
         &self,
         parts: &mut [Partial],
@@ -120,7 +120,7 @@ impl Run {
         Ok(())
     }
 
-    /// Refuses what cannot be samples of this run: `outcomes` counts each of them once among the first.
+    /// Refuses data that cannot be samples of this run: the first `outcomes` counts must count each sample once.
     #[cfg(feature = "serde")]
     pub(crate) fn check_parts(
         &self,

@@ -1,4 +1,4 @@
-//! One sample, solved by itself.
+//! One sample, solved on its own.
 
 use super::Outcome;
 use crate::algebra::Vector;
@@ -14,32 +14,32 @@ use crate::{Complex, Equilibrium, Mode, Modes, Policy};
 pub struct Sample {
     /// Its design variables, SI.
     pub design: Vector,
-    /// What became of it.
+    /// Its outcome.
     pub outcome: Outcome,
-    /// Its equilibrium, when it has one.
+    /// Its equilibrium, if it has one.
     pub coordinates: Option<Vector>,
-    /// Eigenvalues `s` in the order of the nominal modes, 1/s; `None` where they were not found, or where the sample has no
-    /// such mode.
+    /// Eigenvalues `s` in the order of the nominal modes, 1/s; `None` if they were not found or the sample has no such
+    /// mode.
     pub eigenvalues: Vec<Option<Complex>>,
     /// Frequencies in the order of the nominal modes, rad/s; `None` for a mode that does not oscillate.
     pub frequencies: Vec<Option<f64>>,
-    /// Damping ratios in the order of the nominal modes; `None` where there is none.
+    /// Damping ratios in the order of the nominal modes; `None` if there is none.
     pub damping_ratios: Vec<Option<f64>>,
 }
 
-/// What was found of a sample, in room that the next one uses again.
+/// The solution of a sample, in a workspace reused by the next one.
 pub(crate) struct Solution {
     pub(crate) outcome: Outcome,
-    /// Means something where the outcome is that of an equilibrium.
+    /// Meaningful only if the outcome is that of an equilibrium.
     pub(crate) state: Equilibrium,
     solved: bool,
     modes: Modes,
-    /// Where the nominal modes are among them; empty where they were not found.
+    /// Positions of the nominal modes among them; empty if they were not found.
     places: Vector<Option<usize>>,
 }
 
 impl Solution {
-    /// Room for samples about a nominal state.
+    /// A workspace for samples about a nominal state.
     pub(crate) fn about(nominal: &Equilibrium, modes: &Modes) -> Self {
         Self {
             outcome: Outcome::Stable,
@@ -50,7 +50,7 @@ impl Solution {
         }
     }
 
-    /// Solves the sample of this design from the nominal state.
+    /// Solves the sample with this design, starting from the nominal state.
     pub(crate) fn solve(
         &mut self,
         mechanism: &dyn Kernels,
@@ -99,22 +99,22 @@ impl Solution {
             .map_err(|failure| Outcome::from(&failure))
     }
 
-    /// The mode that nominal mode `r` has become.
+    /// The mode that continues nominal mode `r`.
     pub(crate) fn mode(&self, r: usize) -> Option<&Mode> {
         self.modes.modes.get(self.place(r)?)
     }
 
-    /// Where it stands among [`Self::modes`].
+    /// Its position among [`Self::modes`].
     pub(crate) fn place(&self, r: usize) -> Option<usize> {
         *self.places.get(r)?
     }
 
-    /// The modes that were found, in their own order.
+    /// The modes found, in their own order.
     pub(crate) fn modes(&self) -> &Modes {
         &self.modes
     }
 
-    /// As a sample of so many nominal modes.
+    /// Converts the solution to a sample with the given number of nominal modes.
     pub(crate) fn sample(&self, design: &[f64], modes: usize) -> Sample {
         let own = || (0..modes).map(|r| self.mode(r));
         Sample {

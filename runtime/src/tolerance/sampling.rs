@@ -1,4 +1,4 @@
-//! Random designs: sample `k` is a function of seed, stream and `k` alone, so any sample can be drawn on any machine.
+//! Random designs: sample `k` is a function of seed, stream and `k` only, so any sample can be drawn on any machine.
 
 use eigentol_statistics::random::RandomNumbers;
 
@@ -7,23 +7,23 @@ use super::normal_sampling::standard_normal_pair;
 use crate::algebra::Vector;
 use crate::scalar::WIDTH;
 
-/// Random bits of one probability of each sample of a batch.
+/// Random bits of one probability for each sample of a batch.
 pub(crate) type Bits = [u64; WIDTH];
 
-/// Draws designs in sequence from a given sample on.
+/// Draws designs in sequence, starting at a given sample.
 pub(crate) struct Draw<'a> {
     random: RandomNumbers,
     nominal: &'a [f64],
     tolerances: &'a Tolerances,
     /// Whether anything depends on this pair of random numbers.
     used: Vec<bool>,
-    /// The last sample: standard normal numbers, and the design made of them.
+    /// The last sample: standard normal numbers, and the design made from them.
     standard: Vector,
     design: Vector,
 }
 
 impl<'a> Draw<'a> {
-    /// Prepares to draw sample `first` and its successors.
+    /// Prepares to draw samples from number `first` on.
     pub(crate) fn from(
         sequence: (u64, u64),
         first: u64,
@@ -66,16 +66,16 @@ impl<'a> Draw<'a> {
     }
 }
 
-/// The random bits of the samples that [`Draw`] gives, batch after batch.
+/// The random bits of the samples drawn by [`Draw`], batch by batch.
 pub(crate) struct Batches(RandomNumbers);
 
 impl Batches {
-    /// Prepares to draw sample `first` of this many variables and its successors.
+    /// Prepares to draw samples of `variables` variables from number `first` on.
     pub(crate) fn from(sequence: (u64, u64), first: u64, variables: usize) -> Self {
         Self(numbers(sequence, first, variables))
     }
 
-    /// Writes those of a batch, by pair of variables.
+    /// Writes the bits of a batch, by pair of variables.
     pub(crate) fn next(&mut self, pairs: &mut [[Bits; 2]]) {
         for sample in 0..WIDTH {
             for pair in &mut *pairs {
@@ -87,7 +87,7 @@ impl Batches {
     }
 }
 
-/// The random numbers from those of sample `first` on: each takes two by pair of design variables.
+/// The random numbers from sample `first` on: each sample takes two per pair of design variables.
 fn numbers((seed, stream): (u64, u64), first: u64, variables: usize) -> RandomNumbers {
     let index = u128::from(first) * 2 * pairs_of(variables) as u128;
     RandomNumbers::starting_at(seed, stream, index)
@@ -123,8 +123,8 @@ mod tests {
         }
     }
 
-    /// The greatest distance of the empirical distribution from the normal one (Kolmogorov), of each variable, and their
-    /// correlations; 20,000 samples.
+    /// Tests 20,000 samples: the largest distance of each variable's empirical distribution from the normal one
+    /// (Kolmogorov), and the correlations.
     #[test]
     fn variables_are_normal_and_independent() {
         let number = 20_000;
@@ -139,7 +139,7 @@ mod tests {
                 let empirical = (k as f64 + 0.5) / f64::from(number);
                 (empirical - upper(-value)).abs()
             });
-            // 1.95 / sqrt(n) is exceeded once in a thousand times.
+            // 1.95 / sqrt(n) is exceeded once in a thousand cases.
             assert!(distances.fold(0.0, f64::max) < 1.95 / f64::from(number).sqrt());
             for j in 0..i {
                 let product: f64 = samples.iter().map(|sample| sample[i] * sample[j]).sum();

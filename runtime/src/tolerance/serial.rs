@@ -1,11 +1,11 @@
-//! Reading tolerances: what cannot be is refused.
+//! Reading tolerances: impossible values are refused.
 
 use eigentol_statistics::Joint;
 
 use super::Tolerances;
 use crate::algebra::{Matrix, Vector};
 
-/// [`Tolerances`] as they were read.
+/// [`Tolerances`] as read, before validation.
 #[derive(serde::Deserialize)]
 pub(super) struct Unchecked {
     half_widths: Vector,

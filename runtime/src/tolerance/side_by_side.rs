@@ -1,4 +1,4 @@
-//! Designs from given points of the standard normal space, solved side by side.
+//! Designs at given points of the standard normal space, solved side by side.
 
 use super::Tolerances;
 use super::batched::{Memory, Prepared, Size, TOGETHER};
@@ -14,14 +14,14 @@ pub(crate) struct SideBySide<'a> {
     size: Size,
 }
 
-/// What one thread solves designs in.
+/// Workspace of one thread.
 pub(crate) struct Lanes(Memory);
 
 impl<'a> SideBySide<'a> {
-    /// Most designs that are solved together.
+    /// Maximum number of designs solved together.
     pub(crate) const MOST: usize = TOGETHER * WIDTH;
 
-    /// `None` where designs are to be solved one by one.
+    /// `None` if designs must be solved one by one.
     pub(crate) fn new(
         mechanism: &'a dyn BatchKernels,
         nominal: &'a Equilibrium,
@@ -39,8 +39,9 @@ impl<'a> SideBySide<'a> {
         Lanes(Memory::new(TOGETHER, self.size))
     }
 
-    /// Solves at most [`Self::MOST`] designs, each of the standard normal numbers of a row. `each` is told the position of one, its
-    /// design, and its eigenvalues, 1/s, in the order of the nominal modes: `None` where it has to be solved by itself.
+    /// Solves up to [`Self::MOST`] designs, each given by a row of standard normal numbers. Calls `each` with the
+    /// position, the design, and the eigenvalues, 1/s, in the order of the nominal modes: `None` if the design must be
+    /// solved alone.
     pub(crate) fn solve(
         &self,
         Lanes(memory): &mut Lanes,
@@ -69,7 +70,7 @@ impl<'a> SideBySide<'a> {
             for (own, s) in eigenvalues.iter_mut().zip(batch.eigenvalues(member)) {
                 *own = s;
             }
-            // What designs can be was asked for numbers that are no greater.
+            // The check of which designs can exist only covered numbers below this bound.
             let usual = row.iter().all(|z| z.abs() < GREATEST_NORMAL);
             let solved = usual && batch.accepted >> member & 1 == 1;
             each(k, &design, solved.then_some(&eigenvalues[..]))?;

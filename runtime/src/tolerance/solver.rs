@@ -1,4 +1,4 @@
-//! What becomes of samples, one by one or side by side.
+//! Solves samples, one by one or side by side, and records their outcomes.
 
 use eigentol_statistics::summary::{LARGEST, Plan};
 
@@ -14,20 +14,20 @@ use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::sensitivity::{Quantity, sensitivities};
 use crate::{Complex, Equilibrium, Error, Modes};
 
-/// Beside the outcomes of samples, how many stable ones have left the nominal branch.
+/// Index, after the outcomes, of the count of stable samples that left the nominal branch.
 pub(super) const LEFT_NOMINAL_BRANCH: usize = Outcome::ALL.len();
 
 /// A sample with its number.
 pub(super) type Numbered = (u64, Sample);
 
-/// What one thread solves samples in.
+/// Workspace of one thread.
 pub(super) struct Room {
-    /// For those solved together; none where samples are solved one by one.
+    /// For batches; empty if samples are solved one by one.
     together: Memory,
     alone: Solution,
 }
 
-/// Everything that samples need.
+/// All data that samples need.
 pub(super) struct Solver<'a> {
     pub(super) mechanism: &'a dyn BatchKernels,
     pub(super) nominal: &'a Equilibrium,
@@ -65,8 +65,8 @@ impl<'a> Solver<'a> {
         self.prepared.is_some()
     }
 
-    /// What is gathered: the frequency of each nominal mode, and the damping ratio of each where modes can be damped; outcomes, and
-    /// [`LEFT_NOMINAL_BRANCH`] behind them.
+    /// What is gathered: the frequency of each nominal mode, and its damping ratio if modes can be damped; the outcomes,
+    /// followed by [`LEFT_NOMINAL_BRANCH`].
     pub(super) fn plan(&self) -> Result<Plan, Error> {
         let slopes = sensitivities(self.mechanism, self.nominal, self.modes).ok();
         let quantities = match self.modes.family {
@@ -95,7 +95,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Solves samples of one chunk.
+    /// Solves the samples of one chunk.
     pub(super) fn solve(
         &self,
         room: &mut Room,
@@ -112,7 +112,7 @@ impl<'a> Solver<'a> {
         Ok(())
     }
 
-    /// Solves samples in batches, and alone those that no batch can vouch for.
+    /// Solves samples in batches, and those that a batch cannot vouch for alone.
     fn together(
         &self,
         prepared: &Prepared<'_>,
@@ -142,7 +142,7 @@ impl<'a> Solver<'a> {
         Ok(())
     }
 
-    /// Takes what a batch accepted, and solves the others alone.
+    /// Records the samples that a batch accepted, and solves the others alone.
     fn decided(
         &self,
         (first, batch): (u64, &Solved<'_>),
@@ -184,7 +184,7 @@ impl<'a> Solver<'a> {
         Ok(())
     }
 
-    /// Solves a sample by itself.
+    /// Solves a sample on its own.
     fn alone(
         &self,
         solved: &mut Solution,
@@ -233,7 +233,7 @@ fn accepted_member(solved: &Solved<'_>, member: usize) -> Sample {
     }
 }
 
-/// What belongs to one member of a batch.
+/// The values of one member of a batch.
 fn member_of(batches: &[Batch], member: usize) -> Vector {
     batches.iter().map(|batch| batch.0[member]).collect()
 }

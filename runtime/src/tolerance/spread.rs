@@ -8,24 +8,24 @@ use crate::algebra::Vector;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spread {
-    /// Mean, SI: the nominal value, and what means of design variables beside their nominal values add to it.
+    /// Mean, SI: the nominal value plus the effect of means of design variables that differ from their nominal values.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean: f64,
-    /// Derivatives by the design variables, per SI unit.
+    /// Derivatives with respect to the design variables, per SI unit.
     pub by_design: Vector,
     /// Standard deviation, SI.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
-    /// Half-width of the band that holds as many standard deviations as the tolerances do, SI.
+    /// Half-width of the band that spans as many standard deviations as the tolerances do, SI.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub band: f64,
-    /// Share of each design variable in the variance; they sum to 1, or are all zero when nothing varies. Correlated
-    /// variables can have negative shares.
+    /// Share of each design variable in the variance; they sum to 1, or are all zero if nothing varies. Shares of
+    /// correlated variables can be negative.
     pub variance_shares: Vector,
 }
 
 impl Spread {
-    /// The spread of a quantity from its value and its derivatives by the design variables.
+    /// The spread of a quantity from its value and its derivatives with respect to the design variables.
     #[must_use]
     pub fn new(mean: f64, by_design: Vector, tolerances: &Tolerances) -> Self {
         let mut found = Self::blank();
@@ -34,7 +34,7 @@ impl Spread {
         found
     }
 
-    /// What a spread is written over.
+    /// An empty spread, to be overwritten.
     #[inline]
     pub(super) fn blank() -> Self {
         Self {
@@ -46,7 +46,8 @@ impl Spread {
         }
     }
 
-    /// Goes to a quantity whose derivatives are written; returns what means beside the nominal values add to it.
+    /// Completes the spread of a quantity whose derivatives are already written; returns the effect of means that differ
+    /// from the nominal values.
     #[inline]
     pub(super) fn finish(&mut self, mean: f64, tolerances: &Tolerances) -> f64 {
         let shift = tolerances.mean_shift(&self.by_design);
@@ -56,7 +57,7 @@ impl Spread {
         shift
     }
 
-    /// That of a quantity which moves `rate` times as fast.
+    /// The spread of a quantity that changes `rate` times as fast.
     pub(super) fn scaled(&self, rate: f64, mean: f64) -> Self {
         Self {
             mean,
@@ -67,14 +68,15 @@ impl Spread {
         }
     }
 
-    /// That of a quantity which the same variables do not move.
+    /// The spread of a quantity that these variables do not change.
     pub(super) fn still(&self, mean: f64) -> Self {
         let mut found = Self::blank();
         found.set_without_derivatives(mean, 0.0, self.by_design.len());
         found
     }
 
-    /// Goes to a quantity which nothing moves, `sigma` zero, or which moves without bound, `sigma` infinite.
+    /// Overwrites this with the spread of a quantity that nothing changes (`sigma` zero) or that changes without bound
+    /// (`sigma` infinite).
     #[inline]
     pub(super) fn set_without_derivatives(&mut self, mean: f64, sigma: f64, variables: usize) {
         self.mean = mean;

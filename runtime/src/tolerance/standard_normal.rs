@@ -3,7 +3,7 @@
 use super::Tolerances;
 
 impl Tolerances {
-    /// Writes the design, SI, that belongs to independent standard normal numbers, one for each design variable.
+    /// Writes the design, SI, that corresponds to independent standard normal numbers, one for each design variable.
     pub(crate) fn design_from_normal(&self, nominal: &[f64], z: &[f64], into: &mut [f64]) {
         match self.joint() {
             None => {

@@ -1,4 +1,4 @@
-//! How design variables vary: distributions, the standard deviations that a half-width stands for, and correlation.
+//! How design variables vary: distributions, half-widths in standard deviations, and correlation.
 
 use std::borrow::Cow;
 
@@ -32,21 +32,21 @@ pub struct Tolerances {
     pub(super) half_widths: Vector,
     pub(super) sigma_level: f64,
     pub(super) sigmas: Vector,
-    /// Mean less nominal value.
+    /// Means minus nominal values.
     pub(super) shifts: Vector,
     pub(super) correlation: Option<Matrix>,
     /// Lower factor of the covariance matrix.
     pub(super) factor: Matrix,
-    /// The values where they are not jointly normal, and the nominal values that these were made for.
+    /// The distribution of values that are not jointly normal, and the nominal values it was made for.
     pub(super) joint: Option<(Joint, Vector)>,
 }
 
 impl Tolerances {
-    /// The declared tolerances of the nominal design, independent of each other; limits of normal variables hold three standard
-    /// deviations.
+    /// The declared tolerances of the nominal design, independent of each other; the limits of normal variables span
+    /// three standard deviations.
     ///
     /// # Errors
-    /// [`Error::Setting`] when a declared tolerance makes no sense.
+    /// [`Error::Setting`] if a declared tolerance makes no sense.
     pub fn declared(description: &Description) -> Result<Self, Error> {
         let infos = &description.design;
         let normal = infos
@@ -63,13 +63,14 @@ impl Tolerances {
         Self::distributed(&nominal, own, 3.0, None)
     }
 
-    /// Normally distributed about the nominal values, with half-widths, SI, of `sigma_level` standard deviations each; `None` for
-    /// `correlation` leaves the variables independent.
+    /// Normal distributions about the nominal values, with half-widths, SI, of `sigma_level` standard deviations each.
+    ///
+    /// The variables are independent if `correlation` is `None`.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a correlation matrix
-    /// that has not a row and a column for each half-width or is not symmetric and positive semidefinite with ones on its
-    /// diagonal.
+    /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a
+    /// correlation matrix that does not have one row and column per half-width or is not symmetric and positive
+    /// semidefinite with a unit diagonal.
     pub fn new(
         half_widths: impl Into<Vector>,
         sigma_level: f64,
@@ -91,14 +92,15 @@ impl Tolerances {
         })
     }
 
-    /// Values, SI, that are distributed like this in place of the nominal ones; `sigma_level` says how many standard deviations a
-    /// half-width and a band stand for. A correlation matrix holds the linear correlations of the values, which vary together
-    /// through a Gaussian copula ([`Joint`]).
+    /// Distributions of the values, SI, in place of the nominal ones.
+    ///
+    /// `sigma_level` is the number of standard deviations that a half-width and a band span. A correlation matrix holds
+    /// the linear correlations of the values, which are coupled by a Gaussian copula ([`Joint`]).
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for other than one distribution for each nominal value; [`Error::Setting`] for a level that is not
-    /// positive, and a correlation matrix that is not symmetric and positive semidefinite with ones on its diagonal or that such
-    /// variables cannot have.
+    /// [`Error::WrongLength`] unless there is one distribution for each nominal value; [`Error::Setting`] for a level
+    /// that is not positive, and for a correlation matrix that is not symmetric and positive semidefinite with a unit
+    /// diagonal or that such variables cannot have.
     pub fn distributed(
         nominal: &[f64],
         values: Vec<Distribution>,
@@ -142,13 +144,13 @@ impl Tolerances {
         &self.half_widths
     }
 
-    /// How many standard deviations a half-width stands for.
+    /// Number of standard deviations that a half-width spans.
     #[must_use]
     pub fn sigma_level(&self) -> f64 {
         self.sigma_level
     }
 
-    /// The correlation matrix, when variables are not independent.
+    /// The correlation matrix, if variables are not independent.
     #[must_use]
     pub fn correlation(&self) -> Option<&Matrix> {
         self.correlation.as_ref()
@@ -160,13 +162,13 @@ impl Tolerances {
         &self.sigmas
     }
 
-    /// Means of the values less the nominal values, SI.
+    /// Means of the values minus the nominal values, SI.
     #[must_use]
     pub fn shifts(&self) -> &[f64] {
         &self.shifts
     }
 
-    /// Whether the values are jointly normal, about whatever mean.
+    /// Whether the values are jointly normal, about any mean.
     #[must_use]
     pub fn is_normal(&self) -> bool {
         self.joint.is_none()
@@ -175,7 +177,8 @@ impl Tolerances {
     /// The distribution of each variable about its nominal value, SI.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for other than one nominal value for each variable, [`Error::Setting`] for one that is not finite.
+    /// [`Error::WrongLength`] unless there is one nominal value for each variable, [`Error::Setting`] for one that is
+    /// not finite.
     ///
     /// ```
     /// use eigentol::tolerance::Tolerances;
@@ -197,14 +200,14 @@ impl Tolerances {
         Ok(each.collect::<Result<_, _>>()?)
     }
 
-    /// The values where they are not jointly normal, and the nominal values that these were made for.
+    /// The distribution of values that are not jointly normal, and the nominal values it was made for.
     pub(crate) fn joint(&self) -> Option<(&Joint, &[f64])> {
         self.joint
             .as_ref()
             .map(|(joint, nominal)| (joint, &nominal[..]))
     }
 
-    /// What the means, at first order, add to a quantity with these slopes.
+    /// First-order effect of the means on a quantity with these slopes.
     pub(crate) fn mean_shift(&self, slopes: &[f64]) -> f64 {
         let parts = slopes.iter().zip(&self.shifts);
         parts
@@ -213,7 +216,7 @@ impl Tolerances {
             .sum()
     }
 
-    /// Refuses tolerances that are not those of `count` design variables.
+    /// Refuses tolerances that do not belong to `count` design variables.
     pub(crate) fn check_count(&self, count: usize) -> Result<(), Error> {
         let found = self.half_widths.len();
         if found == count {
@@ -231,10 +234,12 @@ impl Tolerances {
         &self.factor
     }
 
-    /// Standard deviation of a quantity whose derivatives by the design variables are `slopes`, correlation included:
-    /// `sqrt(S Sigma S^T)` (eq. 27 for several variables), in the unit of the quantity when the slopes are by SI units.
+    /// Standard deviation of a quantity with derivatives `slopes` with respect to the design variables, including
+    /// correlation.
     ///
-    /// Infinite where it exceeds the range of a double, NaN where a slope is not finite or there is not one for each variable.
+    /// This is `sqrt(S Sigma S^T)` (eq. 27 for several variables), in the unit of the quantity if the slopes are per SI
+    /// unit. Infinite if it exceeds the range of a double, NaN if a slope is not finite or there is not one for each
+    /// variable.
     #[must_use]
     #[inline]
     pub fn sigma(&self, slopes: &[f64]) -> f64 {
@@ -246,8 +251,8 @@ impl Tolerances {
         }
     }
 
-    /// About which value to look for those of a quantity, and how far apart they may be, SI: its nominal value, and its standard
-    /// deviation to first order where there are derivatives. A power of two, which rounding does not change.
+    /// Location and scale of the values expected of a quantity, SI: its nominal value and, if there are derivatives, its
+    /// first-order standard deviation. The scale is reduced to a power of two, so that scaling causes no rounding.
     pub(crate) fn scale(&self, value: Option<f64>, slopes: Option<&[f64]>) -> (f64, f64) {
         let value = value.unwrap_or(0.0);
         let sigma = slopes.map_or(0.0, |slopes| self.sigma(slopes));
@@ -257,14 +262,15 @@ impl Tolerances {
         (value, usable.unwrap_or(1.0))
     }
 
-    /// Covariance of two quantities from their derivatives by the design variables, `A Sigma B^T`; NaN as [`Self::sigma`].
+    /// Covariance of two quantities from their derivatives with respect to the design variables, `A Sigma B^T`; NaN in
+    /// the cases of [`Self::sigma`].
     #[must_use]
     pub fn covariance(&self, a: &[f64], b: &[f64]) -> f64 {
         let (a, b) = (self.parts(a, 1.0), self.parts(b, 1.0));
         dot(&a, &self.correlated(&b))
     }
 
-    /// The standard deviation; writes the share of each variable in the variance.
+    /// Returns the standard deviation and writes the share of each variable in the variance.
     #[inline]
     pub(crate) fn spread(&self, slopes: &[f64], shares: &mut Vector) -> f64 {
         let variance = self.variance(slopes, shares);
@@ -277,7 +283,7 @@ impl Tolerances {
         sigma
     }
 
-    /// The variance; writes what each variable adds to it.
+    /// Returns the variance and writes the contribution of each variable.
     #[inline]
     fn variance(&self, slopes: &[f64], contributions: &mut Vector) -> f64 {
         if self.correlation.is_some() || slopes.len() != self.sigmas.len() {
@@ -291,7 +297,7 @@ impl Tolerances {
         sum(contributions)
     }
 
-    /// What a standard deviation of each variable changes, in units of `1 / unit^2`.
+    /// Effect of one standard deviation of each variable, in units of `1 / unit^2`.
     #[inline]
     fn parts(&self, slopes: &[f64], unit: f64) -> Vector {
         if slopes.len() != self.sigmas.len() {
@@ -311,14 +317,15 @@ impl Tolerances {
         }
     }
 
-    /// What each variable adds to the variance.
+    /// Contribution of each variable to the variance.
     #[inline]
     fn contributions(&self, parts: &[f64]) -> Vector {
         let weighted = self.correlated(parts);
         parts.iter().zip(&*weighted).map(|(a, b)| a * b).collect()
     }
 
-    /// As [`Self::spread`]. Formed from numbers about 1, so that a variance beyond the range of a double does no harm.
+    /// Like [`Self::spread`], but works with scaled numbers, so that a variance beyond the range of a double does no
+    /// harm.
     #[cold]
     fn spread_of_any_size(&self, slopes: &[f64]) -> (f64, Vector) {
         // 2^-513: a product of two numbers scaled by it does not overflow.
@@ -334,21 +341,21 @@ impl Tolerances {
         let contributions = self.contributions(&parts.map(|part| part / size));
         let variance = sum(&contributions);
         let shares = contributions.map(|own| if variance > 0.0 { own / variance } else { 0.0 });
-        // A fully compensated variance may come out below zero by rounding; NaN stays NaN.
+        // Rounding may make a fully compensated variance negative; NaN stays NaN.
         let variance = if variance < 0.0 { 0.0 } else { variance };
         (size * variance.sqrt() / unit / unit, shares)
     }
 }
 
-/// The sum, as a product of vectors forms it.
+/// The sum, in the order of a scalar product.
 fn sum(values: &[f64]) -> f64 {
     values.iter().fold(-0.0, |sum, value| sum + value)
 }
 
-/// The exponent of a positive number.
+/// The exponent bits of a positive number.
 const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
 
-/// Variances whose parts neither overflow nor lose digits: what is far below the greatest part does not matter.
+/// Variances whose terms neither overflow nor lose digits; terms far below the largest do not matter.
 const ORDINARY: core::ops::Range<f64> = 1e-200..1e200;
 
 /// Lower triangular `L` with covariance `L L^T`.

@@ -1,4 +1,4 @@
-//! Modes in lanes against those of the solver for one state.
+//! Modes in lanes compared with those of the solver for one state.
 
 mod ill_conditioned;
 
@@ -62,7 +62,7 @@ fn batches(n: usize, of: [&algebra::Matrix; WIDTH]) -> Vec<Batch> {
     elements.collect()
 }
 
-/// Solves eight pencils with every set of instructions, which must give the same bits.
+/// Solves eight pencils with every set of instructions; all must give the same bits.
 fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> Found {
     let n = here[0].mass.row_count();
     let task = Lanes8 {
@@ -89,7 +89,8 @@ fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> Found {
     found
 }
 
-/// Compares random pencils; returns how many of those moved by the least shares were accepted, of how many.
+/// Compares random pencils; returns how many of the pencils with the smallest changes were accepted, and their total
+/// number.
 fn compare(rounds: usize) -> (usize, usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(30);
     let (mut accepted, mut of) = (0, 0);
@@ -144,7 +145,7 @@ fn modes_in_lanes_are_those_alone_in_great_number() {
     compare(40_000);
 }
 
-/// Whether a pencil is accepted from another one, both diagonal.
+/// Whether a pencil is accepted from a given reference; both are diagonal.
 fn accepted(there: [[f64; 2]; 2], here: [[f64; 2]; 2]) -> bool {
     let diagonal = |elements: [f64; 2]| {
         algebra::Matrix::from_fn(2, 2, |i, j| if i == j { elements[i] } else { 0.0 })
@@ -176,7 +177,7 @@ fn modes_that_meet_are_refused() {
 fn modes_that_begin_or_cease_to_oscillate_are_refused() {
     let there = [[1.96, 0.02], [1.0, 9.0]];
     assert!(accepted(there, [[1.961, 0.02], [1.0, 9.0]]));
-    // Im s = 8e-5 at |s| = 1, then 4e-5, and none at all.
+    // Im s = 8e-5 at |s| = 1, then 4e-5, then zero.
     let barely = [[2.0 - 6.4e-9, 0.02], [1.0, 9.0]];
     assert!(accepted(barely, barely));
     assert!(!accepted(barely, [[2.0 - 1.6e-9, 0.02], [1.0, 9.0]]));

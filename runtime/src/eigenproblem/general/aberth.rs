@@ -1,18 +1,19 @@
-//! The second method: Ehrlich and Aberth's simultaneous iteration on `det Q(s)` (Bini and Noferini 2013). It works on the
-//! pencil itself, so that small eigenvalues do not take the rounding of the great ones; the linearisation is quicker.
+//! The fallback method: simultaneous iteration of Ehrlich and Aberth on `det Q(s)` (Bini and Noferini 2013). It works on
+//! the pencil itself, so that small eigenvalues do not carry the rounding of the large ones; the linearisation is
+//! faster.
 
 use num_complex::Complex64;
 
 use super::lu::Lu;
 use super::pencil::Pencil;
 
-/// In a scaled pencil a value below this is zero.
+/// A value below this is zero in a scaled pencil.
 const NOTHING: f64 = 1e-36;
-/// Steps below this end the search for zero.
+/// The search ends at zero for steps below this.
 const SMALL: f64 = 1e-40;
 const SWEEPS: usize = 150;
 
-/// Improves those of all the eigenvalues that are `open`, and closes them as they settle. `work` takes `4 n` numbers.
+/// Improves those of the eigenvalues that are `open`, and closes them as they settle. `work` needs `4 n` numbers.
 pub(super) fn improve(
     pencil: &Pencil,
     values: &mut [Complex64],
@@ -83,8 +84,8 @@ fn logarithmic_derivative(
     trace
 }
 
-/// Makes the marked values symmetric to the real axis again: each is paired with the value nearest to its conjugate, or
-/// is real when that is itself. They move to the end, conjugates as neighbours.
+/// Makes the marked values symmetric about the real axis again: each is paired with the value nearest to its conjugate,
+/// or made real if that is itself. They move to the end, with conjugates adjacent.
 pub(super) fn symmetrise(values: &mut [Complex64], marked: &mut [bool]) {
     let count = values.len();
     for value in values.iter_mut() {

@@ -1,4 +1,4 @@
-//! How far each eigenvalue may be off.
+//! Error estimates for the eigenvalues.
 
 use num_complex::Complex64;
 
@@ -8,24 +8,24 @@ use super::pair::INACCURATE;
 use super::pencil::modulus;
 use super::solver::Solver;
 
-/// Eigenvalues farther away than this many errors do not matter.
+/// Eigenvalues farther away than this many errors are ignored.
 const FAR: f64 = 8.0;
-/// Accepted error of the sum of the eigenvalues relative to their sizes.
+/// Accepted error of the sum of the eigenvalues, relative to their sizes.
 const SUM: f64 = 1e-7;
-/// Vectors of eigenvalues that come from one defective eigenvalue are parallel to this.
+/// Cosine above which vectors count as parallel, as for eigenvalues split from a defective one.
 const PARALLEL: f64 = 0.9;
-/// Vectors of a worse conditioned cluster do not tell it from an eigenvalue that it almost meets.
+/// Condition number above which the vectors of a cluster do not distinguish it from an eigenvalue that it almost meets.
 const DEFECTIVE: f64 = 1e6;
 
-/// Whether the pair needs the second method: its error is far beyond what rounding in the pencil explains.
+/// Whether the pair needs the second method: its error is far larger than rounding in the pencil explains.
 pub(super) fn in_trouble(pair: &Pair) -> bool {
     let step = modulus(pair.newton);
     let far = step > 64.0 * pair.doubt() && step > 1e-12 * modulus(pair.s);
     !pair.merged && (far || pair.residual > INACCURATE)
 }
 
-/// Whether the eigenvalues have the sum that they must have, within their errors: one that was found twice in place of
-/// another one spoils it.
+/// Whether the eigenvalues have the required sum, within their errors: an eigenvalue found twice in place of another
+/// spoils it.
 pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
     let (mut sum, mut allowed) = (0.0, 0.0);
     for pair in &found.pairs[..found.count] {
@@ -36,8 +36,8 @@ pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
     (sum - solver.linearisation.sum()).abs() <= allowed
 }
 
-/// Fills in the errors of all pairs that are not part of a cluster, and says whether each eigenvalue is clearly itself: of those
-/// that almost meet, one may be found in place of another.
+/// Fills in the errors of all pairs that are not part of a cluster. Returns whether each eigenvalue is clearly distinct:
+/// of two that almost meet, one may be found in place of the other.
 pub(super) fn estimate(solver: &mut Solver, found: &mut Found) -> bool {
     let mut all_told_apart = true;
     for i in 0..found.count {
@@ -53,7 +53,7 @@ pub(super) fn estimate(solver: &mut Solver, found: &mut Found) -> bool {
     all_told_apart
 }
 
-/// The error of an eigenvalue, and whether it is clearly none of the others.
+/// The error of an eigenvalue, and whether it is clearly distinct from the others.
 fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
     let pair = &found.pairs[i];
     let step = modulus(pair.newton);
@@ -68,8 +68,8 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
         return (first, true);
     }
     let error = first.max(solver.noise(pair.condition));
-    // A perturbation that moves an eigenvalue by p to first order moves one of a pair at a distance d, which meet in a
-    // defective one, by delta with delta (1 + delta / d) = p.
+    // Take a perturbation that moves an eigenvalue by p to first order. If it is one of a pair at distance d that meets
+    // in a defective eigenvalue, it moves by delta with delta (1 + delta / d) = p.
     let mut partner = 0.0_f64;
     solver
         .pencil
@@ -88,7 +88,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
         }
     }
     let reduced = if partner > 0.0 {
-        // Four times the root of the quadratic: p is an estimate.
+        // Four times the root of the quadratic, because p is only an estimate.
         8.0 * error / (1.0 + (1.0 + 4.0 * error / partner).sqrt())
     } else {
         error
@@ -102,7 +102,7 @@ fn vector<'f>(found: &'f Found, i: usize) -> &'f [Complex64] {
     &found.right[i * n..(i + 1) * n]
 }
 
-/// The other eigenvalues: value, pair, whether it is the conjugate of that pair.
+/// The other eigenvalues: value, pair, and whether the value is the conjugate of that pair.
 fn others<'f>(
     found: &'f Found,
     i: usize,

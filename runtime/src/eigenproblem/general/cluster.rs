@@ -1,4 +1,4 @@
-//! Eigenvalues that the pencil cannot tell apart: one mean value, and vectors that span the eigenspaces.
+//! Eigenvalues that the pencil cannot distinguish: one mean value, and vectors that span the eigenspaces.
 
 use num_complex::Complex64;
 
@@ -6,7 +6,7 @@ use super::measure::Pair;
 use super::pencil::modulus;
 use super::solver::Solver;
 
-/// The pairs found so far; the vectors of pair `i` are the components `i n .. (i + 1) n`.
+/// The pairs found so far; the vectors of pair `i` are components `i n .. (i + 1) n`.
 pub(super) struct Found<'a> {
     pub(super) count: usize,
     pub(super) pairs: &'a mut [Pair],
@@ -14,11 +14,11 @@ pub(super) struct Found<'a> {
     pub(super) left: &'a mut [Complex64],
 }
 
-/// One eigenvalue and what was found of its eigenspaces.
+/// One eigenvalue and its eigenspaces as found.
 pub(super) struct Cluster {
     pub(super) s: Complex64,
     pub(super) multiplicity: usize,
-    /// Distance of the eigenvalues that it stands for, greatest radius and reach of them.
+    /// Spread of the eigenvalues it represents, and their largest radius and reach.
     pub(super) spread: f64,
     pub(super) radius: f64,
     pub(super) reach: f64,
@@ -27,12 +27,12 @@ pub(super) struct Cluster {
     pub(super) regular: usize,
 }
 
-/// How eigenvalues are linked to a cluster.
+/// Criterion that links eigenvalues to a cluster.
 #[derive(Clone, Copy, PartialEq)]
 enum Links {
-    /// They may be the same; they are merged where they have as many independent vectors.
+    /// They may be the same; merged only if they have as many independent vectors.
     Loose,
-    /// The pencil is the same there, but for rounding; merged in any case.
+    /// The pencil is the same there up to rounding; merged in any case.
     Tight,
 }
 
@@ -50,7 +50,8 @@ impl Links {
     }
 }
 
-/// Merges what cannot be told apart. Returns whether a pair was found twice in place of two different ones.
+/// Merges eigenvalues that cannot be distinguished. Returns whether a pair was found twice in place of two different
+/// ones.
 pub(super) fn merge(solver: &mut Solver, found: &mut Found, label: &mut [usize]) -> bool {
     let mut collapsed = false;
     for links in [Links::Loose, Links::Tight] {
@@ -66,7 +67,7 @@ pub(super) fn merge(solver: &mut Solver, found: &mut Found, label: &mut [usize])
     collapsed
 }
 
-/// Labels each pair with the first of its cluster; whether there are clusters.
+/// Labels each pair with the first of its cluster; returns whether there are clusters.
 fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
     let mut any = false;
     for (i, pair) in pairs.iter().enumerate() {
@@ -89,7 +90,7 @@ fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
     any
 }
 
-/// Merges one cluster where that is right; whether it turned out to be one eigenvalue found twice.
+/// Merges one cluster if justified; returns whether it turned out to be one eigenvalue found twice.
 fn merge_one(
     solver: &mut Solver,
     found: &mut Found,
@@ -147,7 +148,7 @@ fn merge_one(
     if (0..cluster.nullity).any(|k| solver.is_poor(&cluster, k)) {
         return links == Links::Tight && cluster.regular == multiplicity;
     }
-    // The members keep their places; what a real cluster has more of goes to the end.
+    // The members keep their positions; additional members of a real cluster go to the end.
     let end = found.count;
     let extra = multiplicity - members().count();
     found.count += extra;

@@ -1,4 +1,4 @@
-//! The recipe, on slices of any size.
+//! The overall procedure, on slices of any size.
 
 use num_complex::Complex64;
 
@@ -14,12 +14,12 @@ use super::solver::Solver;
 use super::{Root, aberth, accuracy, cluster, hessenberg, schur};
 use crate::eigenproblem::symmetric::Trouble;
 
-/// Accepted residual of a pair relative to the terms in it.
+/// Largest residual of an accepted pair, relative to the terms in it.
 const ACCEPTED: f64 = 1e-9;
-/// Residual of a pair that has nothing but rounding in it.
+/// Residual of a pair that is exact up to rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// All eigenvalues of the linearisation of a scaled pencil; by the second method where QR does not converge.
+/// All eigenvalues of the linearisation of a scaled pencil; from the second method if QR does not converge.
 fn linear_values(
     pencil: &Pencil,
     companion: &mut [f64],
@@ -45,12 +45,12 @@ fn linear_values(
     aberth::symmetrise(values, open);
 }
 
-/// Roots with `Im s >= 0`, conjugates left out, ascending in `|s|`, those of equal size by `Im s`, then by `Re s`.
+/// Roots with `Im s >= 0`, without their conjugates, ascending in `|s|`, then in `Im s`, then in `Re s`.
 pub(crate) fn solve(problem: Eigenproblem) -> Result<Vec<Root>, Trouble> {
     solve_near(problem, &[])
 }
 
-/// The same, from the roots of a problem near by where these predict all of them.
+/// Like [`solve`], but starts from the roots of a nearby problem if they predict all roots.
 pub(crate) fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Root>, Trouble> {
     let n = problem.size();
     if n == 0 {
@@ -146,7 +146,7 @@ pub(crate) fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Roo
     Ok(roots)
 }
 
-/// The residual of a pair that passes the check.
+/// The residual of a pair, if it passes the check.
 fn accepted(
     solver: &mut Solver,
     pair: &Pair,
@@ -158,7 +158,7 @@ fn accepted(
     }
     solver.pencil.multiply(right, false, &mut solver.of_right);
     solver.pencil.multiply(left, true, &mut solver.of_left);
-    // Relative to the matrices instead of to terms that are rounding themselves.
+    // Relative to the matrices, because the terms are rounding themselves.
     let rounding = solver.is_rounding(pair.s, right, left, 4.0);
     rounding.then_some(ROUNDING)
 }
@@ -170,8 +170,8 @@ fn start(into: &mut [Complex64], vector: &[Complex64], units: &[f64]) {
     }
 }
 
-/// Finds all pairs that start from `values`, and, where these are `near`, from the vectors in `found`; returns the number of
-/// those that went wrong; one that would be refused counts more than all others.
+/// Finds all pairs from the starting `values` and, if these are `near`, from the vectors in `found`. Returns the number
+/// of pairs that failed; a pair that would be refused counts more than all others.
 fn find(
     solver: &mut Solver,
     found: &mut Found,
@@ -220,7 +220,7 @@ fn find(
     troubles
 }
 
-/// The eigenvalues by the second method, which starts from those of the first and holds the good ones fast.
+/// The eigenvalues from the second method, which starts from those of the first and holds the good ones fixed.
 #[cold]
 fn second_values(
     solver: &mut Solver,

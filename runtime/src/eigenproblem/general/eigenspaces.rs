@@ -1,4 +1,4 @@
-//! Bases of the eigenspaces of one eigenvalue, from the left and from the right.
+//! Bases of the left and right eigenspaces of one eigenvalue.
 
 use num_complex::Complex64;
 
@@ -9,12 +9,12 @@ use super::pair::INACCURATE;
 use super::pencil::{bound, modulus};
 use super::solver::Solver;
 
-/// Newton steps of a cluster.
+/// Newton steps per cluster.
 const STEPS: usize = 4;
 
 impl Solver<'_> {
-    /// Bases of the eigenspaces in `basis_right` and `basis_left`, the right one orthonormal by the mass matrix, the left
-    /// one dual to it where the eigenvalue is semisimple.
+    /// Writes bases of the eigenspaces to `basis_right` and `basis_left`: the right one orthonormal in the mass matrix,
+    /// the left one dual to it if the eigenvalue is semisimple.
     pub(super) fn eigenspaces(&mut self, cluster: &mut Cluster) {
         for _ in 0..2 {
             let start = cluster.s;
@@ -60,7 +60,7 @@ impl Solver<'_> {
                 || !self.is_rounding(cluster.s, right, left, 1.0))
     }
 
-    /// Moves the eigenvalue to the mean of the Rayleigh quotients.
+    /// Moves the eigenvalue to the mean of its Rayleigh quotients.
     fn centre(&mut self, cluster: &mut Cluster) {
         let allowed = 4.0 * cluster.spread + cluster.radius;
         let mut moved = 0.0;
@@ -96,7 +96,7 @@ impl Solver<'_> {
         self.measure(s, &self.basis_left[range])
     }
 
-    /// Makes the first vectors of `basis_right` orthonormal by the mass matrix.
+    /// Makes the first vectors of `basis_right` orthonormal in the mass matrix.
     fn orthonormalise(&mut self, nullity: usize) {
         let n = self.pencil.n;
         for k in 0..nullity {
@@ -121,8 +121,9 @@ impl Solver<'_> {
         }
     }
 
-    /// Gauss-Jordan elimination on `Psi^T (2 s M + C) Phi`: row operations on the left vectors, pivots the largest in their
-    /// columns. Returns the number of pivots; columns without one, and the left vectors that remain, are moved behind.
+    /// Gauss-Jordan elimination on `Psi^T (2 s M + C) Phi`, with row operations on the left vectors and the largest
+    /// element of each column as pivot. Returns the number of pivots; columns without a pivot, and the remaining left
+    /// vectors, move to the end.
     fn dualise(&mut self, s: Complex64, nullity: usize) -> usize {
         let n = self.pencil.n;
         let mut tolerance = 0.0_f64;
@@ -157,7 +158,7 @@ impl Solver<'_> {
             }
             let pivot = self.cross[best * nullity + column];
             if bound(pivot) <= tolerance {
-                // This right vector goes behind.
+                // This right vector moves to the end.
                 columns -= 1;
                 swap_blocks(self.basis_right, n, column, columns);
                 for i in 0..nullity {
@@ -175,7 +176,7 @@ impl Solver<'_> {
             regular += 1;
             column += 1;
         }
-        // Defective right vectors lose what they have of the others.
+        // Removes from defective right vectors their components along the others.
         for j in regular..nullity {
             for i in 0..regular {
                 let factor = self.cross[i * nullity + j] / self.cross[i * nullity + i];
@@ -185,7 +186,7 @@ impl Solver<'_> {
         regular
     }
 
-    /// Writes root `k` of the cluster to its place.
+    /// Writes root `k` of the cluster to its position.
     pub(super) fn place(
         &mut self,
         cluster: &Cluster,

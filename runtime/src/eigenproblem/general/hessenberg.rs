@@ -2,13 +2,14 @@
 
 use super::powers::{exponent, power_of_two};
 
-/// Sweeps of the balancing; what they leave is small.
+/// Maximum number of balancing sweeps; the remaining imbalance is small.
 const SWEEPS: usize = 8;
-/// Scales stay within powers of two that keep products of them finite.
+/// Scales stay within powers of two whose products are finite.
 const GREATEST_EXPONENT: i32 = 300;
 
-/// Scales `a` to `D^-1 A D` with rows and columns of like size (Parlett and Reinsch 1969; with the diagonal in the sums,
-/// as James, Langou and Lowery 2014 advise). `scales` takes the diagonal of `D`, powers of two.
+/// Scales `a` to `D^-1 A D` with rows and columns of similar size (Parlett and Reinsch 1969, with the diagonal included
+/// in the sums as recommended by James, Langou and Lowery 2014). The diagonal of `D`, powers of two, is written to
+/// `scales`.
 pub(super) fn balance(n: usize, a: &mut [f64], scales: &mut [f64]) {
     scales.fill(1.0);
     for _ in 0..SWEEPS {

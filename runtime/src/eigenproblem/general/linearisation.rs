@@ -1,4 +1,4 @@
-//! The balanced companion form of a scaled pencil, whose eigenvalues are the starting values of everything else.
+//! The balanced companion form of a scaled pencil, whose eigenvalues are the starting values for all other steps.
 
 use num_complex::Complex64;
 
@@ -8,7 +8,7 @@ use super::pencil::{Degree, Pencil, modulus};
 use crate::eigenproblem::symmetric::{Trouble, factor_into};
 
 /// `x' = A x` for `x = D^-1 (y, s y)`, `phi = L^-T y`, `M = L L^T`, with
-/// `A = D^-1 [[0, I], [-L^-1 K L^-T, -L^-1 C L^-T]] D`; of a pencil of first order `A = -K`, which comes balanced.
+/// `A = D^-1 [[0, I], [-L^-1 K L^-T, -L^-1 C L^-T]] D`; for a first-order pencil `A = -K`, which is already balanced.
 pub(super) struct Linearisation<'a> {
     n: usize,
     degree: Degree,
@@ -23,7 +23,7 @@ pub(super) struct Linearisation<'a> {
 }
 
 impl<'a> Linearisation<'a> {
-    /// Builds `A`, leaves it in `companion`, and takes `3 n^2 + 2 n` numbers of `store`.
+    /// Builds `A` in `companion`, using `3 n^2 + 2 n` numbers of `store`.
     pub(super) fn new(
         pencil: &Pencil,
         companion: &mut [f64],
@@ -75,7 +75,7 @@ impl<'a> Linearisation<'a> {
         })
     }
 
-    /// The sum of all eigenvalues: `-tr(M^-1 C)`, of first order `-tr K`.
+    /// The sum of all eigenvalues: `-tr(M^-1 C)`, or `-tr K` for a first-order pencil.
     pub(super) fn sum(&self) -> f64 {
         let matrix = match self.degree {
             Degree::One => self.stiffness,
@@ -84,8 +84,8 @@ impl<'a> Linearisation<'a> {
         -(0..self.n).map(|i| matrix[i * (self.n + 1)]).sum::<f64>()
     }
 
-    /// Condition number of `s` as an eigenvalue of `A`, from the vectors of the pencil and `slope = psi^T (2 s M + C) phi`.
-    /// `work` takes `n` numbers.
+    /// Condition number of `s` as an eigenvalue of `A`, from the vectors of the pencil and
+    /// `slope = psi^T (2 s M + C) phi`. `work` needs `n` numbers.
     pub(super) fn condition(
         &self,
         s: Complex64,
@@ -116,7 +116,7 @@ impl<'a> Linearisation<'a> {
             work[j] = w2;
             w += w2.norm_sqr() * (down * down);
         }
-        // The upper half of the left vector is (s + C^T) w2 = -K^T w2 / s, whichever cancels less.
+        // The upper half of the left vector is (s + C^T) w2 = -K^T w2 / s; use the form with less cancellation.
         let small = s_square < 1e-2;
         let matrix = if small { self.damping } else { self.stiffness };
         for j in 0..n {

@@ -1,5 +1,5 @@
-//! Triangular factors of a small complex matrix with complete pivoting, which reveal its rank: the vectors that a singular
-//! matrix takes to zero come from the last rows and columns.
+//! Triangular factors of a small complex matrix with complete pivoting, which reveals its rank: null vectors come from
+//! the last rows and columns.
 
 use num_complex::Complex64;
 
@@ -8,17 +8,17 @@ use crate::algebra::for_size;
 
 pub(super) struct Lu<'a> {
     n: usize,
-    /// `L` below the diagonal (ones on it), `U` above, rows and columns exchanged.
+    /// `L` below the diagonal (with a unit diagonal), `U` above, with rows and columns exchanged.
     factors: &'a [Complex64],
-    /// Position `i` holds this row, this column of the matrix.
+    /// The row and the column of the matrix at position `i`.
     rows: &'a [usize],
     columns: &'a [usize],
-    /// The matrix was divided by this.
+    /// Divisor that was applied to the matrix.
     pub(super) unit: f64,
 }
 
 impl<'a> Lu<'a> {
-    /// Factors `matrix` in place; `order` takes `2 n` indices.
+    /// Factors `matrix` in place; `order` needs `2 n` indices.
     pub(super) fn new(n: usize, matrix: &'a mut [Complex64], order: &'a mut [usize]) -> Self {
         let (rows, columns) = order.split_at_mut(n);
         let unit = for_size(
@@ -35,18 +35,18 @@ impl<'a> Lu<'a> {
         }
     }
 
-    /// Size of pivot `k` relative to the greatest element of the matrix.
+    /// Size of pivot `k` relative to the largest element of the matrix.
     pub(super) fn pivot(&self, k: usize) -> f64 {
         bound(self.factors[k * self.n + k])
     }
 
-    /// Number of last pivots that do not rise above `threshold`, at least one.
+    /// Number of last pivots that do not exceed `threshold`, at least one.
     pub(super) fn nullity(&self, threshold: f64) -> usize {
         let regular = (0..self.n).take_while(|&k| self.pivot(k) > threshold);
         (self.n - regular.count()).max(1)
     }
 
-    /// Vector `k` of the `nullity` that the matrix takes to zero but for its last pivots.
+    /// Vector `k` of the `nullity` vectors that the matrix, without its last pivots, maps to zero.
     pub(super) fn null_right(&self, nullity: usize, k: usize, x: &mut [Complex64]) {
         let (n, rank) = (self.n, self.n - nullity);
         x.fill(Complex64::ZERO);
@@ -60,7 +60,7 @@ impl<'a> Lu<'a> {
         }
     }
 
-    /// Vector `k` of the `nullity` with `x^T matrix` zero but for the last pivots.
+    /// Vector `k` of the `nullity` vectors for which `x^T matrix`, without the last pivots, is zero.
     pub(super) fn null_left(&self, nullity: usize, k: usize, x: &mut [Complex64]) {
         let (n, rank) = (self.n, self.n - nullity);
         x.fill(Complex64::ZERO);
@@ -74,7 +74,7 @@ impl<'a> Lu<'a> {
         }
     }
 
-    /// Solves `matrix x = b`; pivots that are zero are replaced by something tiny. `work` takes `n` numbers.
+    /// Solves `matrix x = b`; zero pivots are replaced by something tiny. `work` needs `n` numbers.
     pub(super) fn solve(&self, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
         for_size(
             self.n,
@@ -101,7 +101,7 @@ impl<'a> Lu<'a> {
         }
     }
 
-    /// Solves `matrix^T x = b` likewise.
+    /// Solves `matrix^T x = b` in the same way.
     pub(super) fn solve_transposed(
         &self,
         b: &[Complex64],
@@ -140,7 +140,8 @@ impl<'a> Lu<'a> {
     }
 }
 
-/// Writes the factors of `matrix` over it and the exchanges into `rows` and `columns`; what the matrix was divided by.
+/// Overwrites `matrix` with its factors and records the exchanges in `rows` and `columns`; returns the divisor applied
+/// to the matrix.
 #[inline(always)]
 fn eliminate(n: usize, matrix: &mut [Complex64], rows: &mut [usize], columns: &mut [usize]) -> f64 {
     for (i, (row, column)) in rows.iter_mut().zip(columns.iter_mut()).enumerate() {
@@ -192,9 +193,9 @@ fn eliminate(n: usize, matrix: &mut [Complex64], rows: &mut [usize], columns: &m
     unit
 }
 
-/// A matrix with nothing greater is zero.
+/// A matrix without larger elements counts as zero.
 const NOTHING: f64 = 1e-290;
-/// Stands in for a pivot that is nothing: its square is still a number, and so is the square of its inverse.
+/// Replaces a vanishing pivot; its square and the square of its inverse are within range.
 const TINY: f64 = 1e-100;
 
 fn pivot(z: Complex64) -> Complex64 {

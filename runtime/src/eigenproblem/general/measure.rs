@@ -1,4 +1,4 @@
-//! What a pair of vectors says about an eigenvalue.
+//! How accurate an eigenvalue is, judged from its pair of vectors.
 
 use num_complex::Complex64;
 
@@ -6,18 +6,18 @@ use super::pencil::{Pencil, Products, bound, modulus};
 use super::solver::Solver;
 use crate::algebra::for_size;
 
-/// Terms that are less than this are zero in a scaled pencil.
+/// Terms below this are zero in a scaled pencil.
 const NOTHING: f64 = 1e-60;
-/// What is less than this may be zero in a scaled pencil.
+/// Values below this may be zero in a scaled pencil.
 pub(super) const ZERO: f64 = 1e-30;
 
-/// An eigenvalue with what its vectors say about it.
+/// An eigenvalue with its measured accuracy.
 #[derive(Clone, Copy)]
 pub(super) struct Pair {
     pub(super) s: Complex64,
-    /// It stands for itself and its conjugate.
+    /// It represents itself and its conjugate.
     pub(super) conjugate: bool,
-    /// Step that Newton's method would take from `s`.
+    /// Newton step from `s`.
     pub(super) newton: Complex64,
     /// `psi^T (2 s M + C) phi`.
     pub(super) slope: Complex64,
@@ -26,17 +26,17 @@ pub(super) struct Pair {
     pub(super) mass_terms: f64,
     /// Bound on the rounding in `psi^T Q(s) phi`.
     pub(super) rounding: f64,
-    /// Distance within which `Q` is the same but for rounding.
+    /// Distance within which `Q` is the same up to rounding.
     pub(super) reach: f64,
-    /// The same by the greatest elements of the matrices.
+    /// The same distance, based on the largest elements of the matrices.
     pub(super) reach_overall: f64,
-    /// Error of second order, from the residuals of both vectors.
+    /// Second-order error, from the residuals of both vectors.
     pub(super) second: f64,
     /// Product of the sizes of both residuals.
     pub(super) product: f64,
-    /// Greatest relative residual of the two vectors.
+    /// Largest relative residual of the two vectors.
     pub(super) residual: f64,
-    /// It stands for a cluster, which has told its error.
+    /// It represents a cluster, whose error is known.
     pub(super) merged: bool,
     pub(super) condition: f64,
     pub(super) error: f64,
@@ -61,7 +61,7 @@ impl Pair {
         error: 0.0,
     };
 
-    /// Error of `s` that the rounding of the pencil's elements causes, to first order.
+    /// First-order error of `s` caused by rounding of the pencil's elements.
     pub(super) fn doubt(&self) -> f64 {
         if self.rounding == 0.0 {
             0.0
@@ -70,13 +70,13 @@ impl Pair {
         }
     }
 
-    /// Whether the next step would be rounding.
+    /// Whether the next step would be pure rounding.
     pub(super) fn is_settled(&self) -> bool {
         modulus(self.newton) * self.slope_terms <= 4.0 * self.rounding
     }
 
-    /// What the residuals of both vectors together make of the eigenvalue, where `neighbour` is the least pivot besides the
-    /// one that vanishes.
+    /// Second-order error of the eigenvalue from the residuals of both vectors, where `neighbour` is the smallest pivot
+    /// apart from the vanishing one.
     pub(super) fn second_order(&self, neighbour: f64) -> f64 {
         if self.product == 0.0 || neighbour == f64::INFINITY {
             0.0
@@ -90,7 +90,7 @@ impl Pair {
         f64::EPSILON * modulus(self.s) + ZERO
     }
 
-    /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors are not its own.
+    /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors belong to another one.
     pub(super) fn radius(&self) -> f64 {
         let radius = 2.0 * (self.doubt() + modulus(self.newton)) + self.second;
         radius.min(1e6 * self.reach_overall)
@@ -112,7 +112,7 @@ impl Solver<'_> {
         self.measure(s, left)
     }
 
-    /// Measures `s` with vectors whose products are known.
+    /// Measures `s` with vectors whose products are already computed.
     pub(super) fn measure(&self, s: Complex64, left: &[Complex64]) -> Pair {
         let n = self.pencil.n;
         let Sums {
@@ -163,8 +163,8 @@ impl Solver<'_> {
             .condition(pair.s, right, left, pair.slope, self.cross)
     }
 
-    /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
-    /// has nothing but rounding in the rows that act, and their terms are no measure.
+    /// Whether rounding of the vectors, whose products are already computed, explains the residual: a vector that `K`
+    /// maps to zero has nothing but rounding in the active rows, so their terms are no measure.
     pub(super) fn is_rounding(
         &self,
         s: Complex64,
@@ -182,7 +182,7 @@ impl Solver<'_> {
     }
 }
 
-/// What the products with both vectors add up to.
+/// Sums over the products with both vectors.
 struct Sums {
     /// `psi^T Q(s) phi` and `psi^T (2 s M + C) phi`.
     value: Complex64,
@@ -191,7 +191,7 @@ struct Sums {
     terms: f64,
     slope_terms: f64,
     mass_terms: f64,
-    /// Of `Q(s) phi` and of `psi^T Q(s)`.
+    /// Residuals of `Q(s) phi` and of `psi^T Q(s)`.
     by_right: Residual,
     by_left: Residual,
 }
@@ -229,12 +229,12 @@ impl Sums {
     }
 }
 
-/// The `d` with `d (slope + d mass) = rounding`, about.
+/// The approximate `d` with `d (slope + d mass) = rounding`.
 fn reach(rounding: f64, slope: f64, mass: f64) -> f64 {
     (rounding / slope).min((rounding / mass).sqrt())
 }
 
-/// Scales `x` to `x^H M x = 1` (`x^H x = 1` for a pencil of first order), and its products with it.
+/// Scales `x` to `x^H M x = 1` (`x^H x = 1` for a first-order pencil), together with its products.
 pub(super) fn normalise(pencil: &Pencil, x: &mut [Complex64], products: &mut Products) {
     let square: f64 = x
         .iter()
@@ -246,7 +246,7 @@ pub(super) fn normalise(pencil: &Pencil, x: &mut [Complex64], products: &mut Pro
     products.scale(factor);
 }
 
-/// What is left of `Q(s) x`.
+/// The residual `Q(s) x`.
 struct Residual {
     most: f64,
     terms: f64,
@@ -267,7 +267,7 @@ impl Residual {
         self.sum += size;
     }
 
-    /// Greatest component relative to the greatest sum of absolute terms in a row.
+    /// Largest component relative to the largest sum of absolute terms in a row.
     fn relative(&self) -> f64 {
         if self.sum == 0.0 {
             0.0

@@ -1,11 +1,11 @@
-//! The general eigenproblem `(s^2 M + s C + K) phi = 0`, `psi^T (s^2 M + s C + K) = 0` with `M` symmetric positive
-//! definite and any real `C` and `K`; the same for `A phi = s phi`, which is the case `M = 0`, `C = I`, `K = -A`.
+//! The general eigenproblem `(s^2 M + s C + K) phi = 0`, `psi^T (s^2 M + s C + K) = 0` with symmetric positive definite
+//! `M` and any real `C` and `K`; also `A phi = s phi`, the case `M = 0`, `C = I`, `K = -A`.
 //!
 //! The eigenvalues come from a bounded QR iteration on a balanced linearisation ([`schur`]), the vectors and the last
-//! digits from the pencil itself ([`pair`]); what the pencil cannot tell apart is merged ([`cluster`]), every error is
-//! estimated ([`accuracy`]), and what remains inaccurate is found by a second method ([`aberth`]). No library does this
-//! well enough: nalgebra's general Schur form is not bounded and has no vectors, faer's left vectors fail where
-//! eigenvalues meet.
+//! digits from the pencil itself ([`pair`]). Eigenvalues that the pencil cannot distinguish are merged ([`cluster`]),
+//! every error is estimated ([`accuracy`]), and eigenvalues that are still inaccurate are found by a second method
+//! ([`aberth`]). No library does this well enough: nalgebra's general Schur form is not bounded and has no vectors, and
+//! faer's left vectors fail where eigenvalues meet.
 
 #![allow(
     clippy::needless_range_loop,
@@ -51,11 +51,11 @@ use crate::kernels::Linear;
 pub(crate) struct Root {
     /// Eigenvalue, 1/s; `Im s >= 0`.
     pub(crate) s: Complex64,
-    /// `phi` with `phi^H M phi = 1`, largest component real and positive.
+    /// `phi` with `phi^H M phi = 1` and its largest component real and positive.
     pub(crate) right: Vector<Complex64>,
     /// `psi`, normalised in the same way.
     pub(crate) left: Vector<Complex64>,
-    /// Greatest component of `Q(s) phi` and of `psi^T Q(s)` relative to the terms in it.
+    /// Largest component of `Q(s) phi` and of `psi^T Q(s)`, relative to the terms in it.
     pub(crate) residual: f64,
     /// Estimated absolute error of `s`.
     pub(crate) error: f64,

@@ -1,15 +1,15 @@
-//! The order of the answer and the phase of its vectors.
+//! The order of the results and the phase of their vectors.
 
 use num_complex::Complex64;
 
 use super::pencil::modulus;
 use crate::algebra::Vector;
 
-/// Sizes of eigenvalues that differ by less count as equal in the order.
+/// Relative difference below which sizes of eigenvalues count as equal in the order.
 const EQUAL: f64 = 1e-12;
 
-/// A vector in its own units, largest component real and positive; a margin keeps the choice when two are equal but for
-/// rounding.
+/// A vector in its own units, with its largest component real and positive; a margin keeps the choice stable when two
+/// are equal up to rounding.
 pub(super) fn finish(vector: &[Complex64], units: &[f64]) -> Vector<Complex64> {
     let mut x: Vector<_> = vector.iter().zip(units).map(|(x, unit)| x * unit).collect();
     let mut lead = 0;
@@ -27,7 +27,7 @@ pub(super) fn finish(vector: &[Complex64], units: &[f64]) -> Vector<Complex64> {
     x
 }
 
-/// Ascending in size, in scaled units; those of equal size by imaginary, then by real part.
+/// Sorts by size, in scaled units, then by imaginary part, then by real part, all ascending.
 pub(super) fn sort<T>(items: &mut [T], value: impl Fn(&T) -> Complex64) {
     let size = |item: &T| modulus(value(item));
     items.sort_unstable_by(|a, b| size(a).total_cmp(&size(b)));

@@ -1,6 +1,6 @@
-//! One eigenvalue and its two vectors, found from the pencil itself: a singular matrix shows its null vectors in its
-//! triangular factors, and Newton's method on the Rayleigh functional takes out what the eigenvalue has of the rounding of
-//! the whole linearisation.
+//! One eigenvalue and its two vectors, found from the pencil itself: the triangular factors of a singular matrix reveal
+//! its null vectors, and Newton's method on the Rayleigh functional removes the rounding of the linearisation from the
+//! eigenvalue.
 
 use num_complex::Complex64;
 
@@ -9,13 +9,13 @@ use super::measure::{Pair, ZERO, normalise};
 use super::pencil::modulus;
 use super::solver::Solver;
 
-/// Improvements of one pair.
+/// Maximum number of improvements per pair.
 const STEPS: usize = 8;
-/// Vectors of a worse conditioned eigenvalue may belong to another one.
+/// Condition number above which vectors may belong to another eigenvalue.
 const MODERATE: f64 = 1e8;
-/// A relative step from which vectors are tried again.
+/// Relative step from which the vectors are computed again.
 const SMALL: f64 = 1e-6;
-/// Residual beyond which the vectors are improved.
+/// Residual above which the vectors are improved.
 pub(super) const INACCURATE: f64 = 1e-13;
 
 impl Solver<'_> {
@@ -24,13 +24,13 @@ impl Solver<'_> {
         (self.pencil.n as f64 + 4.0) * f64::EPSILON
     }
 
-    /// Rounding error of an eigenvalue of the linearisation with this condition number.
+    /// Rounding error of an eigenvalue of the linearisation, given its condition number.
     pub(super) fn noise(&self, condition: f64) -> f64 {
         8.0 * f64::EPSILON * self.linearisation.size * condition
     }
 
-    /// The pair that starts from `s`, `gap` away from the next eigenvalue; `near` says that the vectors are near those of
-    /// the eigenvalue already.
+    /// The pair found from the start `s`, at a distance `gap` from the next eigenvalue; `near` means that the vectors
+    /// are already close to those of the eigenvalue.
     pub(super) fn pair(
         &mut self,
         start: Complex64,
@@ -52,7 +52,7 @@ impl Solver<'_> {
             }
             let doubt = pair.doubt();
             if step <= doubt && doubt > 1e-3 * gap {
-                // Almost multiple: the step is rounding, and the mean of the linearisation is better.
+                // Almost multiple: the step is rounding, and the mean value from the linearisation is better.
                 break;
             }
             moved += step;
@@ -71,7 +71,7 @@ impl Solver<'_> {
             last = step;
             let settled = pair.is_settled();
             if settled || near && step <= SMALL * modulus(s) {
-                // The vectors may serve the improved eigenvalue as they are.
+                // The existing vectors may be good enough for the improved eigenvalue.
                 let moved = self.measure(s, left);
                 if (settled || moved.is_settled()) && moved.residual <= INACCURATE {
                     pair = Pair {
@@ -101,10 +101,11 @@ impl Solver<'_> {
         pair
     }
 
-    /// Vectors of the eigenvalue next to `s`, and the least pivot besides the one that vanishes. Those that are near it
-    /// already are improved by inverse iteration, which multiplies their error by the distance of `s`: `s` converges in
-    /// third order, where it does so in second with null vectors (Schreiber, "Nonlinear eigenvalue problems: Newton-type
-    /// methods and nonlinear Rayleigh functionals", 2008).
+    /// Vectors of the eigenvalue next to `s`, and the smallest pivot apart from the vanishing one.
+    ///
+    /// Vectors that are already close are improved by inverse iteration, which multiplies their error by the distance of
+    /// `s`. The convergence of `s` is then of third order, instead of second order with null vectors (Schreiber,
+    /// "Nonlinear eigenvalue problems: Newton-type methods and nonlinear Rayleigh functionals", 2008).
     fn vectors(
         &mut self,
         s: Complex64,
@@ -132,7 +133,7 @@ impl Solver<'_> {
         }
     }
 
-    /// One step of inverse iteration for both vectors; keeps what is better.
+    /// One step of inverse iteration for both vectors; keeps the better ones.
     #[cold]
     fn inverse_iteration(
         &mut self,

@@ -1,23 +1,23 @@
-//! A scaled pencil `Q(s) = s^2 M + s C + K`, quadratic or of first order, and what one pair of vectors says about it.
+//! A scaled pencil `Q(s) = s^2 M + s C + K`, quadratic or first-order, and its products with vectors.
 
 use num_complex::Complex64;
 
 use crate::algebra::for_size;
 
-/// `Q(s) = s^2 M + s C + K`, matrices row by row; of first order `M = 0`, `C = I`.
+/// `Q(s) = s^2 M + s C + K`, with matrices row by row; a first-order pencil has `M = 0`, `C = I`.
 pub(super) struct Pencil<'a> {
     pub(super) n: usize,
     pub(super) degree: Degree,
     pub(super) mass: &'a [f64],
     pub(super) damping: &'a [f64],
     pub(super) stiffness: &'a [f64],
-    /// All three once more, column by column.
+    /// All three matrices again, column by column.
     pub(super) transposed: [&'a [f64]; 3],
-    /// Greatest element of each.
+    /// Largest element of each matrix.
     pub(super) largest: [f64; 3],
 }
 
-/// The greatest power of `s` in a pencil.
+/// The highest power of `s` in a pencil.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Degree {
     One,
@@ -57,7 +57,7 @@ pub(super) fn modulus(z: Complex64) -> f64 {
 }
 
 impl Pencil<'_> {
-    /// `Q(s)` into `q`.
+    /// Writes `Q(s)` to `q`.
     pub(super) fn at(&self, s: Complex64, q: &mut [Complex64]) {
         let square = s * s;
         for (i, q) in q.iter_mut().enumerate() {
@@ -103,7 +103,7 @@ impl Pencil<'_> {
         }
     }
 
-    /// Products with `x` from the right, or with `x^T` from the left.
+    /// Products with `x` from the right or with `x^T` from the left.
     pub(super) fn multiply(&self, x: &[Complex64], transposed: bool, into: &mut Products) {
         let matrices = self.matrices(transposed);
         for_size(
@@ -113,12 +113,12 @@ impl Pencil<'_> {
         );
     }
 
-    /// The size of what `2 s M + C` is summed from.
+    /// Size of the terms of `2 s M + C`.
     pub(super) fn slope_size(&self, s: Complex64) -> f64 {
         2.0 * bound(s) * self.largest[0] + self.largest[1]
     }
 
-    /// Size of the eigenvalues that a change of `Q(s)` as a whole could make.
+    /// Size of the eigenvalue change that a change of `Q(s)` as a whole could cause.
     pub(super) fn rate(&self, s: Complex64) -> f64 {
         match self.degree {
             Degree::One => self.size(s) / self.largest[1],
@@ -126,7 +126,7 @@ impl Pencil<'_> {
         }
     }
 
-    /// Product of a vector with the matrix that measures vectors: of the greatest power of `s`.
+    /// Product of a vector with the matrix that normalises vectors, the one of the highest power of `s`.
     pub(super) fn weighed<'p>(&self, products: &'p Products) -> &'p [Complex64] {
         match self.degree {
             Degree::One => products.damping,
@@ -134,7 +134,7 @@ impl Pencil<'_> {
         }
     }
 
-    /// Greatest elements of `M`, `C` and `K` weighed with `|s|`: the size of what `Q(s)` is summed from.
+    /// Largest elements of `M`, `C` and `K` weighted with powers of `|s|`: the size of the terms of `Q(s)`.
     pub(super) fn size(&self, s: Complex64) -> f64 {
         let size = bound(s);
         size * size * self.largest[0] + size * self.largest[1] + self.largest[2]
@@ -163,7 +163,7 @@ fn products(n: usize, matrices: [&[f64]; 3], x: &[Complex64], into: &mut Product
 }
 
 impl<'a> Products<'a> {
-    /// Takes `3 n` complex and `3 n` real numbers.
+    /// Uses `3 n` complex and `3 n` real numbers.
     pub(super) fn new(n: usize, complex: &'a mut [Complex64], real: &'a mut [f64]) -> Self {
         let (mass, complex) = complex.split_at_mut(n);
         let (damping, stiffness) = complex.split_at_mut(n);

@@ -1,4 +1,4 @@
-//! Binary exponents and powers of two: multiplying by them rounds nothing.
+//! Binary exponents and powers of two: multiplying by them causes no rounding.
 
 /// Binary exponent: `2^exponent <= |x| < 2^(exponent + 1)` for normal numbers.
 pub(super) fn exponent(x: f64) -> i32 {

@@ -1,14 +1,14 @@
-//! Eigenvalues by the pairs of a problem near by.
+//! Predicts eigenvalues from the pairs of a nearby problem.
 
 use num_complex::Complex64;
 
 use super::scaled_pencil::Eigenproblem;
 use crate::kernels::Linear;
 
-/// A farther step is none that vectors near by predict.
+/// Longest relative step that nearby vectors can predict.
 const NEAR: f64 = 0.1;
 
-/// An eigenvalue of a problem near by, `Im s >= 0`, with its vectors.
+/// An eigenvalue of a nearby problem, `Im s >= 0`, with its vectors.
 #[derive(Clone, Copy)]
 pub(crate) struct Near<'a> {
     pub(crate) s: Complex64,
@@ -16,9 +16,9 @@ pub(crate) struct Near<'a> {
     pub(crate) left: &'a [Complex64],
 }
 
-/// Writes all eigenvalues in units of `rate`, conjugates included, as a step of Newton's method on the Rayleigh functional
-/// `psi^T Q(s) phi` predicts them: the error is of second order in the distance of the problems. `false` where these are too
-/// far apart, or some eigenvalue has none near by.
+/// Predicts all eigenvalues in units of `rate`, conjugates included, by a Newton step on the Rayleigh functional
+/// `psi^T Q(s) phi`: the error is of second order in the distance of the problems. `false` if the problems are too far
+/// apart, or some eigenvalue has no nearby counterpart.
 pub(super) fn predict(
     problem: Eigenproblem,
     near: &[Near],
@@ -64,7 +64,7 @@ fn improved(linear: &Linear, pair: &Near) -> Option<Complex64> {
         slope += left * (2.0 * s * m + c);
     }
     let step = value / slope;
-    // Real eigenvalues stay real: those that meet on the way are found by the solver from nothing.
+    // Real eigenvalues stay real; those that meet on the way are found by the solver from scratch.
     let next = if s.im > 0.0 {
         s - step
     } else {

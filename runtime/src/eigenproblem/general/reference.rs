@@ -1,4 +1,4 @@
-//! A pencil that others are near to, in the form that finds the pairs of many of them at once.
+//! A reference pencil, in the form from which the pairs of many nearby pencils are found at once.
 
 use num_complex::Complex64;
 
@@ -9,28 +9,28 @@ use super::scaling::largest;
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::Linear;
 
-/// The units of a pencil, and all of its pairs in these.
+/// The units of a pencil, and all of its pairs in these units.
 pub(crate) struct Reference {
-    /// Of vectors: powers of two.
+    /// Units of vectors: powers of two.
     pub(crate) units: Vector,
-    /// Of eigenvalues, 1/s.
+    /// Unit of eigenvalues, 1/s.
     pub(crate) rate: f64,
     pub(crate) pairs: Vec<ReferencePair>,
 }
 
-/// An eigenvalue, `Im s >= 0`, with its vectors and the order in which to eliminate.
+/// An eigenvalue, `Im s >= 0`, with its vectors and the order of elimination.
 pub(crate) struct ReferencePair {
     pub(crate) s: Complex64,
     pub(crate) right: Vector<Complex64>,
     pub(crate) left: Vector<Complex64>,
-    /// Rows and columns of `Q(s)` as complete pivoting takes them: what is singular comes last.
+    /// Rows and columns of `Q(s)` in the order of complete pivoting: the singular ones come last.
     pub(crate) rows: Vec<usize>,
     pub(crate) columns: Vec<usize>,
 }
 
 impl Reference {
-    /// Of a pencil whose first `motions` unknowns have masses and whose others are reactions of as many constraints; `None`
-    /// unless the pairs stand for all eigenvalues, conjugates included.
+    /// The reference for a pencil whose first `motions` unknowns have masses and whose others are the reactions of as
+    /// many constraints; `None` unless the pairs represent all eigenvalues, conjugates included.
     pub(crate) fn new(linear: &Linear, motions: usize, pairs: &[Near]) -> Option<Self> {
         let n = linear.mass.row_count();
         let values = pairs.iter().map(|pair| 1 + usize::from(pair.s.im > 0.0));
@@ -67,8 +67,8 @@ impl Reference {
     }
 }
 
-/// Powers of two that make masses, what acts between motions, and constraints of order one; the second is the unit of
-/// eigenvalues. `None` where a motion has no mass of its own, or a reaction acts on nothing.
+/// Powers of two that bring masses, interactions between motions, and constraints to order one, followed by the unit of
+/// eigenvalues. `None` if a motion has no mass of its own, or a reaction acts on nothing.
 fn units(linear: &Linear, motions: usize) -> Option<(Vector, f64)> {
     let n = linear.mass.row_count();
     let mut units = Vector::filled(n, 1.0);

@@ -1,4 +1,4 @@
-//! What is solved, and how it is scaled.
+//! Eigenproblems and their scaling.
 
 use super::pencil::{Degree, Pencil};
 use super::scaling::{largest, scale, scale_first_order};
@@ -25,7 +25,7 @@ impl Eigenproblem<'_> {
     }
 }
 
-/// A pencil in its units.
+/// A pencil in its own units.
 pub(crate) struct Scaled<'a> {
     pub(crate) pencil: Pencil<'a>,
     /// Units of right and of left vectors.
@@ -100,7 +100,7 @@ pub(crate) fn scaled<'a>(
     })
 }
 
-/// Why there is no spectrum to give.
+/// The error for a spectrum that was not found.
 pub(super) fn not_found() -> Trouble {
     Trouble::Inaccurate {
         mode: 0,

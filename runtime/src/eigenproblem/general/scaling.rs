@@ -3,7 +3,7 @@
 use super::hessenberg::balance;
 use super::powers::{exponent, power_of_two};
 
-/// Greatest absolute value; infinite when one is not finite.
+/// Largest absolute value; infinite if one is not finite.
 pub(super) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |most: f64, value| {
         if value.is_finite() {
@@ -14,8 +14,8 @@ pub(super) fn largest(x: &[f64]) -> f64 {
     })
 }
 
-/// Balances `-A` in place of `A = stiffness` to `-D^-1 A D / rate`, nothing in it much greater than one, and makes `damping`
-/// the identity. `right` takes the diagonal of `D`, `left` that of its inverse; returns `rate`.
+/// Balances, in place, `A = stiffness` to `-D^-1 A D / rate`, with no element much larger than one, and makes `damping`
+/// the identity. The diagonals of `D` and of its inverse are written to `right` and `left`; returns `rate`.
 pub(super) fn scale_first_order(
     n: usize,
     damping: &mut [f64],
@@ -43,8 +43,8 @@ pub(super) fn scale_first_order(
     rate
 }
 
-/// Scales the matrices in place to `D M D`, `D C D / rate`, `D K D / rate^2` with masses of order one on the diagonal and
-/// nothing much greater than one in damping and stiffness. `units` takes the diagonal of `D`; returns `rate`.
+/// Scales the matrices in place to `D M D`, `D C D / rate`, `D K D / rate^2`, with masses of order one on the diagonal
+/// and nothing much larger than one in damping and stiffness. The diagonal of `D` is written to `units`; returns `rate`.
 pub(super) fn scale(
     n: usize,
     mass: &mut [f64],

@@ -1,15 +1,15 @@
-//! Eigenvalues of a Hessenberg matrix by the double-shift QR iteration. It follows LAPACK's
-//! `dlahqr` and `dlanv2` in what textbook versions lack and hang or lose digits without: the deflation criterion of
-//! Ahues and Tisseur (LAPACK Working Note 122), exceptional shifts, a bound on the iterations.
+//! Eigenvalues of a Hessenberg matrix by double-shift QR iteration. It follows LAPACK's `dlahqr` and `dlanv2` in
+//! features whose absence makes textbook versions hang or lose digits: the deflation criterion of Ahues and Tisseur
+//! (LAPACK Working Note 122), exceptional shifts, and a bound on the iterations.
 
 use num_complex::Complex64;
 
 const ULP: f64 = f64::EPSILON;
-/// Every so many steps without deflation the shifts are exceptional.
+/// Number of steps without deflation after which the shifts are exceptional.
 const EXCEPTIONAL: usize = 10;
 
-/// Eigenvalues of an upper Hessenberg matrix, which is destroyed; conjugate pairs are neighbours, the one with positive
-/// imaginary part first. `false` when the iteration did not converge.
+/// Eigenvalues of an upper Hessenberg matrix, which is destroyed; conjugate pairs are adjacent, the one with positive
+/// imaginary part first. `false` if the iteration did not converge.
 pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> bool {
     let small = f64::MIN_POSITIVE * (n as f64 / ULP);
     let most_steps = 30 * n.max(10);
@@ -206,7 +206,7 @@ fn sweep(n: usize, h: &mut [f64], first: usize, last: usize, [one, two]: [Comple
     }
 }
 
-/// Householder reflector that takes `x` to `(beta, 0, 0)`: `(beta, tau, v2, v3)` with `v = (1, v2, v3)`.
+/// Householder reflector that maps `x` to `(beta, 0, 0)`: `(beta, tau, v2, v3)` with `v = (1, v2, v3)`.
 #[inline]
 fn reflector([a, b, c]: [f64; 3]) -> (f64, f64, f64, f64) {
     let below = b * b + c * c;
@@ -224,7 +224,7 @@ fn reflector([a, b, c]: [f64; 3]) -> (f64, f64, f64, f64) {
     (beta, -divisor * divisor * inverse, b * factor, c * factor)
 }
 
-/// Squares from here to the inverse are far from underflow and overflow.
+/// Squares of numbers between this and its inverse are far from underflow and overflow.
 const SAFE: f64 = 1e-200;
 
 #[cold]
@@ -240,7 +240,7 @@ fn scaled_reflector(x: [f64; 3]) -> (f64, f64, f64, f64) {
     (beta * size, -divisor / beta, b / divisor, c / divisor)
 }
 
-/// Eigenvalues of a two by two matrix, given row by row.
+/// Eigenvalues of a 2 x 2 matrix, given row by row.
 fn two([a, b, c, d]: [f64; 4]) -> [Complex64; 2] {
     let real = |x: f64, y: f64| [Complex64::new(x, 0.0), Complex64::new(y, 0.0)];
     let pair = |re: f64, im: f64| [Complex64::new(re, im), Complex64::new(re, -im)];
@@ -261,7 +261,7 @@ fn two([a, b, c, d]: [f64; 4]) -> [Complex64; 2] {
         let z = p + (scale.sqrt() * z.sqrt()).copysign(p);
         return real(d + z, d - (greater / z) * lesser);
     }
-    // Complex, or real and almost equal: a rotation makes the diagonal elements equal.
+    // Complex, or real and almost equal: a rotation equalises the diagonal elements.
     let sum = b + c;
     let tau = sum.hypot(difference);
     let cosine = (0.5 * (1.0 + sum.abs() / tau)).sqrt();

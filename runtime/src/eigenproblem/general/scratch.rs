@@ -1,10 +1,10 @@
-//! Room to work in.
+//! Workspace.
 
 use num_complex::Complex64;
 
 use super::measure::Pair;
 
-/// Numbers of every kind, to be taken from the front.
+/// Buffers of numbers of each type, taken from the front.
 pub(super) struct Work {
     pub(super) real: Vec<f64>,
     pub(super) complex: Vec<Complex64>,
@@ -14,7 +14,7 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// The room that `n` coordinates need.
+    /// The workspace for `n` coordinates.
     pub(super) fn new(n: usize) -> Self {
         Self {
             real: vec![0.0; (13 * n + 12) * n],
@@ -26,7 +26,7 @@ impl Work {
     }
 }
 
-/// Takes the next `count` numbers of a store.
+/// Takes the next `count` numbers of a buffer.
 pub(super) fn take<'a, T>(store: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let (taken, rest) = std::mem::take(store).split_at_mut(count);
     *store = rest;

@@ -1,11 +1,11 @@
-//! What finding eigenvalues one by one works on.
+//! The data on which eigenvalues are found one by one.
 
 use num_complex::Complex64;
 
 use super::linearisation::Linearisation;
 use super::pencil::{Pencil, Products};
 
-/// Everything that finding pairs needs, in slices.
+/// All data needed to find pairs, in slices.
 pub(super) struct Solver<'a> {
     pub(super) pencil: Pencil<'a>,
     pub(super) linearisation: Linearisation<'a>,
@@ -13,7 +13,7 @@ pub(super) struct Solver<'a> {
     pub(super) order: &'a mut [usize],
     pub(super) of_right: Products<'a>,
     pub(super) of_left: Products<'a>,
-    /// `n^2` numbers each, for clusters and solves.
+    /// `n^2` numbers each, for clusters and linear solves.
     pub(super) basis_right: &'a mut [Complex64],
     pub(super) basis_left: &'a mut [Complex64],
     pub(super) cross: &'a mut [Complex64],

@@ -1,20 +1,20 @@
-//! How far the loops are open.
+//! The gaps of open loops.
 
 use super::super::convergence::relative_gap;
 use super::super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector};
 
-/// Constraints on positions at a state, numbered from zero.
+/// The constraints on positions at a state, numbered from zero.
 pub(in crate::equilibrium) struct Gaps {
     pub(in crate::equilibrium) gaps: Vector,
     /// `Phi_q`.
     pub(in crate::equilibrium) rows: Matrix,
-    /// Greatest gap relative to what small motions open.
+    /// Largest gap relative to what small motions open.
     pub(in crate::equilibrium) relative: f64,
     pub(super) worst: usize,
 }
 
-/// The constraints on positions; `None` where they are not finite.
+/// The constraints on positions; `None` if they are not finite.
 pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Option<Gaps> {
     let structure = point.structure;
     let (residual, stiffness) =
@@ -43,7 +43,7 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
     Some(found)
 }
 
-/// Rows over the coordinates that are not held.
+/// Restricts rows to the coordinates that are not held.
 pub(in crate::equilibrium) fn free(rows: &Matrix, held: &[bool]) -> Matrix {
     Matrix::from_fn(rows.row_count(), rows.column_count(), |k, j| {
         if held[j] { 0.0 } else { rows[k][j] }

@@ -1,5 +1,7 @@
-//! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion
-//! (the least kinetic energy, coordinates taken alone), damped (Levenberg, Marquardt) where constraints are about to become dependent.
+//! Closing the loops: finds coordinates that meet the constraints, from values that do not.
+//!
+//! Gauss-Newton steps of least motion (least kinetic energy, each coordinate taken alone), damped (Levenberg, Marquardt)
+//! where constraints are about to become dependent.
 
 mod gaps;
 mod step;
@@ -17,15 +19,17 @@ use step::{Aim, FIRST_RADIUS, LEAST_DAMPING, damped, plain, scaled, without_depe
 const MAX_ITERATIONS: usize = 200;
 /// A gap that keeps this share in a step has stopped falling.
 const STALLED: f64 = 0.5;
-/// How often, and by how much (rad or m), a state is kicked that is no way to close.
+/// How often, and by how much (rad or m), a state from which the loops cannot close is kicked.
 const KICKS: usize = 4;
 const KICK: f64 = 0.02;
-/// A kick is worth its while when it leaves no more than this share of the gaps.
+/// A kick is accepted if it leaves no more than this share of the gaps.
 const BETTER: f64 = 0.9;
 
-/// Moves the coordinates that are not held until the constraints on positions are met; returns the state and how many
-/// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight or in one point, is left
-/// by a kick.
+/// Moves the coordinates that are not held until the constraints on positions are met; returns the state and the number
+/// of iterations.
+///
+/// A start in which no small motion closes the gaps, such as a mechanism laid out straight or in one point, is left by a
+/// kick.
 pub(super) fn close(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -51,7 +55,7 @@ pub(super) fn close(
     Err(best)
 }
 
-/// Some displacement without symmetry.
+/// A displacement without symmetry.
 fn kicked(x: &[f64], held: &[bool], kick: usize, structure: Structure) -> Vector {
     Vector::from_fn(x.len(), |j| {
         if held[j] || j >= structure.coordinates {
@@ -115,13 +119,13 @@ fn close_from(
     Err(not_assembled(structure, &x, &at, reason, MAX_ITERATIONS))
 }
 
-/// What makes motions comparable: the roots of the masses that move.
+/// Makes motions comparable: the square roots of the masses that move.
 fn metric(point: &OperatingPoint<'_>, x: &[f64]) -> Vector {
     let linear = point.mechanism.linear(x, point.inputs, point.design);
     inertias(&linear, point.structure).map(f64::sqrt)
 }
 
-/// Why the gaps have a minimum.
+/// Why the gaps do not close.
 fn reason(at: &Gaps, dependent_at_start: usize, held: &[bool]) -> NotClosed {
     let all = Rows::balanced(at.rows.clone());
     let slope = all.descent(&scaled(&at.gaps, &all));
@@ -159,7 +163,8 @@ fn not_assembled(
     }
 }
 
-/// Speeds that meet the constraints on velocities as far as speeds can, those held fixed: the least change.
+/// Speeds that meet the constraints on velocities as far as speeds can, by the smallest change and with the held ones
+/// fixed.
 pub(super) fn close_speeds(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -168,7 +173,7 @@ pub(super) fn close_speeds(
     let structure = point.structure;
     let places = structure.velocity_rows();
     let mut x = Vector::from(start);
-    // The constraints are linear in the speeds: the second round removes rounding.
+    // The constraints are linear in the speeds: the second pass removes rounding.
     for _ in 0..2 {
         let (residual, stiffness) = point.evaluate_plain(&x)?;
         let rows = Rows::balanced(Matrix::from_fn(places.len(), x.len(), |k, j| {

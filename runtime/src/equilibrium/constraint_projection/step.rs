@@ -1,4 +1,4 @@
-//! One step towards closed loops.
+//! One step towards closing the loops.
 
 use super::super::convergence::largest_of;
 use super::super::operating_point::OperatingPoint;
@@ -6,18 +6,18 @@ use super::gaps::{Gaps, free, gaps};
 use crate::algebra::{Vector, add_scaled, dot};
 use crate::constraints::Rows;
 
-/// A step without dependent rows is taken when it leaves no more than this share of the greatest gap.
+/// A step without dependent rows is accepted if it leaves no more than this share of the largest gap.
 const FALLS: f64 = 0.1;
-/// Share of the gaps that constraints must still be able to close, else there is a minimum.
+/// Share of the gaps that constraints must still be able to close; below it the gaps have a minimum.
 const CLOSABLE: f64 = 1e-9;
-/// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. Small, because
-/// the way decides which assembly mode is found.
+/// Largest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. It is small
+/// because the path decides which assembly mode is found.
 pub(super) const FIRST_RADIUS: f64 = 0.3;
-/// Damping relative to the constraints.
+/// Limits of the damping, relative to the constraints.
 pub(super) const LEAST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e9;
 
-/// What a step aims at: the gaps over the sizes of their rows.
+/// The target of a step: the gaps divided by the sizes of their rows.
 pub(super) struct Aim<'a> {
     at: &'a Gaps,
     rows: &'a Rows,
@@ -37,13 +37,13 @@ impl<'a> Aim<'a> {
         dot(&self.scaled, &self.scaled)
     }
 
-    /// Whether no motion makes the gaps smaller to first order: they lie across everything that rows can close.
+    /// Whether no motion reduces the gaps to first order: they are orthogonal to everything that the rows can close.
     pub(super) fn minimal(&self) -> bool {
         let slope = self.rows.descent(&self.scaled);
         dot(&slope, &slope) <= CLOSABLE * CLOSABLE * self.merit()
     }
 
-    /// Whether gaps elsewhere are better by this share.
+    /// Whether the gaps `there` are smaller by this share.
     fn improved(&self, there: &Gaps, share: f64) -> bool {
         let merit = scaled(&there.gaps, self.rows);
         dot(&merit, &merit) <= (1.0 - share) * self.merit()
@@ -55,9 +55,11 @@ pub(super) fn scaled(gaps: &[f64], rows: &Rows) -> Vector {
     pairs.map(|(gap, size)| gap / size).collect()
 }
 
-/// A Gauss-Newton step without the rows that almost depend on the others, if every gap falls with it. Redundant constraints
-/// depend on each other only where they are met: away from there their differences, which close by themselves as the
-/// squares of what is left, would slow the steps down to halves and leave half of the digits.
+/// A Gauss-Newton step without the rows that almost depend on the others, if it reduces every gap.
+///
+/// Redundant constraints are dependent only where they are met. Away from there, their differences close on their own as
+/// the squares of the remaining gaps; keeping those rows would slow the steps down to halving and lose half of the
+/// digits.
 pub(super) fn without_dependent(
     point: &OperatingPoint<'_>,
     x: &[f64],
@@ -76,7 +78,7 @@ pub(super) fn without_dependent(
     falls.then_some((trial, there))
 }
 
-/// A Gauss-Newton step of least motion, halved a few times.
+/// A Gauss-Newton step of least motion, halved a few times if needed.
 pub(super) fn plain(
     point: &OperatingPoint<'_>,
     x: &[f64],
@@ -102,7 +104,7 @@ pub(super) fn plain(
     None
 }
 
-/// A step with as much damping as it takes.
+/// A step with as much damping as needed.
 pub(super) fn damped(
     point: &OperatingPoint<'_>,
     x: &[f64],

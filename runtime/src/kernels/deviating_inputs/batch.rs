@@ -8,7 +8,7 @@ use crate::kernels::{
 };
 use crate::scalar::{Batch, Instructions};
 
-/// What the mechanism gets.
+/// The arguments passed to the mechanism.
 struct Applied<'a> {
     q: &'a [Batch],
     u: Vector<Batch>,
@@ -118,7 +118,7 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
 }
 
 impl Deviations {
-    /// A gradient, from that of the mechanism.
+    /// Converts a gradient of the mechanism.
     fn batch_gradient(
         &self,
         gradient: &mut BatchGradient<'_>,
@@ -135,7 +135,7 @@ impl Deviations {
         }
     }
 
-    /// Derivatives of matrices of this many entries, from those of the mechanism.
+    /// Converts derivatives of matrices with the given number of entries.
     fn batch_partials(
         &self,
         entries: usize,
@@ -153,7 +153,7 @@ impl Deviations {
         let by_design = &mut partials.by_design;
         let (mass, mass_deviations) = by_design.mass.split_at_mut(design);
         let (stiffness, stiffness_deviations) = by_design.stiffness.split_at_mut(design);
-        // A damping that is always zero has no room.
+        // A damping matrix that is always zero has no buffer.
         let damping = design.min(by_design.damping.len());
         let (damping, damping_deviations) = by_design.damping.split_at_mut(damping);
         kernel(&mut BatchPartials {
@@ -177,7 +177,8 @@ impl Deviations {
         }
     }
 
-    /// Derivatives of the residual by design variables and deviations, row by row, from those by inputs and by design variables.
+    /// Derivatives of the residual with respect to design variables and deviations, row by row, from those with respect
+    /// to inputs and design variables.
     fn batch_rows(&self, rows: usize, to: &mut [Batch], by_input: &[Batch], by_design: &[Batch]) {
         let (inputs, design) = (by_input.len() / rows.max(1), self.design());
         let width = design + self.inputs().len();

@@ -1,11 +1,11 @@
-//! Where deviations stand among the design variables, and what that makes of arguments and results.
+//! The position of deviations among the design variables, and the resulting conversion of arguments and results.
 
 use core::mem::replace;
 
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::{Gradient, PartialMatrices, ResidualPartials};
 
-/// Deviations of inputs, which stand behind the mechanism's own design variables.
+/// Deviations of inputs, which follow the mechanism's own design variables.
 #[derive(Debug)]
 pub(super) struct Deviations {
     design: usize,
@@ -13,7 +13,7 @@ pub(super) struct Deviations {
 }
 
 impl Deviations {
-    /// After so many design variables, of these inputs.
+    /// Deviations of these inputs, after the given number of design variables.
     pub(super) fn new(design: usize, inputs: Vec<usize>) -> Self {
         Self { design, inputs }
     }
@@ -23,17 +23,17 @@ impl Deviations {
         self.design
     }
 
-    /// The inputs, by deviation.
+    /// The input of each deviation.
     pub(super) fn inputs(&self) -> &[usize] {
         &self.inputs
     }
 
-    /// The mechanism's own design variables, and the deviations.
+    /// Splits into the mechanism's own design variables and the deviations.
     pub(super) fn split<'b, T>(&self, b: &'b [T]) -> (&'b [T], &'b [T]) {
         b.split_at(self.design)
     }
 
-    /// The inputs and design variables that the mechanism gets; equally the directions in which they move.
+    /// The inputs and design variables passed to the mechanism; works for directions too.
     pub(super) fn applied<'b, T: Copy + Default>(
         &self,
         u: &[T],
@@ -48,7 +48,7 @@ impl Deviations {
         (applied, own)
     }
 
-    /// A gradient, from that of the mechanism.
+    /// Converts a gradient of the mechanism.
     pub(super) fn gradient<T: Copy + Default>(
         &self,
         gradient: &mut Gradient<T>,
@@ -60,7 +60,7 @@ impl Deviations {
         gradient.design = design;
     }
 
-    /// Derivatives of the residual, from those of the mechanism.
+    /// Converts derivatives of the residual.
     pub(super) fn residual_partials<T: Copy + Default>(
         &self,
         partials: &mut ResidualPartials<T>,
@@ -73,7 +73,7 @@ impl Deviations {
         partials.1 = by_design;
     }
 
-    /// Derivatives of the outputs by unknowns, inputs and design variables, from those of the mechanism.
+    /// Converts derivatives of the outputs with respect to unknowns, inputs and design variables.
     pub(super) fn output_partials(
         &self,
         [by_coordinate, by_input, by_design]: [&mut Matrix; 3],
@@ -84,7 +84,7 @@ impl Deviations {
         self.join_rows(by_design, by_input, &own);
     }
 
-    /// Derivatives of the matrices, from those of the mechanism.
+    /// Converts derivatives of the matrices.
     pub(super) fn partial_matrices(&self, own: &PartialMatrices, joined: &mut PartialMatrices) {
         let [by_coordinate, by_input, by_design] = joined.lists_mut();
         by_coordinate.copy_from_slice(own.by_coordinate());
@@ -97,7 +97,8 @@ impl Deviations {
         }
     }
 
-    /// Derivatives by design variables and deviations from those by inputs and by design variables.
+    /// Derivatives with respect to design variables and deviations, from those with respect to inputs and design
+    /// variables.
     fn join<T: Copy>(&self, joined: &mut [T], by_input: &[T], by_design: &[T]) {
         let (own, deviations) = joined.split_at_mut(self.design);
         own.copy_from_slice(by_design);

@@ -1,4 +1,4 @@
-//! Inputs that deviate from their set values: tolerances of inputs are those of further design variables.
+//! Inputs that deviate from their set values: tolerances of inputs become tolerances of additional design variables.
 
 mod batch;
 mod deviations;
@@ -11,17 +11,19 @@ use crate::arguments::check_input;
 use crate::mechanism::{Description, DesignInfo, Input, InputInfo, Shared, ToleranceInfo};
 use crate::{DesignVariable, Error};
 
-/// A mechanism whose inputs deviate from their set values: a speed that wanders, a load that is not quite known.
+/// A mechanism whose inputs deviate from their set values, such as a speed that varies or a load that is not known
+/// exactly.
 ///
-/// Its design variables are those of the mechanism, and after them a deviation of each chosen input, nominally zero. Where the
-/// mechanism takes the input, it gets the sum of the set value and the deviation. Derivatives by a deviation are therefore
-/// those by its input, and every question about tolerances of design variables answers for tolerances of inputs as well, also
-/// where the input itself is swept. What is located along an input is the value that it is set to.
+/// Its design variables are those of the mechanism, followed by a deviation of each chosen input, nominally zero. The
+/// mechanism receives the sum of the set value and the deviation as its input. Derivatives with respect to a deviation
+/// therefore equal those with respect to its input, and every analysis of tolerances of design variables covers
+/// tolerances of inputs as well, even while the input itself is swept. Values located along an input are set values.
 ///
-/// A deviation has the name and the unit of its input, and its declared tolerance, unless that is a fraction of the value, which
-/// is not known here: then it has none, and [`Tolerances`](crate::Tolerances) have to be given.
+/// A deviation has the name, the unit and the declared tolerance of its input, unless that tolerance is a fraction of
+/// the value, which is unknown here: the deviation then has no tolerance, and [`Tolerances`](crate::Tolerances) must be
+/// given.
 ///
-/// It is a table of kernels of every kind that `K` is, also where `K` is such a table itself: `dyn BatchKernels`.
+/// It provides every kind of kernel table that `K` provides, even if `K` is itself such a table: `dyn BatchKernels`.
 ///
 /// ```
 /// # use eigentol::mechanism;
@@ -66,8 +68,8 @@ pub struct DeviatingInputs<'a, K: ?Sized> {
 }
 
 impl<'a, K: Kernels + ?Sized> DeviatingInputs<'a, K> {
-    /// A mechanism of which these inputs deviate, each with a deviation of its own. Deviations of an input that is named more
-    /// than once add up.
+    /// A mechanism in which each of these inputs has its own deviation. If an input is named more than once, its
+    /// deviations add up.
     ///
     /// # Errors
     /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
@@ -90,7 +92,7 @@ impl<'a, K: Kernels + ?Sized> DeviatingInputs<'a, K> {
         })
     }
 
-    /// The inputs that deviate, in the order of their deviations.
+    /// The deviating inputs, in the order of their deviations.
     pub fn inputs(&self) -> impl ExactSizeIterator<Item = Input> {
         self.deviations.inputs().iter().copied().map(Input::new)
     }

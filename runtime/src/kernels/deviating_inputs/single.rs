@@ -1,4 +1,4 @@
-//! The kernels for one state.
+//! The kernels for a single state.
 
 use core::ops::Add;
 
@@ -176,7 +176,7 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         self.kernels.violation(&u, b)
     }
 
-    /// The mechanism knows of ranges of its design variables only: nothing is said where an input varies.
+    /// The mechanism only knows ranges of its design variables, so nothing can be said if an input varies.
     fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool {
         let (u, b) = self.applied(u, b);
         let (own, of_deviations) = self.deviations.split(reach);

@@ -1,4 +1,4 @@
-//! Speeds, or constraints on velocities: roots of the system of first order ([`System`]), their vectors completed to those
+//! Modes with speeds or constraints on velocities: roots of the first-order [`System`], their vectors completed to those
 //! of the bordered pencil.
 
 use super::system::System;
@@ -42,9 +42,9 @@ impl System<'_> {
         x
     }
 
-    /// The left vector of the bordered pencil. With `psi_nu = Z l_w` the columns of positions and velocities say
-    /// `kappa = l_y - E^T M_nu^T psi_nu`, `[A_q P, A_v]^T psi_2 = (kappa; 0) - (s M_nu + C_nu)^T psi_nu`, and the columns of
-    /// coordinates give the rest.
+    /// The left vector of the bordered pencil. With `psi_nu = Z l_w` the columns of positions and velocities give
+    /// `kappa = l_y - E^T M_nu^T psi_nu` and `[A_q P, A_v]^T psi_2 = (kappa; 0) - (s M_nu + C_nu)^T psi_nu`; the columns
+    /// of coordinates give the rest.
     fn left(&self, s: Complex, l: &[Complex]) -> Vector<Complex> {
         let (f, structure) = (self.tangent.freedom, self.tangent.structure);
         let (l_y, l_w) = l.split_at(f);

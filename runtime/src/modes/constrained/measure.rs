@@ -1,33 +1,33 @@
-//! What a pair of vectors says about an eigenvalue of the bordered pencil.
+//! How accurate an eigenvalue of the bordered pencil is, judged from its pair of vectors.
 
 use crate::Complex;
 use crate::algebra::{Lu, Matrix, Vector, dot, dot_complex, largest_element, times};
 use crate::kernels::Linear;
 use crate::modes::pencil::{pencil_slope_times, pencil_times, pencil_transposed_times, transposed};
 
-/// Accepted residual.
+/// Largest residual that is accepted.
 pub(super) const ACCEPTED: f64 = 1e-9;
-/// Residual beyond which vectors are improved.
+/// Residual above which vectors are improved.
 pub(super) const INACCURATE: f64 = 1e-13;
-/// Residual of vectors that have nothing but rounding in it.
+/// Residual of vectors that are exact up to rounding.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A measured pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Measure {
-    /// Greatest component of `P(s) phi` and of `psi^T P(s)` relative to the greatest sum of absolute terms in one: of
-    /// equations of motion, and of constraints, each for themselves.
+    /// Largest component of `P(s) phi` and of `psi^T P(s)`, relative to the largest sum of absolute terms in one;
+    /// equations of motion and constraints are measured separately.
     pub(super) residual: f64,
-    /// Whether rounding of the vectors explains the residual.
+    /// Whether rounding of the vectors alone explains the residual.
     pub(super) rounding_only: bool,
-    /// Step of Newton's method from `s`: `psi^T P phi / psi^T P' phi`.
+    /// Newton step from `s`: `psi^T P phi / psi^T P' phi`.
     pub(super) newton: Complex,
-    /// Error of `s` that rounding in `P` causes.
+    /// Error of `s` caused by rounding in `P`.
     pub(super) doubt: f64,
 }
 
 impl Measure {
-    /// The first `motions` equations are those of motion.
+    /// The first `motions` equations are equations of motion.
     pub(super) fn new(
         linear: &Linear,
         motions: usize,
@@ -82,14 +82,14 @@ fn lengths(x: &[Complex]) -> Vector {
     x.iter().map(|x| x.norm()).collect()
 }
 
-/// What is left of `P(s) x`.
+/// The residual `P(s) x`.
 struct Residual {
     relative: f64,
     rounding_only: bool,
 }
 
 impl Residual {
-    /// `x` by the size of each component, `product` is `P(s) x`.
+    /// Takes the absolute values of the components as `x` and `P(s) x` as `product`.
     fn of(motions: usize, x: &[f64], product: &[Complex], sizes: &Matrix) -> Self {
         let n = x.len();
         let greatest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
@@ -104,7 +104,7 @@ impl Residual {
                 let (moving, reacting) = sizes[i].split_at(motions);
                 let elements = [greatest(moving), greatest(reacting)];
                 let largest = elements[0].max(elements[1]);
-                // Constraints in units of their own are of order one.
+                // Constraints in their own units are of order one.
                 let unit = if constraints && largest > 0.0 {
                     largest
                 } else {
@@ -117,8 +117,8 @@ impl Residual {
                     f64::INFINITY
                 };
                 terms = terms.max(dot(&sizes[i], x) / unit);
-                // A vector that the matrix takes to zero has nothing but rounding in the terms that act: motions are
-                // measured by the greatest of them, and reactions too.
+                // A vector that the matrix maps to zero has nothing but rounding in the active terms. Motions are
+                // therefore measured by the largest active term, and so are reactions.
                 let acting = (elements[0] * most_of[0]).max(elements[1] * most_of[1]);
                 possible = possible.max(acting / unit);
             }
@@ -134,7 +134,7 @@ impl Residual {
     }
 }
 
-/// One step of inverse iteration for both vectors on the bordered pencil.
+/// One step of inverse iteration on the bordered pencil for both vectors.
 #[cold]
 pub(super) fn inverse_iteration(
     linear: &Linear,

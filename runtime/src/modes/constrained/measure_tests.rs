@@ -1,5 +1,5 @@
-//! Pairs of a bordered pencil with a closed form: three masses that two constraints of very different units join into one,
-//! `6 s^2 + 0.4 s + 15.5 = 0`.
+//! Pairs of a bordered pencil with a closed form: three masses joined into one by two constraints of very different
+//! units, `6 s^2 + 0.4 s + 15.5 = 0`.
 
 use super::measure::Measure;
 use crate::Complex;
@@ -7,7 +7,7 @@ use crate::algebra::Matrix;
 use crate::kernels::Linear;
 
 const MOTIONS: usize = 3;
-/// Of the constraints `x = y` and `x = z`.
+/// Units of the constraints `x = y` and `x = z`.
 const UNITS: [f64; 2] = [1.0, 1e6];
 
 fn pencil() -> Linear {
@@ -33,7 +33,7 @@ fn root() -> Complex {
     Complex::new(real, (15.5 / 6.0 - real * real).sqrt())
 }
 
-/// The right and the left vector of that root: everything moves alike, and the reactions hold the second and the third mass.
+/// The right and left vectors of that root: everything moves together, and the reactions hold the second and third mass.
 fn vectors() -> [[Complex; 5]; 2] {
     let (s, one) = (root(), Complex::new(1.0, 0.0));
     let second = 3.0 * s * s + 0.4 * s;
@@ -53,7 +53,7 @@ fn an_exact_pair_leaves_rounding() {
     let [right, left] = vectors();
     let found = measured(root(), &right, &left);
     assert!(found.residual < 1e-15 && found.rounding_only, "{found:?}");
-    // What rounding of the elements may do to the root: some units of its last digit.
+    // What rounding of the elements can do to the root: a few units of its last digit.
     let last = f64::EPSILON * root().norm();
     assert!(
         found.doubt > last && found.doubt < 100.0 * last,
@@ -73,7 +73,7 @@ fn the_step_is_that_of_the_quadratic() {
     }
 }
 
-/// Whichever vector is off, and in whichever unit its constraint is written.
+/// Whichever vector is off, and in whichever unit its constraint is written, the error must show.
 #[test]
 fn every_component_that_is_off_is_seen() {
     let exact = vectors();

@@ -1,10 +1,11 @@
 //! Modes of mechanisms with constraints and speeds.
 //!
-//! The bordered pencil `s^2 Mhat + s Chat + Khat` has a singular `Mhat` and as many finite eigenvalues as the motions that
-//! constraints leave free. They are those of a smaller problem in coordinates `y`, `delta q = P y`, along the null space of
-//! the constraints: symmetric ([`pairs`]), quadratic ([`quadratic`]) or, with speeds or constraints on velocities, of first
-//! order in positions and independent velocities ([`first_order`]). Its vectors are completed by the reactions, and every
-//! pair is measured, and the eigenvalue improved, on the bordered pencil itself ([`measure`]).
+//! The bordered pencil `s^2 Mhat + s Chat + Khat` has a singular `Mhat` and as many finite eigenvalues as there are
+//! motions that the constraints leave free. They are the eigenvalues of a smaller problem in coordinates `y`,
+//! `delta q = P y`, along the null space of the constraints. That problem is symmetric ([`pairs`]), quadratic
+//! ([`quadratic`]) or, with speeds or constraints on velocities, of first order in positions and independent velocities
+//! ([`first_order`]). Its vectors are completed with the reactions; every pair is measured, and its eigenvalue improved,
+//! on the bordered pencil itself ([`measure`]).
 
 mod first_order;
 mod measure;
@@ -34,7 +35,7 @@ pub(super) fn general_roots(linear: &Linear, structure: Structure) -> Result<Vec
     }
 }
 
-/// The reactions that complete the motion of a vector: `x` with `P(s) x = 0` by coordinate and speed.
+/// Completes the motion of a vector with its reactions: `x` with `P(s) x = 0` by coordinate and speed.
 fn with_reactions(
     linear: &Linear,
     tangent: &Tangent,
@@ -76,13 +77,13 @@ fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
 /// How the vectors of a mode are normalised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Normalisation {
-    /// `x^H Mhat x = 1`, the leading component real and positive.
+    /// `x^H Mhat x = 1`, with the leading component real and positive.
     Mass,
-    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass by `Mhat`.
+    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass of `Mhat`.
     Largest,
 }
 
-/// The leading component of a vector is the largest of so many first ones.
+/// Number of first components among which the leading (largest) one is sought, for either vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Leading {
     pub(crate) right: usize,
@@ -90,8 +91,9 @@ pub(crate) struct Leading {
 }
 
 impl Normalisation {
-    /// That of the modes of a mechanism. The leading component belongs to a coordinate or a speed; that of a left vector
-    /// with speeds or constraints on velocities to any unknown, because it may have reactions only.
+    /// The normalisation for the modes of a mechanism. The leading component belongs to a coordinate or a speed. For left
+    /// vectors with speeds or constraints on velocities it may belong to any unknown, because such a vector may consist
+    /// of reactions only.
     pub(crate) fn of(description: &Description) -> (Self, Leading) {
         let structure = Structure::of(description);
         let motions = if structure.open() {
@@ -115,7 +117,7 @@ impl Normalisation {
     }
 }
 
-/// The first `leading` components tell the phase.
+/// Normalises a vector; the first `leading` components fix the phase.
 fn normalise(x: &mut [Complex], mass: &Matrix, size: Normalisation, leading: usize) -> bool {
     let lead = super::lead(&x[..leading]);
     let Some(most) = x.get(lead).copied().filter(|value| value.norm() > 0.0) else {
@@ -140,7 +142,7 @@ fn normalise(x: &mut [Complex], mass: &Matrix, size: Normalisation, leading: usi
     x.iter().all(|value| value.is_finite())
 }
 
-/// Gathers roots: measures each pair on the bordered pencil, improves its eigenvalue and checks it.
+/// Collects roots: measures each pair on the bordered pencil, improves its eigenvalue and checks it.
 struct Gathered<'a> {
     linear: &'a Linear,
     structure: Structure,
@@ -158,7 +160,7 @@ impl<'a> Gathered<'a> {
         }
     }
 
-    /// Adds the pair that a root of the smaller problem became. `shared` eigenvalues belong to several vectors and stay
+    /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and stay
     /// equal.
     fn add(
         &mut self,
@@ -172,7 +174,7 @@ impl<'a> Gathered<'a> {
             residual,
         };
         let motions = self.structure.motions();
-        // A left vector may have nothing but reactions.
+        // A left vector may consist of reactions only.
         let left_leading = match self.size {
             Normalisation::Mass => motions,
             Normalisation::Largest => left.len(),
@@ -190,7 +192,7 @@ impl<'a> Gathered<'a> {
         if simple {
             let unimproved = (s, right.clone(), left.clone(), found);
             for _ in 0..2 {
-                // Far steps are not rounding of the smaller problem.
+                // A step this long is not rounding of the smaller problem.
                 let next = s - found.newton;
                 let near = found.newton.norm() <= 1e-6 * (s.norm() + reduced.error);
                 if !near || (s.im > 0.0) != (next.im > 0.0) {
@@ -213,7 +215,7 @@ impl<'a> Gathered<'a> {
                     (right, left, found) = (new_right, new_left, better);
                 }
             }
-            // Next to a double root the step is a quotient of two roundings.
+            // Next to a double root the step is a quotient of two rounding errors.
             if found.residual > measure::INACCURATE.max(unimproved.3.residual) {
                 (s, right, left, found) = unimproved;
             }

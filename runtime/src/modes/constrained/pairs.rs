@@ -1,4 +1,5 @@
-//! The symmetric problem `P^T (K_c - lambda M) P y = 0`: undamped modes, and what counts negative stiffness.
+//! The symmetric problem `P^T (K_c - lambda M) P y = 0`: gives undamped modes and the number of directions of negative
+//! stiffness.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -13,18 +14,19 @@ use crate::eigenproblem::{Pairs, Trouble, symmetric};
 use crate::kernels::Linear;
 use crate::rounding::of_form;
 
-/// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that constraints leave free, reactions included, of the
-/// mechanism that `description` describes: as many as there are free directions.
+/// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that the constraints of `description` leave free.
+///
+/// There are as many pairs as free directions; their vectors include the reactions.
 ///
 /// # Errors
-/// Of one with speeds or constraints on velocities there are none to be found in this way: none is accurate.
+/// Fails as inaccurate for a mechanism with speeds or constraints on velocities, which has no such pairs.
 pub(crate) fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, Trouble> {
     let mut pairs = Pairs::default();
     free_pairs_into(linear, description, &mut pairs)?;
     Ok(pairs)
 }
 
-/// As [`free_pairs`]: writes over others.
+/// Like [`free_pairs`], overwriting existing pairs.
 pub(crate) fn free_pairs_into(
     linear: &Linear,
     description: &Description,
@@ -57,7 +59,7 @@ fn reduced_pairs(linear: &Linear, tangent: &Tangent) -> Result<Pairs, Trouble> {
         let mut x = tangent.lift(y);
         symmetric::fix_sign(&mut x[..tangent.structure.motions()]);
         let lambda = &mut pairs.lambda[r];
-        // Reactions do not matter to the quotient, and forces of constraints cancel in it.
+        // The quotient does not depend on the reactions: constraint forces cancel in it.
         let complete = with_reactions(linear, tangent, *lambda, &x);
         let (numerator, rounding) = quotient(linear, *lambda, &complete);
         *lambda += numerator;
@@ -102,8 +104,8 @@ fn quotient(linear: &Linear, lambda: f64, phi: &[f64]) -> (f64, f64) {
     (numerator / size, rounding / size)
 }
 
-/// Greatest component of `(K - lambda M) phi` relative to the sums of absolute terms: of the equations of motion, and of
-/// the constraints.
+/// Largest component of `(K - lambda M) phi` relative to the sums of absolute terms, over the equations of motion and the
+/// constraints.
 fn residual(linear: &Linear, tangent: &Tangent, lambda: f64, phi: &[f64]) -> f64 {
     let motions = tangent.structure.motions();
     let (mut most, mut terms) = (0.0_f64, 0.0_f64);
@@ -130,7 +132,7 @@ fn residual(linear: &Linear, tangent: &Tangent, lambda: f64, phi: &[f64]) -> f64
     }
     let mut motion = if most == 0.0 { 0.0 } else { most / terms };
     if motion > ACCEPTED {
-        // A shape that `K` takes to zero has nothing but rounding in it; its terms are no measure.
+        // A shape that `K` maps to zero contains nothing but rounding, so its terms are no measure.
         let matrices =
             largest_element(&linear.stiffness) + lambda.abs() * largest_element(&linear.mass);
         if most <= measure::ROUNDING * n as f64 * matrices * largest(phi) {

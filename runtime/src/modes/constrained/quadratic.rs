@@ -27,7 +27,7 @@ pub(super) fn roots(linear: &Linear, tangent: &Tangent) -> Result<Vec<Root>, Tro
     Ok(gathered.roots)
 }
 
-/// Names a coordinate that the massless direction moves.
+/// Names a coordinate moved by the massless direction.
 pub(super) fn tangent_trouble(trouble: Trouble, tangent: &Tangent) -> Trouble {
     match trouble {
         Trouble::SingularMass(row) => {
@@ -37,7 +37,7 @@ pub(super) fn tangent_trouble(trouble: Trouble, tangent: &Tangent) -> Trouble {
     }
 }
 
-/// Position of the component of greatest size.
+/// Position of the component of largest magnitude.
 pub(super) fn greatest(x: &[f64]) -> usize {
     (1..x.len()).fold(
         0,

@@ -1,8 +1,8 @@
-//! Speeds, or constraints on velocities: a system of first order in positions `y` and independent velocities `w`.
+//! Modes with speeds or constraints on velocities: a first-order system in positions `y` and independent velocities `w`.
 //!
-//! Velocities that the constraints allow are `nu = (ydot; v) = Z w + E y`: `Z` spans the null space of `[A_q P, A_v]`,
-//! `E = -[A_q P, A_v]^+ B P`. The equations of motion are projected on `Z`, which removes all reactions. With
-//! `M_nu = [M_y, M_v]`, `C_nu = [C_y, D_v]` the coefficients of `nudot` and `nu`, and `Z^T M_nu Z = I`,
+//! The constraints allow the velocities `nu = (ydot; v) = Z w + E y`: `Z` spans the null space of `[A_q P, A_v]`, and
+//! `E = -[A_q P, A_v]^+ B P`. The equations of motion are projected onto `Z`, which eliminates all reactions. With the
+//! coefficients `M_nu = [M_y, M_v]` of `nudot` and `C_nu = [C_y, D_v]` of `nu`, and `Z^T M_nu Z = I`,
 //!
 //! ```text
 //! ydot = E_y y + Z_y w
@@ -19,10 +19,10 @@ use crate::constraints::{Rows, Tangent, inertias};
 use crate::eigenproblem::Trouble;
 use crate::kernels::Linear;
 
-/// Share of a constraint on velocities below which it follows from those on positions.
+/// Share of a constraint on velocities below which it follows from the constraints on positions.
 const FOLLOWS: f64 = 1e-10;
 
-/// The reduced matrices. Vectors by velocity have `ydot` in the first `freedom` places, then the speeds.
+/// The reduced matrices. Vectors over velocities hold `ydot` in the first `freedom` places, then the speeds.
 pub(super) struct System<'a> {
     pub(super) linear: &'a Linear,
     pub(super) tangent: &'a Tangent,
@@ -44,7 +44,7 @@ impl<'a> System<'a> {
         let structure = tangent.structure;
         let (f, speeds) = (tangent.freedom, structure.speed_range());
         let velocities = f + speeds.len();
-        // Row or column of matrices over coordinates and speeds, by velocity.
+        // A row or column over coordinates and speeds, converted to velocities.
         let by_velocity = |coordinates: &[f64], of_speeds: &[f64]| {
             Vector::from_fn(velocities, |a| {
                 if a < f {
@@ -54,7 +54,7 @@ impl<'a> System<'a> {
                 }
             })
         };
-        // The unit vectors of the velocities, among all unknowns.
+        // Unit vectors of the velocities, over all unknowns.
         let unit = |place: usize| {
             Vector::from_fn(structure.size(), |i| if i == place { 1.0 } else { 0.0 })
         };
@@ -90,7 +90,7 @@ impl<'a> System<'a> {
         let row = |place: usize| {
             let (c, b) = (&linear.damping[place], &linear.stiffness[place]);
             let row = by_velocity(c, b);
-            // Lengths in the metric of masses, in which the basis is orthonormal.
+            // Lengths in the mass metric, in which the basis is orthonormal.
             let part = |value: f64, i: usize| value * value / inertias[i];
             let of_speeds: f64 = speeds.clone().map(|i| part(b[i], i)).sum();
             let whole = of_speeds + (0..speeds.start).map(|i| part(c[i], i)).sum::<f64>();
@@ -145,7 +145,7 @@ impl<'a> System<'a> {
         let f = self.tangent.freedom;
         let size = f + self.free.len();
         let mut matrix = Matrix::zeros(size, size);
-        // (ydot; v) that each variable alone makes, and the force that resists it.
+        // (ydot; v) caused by each variable alone, and the force that resists it.
         for j in 0..size {
             let nu = if j < f {
                 &self.forced[j]
@@ -171,7 +171,7 @@ impl<'a> System<'a> {
     }
 }
 
-/// Matrix roots of the masses of the velocities, none far below the greatest.
+/// Square roots of the masses of the velocities, with a lower limit relative to the largest.
 fn metric(mass: &Matrix) -> Vector {
     const LIGHT: f64 = 1e-4;
     let own = Vector::from_fn(mass.row_count(), |a| mass[a][a].max(0.0).sqrt());
@@ -185,7 +185,7 @@ fn metric(mass: &Matrix) -> Vector {
     })
 }
 
-/// Makes vectors orthonormal by a mass matrix; `Err` is one that moves no mass.
+/// Makes vectors orthonormal in the mass matrix; `Err` is one that moves no mass.
 fn orthonormalise(vectors: &mut [Vector], mass: &Matrix) -> Result<(), Vector> {
     let count = vectors.len();
     let images: Vec<Vector> = vectors.iter().map(|x| times(mass, x)).collect();

@@ -27,7 +27,7 @@ impl Neg for Eight {
     }
 }
 
-/// The bits of `value` changed where those of `by` are set.
+/// Flips the bits of `value` where those of `by` are set.
 #[inline(always)]
 unsafe fn flip(value: __m512d, by: __m512i) -> __m512d {
     // SAFETY: see the module.

@@ -99,7 +99,7 @@ impl Lanes for Four {
         // SAFETY: see the module.
         unsafe {
             let turns = _mm256_castpd_si256(self.0);
-            // The choice looks at the first bit of a lane only.
+            // The selection only looks at the first bit of a lane.
             let odd = _mm256_castsi256_pd(_mm256_slli_epi64::<63>(turns));
             let two = _mm256_set1_epi64x(2);
             let sign =

@@ -1,8 +1,8 @@
 //! Vectors of x86-64: two lanes of SSE2, four of AVX2, eight of AVX-512.
 //!
-//! The only unsafe code of the project. It rests on one fact: values of the wider types exist only inside tasks that [`Avx2`] and
-//! [`Avx512`] run, and these two exist only where the processor has been asked for the instructions; every processor of this
-//! kind has SSE2.
+//! The only unsafe code of the project. It rests on one fact: values of the wider types exist only inside tasks that
+//! [`Avx2`] and [`Avx512`] run, and these two exist only if the processor was found to have the instructions; every
+//! x86-64 processor has SSE2.
 #![allow(unsafe_code)]
 
 mod eight;
@@ -18,7 +18,7 @@ pub(super) use two::sines_and_cosines;
 
 use super::lanes::Task;
 
-/// That the processor has a set of instructions: proof, and door to it.
+/// Proof that the processor has a set of instructions, which gives access to them.
 macro_rules! set {
     ($(#[$doc:meta])* $name:ident $feature:tt $vector:ident $run:ident) => {
         $(#[$doc])*
@@ -26,7 +26,7 @@ macro_rules! set {
         pub(super) struct $name(());
 
         impl $name {
-            /// Asks the processor; without the standard library, the target that is compiled for.
+            /// Detects the instructions in the processor or, without the standard library, in the compilation target.
             #[inline]
             pub(super) fn detect() -> Option<Self> {
                 #[cfg(feature = "std")]
@@ -60,13 +60,15 @@ set! {
     Avx512 "avx512f" Eight avx512
 }
 
-/// Runs a task on numbers with the instructions of AVX where the processor has them: these name the register of their
-/// result, which saves a copy where both operands are needed again. Code shrinks by a quarter, and thousands of operations
-/// fit into the cache of instructions. Without optimisation nothing is gained, and half of the code would be compiled in vain.
+/// Runs a scalar task with AVX instructions if the processor has them.
+///
+/// AVX instructions name a separate result register, which saves a copy if both operands are needed again. The code
+/// shrinks by a quarter, so that thousands of operations fit into the instruction cache. Without optimisation there is
+/// no gain, and half of the code would be compiled in vain.
 #[inline]
 pub(super) fn compact<R>(task: impl FnOnce() -> R) -> R {
-    // A task that could be dropped here would be cleaned up after a panic: LLVM then splits a block for every call in a kernel
-    // that it inlines, which takes minutes for a large one.
+    // A task that could be dropped here would be cleaned up after a panic: LLVM then splits a block for every call in a
+    // kernel that it inlines, which takes minutes for a large kernel.
     let task = ManuallyDrop::new(task);
     if !cfg!(debug_assertions) {
         #[cfg(feature = "std")]

@@ -1,6 +1,6 @@
 //! [`Real`](crate::Real) for every width of vector.
 
-/// What is the same for all but for the names of the instructions.
+/// Implements everything that differs only in the names of the instructions.
 macro_rules! real {
     ($vector:ident, $lanes:literal, $set1:ident, $load:ident, $store:ident, $sqrt:ident, $($trait:ident $method:ident $operation:ident)*) => {
         $(impl $trait for $vector {
@@ -33,7 +33,7 @@ macro_rules! real {
                 Self::of(core::array::from_fn(|l| function(a[l], b[l])))
             }
 
-            /// Each lane by the scalar function, for angles of any size.
+            /// Applies the scalar function to each lane, for angles of any size.
             #[cold]
             #[inline(never)]
             fn sin_cos_beyond(angles: &[f64; $lanes]) -> [[f64; $lanes]; 2] {

@@ -9,7 +9,7 @@ use crate::scalar::lanes::{BELOW_ONE, Lanes, ONE};
 use crate::scalar::real::Real;
 use crate::scalar::trigonometry;
 
-/// Sines and cosines of numbers, two at a time: every processor of this kind has vectors of two.
+/// Sines and cosines of numbers, two at a time: every x86-64 processor has vectors of two.
 #[inline(always)]
 pub(crate) fn sines_and_cosines<const K: usize>(angles: [f64; K]) -> [(f64, f64); K] {
     let mut results = [(0.0, 0.0); K];

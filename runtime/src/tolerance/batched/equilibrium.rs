@@ -1,4 +1,4 @@
-//! The equilibrium of a sample: steps to it, and whether it is the one that the nominal equilibrium has become.
+//! The equilibrium of a sample: the steps to it, and the check that it continues the nominal equilibrium.
 
 use super::statics::{Forces, Potential, Statics};
 use super::{Solved, TaylorModel};
@@ -8,17 +8,18 @@ use crate::batched::closed::{self, Solver};
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::scalar::Lanes;
 
-/// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last: it takes the nominal change
-/// of the stiffness, so that what remains is a share of it like that of the tolerances.
+/// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last. It uses the nominal
+/// change of the stiffness, so that the remainder is a share of it comparable to that of the tolerances.
 const LAST_CORRECTION: f64 = 1e-12;
-/// Least pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
+/// Smallest pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
 const CLEARLY_POSITIVE: f64 = 1e-3;
-/// Greatest displacement from the nominal position, in displacements of one standard deviation.
+/// Largest displacement from the nominal position, in displacements of one standard deviation.
 pub(super) const FAR: f64 = 6.0;
-/// Greatest change of the stiffness, relative to the nominal one: as great a change into the other direction leaves it regular.
+/// Largest change of the stiffness, relative to the nominal one: an equal change in the opposite direction leaves it
+/// regular.
 const CHANGED: f64 = 0.5;
 
-/// A step of Newton's method; a sample fails where the stiffness is not like the nominal one on the way.
+/// A Newton step; a sample fails if its stiffness departs from the nominal one on the way.
 #[inline(always)]
 pub(super) fn improve<V: Lanes, const N: usize>(
     n: usize,
@@ -37,7 +38,7 @@ pub(super) fn improve<V: Lanes, const N: usize>(
             forces.step((n, motions), &q, &stiffness, &residual)
         }
     };
-    // Samples at rest stay where they are, so that none depends on the others.
+    // Samples at rest do not move, so that none depends on the others.
     let rested = V::load(&batch.resting, at);
     let moving = rested.at_most(V::constant(0.0));
     let flag = V::load(&batch.flags, at);
@@ -50,7 +51,7 @@ pub(super) fn improve<V: Lanes, const N: usize>(
     V::choose(moving, last, rested).store(&mut batch.resting, at);
 }
 
-/// The flag of samples at rest near the nominal equilibrium, with a stiffness that is like the nominal one all the way.
+/// Flags samples at rest near the nominal equilibrium whose stiffness stays close to the nominal one all the way.
 #[inline(always)]
 pub(super) fn held<V: Lanes, const N: usize>(
     n: usize,
@@ -81,7 +82,7 @@ pub(super) fn held<V: Lanes, const N: usize>(
     keep(flag, one.at_most(regular))
 }
 
-/// Mass and stiffness at the equilibrium, between the undamped nominal modes.
+/// Mass and stiffness at the equilibrium, in the basis of the undamped nominal modes.
 #[inline(always)]
 pub(super) fn between_modes<V: Lanes, const N: usize>(
     n: usize,
@@ -126,8 +127,10 @@ impl<const N: usize> Potential<N> {
         (step, last, positive)
     }
 
-    /// Whether the stiffness, between the nominal modes, is positive definite here and, as far as its derivative tells, from the
-    /// nominal position to its mirror image: then so it is all the way.
+    /// Whether the stiffness, in the basis of the nominal modes, is positive definite all the way from the nominal
+    /// position.
+    ///
+    /// It is checked here and, using its derivative, from the nominal position to its mirror image.
     #[inline(always)]
     fn definite_all_the_way<V: Lanes>(
         &self,
@@ -150,7 +153,7 @@ impl<const N: usize> Potential<N> {
 }
 
 impl<const N: usize> Forces<N> {
-    /// A step, whether it is the last, and whether the stiffness is like the nominal one.
+    /// A step, whether it is the last, and whether the stiffness is close to the nominal one.
     #[inline(always)]
     fn step<V: Lanes>(
         &self,
@@ -167,7 +170,7 @@ impl<const N: usize> Forces<N> {
                 step[i] = step[i] + residual[k] * V::constant(self.inverse[i][k]);
             }
         }
-        // Near the identity: elimination needs no exchange.
+        // Near the identity, elimination needs no pivoting.
         for k in 0..n {
             let inverse = V::constant(1.0) / relative[k][k];
             for i in k + 1..n {
@@ -196,7 +199,7 @@ impl<const N: usize> Forces<N> {
         (step, last, regular)
     }
 
-    /// The nominal inverse times a stiffness, in units of the coordinates, and whether it is near the identity.
+    /// The nominal inverse times a stiffness, in units of the coordinates, and whether the product is near the identity.
     #[inline(always)]
     fn relative<V: Lanes>(&self, n: usize, stiffness: &Square<V, N>) -> (Square<V, N>, V) {
         let zero = V::constant(0.0);
@@ -220,8 +223,8 @@ impl<const N: usize> Forces<N> {
     }
 }
 
-/// `1/2 d2g/dq2 step step`, which a Newton step leaves of the residual: `curvature` holds `1/2 dKhat/dq_k`, off its diagonal
-/// in `k` and `j` twice.
+/// `1/2 d2g/dq2 step step`, the residual that a Newton step leaves. `curvature` holds `1/2 dKhat/dq_k`, doubled off the
+/// diagonal in `k` and `j`.
 #[inline(always)]
 fn curved<V: Lanes, const N: usize>(
     n: usize,

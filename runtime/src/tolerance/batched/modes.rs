@@ -1,4 +1,4 @@
-//! The modes of a sample, each recognised as a nominal one.
+//! The modes of a sample, each identified with a nominal one.
 
 use super::statics::Potential;
 use super::{Solved, TaylorModel};
@@ -9,14 +9,14 @@ use crate::batched::general::Pencil;
 use crate::eigenproblem::Reference;
 use crate::scalar::Lanes;
 
-/// Least and greatest `lambda` relative to the nominal one: what changes more may have changed on its way too.
+/// Smallest and largest `lambda` relative to the nominal one: a mode that changes more may have changed on its way too.
 const WEAKENED: f64 = 0.5;
 const STIFFENED: f64 = 2.0;
-/// A motion decays or grows clearly when `Re s` is so many errors and so much of `|s|` from zero.
+/// A motion clearly decays or grows if `Re s` differs from zero by this many errors and this share of `|s|`.
 const CLEAR: f64 = 8.0;
 const SLOW: f64 = 1e-12;
 
-/// Undamped modes in the nominal order; keeps the flags of samples all of whose modes are recognised.
+/// Undamped modes in the nominal order; clears the flags of samples with a mode that is not recognised.
 #[inline(always)]
 pub(super) fn undamped<V: Lanes, const N: usize>(
     n: usize,
@@ -39,8 +39,8 @@ pub(super) fn undamped<V: Lanes, const N: usize>(
     flag
 }
 
-/// Damped or constrained modes in the nominal order; keeps the flags of samples whose equilibrium is stable beyond doubt and all
-/// of whose modes are recognised.
+/// Damped or constrained modes in the nominal order; clears the flags of samples whose equilibrium is not stable beyond
+/// doubt or that have a mode that is not recognised.
 #[inline(always)]
 pub(super) fn general<V: Lanes, const N: usize>(
     n: usize,
@@ -61,7 +61,7 @@ pub(super) fn general<V: Lanes, const N: usize>(
     let pencil: Pencil<V, N> = Pencil::new(n, matrices, reference);
     let (all, found) = pencil.eigenvalues(reference, damped);
     flag = keep(flag, V::constant(1.0).at_most(found));
-    // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
+    // Without dissipation, a motion that stays bounded has imaginary eigenvalues.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;
     let modes = batch.frequencies.iter_mut().zip(&mut *batch.rates);

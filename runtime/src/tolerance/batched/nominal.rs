@@ -1,16 +1,16 @@
-//! How the nominal state answers to the design, to first and second order.
+//! How the nominal state depends on the design, to first and second order.
 
 use crate::Equilibrium;
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, all_finite, all_finite_matrix, form};
 use crate::batched::algebra::Row;
 use crate::kernels::Kernels;
 
-/// Design variables up to which second derivatives of the equilibrium shorten Newton's method.
+/// Number of design variables up to which second derivatives of the equilibrium shorten Newton's method.
 pub(super) const FEW: usize = 8;
-/// Displacement (rad or m) for differences where the equilibrium does not move.
+/// Displacement (rad or m) for differences if the equilibrium does not move.
 const SMALL: f64 = 1e-4;
-/// Change of the stiffness of a mode that may come of second derivatives over the displacement of one standard deviation,
-/// relative to it: [`FAR`](super::equilibrium::FAR) of these leave three quarters of it.
+/// Largest relative change of a mode's stiffness that second derivatives may cause over the displacement of one standard
+/// deviation. [`FAR`](super::equilibrium::FAR) times the displacement still leaves three quarters of the stiffness.
 const STRAIGHT: f64 = 0.007;
 
 /// The nominal state and its neighbours.
@@ -22,8 +22,8 @@ pub(super) struct Nominal<'a> {
 }
 
 impl Nominal<'_> {
-    /// `dq*/db = -Khat^-1 dg/db` of the varied variables at a state next to an equilibrium; `None` where `Khat` is not positive
-    /// definite or regular.
+    /// `dq*/db = -Khat^-1 dg/db` of the varied variables at a state next to an equilibrium; `None` if `Khat` is not
+    /// positive definite or, if there is no potential, is singular.
     pub(super) fn slopes(&self, q: &[f64], b: &[f64], varied: &[usize]) -> Option<Vec<Vector>> {
         let inputs = &self.state.inputs;
         let (_, stiffness) = self.mechanism.residual_and_stiffness(q, inputs, b);
@@ -43,8 +43,8 @@ impl Nominal<'_> {
             .then_some(slopes)
     }
 
-    /// Half of `d2q*/db_j db_k` for equal variables, all of it for others, `j <= k`: secants of the slopes over one standard
-    /// deviation along the equilibria.
+    /// Coefficients of `db_j db_k`, `j <= k`: half of `d2q*/db_j db_k` for equal variables, all of it for different
+    /// ones. They are secants of the slopes over one standard deviation along the equilibria.
     pub(super) fn curvatures<const N: usize>(
         &self,
         varied: &[usize],
@@ -81,8 +81,8 @@ impl Nominal<'_> {
         finite.then_some(second)
     }
 
-    /// How far one standard deviation of every varied variable moves each coordinate, all in one sense; something where the
-    /// equilibrium does not move.
+    /// How far one standard deviation of every varied variable moves each coordinate, all in the same direction; a small
+    /// displacement where the equilibrium does not move.
     pub(super) fn reach(&self, varied: &[usize], first: &[Vector], deviations: &[f64]) -> Vector {
         Vector::from_fn(self.state.coordinates.len(), |k| {
             let motions = first.iter().zip(varied);
@@ -92,7 +92,7 @@ impl Nominal<'_> {
         })
     }
 
-    /// `dKhat/dq_k` by differences over this displacement; `None` where the stiffness of a mode bends on the way.
+    /// `dKhat/dq_k` by differences over this displacement; `None` if the stiffness of a mode is too nonlinear over it.
     pub(super) fn stiffening(
         &self,
         reach: &[f64],
@@ -131,7 +131,7 @@ impl Nominal<'_> {
     }
 }
 
-/// A symmetric matrix between the modes.
+/// A symmetric matrix in the basis of the modes.
 pub(super) fn between(matrix: &Matrix, shapes: &Matrix) -> Matrix {
     let n = shapes.row_count();
     Matrix::from_fn(n, n, |r, s| form(&shapes[r], matrix, &shapes[s]))

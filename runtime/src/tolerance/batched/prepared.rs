@@ -1,4 +1,4 @@
-//! Samples in vectors of as many unknowns as there are.
+//! Dispatches samples to vector code for their number of unknowns.
 
 use super::samples::Solved;
 use super::taylor_model::TaylorModel;
@@ -9,12 +9,12 @@ use crate::scalar::Instructions;
 use crate::tolerance::Tolerances;
 use crate::{DampingKind, Description, Equilibrium, Modes};
 
-/// Most unknowns of a mechanism whose samples are solved side by side.
+/// Maximum number of unknowns for which samples are solved side by side.
 const MOST: usize = 16;
 /// The kernels that samples need.
 const KERNELS: [&str; 2] = ["residual_and_stiffness", "linear"];
 
-/// The nominal state in the form that samples need, its matrices no larger than they must be.
+/// The nominal state in the form that samples need, with matrices no larger than necessary.
 pub(in crate::tolerance) enum Prepared<'a> {
     Four(Box<TaylorModel<'a, 4>>),
     Eight(Box<TaylorModel<'a, 8>>),
@@ -22,8 +22,8 @@ pub(in crate::tolerance) enum Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// `None` where the mechanism is not of the kind that is solved in vectors, the nominal state is not clearly stable with all of
-    /// its modes, or nothing varies.
+    /// `None` if the mechanism is not of a kind that is solved in vectors, the nominal state is not clearly stable with
+    /// all of its modes, or nothing varies.
     pub(in crate::tolerance) fn new(
         kernels: &'a dyn BatchKernels,
         (nominal, modes): (&'a Equilibrium, &Modes),
@@ -50,7 +50,7 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Solves the members of some batches from their random bits.
+    /// Solves the members of several batches from their random bits.
     pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<'_>]) {
         match self {
             Self::Four(model) => model.solve(batches),
@@ -60,8 +60,8 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// Whether samples of a mechanism may be solved in vectors for modes of this family: few unknowns, no constraints but on positions,
-/// undamped modes of a potential, or general modes with some damping.
+/// Whether samples of a mechanism may be solved in vectors for modes of this family: few unknowns, no constraints except
+/// on positions, and either undamped modes of a potential or general modes with some damping.
 pub(crate) fn possible(description: &Description, family: Family) -> bool {
     let undamped = description.damping == DampingKind::Zero;
     (1..=MOST).contains(&description.coordinates.len())

@@ -7,7 +7,7 @@ use crate::scalar::{Batch, WIDTH};
 use crate::tolerance::sampling::Bits;
 use crate::{Complex, Equilibrium, Modes};
 
-/// Samples of one batch. Matrices stand row by row.
+/// Samples of one batch. Matrices are stored row by row.
 pub(in crate::tolerance) struct Solved<'a> {
     pub(in crate::tolerance) design: &'a mut [Batch],
     pub(in crate::tolerance) coordinates: &'a mut [Batch],
@@ -15,35 +15,35 @@ pub(in crate::tolerance) struct Solved<'a> {
     pub(in crate::tolerance) frequencies: &'a mut [Batch],
     /// `Re s`; zero for undamped modes.
     pub(in crate::tolerance) rates: &'a mut [Batch],
-    /// Bit `k`: sample `k` passed every check. Of others only the design means anything.
+    /// Bit `k` is set if sample `k` passed every check. For others only the design is meaningful.
     pub(in crate::tolerance) accepted: u32,
     /// Random bits, by pair of design variables.
     pub(in crate::tolerance) bits: &'a mut [[Bits; 2]],
-    /// How many of them are samples.
+    /// Number of lanes that hold samples.
     pub(in crate::tolerance) members: usize,
     /// Standard normal numbers, one for each design variable.
     pub(in crate::tolerance) standard: &'a mut [Batch],
-    /// They are given, not drawn.
+    /// The normal numbers are given, not drawn.
     pub(in crate::tolerance) given: bool,
-    /// One for those that passed every check so far.
+    /// One for samples that have passed every check so far.
     pub(super) flags: Batch,
-    /// One for those at whose equilibrium Newton's method came to rest.
+    /// One for samples at whose equilibrium Newton's method has come to rest.
     pub(super) resting: Batch,
     pub(super) residual: &'a mut [Batch],
-    /// In coordinates on the way to the equilibrium, between the undamped nominal modes there.
+    /// In coordinates on the way to the equilibrium; in the basis of the undamped nominal modes there.
     pub(super) stiffness: &'a mut [Batch],
     pub(super) mass: &'a mut [Batch],
-    /// Without damping where modes are undamped.
+    /// Without damping if modes are undamped.
     pub(super) linear: BatchLinear<'a>,
 }
 
-/// What some batches are solved in.
+/// Workspace for several batches.
 pub(in crate::tolerance) struct Memory {
     numbers: Vec<Batch>,
     bits: Vec<[Bits; 2]>,
 }
 
-/// How much a batch takes.
+/// Dimensions of a batch.
 #[derive(Clone, Copy)]
 pub(in crate::tolerance) struct Size {
     pub(in crate::tolerance) unknowns: usize,
@@ -53,7 +53,7 @@ pub(in crate::tolerance) struct Size {
 }
 
 impl Size {
-    /// Of samples about a nominal state.
+    /// Dimensions for samples about a nominal state.
     pub(in crate::tolerance) fn of(nominal: &Equilibrium, modes: &Modes) -> Self {
         Self {
             unknowns: nominal.coordinates.len(),
@@ -63,14 +63,14 @@ impl Size {
         }
     }
 
-    /// Elements of a damping matrix.
+    /// Number of elements of a damping matrix.
     fn damping(self) -> usize {
         self.unknowns * self.unknowns * usize::from(self.damped)
     }
 }
 
 impl Memory {
-    /// For `count` batches of samples.
+    /// Workspace for `count` batches of samples.
     pub(in crate::tolerance) fn new(count: usize, size: Size) -> Self {
         let (n, p) = (size.unknowns, size.design);
         let pairs = p.div_ceil(2);
@@ -121,7 +121,7 @@ impl Solved<'_> {
         both.map(move |(re, im)| Complex::new(re.0[member], im.0[member]))
     }
 
-    /// Accepts the members that passed every check so far.
+    /// Accepts the members that have passed every check so far.
     pub(super) fn accept(&mut self) {
         let members = self.flags.0[..self.members].iter().enumerate();
         let passed = members.map(|(k, flag)| u32::from(*flag >= 1.0) << k);

@@ -1,4 +1,4 @@
-//! Some batches of samples, through each stage together.
+//! Takes several batches of samples through each stage together.
 
 use super::samples::Solved;
 use super::statics::Statics;
@@ -8,14 +8,14 @@ use crate::eigenproblem::Reference;
 use crate::kernels::BatchPoint;
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
-/// Steps of Newton's method; one does where second derivatives predict the equilibrium well.
+/// Maximum number of Newton steps; one is enough if second derivatives predict the equilibrium well.
 const STEPS: usize = 6;
 /// Batches that go through each stage together: a stage waits for its own results most of the time, and meanwhile the
 /// processor can work on the next batch.
 pub(in crate::tolerance) const TOGETHER: usize = 4;
 
 impl<const N: usize> TaylorModel<'_, N> {
-    /// Solves the members of some batches from their random bits.
+    /// Solves the members of several batches from their random bits.
     pub(super) fn solve(&self, batches: &mut [Solved<'_>]) {
         self.instructions.run(Equilibria {
             prepared: self,
@@ -39,7 +39,7 @@ impl<const N: usize> TaylorModel<'_, N> {
     }
 }
 
-/// Equilibria, and undamped modes where no others are wanted.
+/// Equilibria, and undamped modes if no others are wanted.
 struct Equilibria<'a, 'b, const N: usize> {
     prepared: &'a TaylorModel<'a, N>,
     batches: &'a mut [Solved<'b>],
@@ -131,7 +131,7 @@ fn through<V: Lanes, const N: usize>(
     }
 }
 
-/// Modes by the nominal pairs, for any number of unknowns: there is too much arithmetic in them for the loops to matter.
+/// Modes by the nominal pairs, for any number of unknowns: they involve so much arithmetic that the loops do not matter.
 struct GeneralModes<'a, 'b, const N: usize> {
     prepared: &'a TaylorModel<'a, N>,
     reference: &'a Reference,

@@ -1,4 +1,4 @@
-//! The first stages of a sample: design, prediction of its equilibrium.
+//! The first stages of a sample: its design, and the prediction of its equilibrium.
 
 use super::nominal::FEW;
 use super::{Solved, TaylorModel};
@@ -7,7 +7,7 @@ use crate::kernels::Kernels;
 use crate::scalar::{Batch, Lanes, WIDTH};
 use crate::tolerance::normal_sampling::standard_normal_pair;
 
-/// `b = b_mean + L z`, `z` standard normal; of other distributions the normal numbers behind them.
+/// `b = b_mean + L z`, `z` standard normal; for other distributions, the normal numbers behind them.
 #[inline(always)]
 pub(super) fn draw<V: Lanes, const N: usize>(
     prepared: &TaylorModel<'_, N>,
@@ -40,7 +40,7 @@ pub(super) fn draw<V: Lanes, const N: usize>(
     }
 }
 
-/// Values that are not normal, from the standard normal numbers in their places.
+/// Converts standard normal numbers, in place, to values that are not normal.
 pub(super) fn distribute<const N: usize>(prepared: &TaylorModel<'_, N>, design: &mut [Batch]) {
     let Some((joint, moved)) = &prepared.joint else {
         return;
@@ -53,7 +53,7 @@ pub(super) fn distribute<const N: usize>(prepared: &TaylorModel<'_, N>, design: 
     }
 }
 
-/// Ones for the members whose bodies can exist.
+/// One for the members whose bodies can exist.
 pub(super) fn possible<const N: usize>(
     prepared: &TaylorModel<'_, N>,
     design: &[Batch],
@@ -72,7 +72,7 @@ pub(super) fn possible<const N: usize>(
     flags
 }
 
-/// The equilibrium as the derivatives of the nominal one predict it.
+/// Predicts the equilibrium from the derivatives of the nominal one.
 #[inline(always)]
 pub(super) fn predict<V: Lanes, const N: usize>(
     n: usize,

@@ -1,4 +1,4 @@
-//! How the nominal equilibrium vouches for those near it.
+//! How the nominal equilibrium validates those near it.
 
 use super::nominal::{Nominal, between};
 use crate::algebra::{Lu, Matrix, Vector};
@@ -7,39 +7,39 @@ use crate::eigenproblem::Reference;
 use crate::modes::{Family, free_pairs};
 use crate::{Equilibrium, Modes};
 
-/// Greatest error of an eigenvalue by rounding, relative, as the nominal matrices tell it.
+/// Largest relative rounding error of an eigenvalue, estimated from the nominal matrices.
 const ROUNDING: f64 = 1e-10;
 
-/// By what the stiffness of a sample is compared with the nominal one.
+/// The criterion by which the stiffness of a sample is compared with the nominal one.
 pub(super) enum Statics<const N: usize> {
-    /// Forces with a potential, and no constraints: it stays positive definite.
+    /// Forces with a potential, and no constraints: the stiffness stays positive definite.
     Potential(Potential<N>),
-    /// Other forces, reactions among them: it stays regular.
+    /// Other forces, including reactions: the stiffness stays regular.
     Forces(Forces<N>),
 }
 
 pub(super) struct Potential<const N: usize> {
-    /// Undamped nominal modes, one in each row.
+    /// Undamped nominal modes, one per row.
     pub(super) shapes: Square<f64, N>,
     /// Their `lambda`, 1/s^2.
     pub(super) lambda: Row<f64, N>,
-    /// `1/2 dKhat/dq_k` by `k` and row, rows beside the diagonal twice, the rows after `k` not used: the quadratic terms of the
-    /// residual.
+    /// `1/2 dKhat/dq_k` by `k` and row, with off-diagonal rows doubled and rows after `k` unused: the quadratic terms of
+    /// the residual.
     pub(super) curvature: Vec<Square<f64, N>>,
-    /// `dKhat/dq_k` between the nominal modes.
+    /// `dKhat/dq_k` in the basis of the nominal modes.
     pub(super) stiffening: Vec<Square<f64, N>>,
 }
 
 pub(super) struct Forces<const N: usize> {
     /// Inverse of the nominal stiffness, its rows divided by [`Self::units`].
     pub(super) inverse: Square<f64, N>,
-    /// Of the unknowns: of motions with kinetic energies of one size, of reactions.
+    /// Units of the unknowns: motions with equal kinetic energies, and reactions.
     pub(super) units: Row<f64, N>,
 }
 
 impl<const N: usize> Statics<N> {
-    /// `None` where the nominal state is not clear enough. `reach` is how far one standard deviation of every variable moves each
-    /// coordinate.
+    /// `None` if the nominal state is not clear enough. `reach` is how far one standard deviation of every variable
+    /// moves each coordinate.
     pub(super) fn new(
         nominal: &Nominal<'_>,
         (modes, reference): (&Modes, Option<&Reference>),
@@ -92,12 +92,12 @@ impl<const N: usize> Forces<N> {
     }
 }
 
-/// As a row of a small size.
+/// Copies values into a row of small fixed size.
 pub(super) fn row<const N: usize>(values: &[f64]) -> Row<f64, N> {
     core::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
 }
 
-/// Whether `phi^T Khat phi` gives every eigenvalue to enough digits.
+/// Whether `phi^T Khat phi` gives every eigenvalue with enough digits.
 fn well_conditioned(nominal: &Equilibrium, shapes: &Matrix, lambda: &[f64]) -> bool {
     let n = lambda.len();
     let linear = &nominal.linear;
@@ -112,7 +112,7 @@ fn well_conditioned(nominal: &Equilibrium, shapes: &Matrix, lambda: &[f64]) -> b
     })
 }
 
-/// `1/2 dKhat/dq_k`, row `j < k` standing for row `k` of `j` too.
+/// `1/2 dKhat/dq_k`, with row `j < k` also standing for row `k` of `j`.
 fn quadratic_terms<const N: usize>((k, slope): (usize, &Matrix)) -> Square<f64, N> {
     let mut terms = small(slope);
     for (j, row) in terms.iter_mut().enumerate() {

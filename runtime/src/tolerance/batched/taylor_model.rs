@@ -1,4 +1,4 @@
-//! What all samples share: how the nominal state answers to the design, to first and second order.
+//! Data shared by all samples: how the nominal state depends on the design, to first and second order.
 
 use eigentol_statistics::Joint;
 
@@ -20,37 +20,39 @@ pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
     pub(super) kernels: &'a dyn BatchKernels,
     pub(super) instructions: Instructions,
     pub(super) nominal: &'a Equilibrium,
-    /// Where values are not normal: functions of a standard normal number each, and what is added to them.
+    /// For values that are not normal: functions of one standard normal number each, and offsets to be added.
     pub(super) joint: Option<(&'a Joint, Vector)>,
-    /// Means, of normal values.
+    /// Means of normal values.
     pub(super) means: Vector,
-    /// The same inputs in every lane.
+    /// The inputs, equal in every lane.
     pub(super) inputs: Vector<Batch>,
-    /// Diagonal of the factor `L` of the covariance; of values that are not normal, of the correlation of the normal numbers behind them.
+    /// Diagonal of the factor `L` of the covariance; for values that are not normal, of the correlation of the normal
+    /// numbers behind them.
     pub(super) own: Vector,
-    /// (`i`, `j`, `L_ij`) beside the diagonal, row by row, without zeros.
+    /// (`i`, `j`, `L_ij`) off the diagonal, row by row, without zeros.
     pub(super) shared: Vec<(usize, usize, f64)>,
-    /// Pairs of random numbers on which anything depends.
+    /// Which pairs of random numbers are used.
     pub(super) drawn: Vec<bool>,
     /// Design variables that vary.
     pub(super) varied: Vec<usize>,
-    /// `dq*/db` by varied variable.
+    /// `dq*/db`, by varied variable.
     pub(super) first: Vec<Row<f64, N>>,
-    /// Coefficient of `db_j db_k` in `q*` by `k` and `j <= k`, positions in `varied`; empty without.
+    /// Coefficients of `db_j db_k` in `q*`, by `k` and `j <= k`, as positions in `varied`; empty if second derivatives
+    /// are not used.
     pub(super) second: Vec<[Row<f64, N>; FEW]>,
     pub(super) statics: Statics<N>,
-    /// How many of the unknowns are coordinates.
+    /// Number of unknowns that are coordinates.
     pub(super) motions: usize,
-    /// The nominal pairs, where modes are damped or constrained.
+    /// The nominal pairs, if modes are damped or constrained.
     pub(super) reference: Option<Reference>,
-    /// No design that can be drawn breaks a physical requirement: samples need not ask.
+    /// No design that can be drawn violates a physical requirement, so samples need no check.
     pub(super) all_possible: bool,
-    /// Displacements that one standard deviation of every variable causes.
+    /// Displacements caused by one standard deviation of every variable.
     pub(super) reach: Row<f64, N>,
 }
 
 impl<'a, const N: usize> TaylorModel<'a, N> {
-    /// `None` where the mechanism is not of the kind that is solved in vectors, the nominal state is not a clear minimum with
+    /// `None` if the mechanism is not of a kind that is solved in vectors, the nominal state is not a clear minimum with
     /// all of its modes, or nothing varies.
     pub(super) fn new(
         kernels: &'a dyn BatchKernels,

@@ -1,4 +1,4 @@
-//! Modes whose eigenvalues rounding moves far: those of random pencils in skew coordinates.
+//! Modes whose eigenvalues are sensitive to rounding: those of random pencils in skew coordinates.
 
 use super::*;
 use crate::algebra::Matrix;
@@ -22,7 +22,7 @@ fn product(a: &Matrix, b: &Matrix) -> Matrix {
     Matrix::from_fn(n, n, |i, j| (0..n).map(|k| a[i][k] * b[k][j]).sum())
 }
 
-/// Coordinates with a condition number of up to `10^5`, about.
+/// Coordinates with a condition number of up to about `10^5`.
 fn skew(n: usize, rng: &mut ChaCha8Rng) -> Matrix {
     let spread = 2.5 * (1.0 + uniform(rng)) / (n.max(2) - 1) as f64;
     let left = Matrix::from_fn(n, n, |_, _| uniform(rng));
@@ -47,7 +47,8 @@ fn modes(linear: &Linear) -> Option<Modes> {
     solve_modes(linear, Family::General, &ANY, 0.0).ok()
 }
 
-/// Compares random pencils, mode by mode; returns how many were accepted whose eigenvalues may be off by more than `1e-9`.
+/// Compares random pencils mode by mode; returns how many were accepted although their eigenvalues may be off by more
+/// than `1e-9`.
 fn compare(rounds: usize) -> usize {
     let mut rng = ChaCha8Rng::seed_from_u64(31);
     let mut inaccurate = 0;

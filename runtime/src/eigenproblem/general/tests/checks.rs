@@ -1,8 +1,8 @@
-//! What must hold for any answer, computed without the solver's own code.
+//! Properties that any answer must have, computed without the solver's own code.
 
 use super::*;
 
-/// Checks one answer; `Err` says what is wrong.
+/// Checks one answer; `Err` describes the fault.
 pub(super) fn check(linear: &Linear, roots: &[Root]) -> Result<(), String> {
     let mut weight = 0;
     for (i, root) in roots.iter().enumerate() {
@@ -73,8 +73,8 @@ pub(super) fn mass_product(linear: &Linear, x: &[Complex64], y: &[Complex64]) ->
     sum
 }
 
-/// Greatest component of `Q(s) x`, or of `x^T Q(s)`, relative to the terms and to the matrices, in units in
-/// which the masses are one.
+/// Largest component of `Q(s) x`, or of `x^T Q(s)`, relative to the terms and to the matrices, in units with unit
+/// masses.
 fn residuals(linear: &Linear, s: Complex64, x: &[Complex64], transposed: bool) -> (f64, f64) {
     let (mut most, mut terms, mut elements, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     for i in 0..x.len() {
@@ -141,7 +141,7 @@ pub(super) fn check_product(roots: &[Root], quotient: f64) -> Result<(), String>
     }
 }
 
-/// Dimension of the span of some vectors of length one by the mass matrix.
+/// Dimension of the span of some vectors that are normalised in the mass matrix.
 pub(super) fn rank(linear: &Linear, vectors: &[&[Complex64]]) -> usize {
     let mut basis: Vec<Vector<Complex64>> = Vec::new();
     for &vector in vectors {

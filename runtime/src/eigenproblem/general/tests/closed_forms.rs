@@ -61,7 +61,7 @@ fn one_coordinate() {
     assert!((heavy[0].re + 1e-9).abs() < 1e-24 && (heavy[1].re + 1e9).abs() < 1e-6);
 }
 
-/// With `C = a M + b K` each mode keeps its shape: `s^2 + (a + b lambda) s + lambda = 0`.
+/// With `C = a M + b K` each mode keeps its shape and has `s^2 + (a + b lambda) s + lambda = 0`.
 #[test]
 fn proportional_damping() {
     let mass = Matrix::from([[2.0, 0.5, 0.0], [0.5, 1.0, 0.1], [0.0, 0.1, 3.0]]);
@@ -89,7 +89,8 @@ fn proportional_damping() {
     );
 }
 
-/// Undamped symmetric pencils against the symmetric solver: `s = i sqrt(lambda)`, real shapes, left as right.
+/// Undamped symmetric pencils against the symmetric solver: `s = i sqrt(lambda)`, real shapes, left vectors equal to
+/// right ones.
 #[test]
 fn undamped_modes_of_the_symmetric_solver() {
     let mass = Matrix::from([
@@ -121,18 +122,18 @@ fn undamped_modes_of_the_symmetric_solver() {
             assert!((root.left[i] - shape).norm() < 1e-12, "{root:?}");
         }
     }
-    // Three that oscillate and one that diverges: both its real roots.
+    // Three modes that oscillate and one that diverges, which has two real roots.
     assert_eq!(roots.len(), 5);
 }
 
-/// Circulatory forces: `lambda = 2 +- i`, `s = +- sqrt(-lambda)`, one mode grows.
+/// Circulatory forces: `lambda = 2 +- i`, `s = +- sqrt(-lambda)`, and one mode grows.
 #[test]
 fn flutter() {
     let roots = solved(&linear(identity(2), zeros(2), [[2.0, 1.0], [-1.0, 2.0]]));
     let grows = Complex64::new(-2.0, 1.0).sqrt();
     let decays = -grows.conj();
     close(&values(&roots), &[decays, grows], 1e-15);
-    // At the border, `lambda = 3` twice with one vector.
+    // At the stability limit, `lambda = 3` occurs twice with one vector.
     let roots = solved(&linear(identity(2), zeros(2), [[2.0, 1.0], [-1.0, 4.0]]));
     for root in &roots {
         assert!((root.s - Complex64::new(0.0, 3.0_f64.sqrt())).norm() <= root.error);
@@ -140,7 +141,7 @@ fn flutter() {
     }
 }
 
-/// A free mechanism: `s = 0` twice, with one vector, beside `i sqrt(k / m1 + k / m2)`.
+/// A free mechanism: `s = 0` twice, with one vector, next to `i sqrt(k / m1 + k / m2)`.
 #[test]
 fn rigid_body_mode() {
     let k = 7.1;
@@ -175,7 +176,7 @@ fn semisimple_double_roots() {
 }
 
 /// Eigenvalues over twelve orders of magnitude. Exact roots of `det Q` in rational arithmetic: with
-/// `K = [[1, 1e-12], [1e-12, 2e-24]]` the small frequency is 1e-12 to a relative 1e-24.
+/// `K = [[1, 1e-12], [1e-12, 2e-24]]` the small frequency is 1e-12 to a relative accuracy of 1e-24.
 #[test]
 fn small_eigenvalues_beside_great_ones() {
     let stiffness = [[1.0, 1e-12], [1e-12, 2e-24]];
@@ -185,7 +186,8 @@ fn small_eigenvalues_beside_great_ones() {
         assert!((root.s - expected).norm() <= 1e-14 * expected.norm());
         assert!(root.error < 1e-13 * expected.norm());
     }
-    // A soft spring behind a stiff one, in coordinates that mix them; lambda_1 = k1 k2 / (k1 + 2 k2) to a relative 1e-12.
+    // A soft spring in series with a stiff one, in coordinates that mix them; lambda_1 = k1 k2 / (k1 + 2 k2) to a
+    // relative 1e-12.
     let (soft, stiff) = (1.0, 1e12);
     let stiffness = [[soft + stiff, -stiff], [-stiff, stiff]];
     let roots = solved(&linear(identity(2), zeros(2), stiffness));
@@ -195,7 +197,7 @@ fn small_eigenvalues_beside_great_ones() {
     assert!(slow.error < 1e-2, "{slow:?}");
 }
 
-/// Coordinates in other units, `D M D` and so on, have the same eigenvalues.
+/// Coordinates in other units (`D M D` and so on) have the same eigenvalues.
 #[test]
 fn units_of_coordinates_do_not_matter() {
     let pencil = linear(

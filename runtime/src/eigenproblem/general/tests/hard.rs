@@ -1,4 +1,4 @@
-//! Degenerate cases one by one.
+//! Individual degenerate cases.
 
 use super::checks::check;
 use super::*;
@@ -15,7 +15,7 @@ fn nothing_resists() {
     }
 }
 
-/// `M s^2 + C s` with a regular `C`: zero, semisimple, as often as there are coordinates.
+/// `M s^2 + C s` with regular `C`: zero is semisimple, with as many copies as there are coordinates.
 #[test]
 fn only_dampers() {
     let pencil = linear(
@@ -32,7 +32,7 @@ fn only_dampers() {
     assert_eq!(checks::rank(&pencil, &vectors), 3);
 }
 
-/// A Jordan block of `K`: `s = +- i sqrt(2)`, each twice, with one vector.
+/// A Jordan block of `K`: `s = +- i sqrt(2)`, twice each, with one vector.
 #[test]
 fn jordan_block() {
     let pencil = linear(identity(2), zeros(2), [[2.0, 1.0], [0.0, 2.0]]);

@@ -1,5 +1,5 @@
-//! Pencils of integers with exactly known spectra: blocks with known roots under unimodular transformations,
-//! `M = R^T R`, `C = R^T (S C0 S^-1) R`, `K = R^T (S K0 S^-1) R`. Nothing is rounded.
+//! Integer pencils with exactly known spectra: blocks with known roots under unimodular transformations, `M = R^T R`,
+//! `C = R^T (S C0 S^-1) R`, `K = R^T (S K0 S^-1) R`. Nothing is rounded.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -7,7 +7,7 @@ use rand_chacha::rand_core::Rng;
 use super::checks::{check, check_product, check_sum, cross, rank};
 use super::*;
 
-/// An exact root: algebraic and geometric multiplicity.
+/// An exact root with its algebraic and geometric multiplicity.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Exact {
     pub(super) s: Complex64,
@@ -24,7 +24,7 @@ pub(super) fn below(rng: &mut ChaCha8Rng, bound: u32) -> u32 {
     rng.next_u32() % bound
 }
 
-/// Roots of one block: an integer pair, real or conjugate.
+/// Roots of one block: a pair of integers, real or conjugate.
 fn block_roots(rng: &mut ChaCha8Rng) -> [Complex64; 2] {
     let a = below(rng, 6) as f64 - 4.0;
     let b = below(rng, 5) as f64 - 3.0;
@@ -37,7 +37,7 @@ fn block_roots(rng: &mut ChaCha8Rng) -> [Complex64; 2] {
     }
 }
 
-/// Replaces row `i` by itself plus `factor` times row `j`, columns likewise the other way: `E X E^-1`.
+/// Adds `factor` times row `j` to row `i`, and applies the inverse to the columns: `E X E^-1`.
 fn conjugate_by(x: &mut Matrix, i: usize, j: usize, factor: f64) {
     for k in 0..x.column_count() {
         x[i][k] += factor * x[j][k];
@@ -125,8 +125,8 @@ pub(super) fn known(n: usize, rng: &mut ChaCha8Rng, chains: bool) -> Known {
     }
 }
 
-/// Checks an answer against the exact spectrum: every root within its error, the right number of each, independent
-/// vectors where the root is semisimple.
+/// Checks an answer against the exact spectrum: every root within its error, the right number of each, and independent
+/// vectors for semisimple roots.
 pub(super) fn check_known(known: &Known) -> Result<(), String> {
     let roots = solve(&known.linear).map_err(|trouble| format!("{trouble:?}"))?;
     check(&known.linear, &roots)?;

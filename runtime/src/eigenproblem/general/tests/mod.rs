@@ -40,7 +40,7 @@ fn diagonal(elements: &[f64]) -> Matrix {
     Matrix::from_fn(n, n, |i, j| if i == j { elements[i] } else { 0.0 })
 }
 
-/// Every root, conjugates written out.
+/// All roots, including conjugates.
 fn all(roots: &[Root]) -> Vec<Complex64> {
     let mut values = Vec::new();
     for root in roots {

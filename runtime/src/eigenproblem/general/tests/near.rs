@@ -1,4 +1,4 @@
-//! Roots by those of a pencil near by are those that are found from nothing.
+//! Roots found from those of a nearby pencil equal the roots found from scratch.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -9,7 +9,7 @@ use super::*;
 use crate::eigenproblem::general::prediction::predict;
 use crate::eigenproblem::general::{Eigenproblem, Near, roots_near};
 
-/// Gyroscopic, damped, circulatory, with eigenvalues that meet or vanish.
+/// Gyroscopic, damped and circulatory pencils, with eigenvalues that meet or vanish.
 pub(crate) fn pencil(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Linear {
     let any = Matrix::from_fn(n, n, |_, _| uniform(rng));
     let stiffness = symmetric(&any, 1.0);
@@ -21,7 +21,7 @@ pub(crate) fn pencil(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Linear {
     }
 }
 
-/// The same with every element changed by up to this share, symmetric parts and signs kept.
+/// The pencil with every element changed by up to this share, keeping symmetric parts and signs.
 pub(crate) fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear {
     let n = pencil.mass.row_count();
     let factors = Matrix::from_fn(n, n, |_, _| 0.5 * share * uniform(rng));
@@ -45,7 +45,7 @@ pub(crate) fn near(roots: &[Root]) -> Vec<Near<'_>> {
     roots.iter().map(near).collect()
 }
 
-/// Every root with its error, conjugates written out.
+/// All roots with their errors, including conjugates.
 pub(crate) fn with_errors(roots: &[Root]) -> Vec<(Complex64, f64)> {
     let both = |root: &Root| {
         let conjugate = (root.s.im > 0.0).then(|| root.s.conj());
@@ -69,7 +69,7 @@ fn compare(rounds: usize) {
         let found = roots_near(Eigenproblem::Quadratic(&here), &near(&known))
             .unwrap_or_else(|_| panic!("round {round}: not found"));
         check(&here, &found).unwrap_or_else(|message| panic!("round {round}: {message}"));
-        // Roots of equal size stand in an order that rounding decides, and a double root is a pair or two real ones.
+        // The order of roots of equal size is decided by rounding, and a double root may be a pair or two real roots.
         let mut left = with_errors(&wanted);
         for (s, error) in with_errors(&found) {
             let same = |other: &(Complex64, f64)| {

@@ -1,4 +1,4 @@
-//! The parts of the solver alone.
+//! Tests of the parts of the solver.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -37,7 +37,7 @@ fn qr_converges_on_small_integer_companions() {
     }
 }
 
-/// Permutations turn about the unit circle: the ordinary shifts do not move them.
+/// Permutations have their eigenvalues on the unit circle: ordinary shifts do not move them.
 #[test]
 fn qr_converges_on_cyclic_permutations() {
     for n in 2..17 {
@@ -72,7 +72,7 @@ fn balancing_keeps_the_matrix_similar() {
     assert!(matrix.iter().all(|x| x.abs() < 100.0), "{matrix:?}");
 }
 
-/// The second method from a circle finds what the first one finds.
+/// The second method, started from a circle, finds the same values as the first.
 #[test]
 fn both_methods_agree() {
     let mass = [1.0, 0.0, 0.0, 1.0];

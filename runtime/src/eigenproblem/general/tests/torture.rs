@@ -1,4 +1,4 @@
-//! Degenerate, defective and badly scaled pencils in great number.
+//! Large numbers of degenerate, defective and badly scaled pencils.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -27,7 +27,7 @@ fn graded(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
     })
 }
 
-/// Well conditioned, after scaling the coordinates by up to `10^spread` either way.
+/// Well conditioned, with coordinates then scaled by up to `10^spread` either way.
 pub(super) fn mass(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
     let units = Vector::from_fn(n, |_| 10.0_f64.powf(spread * uniform(rng)));
     let coupling = Matrix::from_fn(n, n, |_, _| 0.4 * uniform(rng) / n as f64);
@@ -51,7 +51,7 @@ fn companion(n: usize, rng: &mut ChaCha8Rng) -> Matrix {
     })
 }
 
-/// Determinant of a matrix of small integers, exactly (Bareiss).
+/// Exact determinant of a matrix of small integers (Bareiss).
 pub(super) fn determinant(matrix: &Matrix) -> f64 {
     let n = matrix.row_count();
     let mut a = matrix.map(|x| x as i128);
@@ -177,7 +177,7 @@ fn hard_pencils_in_number() {
     torture(6_000);
 }
 
-/// Ten seconds with optimisation: `cargo test --release -p eigentol -- --ignored hard_pencils`.
+/// Takes ten seconds with optimisation: `cargo test --release -p eigentol -- --ignored hard_pencils`.
 #[test]
 #[ignore = "takes minutes without optimisation"]
 fn hard_pencils_in_great_number() {
