@@ -151,7 +151,7 @@ pub fn campbell(
     Ok(Campbell { points, ..found })
 }
 
-/// As [`campbell`], but gives each point to `each`, in order and as soon as it is found, and keeps none: the result has what lies
+/// Like [`campbell`], but gives each point to `each`, in order and as soon as it is found, and keeps none: the result has what lies
 /// between the points only. The diagram ends where `each` breaks off.
 ///
 /// # Errors

@@ -204,7 +204,7 @@ impl<'a> Responses<'a> {
         self.evaluate(room, design, false)
     }
 
-    /// As [`Self::at`], with derivatives.
+    /// Like [`Self::at`], with derivatives.
     ///
     /// # Errors
     /// As [`Self::at`].

@@ -18,7 +18,7 @@ const BESIDE: f64 = 1e-7;
 type LastStep = (Option<CurvePoint>, BranchEnd);
 
 impl Curve<'_> {
-    /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
+    /// Like [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
     pub(super) fn arrive_singular(
         &self,
         corrected: &Corrected,

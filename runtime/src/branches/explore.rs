@@ -76,7 +76,7 @@ pub fn branches(
     branches_each(mechanism, (u, b), start, (settings, search), nobody, |_| {})
 }
 
-/// As [`branches`], for somebody who waits: `each` sees every branch as soon as it is complete, and a search that is stopped gives what
+/// Like [`branches`], for somebody who waits: `each` sees every branch as soon as it is complete, and a search that is stopped gives what
 /// was found until then, the last branch with an end [`BranchEnd::Stopped`].
 ///
 /// # Errors

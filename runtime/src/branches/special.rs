@@ -100,7 +100,7 @@ impl Curve<'_> {
         })
     }
 
-    /// As [`Self::special`] for what is not resolved further: the softest mode, where there are modes.
+    /// Like [`Self::special`] for what is not resolved further: the softest mode, where there are modes.
     pub(crate) fn degenerate(
         &self,
         place: &CurvePosition,

@@ -74,7 +74,7 @@ pub(super) fn percent(share: f64) -> String {
 /// What stands in place of a number that a member of a cluster of equal eigenvalues does not have.
 pub(super) const CLUSTER: &str = "cluster";
 
-/// As [`or_dash`], of a mode that may be a member of a cluster.
+/// Like [`or_dash`], of a mode that may be a member of a cluster.
 pub(super) fn of_mode(value: Option<f64>, clustered: bool, form: fn(f64) -> String) -> String {
     if clustered {
         CLUSTER.to_owned()
@@ -88,12 +88,12 @@ pub(super) fn in_unit(value: f64, unit: &Unit) -> String {
     number(converted(value, unit))
 }
 
-/// As [`in_unit`], of a value that somebody gave.
+/// Like [`in_unit`], of a value that somebody gave.
 pub(super) fn given_in(value: f64, unit: &Unit) -> String {
     given(converted(value, unit))
 }
 
-/// As [`in_unit`], of a spread.
+/// Like [`in_unit`], of a spread.
 pub(super) fn rough_in(value: f64, unit: &Unit) -> String {
     rough(converted(value, unit))
 }

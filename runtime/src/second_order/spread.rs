@@ -74,7 +74,7 @@ pub fn second_order(
     of_each((0..modes.modes.len()).map(one).collect(), at, tolerances)
 }
 
-/// As [`second_order`], for somebody who waits.
+/// Like [`second_order`], for somebody who waits.
 pub(crate) fn second_order_watched(
     mechanism: &dyn CurvatureKernels,
     (at, modes): (&Equilibrium, &Modes),

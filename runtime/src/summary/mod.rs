@@ -110,7 +110,7 @@ pub fn summary(
     summary_within(mechanism, at, modes, tolerances, BUDGET)
 }
 
-/// As [`summary`], with samples that may cost so many operations: more decide closer cases, none leave the distances.
+/// Like [`summary`], with samples that may cost so many operations: more decide closer cases, none leave the distances.
 ///
 /// # Errors
 /// As [`summary`].
@@ -124,7 +124,7 @@ pub fn summary_within(
     summary_watched(mechanism, (at, modes), tolerances, budget, Watch::default())
 }
 
-/// As [`summary_within`], for somebody who waits.
+/// Like [`summary_within`], for somebody who waits.
 ///
 /// # Errors
 /// As [`summary`]; [`Error::Stopped`] if the work is stopped: half a verdict is none.

@@ -37,7 +37,7 @@ pub fn sweep(
     Ok(Sweep { points, ..found })
 }
 
-/// As [`sweep`], but shows each point to `each`, in order and as soon as it is found, and keeps none: the result has the critical
+/// Like [`sweep`], but shows each point to `each`, in order and as soon as it is found, and keeps none: the result has the critical
 /// states only. The sweep ends where `each` breaks off.
 ///
 /// # Errors

@@ -238,7 +238,7 @@ impl<'a> Tracker<'a> {
         })
     }
 
-    /// As [`Self::advance`]: a state whose modes fail comes back.
+    /// Like [`Self::advance`]: a state whose modes fail comes back.
     fn go(&mut self, value: f64) -> Result<Option<(Box<SweepPoint>, Error)>, Error> {
         // Where to go next, how often the way may still be halved, and what comes after it.
         let (mut next, mut halvings) = (value, HALVINGS);
