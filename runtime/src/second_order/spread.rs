@@ -74,7 +74,7 @@ pub fn second_order(
     of_each((0..modes.modes.len()).map(one).collect(), at, tolerances)
 }
 
-/// Like [`second_order`], but reports progress to `watch` and stops on request.
+/// Like [`second_order`], but `watch` can stop it.
 pub(crate) fn second_order_watched(
     mechanism: &dyn CurvatureKernels,
     (at, modes): (&Equilibrium, &Modes),
