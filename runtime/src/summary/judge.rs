@@ -219,7 +219,8 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// Half the ratio of `Im s` to its standard deviation; `None` for undamped modes and those that do not oscillate.
+    /// `(Im s)^2` divided by its own standard deviation, `Im s / (2 sigma)`; `None` for undamped modes and those that do not
+    /// oscillate.
     fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
         let own = self.first.modes[mode].frequency()?;
         (self.first.family == Family::General && own.sigma > 0.0)
