@@ -62,7 +62,7 @@ fn lower(alpha: f64, beta: f64, probability: f64) -> f64 {
         let x = log_x.exp();
         let below = beta_reg(alpha, beta, x);
         if below <= 0.0 {
-            // The series: the value is too small for the iteration.
+            // The distribution function underflows: use the series.
             return start.exp();
         }
         let gap = below.ln() - target;

@@ -11,9 +11,9 @@ pub(super) struct Interval {
     low: f64,
     #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
     high: f64,
-    /// Whether the limits are mirrored, so that most of the probability lies left of zero.
+    /// Whether the limits are mirrored, because most of the probability lies left of zero.
     mirrored: bool,
-    /// `P(Z > low)` and `P(Z > high)`, with most of the probability to the right of `low`.
+    /// `P(Z > low)` and `P(Z > high)`, with the limits after mirroring.
     above: (f64, f64),
 }
 

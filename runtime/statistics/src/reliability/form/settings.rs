@@ -19,8 +19,8 @@ pub struct FormSettings {
     pub seed: u64,
     /// Maximum distance of design points from the origin, in standard deviations.
     pub radius: f64,
-    /// Design points whose mutual distance is below this fraction of their distance from the origin (at least 1) belong to one
-    /// failure region.
+    /// Design points whose mutual distance is below this fraction of their distance from the origin (or of 1, if that is larger)
+    /// belong to one failure region.
     pub separation: f64,
     /// Maximum number of failure regions.
     pub regions: usize,

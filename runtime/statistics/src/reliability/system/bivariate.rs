@@ -157,7 +157,7 @@ mod tests {
     }
 
     /// The derivative of the probability with respect to the correlation is the bivariate density (Plackett 1954), integrated here
-    /// from `Phi(-h)^2`.
+    /// from zero correlation.
     #[test]
     fn plackett() {
         for (h, k, r) in [(2.5, 1.5, 0.6), (4.0, 5.0, -0.4), (5.0, 5.0, 0.8_f64)] {
