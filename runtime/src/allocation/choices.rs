@@ -25,8 +25,9 @@ pub struct Nominal {
     pub limits: (f64, f64),
 }
 
-/// The free choices. Half-widths that are not listed stay as they are; each listed one scales the distribution of its variable
-/// about the mean.
+/// The free choices.
+///
+/// Half-widths that are not listed stay as they are; each listed one scales the distribution of its variable about the mean.
 #[derive(Debug)]
 pub struct Choices<'a> {
     /// Half-widths.

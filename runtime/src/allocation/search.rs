@@ -53,9 +53,11 @@ pub struct Allocation {
     pub description: Shared<Description>,
 }
 
-/// Finds the cheapest of the allowed tolerances, starting from those of `requirements`. Each requirement fails with at most the
-/// allowed probability to first order; if it has several limits, their probabilities are summed. A requirement without a limit
-/// ([`Requirement::Stable`](crate::requirement::Requirement::Stable)) is checked by samples only.
+/// Finds the cheapest of the allowed tolerances, starting from those of `requirements`.
+///
+/// Each requirement fails with at most the allowed probability to first order; if it has several limits, their probabilities are
+/// summed. A requirement without a limit ([`Requirement::Stable`](crate::requirement::Requirement::Stable)) is checked by samples
+/// only.
 ///
 /// # Errors
 /// [`Error::Infeasible`] if no choice is reliable enough; [`Error::Setting`], [`Error::WrongLength`] and [`Error::UnknownHandle`]

@@ -76,8 +76,9 @@ pub fn branches(
     branches_each(mechanism, (u, b), start, (settings, search), nobody, |_| {})
 }
 
-/// Like [`branches`], but passes every branch to `each` as soon as it is complete. A search that is stopped returns the branches
-/// found so far, the last of which ends with [`BranchEnd::Stopped`].
+/// Like [`branches`], but passes every branch to `each` as soon as it is complete.
+///
+/// A search that is stopped returns the branches found so far, the last of which ends with [`BranchEnd::Stopped`].
 ///
 /// # Errors
 /// As [`branches`].

@@ -10,8 +10,9 @@ use crate::sensitivity::Quantity;
 use crate::tolerance::{Spread, TRUSTED_DISTANCE, Tolerances};
 use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
 
-/// Modes that mix within the tolerances, or that rounding cannot tell apart. A mode that has merged with its own conjugate is a
-/// defective cluster of one.
+/// Modes that mix within the tolerances, or that rounding cannot tell apart.
+///
+/// A mode that has merged with its own conjugate is a defective cluster of one.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

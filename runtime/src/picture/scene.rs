@@ -39,9 +39,11 @@ impl Scene {
         squares.sum::<f64>().sqrt()
     }
 
-    /// The upward direction, a unit vector in the common frame: against gravity. Without gravity it is the axis of the first driven
-    /// joint on the ground, since most machines turn about their long axis or stand on it; without such a joint it is z. Of the two
-    /// directions of an axis, the one whose largest component is positive is used.
+    /// The upward direction, a unit vector in the common frame: against gravity.
+    ///
+    /// Without gravity it is the axis of the first driven joint on the ground, since most machines turn about their long axis or
+    /// stand on it; without such a joint it is z. Of the two directions of an axis, the one whose largest component is positive is
+    /// used.
     #[must_use]
     pub fn up(&self) -> [f64; 3] {
         if let Some(gravity) = self.gravity {

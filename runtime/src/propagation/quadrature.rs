@@ -18,10 +18,11 @@ const ROUND: usize = 4096;
 /// A point in standard normal space, and its weights in the fine and the coarse grid.
 type Node = (Vec<f64>, [f64; 2]);
 
-/// Mean, standard deviation, skewness and covariance by Gauss-Hermite quadrature. Up to three variables it uses the tensor product
-/// of rules with `level + 1` nodes, beyond that Smolyak's sparse grid of this level. It is exact for responses whose square is a
-/// polynomial of total degree `2 level + 1` in the standard normal numbers behind the variables. Errors are the differences from
-/// the next lower level, which usually overestimate.
+/// Mean, standard deviation, skewness and covariance by Gauss-Hermite quadrature.
+///
+/// Up to three variables it uses the tensor product of rules with `level + 1` nodes, beyond that Smolyak's sparse grid of this
+/// level. It is exact for responses whose square is a polynomial of total degree `2 level + 1` in the standard normal numbers
+/// behind the variables. Errors are the differences from the next lower level, which usually overestimate.
 ///
 /// ```
 #[doc = include_str!("example.txt")]

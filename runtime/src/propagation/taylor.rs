@@ -17,10 +17,12 @@ use crate::tolerance::{Counts, Outcome, Tolerances};
 /// Number of samples of the expansions themselves, for results without a closed form.
 const SAMPLES: u64 = 1 << 15;
 
-/// First order, for any distribution. Mean and standard deviation are exact for the linear model, as is the skewness unless
-/// dependent variables are not normal. Quantiles, and anything else without a closed form, come from samples of the model. Errors
-/// are the differences from second order, if second derivatives exist. The error of the standard deviation also includes what third
-/// derivatives may add ([`second_order`]).
+/// First-order propagation of tolerances, for any distribution.
+///
+/// Mean and standard deviation are exact for the linear model, as is the skewness unless dependent variables are not normal.
+/// Quantiles, and anything else without a closed form, come from samples of the model. Errors are the differences from second
+/// order, if second derivatives exist. The error of the standard deviation also includes what third derivatives may add
+/// ([`second_order`]).
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -42,10 +44,11 @@ pub fn first_order(
     taylor(mechanism, responses, tolerances, Method::FirstOrder)
 }
 
-/// Second order, for any distribution. The mean is exact for the quadratic model, as is the standard deviation unless dependent
-/// variables are not normal. Skewness, quantiles and covariances come from samples of the model. Responses without second
-/// derivatives have no spread: quantities of modes that are too close together, outputs that are not smooth, transcritical branch
-/// points.
+/// Second-order propagation of tolerances, for any distribution.
+///
+/// The mean is exact for the quadratic model, as is the standard deviation unless dependent variables are not normal. Skewness,
+/// quantiles and covariances come from samples of the model. Responses without second derivatives have no spread: quantities of
+/// modes that are too close together, outputs that are not smooth, transcritical branch points.
 ///
 /// Errors extrapolate the difference from first order like a series: it is multiplied by `r`, the ratio of the contributions of
 /// curvature and slopes to the standard deviation. The error of the standard deviation itself is the whole difference plus `r^2`

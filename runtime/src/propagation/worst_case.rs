@@ -91,9 +91,10 @@ pub struct WorstCase {
     pub description: Shared<Description>,
 }
 
-/// Smallest and largest value of each response over the box of limits. Distributions bounded on both sides use their hard limits;
-/// the others extend as many standard normal deviations as half-widths represent ([`Tolerances::sigma_level`]). A box ignores
-/// correlation.
+/// Smallest and largest value of each response over the box of limits.
+///
+/// Distributions bounded on both sides use their hard limits; the others extend as many standard normal deviations as half-widths
+/// represent ([`Tolerances::sigma_level`]). A box ignores correlation.
 ///
 /// From the nominal design the search goes to the corner that the gradient points to, and continues until the gradient there agrees
 /// with the corner. A variable with zero slope is checked at both its ends, because the response may be stationary in it, as in an

@@ -21,8 +21,9 @@ impl Quantity {
 }
 
 impl Response {
-    /// Its name in texts and tables: `frequency 1`, the name of an output, `critical speed`, `speed where frequency 2 is 1 times
-    /// speed`. `of` describes the mechanism.
+    /// Its name in texts and tables: `frequency 1`, the name of an output, `critical speed`, `speed where frequency 2 is 1 times speed`.
+    ///
+    /// `of` describes the mechanism.
     #[must_use]
     pub fn name(&self, of: &Description) -> String {
         let input = |range: &crate::sweep::Range| {

@@ -18,8 +18,9 @@ use crate::{Description, Error, Shared};
 const CHUNK: u64 = 64;
 const CHUNKS: u64 = 16;
 
-/// Probability of failing any requirement, by importance sampling. Derivatives are with respect to mean and standard deviation of
-/// the standard normal variables.
+/// Probability of failing any requirement, by importance sampling.
+///
+/// Derivatives are with respect to mean and standard deviation of the standard normal variables.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

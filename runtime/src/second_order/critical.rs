@@ -11,8 +11,9 @@ use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels};
 use crate::sensitivity::{Direction, Slopes, subtract};
 use crate::sweep::{CriticalState, Crossed, bordered, critical_sensitivity};
 
-/// First and second derivatives of a critical value with respect to all design variables. They follow the state where `Khat` is
-/// singular; `v` and `w` are its critical vectors.
+/// First and second derivatives of a critical value with respect to all design variables.
+///
+/// They follow the state where `Khat` is singular; `v` and `w` are its critical vectors.
 ///
 /// - At a limit point, `w^T dg/du_c du_c + w^T dg/db = 0` is differentiated along the curve of limit points: `dq` includes the
 ///   component along `v` that keeps `Khat` singular, and `dw` follows `Khat`.

@@ -163,6 +163,7 @@ pub struct ModeMargin {
 }
 
 /// Probability that a quantity of mode number `mode` lies in a forbidden band, to first and second order, with its sensitivities.
+///
 /// With [`Quantity::Growth`] between zero and infinity it is the probability that the mode is unstable.
 ///
 /// # Errors

@@ -60,8 +60,9 @@ pub struct MarginDerivatives {
 }
 
 impl MarginDerivatives {
-    /// Derivative along anything that moves mean, standard deviation, low end and high end at these rates. For the running speed
-    /// `u` and the band `[0.9 u, 1.1 u]` the rates are `dmean/du`, `dsigma/du`, `0.9` and `1.1`.
+    /// Derivative along anything that moves mean, standard deviation, low end and high end at these rates.
+    ///
+    /// For the running speed `u` and the band `[0.9 u, 1.1 u]` the rates are `dmean/du`, `dsigma/du`, `0.9` and `1.1`.
     #[must_use]
     pub fn along(&self, mean: f64, sigma: f64, low: f64, high: f64) -> f64 {
         self.by_mean * mean + self.by_sigma * sigma + self.by_low * low + self.by_high * high

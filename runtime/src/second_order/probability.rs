@@ -18,9 +18,11 @@ pub struct Probability {
 }
 
 impl Quadratic {
-    /// First-order probability that the quantity lies between `low` and `high` (either may be infinite). For normal variables it is
-    /// that of a normal quantity with standard deviation `sqrt(S Sigma S^T)`, with relative accuracy in the tails; for others it is
-    /// the fraction of 32,768 quasi-random points. If nothing varies it is zero or one, the ends of the interval included.
+    /// First-order probability that the quantity lies between `low` and `high` (either may be infinite).
+    ///
+    /// For normal variables it is that of a normal quantity with standard deviation `sqrt(S Sigma S^T)`, with relative accuracy in
+    /// the tails; for others it is the fraction of 32,768 quasi-random points. If nothing varies it is zero or one, the ends of the
+    /// interval included.
     ///
     /// # Errors
     /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ in the

@@ -20,9 +20,11 @@ pub struct Quadratic {
     pub curvature: Matrix,
 }
 
-/// Moments of a second-order model. They are exact for the model if the variables are jointly normal. Mean and first-order standard
-/// deviation are exact for any distribution; otherwise the remaining moments are those of 32,768 quasi-random points, with standard
-/// deviations accurate to about four digits.
+/// Moments of a second-order model.
+///
+/// They are exact for the model if the variables are jointly normal. Mean and first-order standard deviation are exact for any
+/// distribution; otherwise the remaining moments are those of 32,768 quasi-random points, with standard deviations accurate to
+/// about four digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -235,8 +235,10 @@ impl<M: PictureKernels> Study<M> {
         picture::scene(&self.mechanism, &coordinates, &inputs, &design)
     }
 
-    /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases. The largest displacement
-    /// to either side is the fraction `amplitude` of the size of the mechanism ([`picture::mode_pictures`]).
+    /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases.
+    ///
+    /// The largest displacement to either side is the fraction `amplitude` of the size of the mechanism
+    /// ([`picture::mode_pictures`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -87,8 +87,10 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the value of a design variable. A declared tolerance keeps its absolute half-width, even if it was declared in percent
-    /// (use [`Study::relative_tolerance`] for one that scales with the value).
+    /// Sets the value of a design variable.
+    ///
+    /// A declared tolerance keeps its absolute half-width, even if it was declared in percent (use [`Study::relative_tolerance`]
+    /// for one that scales with the value).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -102,9 +104,10 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the value at which the search for an equilibrium starts. A mechanism with constraints is first assembled with this
-    /// coordinate held at the value: give start values to as many coordinates as are independent, and a [`Study::guess`] to the
-    /// others.
+    /// Sets the value at which the search for an equilibrium starts.
+    ///
+    /// A mechanism with constraints is first assembled with this coordinate held at the value: give start values to as many
+    /// coordinates as are independent, and a [`Study::guess`] to the others.
     #[must_use]
     pub fn start(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
         self.settings
@@ -112,8 +115,9 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the initial guess of a dependent coordinate for the assembly of a mechanism with constraints. The guess selects the
-    /// assembly mode. Without constraints this is equivalent to [`Study::start`].
+    /// Sets the initial guess of a dependent coordinate for the assembly of a mechanism with constraints.
+    ///
+    /// The guess selects the assembly mode. Without constraints this is equivalent to [`Study::start`].
     #[must_use]
     pub fn guess(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
         self.settings
@@ -121,9 +125,11 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the tolerance half-width of a design variable or an input. The half-width does not change when the parameter is later
-    /// given another value; nor does a declared tolerance, even one in percent (use [`Study::relative_tolerance`] for one that
-    /// scales with the value). The distribution is unchanged: normal unless set otherwise.
+    /// Sets the tolerance half-width of a design variable or an input.
+    ///
+    /// The half-width does not change when the parameter is later given another value; nor does a declared tolerance, even one in
+    /// percent (use [`Study::relative_tolerance`] for one that scales with the value). The distribution is unchanged: normal unless
+    /// set otherwise.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -144,8 +150,9 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the half-width of a tolerance as a fraction of the value: 0.03 for 3 %. It scales with the value, whether that is set
-    /// before or after.
+    /// Sets the half-width of a tolerance as a fraction of the value: 0.03 for 3 %.
+    ///
+    /// It scales with the value, whether that is set before or after.
     #[must_use]
     pub fn relative_tolerance(mut self, parameter: impl Into<Parameter<M>>, fraction: f64) -> Self {
         let limits = (-fraction, fraction);
@@ -238,8 +245,10 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Chooses the family of modes to compute. By default it is the family that neglects nothing: undamped modes where `Chat` is
-    /// zero and `Khat` symmetric, general modes otherwise ([`Family::of`]).
+    /// Chooses the family of modes to compute.
+    ///
+    /// By default it is the family that neglects nothing: undamped modes where `Chat` is zero and `Khat` symmetric, general modes
+    /// otherwise ([`Family::of`]).
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
         self.settings.family = Some(family);
@@ -260,8 +269,9 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Selects one of the independent sample sequences of the seed (0 by default). With a different stream at each point of a
-    /// sweep, the sampling errors of the points are independent.
+    /// Selects one of the independent sample sequences of the seed (0 by default).
+    ///
+    /// With a different stream at each point of a sweep, the sampling errors of the points are independent.
     #[must_use]
     pub fn stream(mut self, stream: u64) -> Self {
         self.settings.stream = stream;
@@ -278,16 +288,19 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the number of threads of a Monte Carlo run; 0, the default, uses all available. The limit is 256, or the number the
-    /// machine has if that is larger.
+    /// Sets the number of threads of a Monte Carlo run; 0, the default, uses all available.
+    ///
+    /// The limit is 256, or the number the machine has if that is larger.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.settings.threads = threads;
         self
     }
 
-    /// Registers a callback for long computations. It is called from any thread with the number of steps done since its last call:
-    /// samples, input values, branch points or tolerance choices.
+    /// Registers a callback for long computations.
+    ///
+    /// It is called from any thread with the number of steps done since its last call: samples, input values, branch points or
+    /// tolerance choices.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -301,8 +314,10 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Stops long computations soon after `flag` becomes true, for example from another thread or a Ctrl-C handler. Samples, sweeps
-    /// and branches return what is done so far; anything that is useless when incomplete returns [`Error::Stopped`].
+    /// Stops long computations soon after `flag` becomes true, for example from another thread or a Ctrl-C handler.
+    ///
+    /// Samples, sweeps and branches return what is done so far; anything that is useless when incomplete returns
+    /// [`Error::Stopped`].
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -461,8 +476,9 @@ impl<M: Kernels> Study<M> {
         self.settings.tolerances().cloned()
     }
 
-    /// The sampling settings of this study ([`Study::samples`], [`Study::seed`] and so on). Add a range, progress callback or stop
-    /// flag for [`Study::sample_modes`].
+    /// The sampling settings of this study ([`Study::samples`], [`Study::seed`] and so on).
+    ///
+    /// Add a range, progress callback or stop flag for [`Study::sample_modes`].
     #[must_use]
     pub fn sampling(&self) -> Sampling<'_> {
         self.settings.sampling()

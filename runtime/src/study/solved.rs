@@ -14,8 +14,9 @@ use crate::shapes::{self, ShapeSensitivity};
 use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
-/// The equilibrium and the modes of a study, solved once for all questions that build on them. Methods have the same names as those
-/// of [`Study`].
+/// The equilibrium and the modes of a study, solved once for all questions that build on them.
+///
+/// Methods have the same names as those of [`Study`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Solved<'a, M> {
@@ -159,8 +160,10 @@ impl<M: PictureKernels> Solved<'_, M> {
         picture::scene(&self.study.mechanism, coordinates, inputs, design)
     }
 
-    /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases. The largest displacement
-    /// to either side is the fraction `amplitude` of the size of the mechanism ([`picture::mode_pictures`]).
+    /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases.
+    ///
+    /// The largest displacement to either side is the fraction `amplitude` of the size of the mechanism
+    /// ([`picture::mode_pictures`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

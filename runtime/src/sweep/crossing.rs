@@ -138,8 +138,9 @@ pub fn crossings(
     )
 }
 
-/// Finds every input value in a range at which an oscillation starts or stops growing, along the followed equilibria. Otherwise
-/// like [`crossings`], but always with general modes.
+/// Finds every input value in a range at which an oscillation starts or stops growing, along the followed equilibria.
+///
+/// Otherwise like [`crossings`], but always with general modes.
 ///
 /// # Errors
 /// As [`crossings`].

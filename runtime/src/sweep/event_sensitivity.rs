@@ -13,9 +13,10 @@ use crate::{Equilibrium, Error};
 /// Condition number above which an eigenvalue counts as merged with another.
 const MERGED: f64 = 1e5;
 
-/// Derivative `du_c/db` of a crossing, in SI units of the input per SI unit of the design variable. For `omega_j = k u + c` it is
-/// `-(domega/db) / (domega/du - k)`, for an onset of flutter `-(dRe s/db) / (dRe s/du)`. With respect to a deviation of the input
-/// it is -1: the set value is what is located, while the line follows the actual one.
+/// Derivative `du_c/db` of a crossing, in SI units of the input per SI unit of the design variable.
+///
+/// For `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, for an onset of flutter `-(dRe s/db) / (dRe s/du)`. With respect
+/// to a deviation of the input it is -1: the set value is what is located, while the line follows the actual one.
 ///
 /// # Errors
 /// [`Error::ClusteredMode`] if the mode has no derivative of its own, [`Error::NoSensitivity`] if the two sides of the condition

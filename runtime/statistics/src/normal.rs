@@ -43,8 +43,9 @@ pub fn hazard(z: f64) -> f64 {
 /// Beyond this, probabilities are not normal floating-point numbers.
 const FAR: f64 = 37.0;
 
-/// The `z` below which the given probability lies; infinite for 0 and 1, NaN outside [0, 1]. For full accuracy at a probability
-/// near one, negate the quantile of its complement.
+/// The `z` below which the given probability lies; infinite for 0 and 1, NaN outside [0, 1].
+///
+/// For full accuracy at a probability near one, negate the quantile of its complement.
 ///
 /// ```
 /// use eigentol_statistics::normal::{cdf, quantile};

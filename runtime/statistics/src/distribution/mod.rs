@@ -137,6 +137,7 @@ impl Distribution {
     }
 
     /// Normal distribution with this mean and standard deviation, truncated to the limits, either of which may be infinite.
+    ///
     /// [`Self::mean`] and [`Self::sigma`] are those after truncation.
     ///
     /// # Errors
@@ -230,8 +231,9 @@ impl Distribution {
         })
     }
 
-    /// Empirical distribution: each of the measured values is equally probable. The standard deviation uses the number of values as
-    /// divisor.
+    /// Empirical distribution: each of the measured values is equally probable.
+    ///
+    /// The standard deviation uses the number of values as divisor.
     ///
     /// # Errors
     /// [`Error::Setting`] if there are no values, or one is not finite.

@@ -22,6 +22,7 @@ impl Distribution {
     }
 
     /// Excess kurtosis: fourth central moment over the fourth power of the standard deviation, minus the 3 of a normal variable.
+    ///
     /// Zero for a constant.
     #[must_use]
     pub fn excess_kurtosis(&self) -> f64 {

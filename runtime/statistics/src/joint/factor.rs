@@ -5,8 +5,9 @@ use crate::Error;
 /// Tolerance for rounding errors in a correlation.
 const ROUNDING: f64 = 1e-10;
 
-/// Lower triangular factor (row by row) of a correlation matrix of `size` rows (row by row). A variable that is a combination of
-/// the preceding ones has a zero pivot.
+/// Lower triangular factor (row by row) of a correlation matrix of `size` rows (row by row).
+///
+/// A variable that is a combination of the preceding ones has a zero pivot.
 ///
 /// # Errors
 /// [`Error::WrongLength`] for a wrong number of entries, [`Error::Setting`] if the matrix is not symmetric and positive

@@ -4,6 +4,7 @@ use super::{CompensatedSum, Node, Rule, finite, gauss_hermite};
 use crate::Error;
 
 /// Every combination of the nodes of one rule per dimension: exact for polynomials of degree `2 nodes - 1` in each variable.
+///
 /// Efficient only in few dimensions.
 ///
 /// ```

@@ -3,8 +3,10 @@
 use crate::Error;
 use crate::sequence::{Cursor, Sequence};
 
-/// The design of Saltelli et al. (Comput. Phys. Commun. 181, 2010, table 1). Each row of two independent samples `A` and `B` of `d`
-/// inputs gives `d + 2` points: the row of `A`, that of `B`, and for each input `i` the row of `A` with input `i` taken from `B`.
+/// The design of Saltelli et al. (Comput. Phys. Commun. 181, 2010, table 1).
+///
+/// Each row of two independent samples `A` and `B` of `d` inputs gives `d + 2` points: the row of `A`, that of `B`, and for each
+/// input `i` the row of `A` with input `i` taken from `B`.
 ///
 /// Evaluation `k` belongs to row `k / (d + 2)`, in this order. Inputs are probabilities: apply the quantile functions of the
 /// inputs.

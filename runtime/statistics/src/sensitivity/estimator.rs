@@ -1,7 +1,8 @@
 //! Estimators of first-order and total indices from the values of the Saltelli design.
 
-/// Estimates the indices of an input from the values `a` of the rows of `A`, `b` of `B`, and `c` of `A` with that input taken from
-/// `B`. `V` is the variance of all `a` and `b`, `m` their mean.
+/// Estimates the indices of an input from the values `a` of the rows of `A`, `b` of `B`, and `c` of `A` with that input taken from `B`.
+///
+/// `V` is the variance of all `a` and `b`, `m` their mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Estimator {

@@ -90,8 +90,9 @@ impl Sample {
         self.ranked().pearson()
     }
 
-    /// The sample with ranks in place of numbers; equal numbers share the mean of their ranks. Its regression gives the
-    /// coefficients known as SRRC and PRCC.
+    /// The sample with ranks in place of numbers; equal numbers share the mean of their ranks.
+    ///
+    /// Its regression gives the coefficients known as SRRC and PRCC.
     pub fn ranked(&self) -> Self {
         let ranked = |values: &Vec<f64>| centred(ranks(values));
         Self {

@@ -30,8 +30,9 @@ pub fn chunks(samples: Range<u64>) -> impl Iterator<Item = Range<u64>> {
     })
 }
 
-/// The values of some samples of one chunk, ordered by quantity. A sample need not have every quantity: a mode that does not
-/// oscillate has no frequency.
+/// The values of some samples of one chunk, ordered by quantity.
+///
+/// A sample need not have every quantity: a mode that does not oscillate has no frequency.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chunk {
@@ -135,8 +136,9 @@ impl Chunk {
         Ok(())
     }
 
-    /// Sets a quantity of at most 64 consecutive samples, starting at `first`. Bits of `having`, from the lowest on, tell which of
-    /// them have it.
+    /// Sets a quantity of at most 64 consecutive samples, starting at `first`.
+    ///
+    /// Bits of `having`, from the lowest on, tell which of them have it.
     ///
     /// # Errors
     ///

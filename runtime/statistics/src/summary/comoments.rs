@@ -3,8 +3,9 @@
 use super::lanes;
 use super::mean::Mean;
 
-/// Statistics of the samples that have both quantities: count, means, and sums of the squares and products of the deviations from
-/// them. Merging follows Pébay (2008), equation 3.1, like that of [`super::Moments`].
+/// Statistics of the samples that have both quantities: count, means, and sums of the squares and products of the deviations from them.
+///
+/// Merging follows Pébay (2008), equation 3.1, like that of [`super::Moments`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Comoments {

@@ -37,8 +37,9 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Computes the moments of values in two passes: their mean, then their deviations from it. The values should be numbers of at
-    /// most [`LARGEST`] in magnitude; others make the statistics unavailable.
+    /// Computes the moments of values in two passes: their mean, then their deviations from it.
+    ///
+    /// The values should be numbers of at most [`LARGEST`] in magnitude; others make the statistics unavailable.
     #[must_use]
     #[inline(always)]
     pub fn of(values: &[f64]) -> Self {

@@ -9,8 +9,10 @@ use super::tree::{Node, Tree};
 use super::{Comoments, Covariance, LARGEST, Moments, Sketch, Statistics, ranges};
 use crate::Error;
 
-/// Statistics of the samples added so far, from any set of ranges. Two instances of the same samples are equal to the last bit,
-/// however they were built. A contiguous range needs memory that grows with the logarithm of its length.
+/// Statistics of the samples added so far, from any set of ranges.
+///
+/// Two instances of the same samples are equal to the last bit, however they were built. A contiguous range needs memory that grows
+/// with the logarithm of its length.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Partial {

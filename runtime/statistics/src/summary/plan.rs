@@ -4,8 +4,9 @@ use super::Sketch;
 use super::checks::check_below;
 use crate::Error;
 
-/// The statistics to gather from samples with a given number of quantities. Moments of each quantity are always included; anything
-/// not requested costs nothing.
+/// The statistics to gather from samples with a given number of quantities.
+///
+/// Moments of each quantity are always included; anything not requested costs nothing.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plan {

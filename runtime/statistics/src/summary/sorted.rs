@@ -80,10 +80,11 @@ impl Sorted {
         Ok(below as f64 / self.0.len() as f64)
     }
 
-    /// A distribution-free confidence interval for the `p`-quantile of the distribution from which the values were drawn
-    /// independently. Its ends are two of the values, chosen from the binomial distribution of the number of values below the
-    /// quantile (David and Nagaraja, Order Statistics, 3rd edition, section 7.1). Each end fails with at most half of `1 -
-    /// confidence`. `None` if there are too few values.
+    /// A distribution-free confidence interval for the `p`-quantile of the distribution from which the values were drawn independently.
+    ///
+    /// Its ends are two of the values, chosen from the binomial distribution of the number of values below the quantile (David and
+    /// Nagaraja, Order Statistics, 3rd edition, section 7.1). Each end fails with at most half of `1 - confidence`. `None` if there
+    /// are too few values.
     ///
     /// # Errors
     ///

@@ -39,8 +39,9 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Computes statistics from moments, and from a sketch of the same values for quantiles. `None` if there are no values; a
-    /// statistic too large to compute is also `None`.
+    /// Computes statistics from moments, and from a sketch of the same values for quantiles.
+    ///
+    /// `None` if there are no values; a statistic too large to compute is also `None`.
     #[must_use]
     pub fn of(moments: &Moments, sketch: Option<Sketch>) -> Option<Self> {
         let mean = moments.mean().filter(|mean| mean.is_finite())?;

@@ -21,8 +21,9 @@ impl Proposal {
         }
     }
 
-    /// Densities at the design points, weighted half equally and half by their first-order probabilities. If the origin fails, a
-    /// design point is replaced by the origin, because failure is not rare there.
+    /// Densities at the design points, weighted half equally and half by their first-order probabilities.
+    ///
+    /// If the origin fails, a design point is replaced by the origin, because failure is not rare there.
     ///
     /// # Errors
     ///

@@ -61,8 +61,9 @@ pub fn sorm<L: LimitState>(limit: &L, at: &DesignPoint) -> Result<Sorm, Error> {
 }
 
 impl Sorm {
-    /// Principal curvatures of the limit (dimensionless), ascending, one fewer than there are variables. Positive ones make the
-    /// failure region smaller.
+    /// Principal curvatures of the limit (dimensionless), ascending, one fewer than there are variables.
+    ///
+    /// Positive ones make the failure region smaller.
     pub fn curvatures(&self) -> &[f64] {
         &self.curvatures
     }

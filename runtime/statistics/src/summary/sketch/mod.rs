@@ -11,9 +11,10 @@ use super::{Moments, lanes};
 use crate::Error;
 use buckets::{Buckets, Places};
 
-/// Counts of values in buckets by their deviation from a reference. The width of a bucket is `2^-8` of the deviation, down to
-/// `2^-24` of a scale: narrow near the reference, wide far away. Values that scatter by one scale about the reference are resolved
-/// to less than 0.004 of that scale.
+/// Counts of values in buckets by their deviation from a reference.
+///
+/// The width of a bucket is `2^-8` of the deviation, down to `2^-24` of a scale: narrow near the reference, wide far away. Values
+/// that scatter by one scale about the reference are resolved to less than 0.004 of that scale.
 ///
 /// Counts are integers, so the result does not depend on the order of the values or of merging. Memory use is 2 KiB for each power
 /// of two with deviations, above or below the reference; about 50 KiB for a few thousand values scattered about the reference, and
@@ -51,8 +52,9 @@ pub struct Sketch {
 }
 
 impl Sketch {
-    /// An empty sketch about `reference` for deviations of the order of `scale`, both in the unit of the values. The result is
-    /// equally good if `scale` is wrong by a few orders of magnitude.
+    /// An empty sketch about `reference` for deviations of the order of `scale`, both in the unit of the values.
+    ///
+    /// The result is equally good if `scale` is wrong by a few orders of magnitude.
     ///
     /// # Errors
     ///
