@@ -7,8 +7,8 @@ use crate::modes::{Family, pencil_times};
 use crate::sensitivity::{check_modes, directions, normaliser};
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
-/// First-order motion of several modes together: for a change `db` their eigenvalues are those of `diag(eigenvalues) + sum_k db_k
-/// by_design[k]`.
+/// First-order motion of several modes together: for a change `db` their eigenvalues are those of
+/// `diag(eigenvalues) + sum_k db_k by_design[k]`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -216,8 +216,8 @@ struct Corrected {
     worth: f64,
 }
 
-/// The mean of the quantity at `place`, with the next quantity, whose mean `known` is exact, as control variate: `f - beta (g -
-/// known)`, `beta = Cov(f, g) / Var(g)`.
+/// The mean of the quantity at `place`, with the next quantity, whose mean `known` is exact, as control variate:
+/// `f - beta (g - known)`, `beta = Cov(f, g) / Var(g)`.
 fn corrected(samples: &Gathered, place: usize, known: f64) -> Result<Option<Corrected>, Error> {
     let covariance = |i, j| samples.covariance(i, j);
     let all = (

@@ -44,9 +44,9 @@ pub(super) fn first_order(own: &Expansion, tolerances: &Tolerances) -> ExactMome
     }
 }
 
-/// Second order, for any distribution: with `a = L^T (S + H m)` and `B = L^T H L`, the mean is `f0 + S m + m^T H m / 2 + tr(B) /
-/// 2`. For independent variables of skewness `g` and excess kurtosis `k`, the variance is `sum a^2 + sum a_j B_jj g_j + sum B_jj^2
-/// k_j / 4 + sum_jk B_jk^2 / 2`.
+/// Second order, for any distribution: with `a = L^T (S + H m)` and `B = L^T H L`, the mean is
+/// `f0 + S m + m^T H m / 2 + tr(B) / 2`. For independent variables of skewness `g` and excess kurtosis `k`, the variance is
+/// `sum a^2 + sum a_j B_jj g_j + sum B_jj^2 k_j / 4 + sum_jk B_jk^2 / 2`.
 pub(super) fn second_order(
     own: &Expansion,
     curvature: &Matrix,

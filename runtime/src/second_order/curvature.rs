@@ -103,8 +103,8 @@ pub fn mode_curvature(
 }
 
 /// The adjoint gradient of a mode, prepared for differentiation. For an undamped mode `dlambda = n`, where `n` is the total
-/// derivative of `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors. For a general mode `ds = -n / d`, where `n` is that of `a =
-/// psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi`.
+/// derivative of `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors. For a general mode `ds = -n / d`, where `n` is that of
+/// `a = psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi`.
 struct AdjointGradient<'a> {
     mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,

@@ -122,8 +122,8 @@ fn reciprocal_slopes(mechanism: &dyn Kernels, at: &Equilibrium, band: Band) -> V
     Vector::from_fn(at.design.len(), slope)
 }
 
-/// The model of `f r`, where the reciprocal `r` has nominal value one and the given slopes. A quantity `f` lies in a band about `u
-/// + d` exactly where `f u / (u + d)` lies in the band about `u`.
+/// The model of `f r`, where the reciprocal `r` has nominal value one and the given slopes. A quantity `f` lies in a band about
+/// `u + d` exactly where `f u / (u + d)` lies in the band about `u`.
 fn relative(model: &Quadratic, reciprocal: &[f64]) -> Quadratic {
     let (f, s, r) = (model.value, &model.slopes, reciprocal);
     let mut curvature = model.curvature.clone();

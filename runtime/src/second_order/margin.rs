@@ -52,8 +52,8 @@ pub struct MarginDerivatives {
     pub by_low: f64,
     /// With respect to the high end; zero if it is infinite.
     pub by_high: f64,
-    /// With respect to the nominal value of each design variable, with half-widths and band fixed: `dP/dmean S + dP/dsigma H Sigma
-    /// S / sigma`.
+    /// With respect to the nominal value of each design variable, with half-widths and band fixed:
+    /// `dP/dmean S + dP/dsigma H Sigma S / sigma`.
     pub by_design: Vector,
     /// With respect to each half-width, with correlation and sigma level fixed.
     pub by_half_width: Vector,

@@ -79,9 +79,9 @@ const UNFORCED: f64 = 1e-6;
 ///
 /// - At a limit point, where the input has a component along the critical mode: `-(w^T dg/db) / (w^T dg/du)`.
 /// - At a branch point, where neither input nor design has such a component, the crossing of the branches moves: with the null
-///   vectors `x_1 = (v, 0)`, `x_2 = (dq/du, 1)` of `[Khat dg/du]` and the shift `x_b` in their complement, `H (dxi, du) = -w^T
-///   (g''(x_i, x_b) + dg'/db x_i)`, `H_ij = w^T g''(x_i, x_j)`. At a pitchfork `H_11 = 0`, and this is the ratio of the slopes of
-///   the critical eigenvalue, `-(dlambda/db) / (dlambda/du)`.
+///   vectors `x_1 = (v, 0)`, `x_2 = (dq/du, 1)` of `[Khat dg/du]` and the shift `x_b` in their complement,
+///   `H (dxi, du) = -w^T (g''(x_i, x_b) + dg'/db x_i)`, `H_ij = w^T g''(x_i, x_j)`. At a pitchfork `H_11 = 0`, and this is the
+///   ratio of the slopes of the critical eigenvalue, `-(dlambda/db) / (dlambda/du)`.
 ///
 /// # Errors
 /// [`Error::NoSensitivity`] if a design variable acts along the mode at a branch point (it destroys the crossing: its effect is not

@@ -126,8 +126,8 @@ fn left_out(terms: &Terms, t: f64) -> f64 {
     sum * LN_2 / PI
 }
 
-/// A distance that `X` (`side` 1) or `-X` (`side` -1) exceeds with probability at most [`ALIASING`]: for any `u > 0`, `P(X > K'(u))
-/// <= exp(K(u) - u K'(u))`.
+/// A distance that `X` (`side` 1) or `-X` (`side` -1) exceeds with probability at most [`ALIASING`]: for any `u > 0`,
+/// `P(X > K'(u)) <= exp(K(u) - u K'(u))`.
 fn reach(terms: &Terms, side: f64) -> f64 {
     let bound = ALIASING.ln();
     let most = terms

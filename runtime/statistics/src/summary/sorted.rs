@@ -54,8 +54,8 @@ impl Sorted {
         &self.0
     }
 
-    /// The quantile for the fraction `p`, between 0 and 1: linear interpolation between the values with ranks next to `(count - 1)
-    /// p` (Hyndman and Fan 1996, definition 7, the default of R and NumPy).
+    /// The quantile for the fraction `p`, between 0 and 1: linear interpolation between the values with ranks next to
+    /// `(count - 1) p` (Hyndman and Fan 1996, definition 7, the default of R and NumPy).
     ///
     /// # Errors
     ///

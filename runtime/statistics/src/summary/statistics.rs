@@ -16,9 +16,9 @@ pub struct Statistics {
     pub standard_error: Option<f64>,
     /// Standard deviation with divisor `count - 1`; `None` for a single value.
     pub sigma: Option<f64>,
-    /// Standard error of `sigma`, from the fourth moment, for any distribution: the variance of `sigma^2` is `(m4 - (n - 3) / (n -
-    /// 1) sigma^4) / n` (Rao, Linear Statistical Inference, 2nd edition, section 6h). `None` for a single value and if all values
-    /// are equal.
+    /// Standard error of `sigma`, from the fourth moment, for any distribution: the variance of `sigma^2` is
+    /// `(m4 - (n - 3) / (n - 1) sigma^4) / n` (Rao, Linear Statistical Inference, 2nd edition, section 6h). `None` for a single
+    /// value and if all values are equal.
     pub sigma_error: Option<f64>,
     /// Skewness, unbiased for normal values: `G1` of Joanes and Gill (1998); `None` for fewer than three values and if all values
     /// are equal.

@@ -53,8 +53,8 @@ impl Search<'_> {
     }
 
     /// The improved Hasofer-Lind-Rackwitz-Fiessler iteration (Zhang and Der Kiureghian 1995, *Two improved algorithms for
-    /// reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit function `|z|^2 / 2 + c
-    /// |g|` decreases. Returns the best point visited.
+    /// reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit function
+    /// `|z|^2 / 2 + c |g|` decreases. Returns the best point visited.
     fn iterate(&self, start: Iterate) -> Iterate {
         let mut best = start.clone();
         let mut current = start;
