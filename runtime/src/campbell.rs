@@ -1,4 +1,4 @@
-//! Campbell diagrams: every mode against an input, with damping, whirl and spread, and where the modes meet engine orders.
+//! Campbell diagrams: every mode over an input, with damping, whirl and spread, and the crossings with engine orders.
 
 use core::ops::ControlFlow;
 
@@ -19,19 +19,19 @@ use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CampbellMode {
-    /// Number of the motion along the diagram.
+    /// Label of the motion along the diagram.
     pub label: usize,
     /// Eigenvalue, 1/s.
     pub s: Complex,
-    /// What it means.
+    /// Its behaviour.
     pub behaviour: Behaviour,
-    /// Frequency `Im s` and its spread, rad/s; `None` for a mode that does not oscillate, or has no derivative.
+    /// Frequency `Im s` and its spread, rad/s; `None` if the mode does not oscillate or has no derivative.
     pub frequency: Option<Spread>,
-    /// Damping ratio and its spread; `None` likewise.
+    /// Damping ratio and its spread; `None` in the same cases.
     pub damping_ratio: Option<Spread>,
-    /// Whirl; `None` where it does not apply.
+    /// Whirl direction; `None` if not applicable.
     pub whirl: Option<Whirl>,
-    /// Its eigenvalue is nearly that of another mode: spreads of its own do not exist there.
+    /// Whether its eigenvalue is nearly equal to another: it then has no spreads of its own.
     pub clustered: bool,
 }
 
@@ -42,9 +42,9 @@ pub struct CampbellMode {
 pub struct CampbellPoint {
     /// The value, SI.
     pub value: f64,
-    /// The equilibrium there, or why there is none.
+    /// The equilibrium, or the reason why there is none.
     pub equilibrium: Result<Equilibrium, Error>,
-    /// Its modes, or why there are none.
+    /// Its modes, or the reason why there are none.
     pub modes: Result<Vec<CampbellMode>, Error>,
 }
 
@@ -53,33 +53,32 @@ pub struct CampbellPoint {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Campbell {
-    /// The input along which it is drawn.
+    /// The input on the horizontal axis.
     pub input: Input,
-    /// One point for each value.
+    /// One point per value.
     pub points: Vec<CampbellPoint>,
-    /// How many of the values were not reached, because the run was stopped.
+    /// Number of values not reached because the run was stopped.
     pub unreached: usize,
-    /// The lines that crossings were looked for with.
+    /// The lines whose crossings were searched for.
     pub orders: Vec<Line>,
-    /// Where a frequency meets a line: value of the input, sensitivity and spread; line by line. The number of
-    /// the mode is its label.
+    /// Crossings of frequencies with lines, line by line: input value, sensitivity and spread. The number of the mode is its label.
     pub crossings: Vec<EventTolerance>,
-    /// Where the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::sweep::Sweep)).
+    /// Values at which the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::sweep::Sweep)).
     pub critical: Vec<EventTolerance>,
-    /// Where an oscillation begins or ceases to grow; undamped modes never do.
+    /// Values at which an oscillation starts or stops growing; none for undamped modes.
     pub flutter_onsets: Vec<EventTolerance>,
-    /// Standard deviations that a tolerance holds.
+    /// Number of standard deviations that a tolerance represents.
     pub sigma_level: f64,
-    /// Which modes it shows.
+    /// The family of the modes shown.
     pub family: Family,
-    /// The inputs, SI; all but the one along which it is drawn keep their value.
+    /// The inputs, SI; all but the one on the axis keep their values.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
 impl Campbell {
-    /// The modes that occur: their labels, ascending.
+    /// Labels of the modes that occur, in ascending order.
     #[must_use]
     pub fn labels(&self) -> Vec<usize> {
         let modes = self
@@ -92,7 +91,7 @@ impl Campbell {
         labels
     }
 
-    /// One branch of the diagram: the values of the input at which the mode of this label was found, and the mode there.
+    /// One branch of the diagram: the input values at which the mode with this label was found, and the mode there.
     pub fn branch(&self, label: usize) -> impl Iterator<Item = (f64, &CampbellMode)> {
         self.points.iter().filter_map(move |point| {
             let modes = point.modes.as_ref().ok()?;
@@ -102,20 +101,20 @@ impl Campbell {
     }
 }
 
-/// What a Campbell diagram is drawn of.
+/// The input, values and lines of a Campbell diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Axes<'a> {
-    /// The input along which it is drawn.
+    /// The input on the horizontal axis.
     pub input: Input,
     /// The values of the input, SI.
     pub values: &'a [f64],
-    /// Lines that crossings are looked for with.
+    /// Lines whose crossings are searched for.
     pub orders: &'a [Line],
 }
 
 impl<'a> Axes<'a> {
-    /// A diagram along `input` at `values`, SI, with the lines `orders`.
+    /// A diagram over `input` at `values` (SI), with the lines `orders`.
     #[must_use]
     pub fn new(input: Input, values: &'a [f64], orders: &'a [Line]) -> Self {
         Self {
@@ -126,10 +125,10 @@ impl<'a> Axes<'a> {
     }
 }
 
-/// Draws a Campbell diagram: solves equilibrium and modes at each of the values of one input, follows every mode, and locates
-/// the crossings with `orders` and the onsets of flutter between neighbouring values.
+/// Computes a Campbell diagram: solves equilibrium and modes at each value of one input, follows every mode, and locates the
+/// crossings with `orders` and the onsets of flutter between neighbouring values.
 ///
-/// Arguments as for [`sweep`](crate::sweep::sweep).
+/// The arguments are those of [`sweep`](crate::sweep::sweep).
 ///
 /// # Errors
 /// [`Error::UnknownHandle`]; a point that fails carries its own error.
@@ -151,8 +150,8 @@ pub fn campbell(
     Ok(Campbell { points, ..found })
 }
 
-/// As [`campbell`], but gives each point to `each`, in order and as soon as it is found, and keeps none: the result has what lies
-/// between the points only. The diagram ends where `each` breaks off.
+/// Like [`campbell`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result contains
+/// only the events between the points. The diagram ends when `each` breaks off.
 ///
 /// # Errors
 /// As [`campbell`].
@@ -216,7 +215,7 @@ pub fn campbell_each(
             }
         }
     }
-    // Engine order by engine order; stable, so onsets stay as they were found.
+    // Sort by engine order; the sort is stable, so onsets stay in the order found.
     let order = |event: &EventTolerance| match event.event {
         Event::Crossing {
             condition: Condition::Line(line),
@@ -244,7 +243,7 @@ pub fn campbell_each(
     })
 }
 
-/// The spread of a crossing under the label of its mode.
+/// The spread of a crossing, with the label of its mode.
 fn labelled(crossing: &Crossing, spread: EventTolerance) -> EventTolerance {
     let mode = crossing.modes.modes.get(crossing.mode);
     spread.with_mode(mode.map_or(crossing.mode, |mode| mode.label))

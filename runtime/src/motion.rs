@@ -1,4 +1,4 @@
-//! Accelerations of the full nonlinear motion, for those who integrate it in time.
+//! Accelerations of the full nonlinear motion, for time integration by the caller.
 
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, all_finite, all_finite_matrix, dot};
 use crate::arguments::check_count;
@@ -8,8 +8,8 @@ use crate::{Description, Error};
 
 /// Accelerations `qddot` of the free coordinates, from `M* qddot = Q*` (eqs. 7-9).
 ///
-/// `velocity` is `qdot`, `q` coordinates, `u` inputs, `b` design variables; all SI. With speeds and constraints the result holds
-/// `qddot`, the rates of the speeds, and the reactions at this instant, from
+/// `velocity` is `qdot`, `q` the coordinates, `u` the inputs, `b` the design variables; all SI. With speeds and constraints the
+/// result holds `qddot`, the rates of the speeds, and the instantaneous reactions, from
 ///
 /// ```text
 /// [ M  H^T A^T ] [qddot, vdot]   [ -h                                                    ]
@@ -17,13 +17,13 @@ use crate::{Description, Error};
 /// [ A  0   0   ] [mu_2       ]   [ -(A_q' qdot) qdot - B qdot, B = d(A_v v + a)/dq       ]
 /// ```
 ///
-/// `q` has to meet the constraints on positions, `velocity` and the speeds in `q` their rates; what `velocity` holds in the
-/// places of speeds and `q` in those of reactions does not matter. Reactions that redundant constraints leave undetermined are
-/// the least.
+/// `q` must satisfy the position constraints, and `velocity` and the speeds in `q` their rates. The entries of `velocity` for
+/// speeds and of `q` for reactions are ignored. If redundant constraints leave reactions undetermined, the minimum-norm reactions
+/// are returned.
 ///
 /// # Errors
-/// [`Error::SingularMass`] when `M*` is not positive definite (with constraints: over the motions they leave),
-/// [`Error::OutsideDomain`] when the state lies outside the domain of an expression, [`Error::WrongLength`].
+/// [`Error::SingularMass`] if `M*` is not positive definite (with constraints: over the motions they leave free),
+/// [`Error::OutsideDomain`] if the state lies outside the domain of an expression, [`Error::WrongLength`].
 pub fn accelerations(
     mechanism: &dyn MotionKernels,
     velocity: &[f64],
@@ -68,7 +68,7 @@ fn constrained(
     let linear = plain.linear(&q, u, b);
     let still = (Vector::zeros(u.len()), Vector::zeros(b.len()));
     let along = directional.linear_along(&q, u, b, [&rates, &still.0, &still.1]);
-    // Columns of accelerations and of rates of speeds, and those of reactions.
+    // Columns of the accelerations and speed rates, then those of the reactions.
     let mut matrix = Matrix::from_fn(n, n, |i, j| {
         if structure.position_rows().contains(&i) || j >= motions {
             linear.stiffness[i][j]
@@ -100,7 +100,7 @@ fn constrained(
     Err(singular(&mechanism.description(), row))
 }
 
-/// Derivative of constraint on velocities `i` by the velocity of a coordinate or by a speed.
+/// Derivative of velocity constraint `i` with respect to the velocity of a coordinate or to a speed.
 fn by_velocity(linear: &Linear, structure: Structure, i: usize, j: usize) -> f64 {
     if j < structure.coordinates {
         linear.damping[i][j]

@@ -1,5 +1,5 @@
-//! What is asked of a mechanism at other values of its design: quantities of modes, outputs, critical values of an input, with exact
-//! total derivatives.
+//! Responses of a mechanism at designs near the nominal one: quantities of modes, outputs and critical values of an input, with
+//! exact total derivatives.
 
 use crate::algebra::Vector;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
@@ -12,53 +12,53 @@ use crate::sweep::{
 use crate::tolerance::{Outcome, Solution};
 use crate::{Equilibrium, Error, Modes, Output, Watch};
 
-/// A number that a design gives.
+/// A scalar that depends on the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Response {
     /// A quantity of a nominal mode, counted from 0: frequencies in rad/s, growth in 1/s.
     Mode {
-        /// Position of the nominal mode.
+        /// Position of the nominal mode, from 0.
         mode: usize,
-        /// What is asked of it.
+        /// The quantity of that mode.
         quantity: Quantity,
     },
     /// An output, SI.
     Output(Output),
-    /// The first value of an input in a range at which the branch that is stable at its low end loses its stiffness, SI
+    /// The first value (SI) of an input in a range at which the branch that is stable at the low end loses its stiffness
     /// ([`critical_state`]).
     Critical(Range),
-    /// The first value of an input in a range at which a mode meets a condition, SI: the speed at which a rotor resonates, or begins to
-    /// flutter. Along the range stable equilibria are followed, as by [`crossings`](crate::sweep::crossings).
+    /// The first value (SI) of an input in a range at which a mode meets a condition, such as the speed at which a rotor resonates
+    /// or starts to flutter. The search follows stable equilibria, like [`crossings`](crate::sweep::crossings).
     Crossing {
-        /// Number of the mode at the start of the range, from 0.
+        /// Position of the mode at the start of the range, from 0.
         mode: usize,
-        /// What it meets.
+        /// The condition to be met.
         condition: Condition,
-        /// Where to look.
+        /// The range to search.
         range: Range,
     },
 }
 
-/// The responses to one design.
+/// The responses at one design.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Realisation {
-    /// What becomes of it at the operating point.
+    /// The outcome at the operating point.
     pub outcome: Outcome,
-    /// The responses in the order in which they were asked for; `None` where it has none: of a mode that does not oscillate, of a
-    /// design without a stable equilibrium, of a range without a critical value.
+    /// The responses in the order requested. `None` where a response does not exist: the mode does not oscillate, the design has no
+    /// stable equilibrium, or the range has no critical value.
     pub values: Vec<Option<f64>>,
-    /// Total derivatives by the design variables, when asked for; `None` where there are none.
+    /// Total derivatives with respect to the design variables, if requested; `None` where they do not exist.
     pub gradients: Vec<Option<Vector>>,
 }
 
-/// Responses of designs near a nominal one. Modes are matched to the nominal modes by shape.
+/// Evaluates responses at designs near a nominal one. Modes are matched to the nominal modes by shape.
 pub struct Responses<'a> {
     mechanism: &'a dyn DirectionalKernels,
-    /// The same where designs can be solved side by side.
+    /// The same mechanism, if several designs can be solved at once.
     batches: Option<&'a dyn BatchKernels>,
     vectors: Option<Instructions>,
     nominal: &'a Equilibrium,
@@ -67,14 +67,14 @@ pub struct Responses<'a> {
     watch: Watch<'a>,
 }
 
-/// What the next evaluation uses again.
+/// Buffers reused between evaluations.
 pub struct Workspace(Solution);
 
 impl<'a> Responses<'a> {
-    /// Prepares to ask for responses of designs near the nominal one.
+    /// Prepares evaluations of responses near the nominal design.
     ///
     /// # Errors
-    /// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::Setting`] for a range that makes no sense.
+    /// [`Error::NoSuchMode`], [`Error::UnknownHandle`], or [`Error::Setting`] for an invalid range.
     pub fn new(
         mechanism: &'a dyn DirectionalKernels,
         nominal: &'a Equilibrium,
@@ -114,14 +114,14 @@ impl<'a> Responses<'a> {
         })
     }
 
-    /// Lets `watch` see each design, and end the evaluation with [`Error::Stopped`].
+    /// Reports every design to `watch`, which can end the evaluation with [`Error::Stopped`].
     #[must_use]
     pub fn watched(mut self, watch: Watch<'a>) -> Self {
         self.watch = watch;
         self
     }
 
-    /// Whether the work may go on.
+    /// Fails if the work has been stopped.
     pub(crate) fn go_on(&self) -> Result<(), Error> {
         match self.watch.stopped() {
             true => Err(Error::Stopped),
@@ -129,7 +129,7 @@ impl<'a> Responses<'a> {
         }
     }
 
-    /// Counts a design that is evaluated, where the work may go on.
+    /// Counts one evaluated design; fails if the work has been stopped.
     pub(crate) fn counted(&self) -> Result<(), Error> {
         self.go_on()?;
         self.watch.advance(1);
@@ -140,8 +140,8 @@ impl<'a> Responses<'a> {
         self.watch
     }
 
-    /// The same of a mechanism that can be evaluated at several designs side by side: samples of quantities of modes are then
-    /// solved in the vectors of the processor where [`monte_carlo`](crate::tolerance::monte_carlo) does so.
+    /// Like [`Self::new`], for a mechanism that can be evaluated at several designs at once: samples of mode quantities then use
+    /// the processor's vector instructions under the same conditions as in [`monte_carlo`](crate::tolerance::monte_carlo).
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -157,26 +157,26 @@ impl<'a> Responses<'a> {
         })
     }
 
-    /// Chooses the vector instructions of [`Self::side_by_side`], in place of the best of the processor; `None` solves designs one by
-    /// one.
+    /// Chooses the vector instructions for [`Self::side_by_side`] (default: the best the processor supports); `None` solves designs
+    /// one by one.
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
         self.vectors = vectors;
         self
     }
 
-    /// What solves designs side by side, and with which instructions.
+    /// The kernels that solve several designs at once, and their vector instructions.
     pub(crate) fn batches(&self) -> Option<(&'a dyn BatchKernels, Instructions)> {
         self.batches.zip(self.vectors)
     }
 
-    /// The responses in order.
+    /// The requested responses in order.
     #[must_use]
     pub fn wanted(&self) -> &[Response] {
         &self.wanted
     }
 
-    /// The design about which responses are asked for, and its equilibrium.
+    /// The nominal equilibrium, about which responses are evaluated.
     pub(crate) fn nominal(&self) -> &'a Equilibrium {
         self.nominal
     }
@@ -190,21 +190,22 @@ impl<'a> Responses<'a> {
         self.modes
     }
 
-    /// Room for evaluations by one thread.
+    /// Creates a workspace for evaluations on one thread.
     #[must_use]
     pub fn workspace(&self) -> Workspace {
         Workspace(Solution::about(self.nominal, self.modes))
     }
 
-    /// The responses to a design, SI.
+    /// Evaluates the responses at a design, SI.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for a design of another mechanism, [`Error::Stopped`]. What fails is an outcome and has no values.
+    /// [`Error::WrongLength`] for a design of another mechanism, [`Error::Stopped`]. A design that fails to solve is reported as an
+    /// outcome without values.
     pub fn at(&self, room: &mut Workspace, design: &[f64]) -> Result<Realisation, Error> {
         self.evaluate(room, design, false)
     }
 
-    /// As [`Self::at`], with derivatives.
+    /// Like [`Self::at`], with total derivatives.
     ///
     /// # Errors
     /// As [`Self::at`].
@@ -289,7 +290,7 @@ impl<'a> Responses<'a> {
         critical_state(self.mechanism, inputs, design, start, range).ok()
     }
 
-    /// The state of a [`Response::Crossing`].
+    /// The first crossing that a [`Response::Crossing`] asks for.
     pub(crate) fn first_crossing(&self, design: &[f64], response: &Response) -> Option<Crossing> {
         let Response::Crossing {
             mode,
@@ -322,7 +323,7 @@ fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {
     }
 }
 
-/// Derivatives at one design, found when first asked for.
+/// Derivatives at one design, computed when first needed.
 #[derive(Default)]
 struct Own {
     modes: Option<Option<crate::Sensitivities>>,

@@ -1,8 +1,8 @@
 //! Total derivatives of mode shapes, left and right, by a bordered solve (Nelson 1976).
 //!
 //! With `Q phi = 0`, `Q = Khat - lambda Mhat` or `s^2 Mhat + s Chat + Khat`, a change of the matrices gives
-//! `Q dphi = -(dQ + Q' ds) phi`. `Q` is singular in the direction of `phi` only; it is solved with `alpha (Q' phi) c^H`
-//! added, which leaves the solution as it is but for its part along `phi`, and that part follows from the normalisation:
+//! `Q dphi = -(dQ + Q' ds) phi`. `Q` is singular only in the direction of `phi`. The equation is solved with `alpha (Q' phi) c^H`
+//! added to `Q`, which changes only the component of the solution along `phi`; that component follows from the normalisation:
 //! `c = Mhat phi`, or the unit vector of the component that is one (`Normalisation`).
 
 use crate::algebra::{Lu, Matrix, Values, Vector, dot_complex, largest_element, times_complex};
@@ -14,28 +14,28 @@ use crate::modes::{
 use crate::sensitivity::{Rate, check_modes, directions, outside_domain};
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
-/// Total derivatives of the shapes of one mode, normalised as the mode is ([`Mode::shape`]).
+/// Total derivatives of the shapes of one mode, with the normalisation of the mode ([`Mode::shape`]).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShapeSensitivity {
-    /// `right_by_input[j]`: derivative of `phi` by input `j`.
+    /// `right_by_input[j]`: derivative of `phi` with respect to input `j`.
     pub right_by_input: Matrix<Complex>,
-    /// `right_by_design[j]`: derivative of `phi` by design variable `j`.
+    /// `right_by_design[j]`: derivative of `phi` with respect to design variable `j`.
     pub right_by_design: Matrix<Complex>,
-    /// `left_by_input[j]`: derivative of `psi` by input `j`.
+    /// `left_by_input[j]`: derivative of `psi` with respect to input `j`.
     pub left_by_input: Matrix<Complex>,
-    /// `left_by_design[j]`: derivative of `psi` by design variable `j`.
+    /// `left_by_design[j]`: derivative of `psi` with respect to design variable `j`.
     pub left_by_design: Matrix<Complex>,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
-/// Total derivatives of the shapes of mode number `mode` by every input and design variable.
+/// Total derivatives of the shapes of mode number `mode` with respect to every input and design variable.
 ///
 /// # Errors
-/// [`Error::ClusteredMode`] where the mode has (nearly) equal neighbours, [`Error::CriticalState`] when `Khat` is
-/// singular, [`Error::OutsideDomain`] when a derivative is not finite, [`Error::NoSuchMode`].
+/// [`Error::ClusteredMode`] if the mode has (nearly) equal neighbours, [`Error::CriticalState`] if `Khat` is singular,
+/// [`Error::OutsideDomain`] if a derivative is not finite, [`Error::NoSuchMode`].
 pub fn shape_sensitivity(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,
@@ -65,15 +65,15 @@ pub fn shape_sensitivity(
     })
 }
 
-/// How the eigenvalue and the shapes of one mode move with its matrices.
+/// Derivatives of the eigenvalue and the shapes of one mode with respect to its matrices.
 pub(super) struct Shapes<'a> {
     linear: &'a Linear,
     family: Family,
     mode: &'a Mode,
     right: Side,
-    /// `None` where it is the same as the right one.
+    /// `None` if it equals the right one.
     left: Option<Side>,
-    /// The rate of the eigenvalue: of `lambda` for undamped modes, of `s` for general ones.
+    /// Derivative of the eigenvalue: of `lambda` for undamped modes, of `s` for general ones.
     pub(super) rate: Rate<'a>,
 }
 
@@ -119,7 +119,7 @@ impl<'a> Shapes<'a> {
         })
     }
 
-    /// Derivatives of the right and the left shape while the matrices move by `change` and the eigenvalue by `rate`.
+    /// Derivatives of the right and the left shape when the matrices change by `change` and the eigenvalue by `rate`.
     pub(super) fn along(
         &self,
         change: &Linear,
@@ -153,7 +153,7 @@ impl<'a> Shapes<'a> {
     }
 }
 
-/// `Q' phi`: derivative of the pencil by its eigenvalue (`lambda` or `s`) times a shape.
+/// `Q' phi`: derivative of the pencil with respect to its eigenvalue (`lambda` or `s`), times a shape.
 fn eigenvalue_slope_times(
     linear: &Linear,
     family: Family,
@@ -170,7 +170,7 @@ fn eigenvalue_slope_times(
 struct Side {
     shape: Vector<Complex>,
     size: Normalisation,
-    /// `c`.
+    /// The vector `c`.
     weighted: Vector<Complex>,
     lead: usize,
     factors: Lu<Complex>,
@@ -226,7 +226,7 @@ impl Side {
         })
     }
 
-    /// The derivative of the shape from the right-hand side and from `dMhat phi`.
+    /// The derivative of the shape, from the right-hand side and `dMhat phi`.
     fn solve(&self, right: &[Complex], mass_change: &[Complex]) -> Vector<Complex> {
         let n = right.len();
         let conj = |vector: &[Complex]| vector.map(|value| value.conj());

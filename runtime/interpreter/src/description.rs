@@ -1,4 +1,4 @@
-//! What the compiler knows of a mechanism, in the runtime's words.
+//! Converts the compiler's description of a mechanism to the runtime's types.
 
 use eigentol::{
     CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, Law, OutputInfo,

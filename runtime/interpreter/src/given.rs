@@ -1,4 +1,4 @@
-//! Values and tolerances as text, in the units and words of the language.
+//! Parses values and tolerances given as text, with the units and words of the language.
 
 use eigentol::{ToleranceInfo, Unit};
 use eigentol_compiler::model::resolve::given;
@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use crate::description;
 use crate::mistakes::Mistakes;
 
-/// The value, SI, of a quantity of this unit: `3000rpm`, `-2.5 mm`, `pi / 3`. `what` names the quantity in messages.
+/// Parses the value (SI) of a quantity in this unit: `3000rpm`, `-2.5 mm`, `pi / 3`. `what` names the quantity in messages.
 ///
 /// ```
 /// use eigentol::Unit;
@@ -23,13 +23,13 @@ use crate::mistakes::Mistakes;
 /// ```
 ///
 /// # Errors
-/// What is wrong with the text; lines and columns count within it.
+/// The mistakes in the text; lines and columns refer to it.
 pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
     Ok(given::value(tokens(text)?, declared(unit)?, what)?)
 }
 
-/// The tolerance of a quantity of this unit: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the sign `+/-` of a
-/// half-width, or `one of [1.9, 2.1] mm`. `nominal` is the value, SI, about which it varies.
+/// Parses the tolerance of a quantity in this unit: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the `+/-` sign of a
+/// half-width, or `one of [1.9, 2.1] mm`. `nominal` is the value (SI) about which it varies.
 ///
 /// ```
 /// use eigentol::{Law, Unit};
@@ -42,13 +42,13 @@ pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
 /// ```
 ///
 /// # Errors
-/// What is wrong with the text; lines and columns count within it.
+/// The mistakes in the text; lines and columns refer to it.
 pub fn tolerance(text: &str, unit: &Unit, nominal: f64) -> Result<ToleranceInfo, Mistakes> {
     let found = given::tolerance(tokens(text)?, declared(unit)?, nominal)?;
     Ok(description::tolerance(&found))
 }
 
-/// A unit as a declaration writes it.
+/// The tokens of a unit, as in a declaration.
 fn declared(unit: &Unit) -> Result<TokenStream, Mistakes> {
     match &*unit.symbol {
         "" => tokens("1"),

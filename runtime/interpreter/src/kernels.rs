@@ -1,4 +1,4 @@
-//! The tables of kernels, by interpretation.
+//! Interpreted implementations of the kernel tables.
 
 use eigentol::kernels::{
     BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
@@ -20,7 +20,7 @@ fn copy<T: Copy>(registers: &[T], places: &[u32], to: &mut [T]) {
     }
 }
 
-/// The same of the derivatives.
+/// Copies the derivatives of a result out of the registers.
 fn copy_slopes(registers: &[Dual<f64>], places: &[u32], to: &mut [f64]) {
     for (to, place) in to.iter_mut().zip(places) {
         *to = registers[*place as usize].slope;
@@ -51,7 +51,7 @@ fn partials_buffers<T>(partials: &mut ResidualPartials<T>) -> [&mut [T]; 2] {
     [partials.0.as_flattened_mut(), partials.1.as_flattened_mut()]
 }
 
-/// Copies lists of three matrices, one after the other in the results, of so many variables each.
+/// Copies lists of three matrices, one after the other in the results, each for a number of variables.
 fn copy_partials<'a, T: Copy + 'a>(
     registers: &[T],
     tape: &Tape,
@@ -68,7 +68,7 @@ fn copy_partials<'a, T: Copy + 'a>(
     }
 }
 
-/// Runs a tape at one state, and copies its results. Without a tape the results are zero.
+/// Runs a tape at one state and copies its results. Without a tape the results are zero.
 fn run(tape: &Option<Tape>, arguments: &[&[f64]], to: &mut [&mut [f64]]) {
     let Some(tape) = tape else {
         to.iter_mut().for_each(|to| to.fill(0.0));
@@ -81,7 +81,7 @@ fn run(tape: &Option<Tape>, arguments: &[&[f64]], to: &mut [&mut [f64]]) {
     });
 }
 
-/// The same of the derivatives along a direction.
+/// Runs a tape at one state and copies the derivatives of its results along a direction.
 fn run_along(
     tape: &Option<Tape>,
     arguments: &[&[f64]],
@@ -194,7 +194,7 @@ impl Kernels for Interpreted {
             });
             return;
         }
-        // One direction at a time, as compiled code does for large mechanisms.
+        // One direction at a time, as in compiled code for large mechanisms.
         let mut direction = counts.map(|count| vec![0.0; count]);
         let mut linear = Linear::zeros(q.len());
         for (list, count) in counts.into_iter().enumerate() {
@@ -266,7 +266,7 @@ impl Kernels for Interpreted {
             let places = tape.results.first()?;
             let of = places.iter().map(|place| registers[*place as usize]);
             let mut failing = of.zip(&self.shared.requirements);
-            // NaN breaks every requirement.
+            // NaN violates every requirement.
             failing.find(|(value, _)| value.is_nan() || *value <= 0.0)
         };
         let (value, (quantity, requirement)) = scalar(tape, &[u, b], values)?;
@@ -458,7 +458,7 @@ impl MotionKernels for Interpreted {
             run(&tapes.motion_linear, &arguments, &mut buffers);
             return;
         }
-        // Column by column, as compiled code does for large mechanisms.
+        // Column by column, as in compiled code for large mechanisms.
         let n = q.len();
         let mut right = vec![0.0; n];
         self.motion_into(velocity, q, u, b, &mut linear.mass, &mut right);
@@ -603,7 +603,7 @@ impl BatchKernels for Interpreted {
     }
 }
 
-/// The derivatives of the three matrices by one variable after the other; of a damping without room nothing.
+/// The derivatives of the three matrices with respect to each variable in turn; the damping is skipped if it has no buffer.
 fn changes<'a>(
     matrices: &'a mut BatchLinear<'_>,
     entries: usize,

@@ -1,4 +1,4 @@
-//! A mechanism that was read at run time.
+//! A mechanism read at run time.
 
 use std::fmt;
 use std::fs;
@@ -15,11 +15,11 @@ use crate::mistakes::{Mistakes, ReadError};
 use crate::picture::picture;
 use crate::tape::Tape;
 
-/// A mechanism whose kernels are interpreted. A copy shares everything with the original.
+/// A mechanism whose kernels are interpreted. A clone shares everything with the original.
 ///
-/// It has the tables of kernels that [`Study`](eigentol::Study) and the functions behind it ask for. Handles come from names,
-/// [`Study::find_input`](eigentol::Study::find_input) and the like; they fit every interpreted mechanism, and a study refuses one whose place it does not
-/// have.
+/// It implements the kernel tables required by [`Study`](eigentol::Study) and the functions behind it. Handles are looked up by
+/// name with [`Study::find_input`](eigentol::Study::find_input) and similar methods. They fit every interpreted mechanism; a study
+/// rejects a handle whose index it does not have.
 #[derive(Clone)]
 pub struct Interpreted {
     pub(crate) shared: Arc<Tables>,
@@ -29,13 +29,13 @@ pub(crate) struct Tables {
     pub(crate) description: Shared<Description>,
     pub(crate) picture: Shared<PictureInfo>,
     pub(crate) tapes: Tapes,
-    /// Quantity and requirement of each value of the kernel of violations.
+    /// Quantity and requirement of each value of the violation kernel.
     pub(crate) requirements: Vec<(Text, Text)>,
-    /// Joints of three turns, one for each value of the kernel of poses.
+    /// Joints with three rotations, one for each value of the pose kernel.
     pub(crate) poses: Vec<Text>,
 }
 
-/// The kernels; `None` where the compiler wrote none.
+/// The kernels; `None` if the compiler generated none.
 pub(crate) struct Tapes {
     pub(crate) residual: Option<Tape>,
     pub(crate) residual_parts: Option<Tape>,
@@ -84,18 +84,18 @@ impl Tapes {
 }
 
 impl Interpreted {
-    /// The mechanism that a text declares: what stands between the braces of `mechanism! { .. }`.
+    /// Reads the mechanism declared by a text: the contents of the braces of `mechanism! { .. }`.
     ///
     /// # Errors
-    /// Everything that is wrong with the declaration, with line and column.
+    /// All mistakes in the declaration, with line and column.
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
         Ok(Self::new(&compile_text(text, Limits::default())?))
     }
 
-    /// The mechanism that a file declares.
+    /// Reads the mechanism declared by a file.
     ///
     /// # Errors
-    /// [`ReadError`]: the file cannot be read, or what it declares is no mechanism.
+    /// [`ReadError`]: the file cannot be read, or its declaration is invalid.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let text = fs::read_to_string(path).map_err(|source| ReadError::File {
@@ -108,7 +108,7 @@ impl Interpreted {
         })
     }
 
-    /// The mechanism behind a compiled declaration.
+    /// Creates the mechanism of a compiled declaration.
     pub fn new(compilation: &Compilation) -> Self {
         let functions = &compilation.functions;
         let requirements = functions.requirements.iter().map(|requirement| {
@@ -128,7 +128,7 @@ impl Interpreted {
         }
     }
 
-    /// Names, units, nominal values and what the compiler proved.
+    /// Names, units, nominal values and properties proved by the compiler.
     pub fn description(&self) -> &Description {
         &self.shared.description
     }
@@ -143,7 +143,7 @@ impl fmt::Debug for Interpreted {
 }
 
 impl PartialEq for Interpreted {
-    /// Whether they share everything.
+    /// Whether both share the same data.
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.shared, &other.shared)
     }

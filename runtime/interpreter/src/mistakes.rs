@@ -1,4 +1,4 @@
-//! What is wrong with a text, and where.
+//! Errors in a text and their locations.
 
 use std::path::PathBuf;
 
@@ -6,24 +6,24 @@ use thiserror::Error;
 
 pub use eigentol_compiler::{Mistake, Mistakes};
 
-/// Why a file gave no mechanism.
+/// The reason why a file gave no mechanism.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     File {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
-    /// What it declares is no mechanism.
+    /// The declaration is invalid.
     #[error("{}", .mistakes.of_file(.path))]
     Mistakes {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The mistakes in it.
         mistakes: Mistakes,
     },
 }

@@ -1,4 +1,4 @@
-//! How the numbers of a picture are read, in the runtime's words.
+//! Converts the compiler's layout of picture numbers to the runtime's types.
 
 use eigentol::{
     BodyInfo, ElementInfo, JointInfo, LinkInfo, List, PictureInfo, PointInfo, SolidInfo, SolidKind,

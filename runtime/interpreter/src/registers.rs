@@ -1,4 +1,4 @@
-//! Where the values of a tape stand while it runs: numbers of any kind, or the numbers of several states side by side.
+//! Storage for the values of a running tape: numbers of any kind, or the numbers of several states in vectors.
 
 use std::cell::RefCell;
 use std::marker::PhantomData;
@@ -8,7 +8,7 @@ use eigentol::{Dual, Real};
 
 use crate::tape::Tape;
 
-/// Numbered places for numbers.
+/// Numbered storage places for numbers.
 pub(crate) trait Registers {
     type Number: Real;
     fn get(&self, register: u32) -> Self::Number;
@@ -31,7 +31,7 @@ impl<T: Real> Registers for Scalars<'_, T> {
     }
 }
 
-/// The states from `at` on.
+/// The states from index `at` on.
 struct Vectors<'a, V> {
     batches: &'a mut [Batch],
     at: usize,
@@ -52,7 +52,7 @@ impl<V: Lanes> Registers for Vectors<'_, V> {
     }
 }
 
-/// A number whose registers are kept from call to call, by each thread.
+/// A type of number whose registers each thread keeps between calls.
 pub(crate) trait Kept: Copy + Sized + 'static {
     fn constant(value: f64) -> Self;
     fn with_kept<R>(work: impl FnOnce(&mut Vec<Self>) -> R) -> R;
@@ -81,7 +81,7 @@ kept!(f64, |value| value);
 kept!(Dual<f64>, Dual::fixed);
 kept!(Batch, Batch::all);
 
-/// Puts constants and arguments into their registers, runs the tape, and hands the registers to `read`.
+/// Writes constants and arguments to their registers, runs the tape, and passes the registers to `read`.
 #[inline]
 fn evaluate<T: Kept, R>(
     tape: &Tape,
@@ -107,7 +107,7 @@ fn evaluate<T: Kept, R>(
     })
 }
 
-/// One state.
+/// Evaluates one state.
 #[inline]
 pub(crate) fn scalar<T: Kept + Real, R>(
     tape: &Tape,
@@ -118,7 +118,7 @@ pub(crate) fn scalar<T: Kept + Real, R>(
     evaluate(tape, arguments, run, read)
 }
 
-/// One state in a number that is rarely used.
+/// Evaluates one state in a rarely used type of number, without keeping the registers.
 pub(crate) fn once<T: Real>(tape: &Tape, arguments: &[&[T]]) -> Vec<T> {
     let mut registers: Vec<T> = tape.constants.iter().map(|&c| T::constant(c)).collect();
     for argument in arguments {
@@ -129,7 +129,7 @@ pub(crate) fn once<T: Real>(tape: &Tape, arguments: &[&[T]]) -> Vec<T> {
     registers
 }
 
-/// Several states side by side.
+/// Evaluates several states at once.
 pub(crate) fn batch<R>(
     tape: &Tape,
     instructions: Instructions,

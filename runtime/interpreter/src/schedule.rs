@@ -1,9 +1,9 @@
-//! The order of the operations: equal ones in runs, so that their kind is looked at once for many of them.
+//! Orders the operations into runs of the same kind, so that the kind is dispatched once for many operations.
 
 use eigentol_compiler::algebra::{Operator, Unary};
 use eigentol_compiler::program::{Instruction, Kernel, Operand, Operation};
 
-/// What the operations of a run do.
+/// The operation of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Code {
     Unary(Unary),
@@ -12,13 +12,13 @@ pub(crate) enum Code {
     SinCos,
 }
 
-/// Operations of one kind that do not need each other, by the numbers of their instructions; a second one for the cosine.
+/// Mutually independent operations of one kind, by the index of their instructions; for a sine also the index of the cosine.
 pub(crate) struct Run {
     pub(crate) code: Code,
     pub(crate) members: Vec<(usize, Option<usize>)>,
 }
 
-/// Puts the instructions of a kernel into runs: always all operations of the kind of which most are ready.
+/// Arranges the instructions of a kernel into runs: repeatedly all ready operations of the most frequent kind.
 pub(crate) fn runs(kernel: &Kernel) -> Vec<Run> {
     let instructions = &kernel.instructions;
     let partners = partners(instructions);
@@ -72,7 +72,7 @@ pub(crate) fn runs(kernel: &Kernel) -> Vec<Run> {
     runs
 }
 
-/// The cosine that belongs to a sine, and the other way round.
+/// Pairs each sine with the cosine of the same angle, and vice versa.
 fn partners(instructions: &[Instruction]) -> Vec<Option<usize>> {
     let mut partners = vec![None; instructions.len()];
     let mut open: Vec<(Operand, bool, usize)> = Vec::new();
@@ -97,7 +97,7 @@ fn partners(instructions: &[Instruction]) -> Vec<Option<usize>> {
     partners
 }
 
-/// The kind of an instruction; `None` for a cosine that its sine computes.
+/// The kind of an instruction; `None` for a cosine that is computed together with its sine.
 fn code(instructions: &[Instruction], partners: &[Option<usize>], index: usize) -> Option<Code> {
     match instructions[index].operation {
         Operation::Unary(Unary::Sin, _) if partners[index].is_some() => Some(Code::SinCos),

@@ -1,4 +1,4 @@
-//! A kernel ready to be run: operations on numbered registers.
+//! An executable kernel: operations on numbered registers.
 
 use eigentol::Real;
 use eigentol_compiler::algebra::{Operator, Unary};
@@ -7,8 +7,7 @@ use eigentol_compiler::program::{Kernel, Operand, Operation};
 use crate::registers::Registers;
 use crate::schedule::{Code, runs};
 
-/// Registers of an operation: where its result goes, and its operands. A sine has its cosine's register in place of a second
-/// operand.
+/// Registers of an operation: its result and its operands. A sine has its cosine's register in place of a second operand.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     to: u32,
@@ -23,12 +22,12 @@ struct Run {
     steps: Vec<Step>,
 }
 
-/// A kernel in the form in which it is run. Its registers hold the constants, the arguments and the values on the way, those
-/// that are not needed any more over again.
+/// A kernel in executable form. Its registers hold constants, arguments and intermediate values; registers of values no longer
+/// needed are reused.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
     pub(crate) constants: Vec<f64>,
-    /// Entries of each argument.
+    /// Number of entries of each argument.
     pub(crate) arguments: Vec<usize>,
     pub(crate) registers: usize,
     runs: Vec<Run>,
@@ -72,7 +71,7 @@ impl Tape {
         }
     }
 
-    /// Runs the operations; constants and arguments are in their places.
+    /// Runs the operations; constants and arguments must be in their registers.
     #[inline(always)]
     pub(crate) fn run<R: Registers>(&self, registers: &mut R) {
         for run in &self.runs {
@@ -140,14 +139,14 @@ fn binary<R: Registers>(
     }
 }
 
-/// Which value is in which register.
+/// The assignment of values to registers.
 struct Allocation {
     constants: Vec<f64>,
     /// First register of each argument.
     arguments: Vec<u32>,
-    /// Of each instruction that has been placed.
+    /// Register of each instruction placed so far.
     values: Vec<u32>,
-    /// How many operations and results still need an instruction's value.
+    /// Number of operations and results that still need an instruction's value.
     uses: Vec<usize>,
     free: Vec<u32>,
     next: u32,
@@ -197,7 +196,7 @@ impl Allocation {
         }
     }
 
-    /// Places an instruction, and the cosine that comes with it.
+    /// Places an instruction, and the cosine computed with it.
     fn step(&mut self, kernel: &Kernel, index: usize, second: Option<usize>) -> Step {
         let operation = &kernel.instructions[index].operation;
         let (a, b) = match *operation {
@@ -235,14 +234,14 @@ impl Allocation {
         });
         self.values[index] = register;
         if self.uses[index] == 0 {
-            // Nobody reads it.
+            // The value is never read.
             self.free.push(register);
         }
         register
     }
 }
 
-/// Place of a constant, told apart by its bits.
+/// Index of a constant, compared bit by bit.
 fn position(constants: &[f64], value: f64) -> Option<usize> {
     constants
         .iter()

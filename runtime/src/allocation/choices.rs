@@ -1,39 +1,40 @@
-//! What may be chosen, and what is allowed to fail.
+//! The free choices of an allocation, and the allowed failure probabilities.
 
 use super::cost::Cost;
 use crate::requirement::Requirements;
 use crate::{Error, Vector};
 
-/// A half-width that may be chosen.
+/// A half-width to be chosen.
 #[derive(Debug)]
 pub struct HalfWidth<'a> {
-    /// Position among the design variables; tolerances of inputs follow those of the design.
+    /// Position among the design variables, followed by the inputs that have a tolerance.
     pub variable: usize,
-    /// Least and greatest half-width, SI.
+    /// Smallest and largest half-width, SI.
     pub limits: (f64, f64),
-    /// What it costs.
+    /// Its cost.
     pub cost: Cost<'a>,
 }
 
-/// A nominal value that may be chosen.
+/// A nominal value to be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Nominal {
     /// Position among the design variables.
     pub variable: usize,
-    /// Least and greatest value, SI.
+    /// Smallest and largest value, SI.
     pub limits: (f64, f64),
 }
 
-/// What may be chosen. Half-widths that are not named stay as they are; those that are named scale the distribution of their
-/// variable about its mean.
+/// The free choices.
+///
+/// Half-widths that are not listed stay as they are; each listed one scales the distribution of its variable about the mean.
 #[derive(Debug)]
 pub struct Choices<'a> {
     /// Half-widths.
     pub half_widths: Vec<HalfWidth<'a>>,
     /// Nominal values.
     pub nominals: Vec<Nominal>,
-    /// Greatest probability of failing each requirement.
+    /// Maximum failure probability of each requirement.
     pub failure: Vec<f64>,
 }
 
@@ -79,7 +80,7 @@ impl Choices<'_> {
         nominals.try_for_each(|(_, limits)| in_order("nominal value", limits))
     }
 
-    /// Where the search starts: the design and the half-widths as they are, within the limits.
+    /// Start of the search: the current design and half-widths, clamped to the limits.
     pub(super) fn start(&self, nominal: &[f64], half_widths: &[f64]) -> (Vector, Vector) {
         let (mut nominal, mut wide) = (Vector::from(nominal), Vector::from(half_widths));
         for own in &self.nominals {

@@ -1,8 +1,8 @@
-//! What a tolerance costs.
+//! The cost of a tolerance.
 
 use core::fmt;
 
-/// Cost of a half-width, in any currency.
+/// Cost of a half-width as a function of its size, in any currency.
 ///
 /// ```
 /// use eigentol::allocation::Cost;

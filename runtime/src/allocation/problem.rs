@@ -1,5 +1,5 @@
-//! Cost and reliability as functions of what may be chosen: logarithms of half-widths, which make reciprocal costs convex, and nominal
-//! values as parts of the way between their limits.
+//! Cost and reliability as functions of the choices: logarithms of half-widths, which make reciprocal costs convex, and nominal
+//! values as fractions of the way between their limits.
 
 use eigentol_statistics::normal;
 use eigentol_statistics::reliability::form;
@@ -8,34 +8,34 @@ use super::choices::Choices;
 use crate::requirement::{Deviations, FormSettings, Limit, LimitAt, Requirements, slopes_at};
 use crate::{Error, Vector};
 
-/// Everything at one choice.
+/// Cost and reliability at one choice.
 #[derive(Clone, Debug)]
 pub(super) struct Evaluated {
     pub(super) cost: f64,
     pub(super) cost_slopes: Vec<f64>,
-    /// Of each requirement with a limit.
+    /// One entry per requirement with a limit.
     pub(super) requirements: Vec<Reached>,
 }
 
-/// What a requirement comes to.
+/// The reliability reached for one requirement.
 #[derive(Clone, Debug)]
 pub(super) struct Reached {
     pub(super) requirement: usize,
-    /// Reliability index; infinite where no design within reach fails.
+    /// Reliability index; infinite if no design within reach fails.
     pub(super) beta: f64,
     pub(super) slopes: Vec<f64>,
     pub(super) wanted: f64,
 }
 
 impl Reached {
-    /// By how much the reliability index falls short.
+    /// The shortfall of the reliability index.
     pub(super) fn shortfall(&self) -> f64 {
         self.wanted - self.beta
     }
 }
 
 impl Evaluated {
-    /// The requirement that is missed most, or met most narrowly.
+    /// The requirement with the largest shortfall or the smallest reserve.
     pub(super) fn worst(&self) -> Option<&Reached> {
         let by_shortfall = |a: &&Reached, b: &&Reached| a.shortfall().total_cmp(&b.shortfall());
         self.requirements.iter().max_by(by_shortfall)
@@ -54,7 +54,7 @@ pub(super) struct Problem<'a> {
     pub(super) half_widths: Vector,
 }
 
-/// One search from the middle of all designs is enough from one step of the optimiser to the next.
+/// Settings with a single search from the centre of the distribution, which suffices between successive optimiser steps.
 fn settings() -> FormSettings {
     FormSettings {
         restarts: 0,
@@ -64,7 +64,7 @@ fn settings() -> FormSettings {
 }
 
 impl Problem<'_> {
-    /// Nominal values and half-widths of a choice.
+    /// The nominal values and half-widths of a choice.
     pub(super) fn design(&self, x: &[f64]) -> (Vector, Vector) {
         let (mut nominal, mut wide) = (self.nominal.clone(), self.half_widths.clone());
         let (logarithms, parts) = x.split_at(self.choices.half_widths.len());
@@ -78,7 +78,7 @@ impl Problem<'_> {
         (nominal, wide)
     }
 
-    /// Where the search starts, and the bounds of what may be chosen.
+    /// The start of the search, and the bounds of the choices.
     pub(super) fn start(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         let logarithms = self.choices.half_widths.iter();
         let mut x: Vec<f64> = (logarithms
@@ -141,7 +141,7 @@ impl Problem<'_> {
         Ok((sum, slopes))
     }
 
-    /// Reliability index of a limit and its derivatives by what may be chosen.
+    /// Reliability index of a limit and its derivatives with respect to the choices.
     fn limit(
         &self,
         deviations: &Deviations<'_>,
@@ -174,7 +174,7 @@ impl Problem<'_> {
     }
 }
 
-/// Whether nothing that the search came across fails, or has no value.
+/// Whether the search found no failure, and no design without a value.
 fn out_of_reach(error: &eigentol_statistics::Error) -> bool {
     match error {
         eigentol_statistics::Error::NoDesignPoint { closest, .. } => {
@@ -184,7 +184,7 @@ fn out_of_reach(error: &eigentol_statistics::Error) -> bool {
     }
 }
 
-/// Reliability index of the summed probabilities of failure, `-Phi^-1(sum Phi(-beta_i))`.
+/// Reliability index of the summed failure probabilities, `-Phi^-1(sum Phi(-beta_i))`.
 fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
     let finite: Vec<&(f64, Vec<f64>)> = parts.iter().filter(|(beta, _)| beta.is_finite()).collect();
     match finite[..] {
@@ -196,7 +196,7 @@ fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
                 .iter()
                 .map(|(beta, _)| *beta)
                 .fold(f64::INFINITY, f64::min);
-            // Beyond the range of a double, and where several fail for certain, the least index is as good.
+            // Beyond the range of a double, or if several limits fail for certain, use the smallest index.
             let inverted = -normal::quantile(sum);
             let beta = if inverted.is_finite() {
                 inverted

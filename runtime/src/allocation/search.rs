@@ -12,16 +12,16 @@ use crate::requirement::{
 use crate::tolerance::Sampling;
 use crate::{Description, Error, Shared, Vector, Watch};
 
-/// A reliability index that falls short by this is reached.
+/// A shortfall of the reliability index up to this value is accepted.
 const ENOUGH: f64 = 1e-6;
-/// What is missing of a reliability index of 1 counts as so many times the cost.
+/// Penalty on a reliability-index shortfall of 1, as a multiple of the cost.
 const PENALTY: f64 = 1e3;
-/// Evaluations of the optimiser.
+/// Maximum number of evaluations of the optimiser.
 const EVALUATIONS: usize = 500;
-/// Samples refute an allocation when the interval of this confidence lies above the allowed probability.
+/// Samples refute an allocation if the interval of this confidence lies above the allowed probability.
 const CONFIDENCE: f64 = 0.99;
 
-/// The cheapest tolerances that were found.
+/// The cheapest tolerances found.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -32,36 +32,38 @@ pub struct Allocation {
     pub half_widths: Vector,
     /// Sum of the costs.
     pub cost: f64,
-    /// The same for the tolerances at the start.
+    /// Sum of the costs of the tolerances at the start.
     pub cost_before: f64,
-    /// Greatest probability of failing each requirement.
+    /// Maximum failure probability of each requirement.
     pub failure: Vec<f64>,
-    /// Reliability there, with all design points searched for anew.
+    /// Reliability of the result, with all design points searched anew.
     pub reliability: Reliability,
-    /// Chances there, from samples.
+    /// Probabilities of meeting the requirements, from samples of the result.
     pub chances: Chances,
-    /// Requirements that the samples refute: the interval of Clopper and Pearson of 99 % lies above what is allowed. First order has
-    /// then failed; allow less.
+    /// Requirements refuted by the samples: their 99 % Clopper-Pearson interval lies above the allowed probability. First order has
+    /// then failed; allow a smaller probability.
     pub refuted: Vec<usize>,
-    /// Choices that the search tried.
+    /// Number of choices tried.
     pub evaluations: usize,
-    /// The search was stopped: there may be cheaper ones.
+    /// Whether the search was stopped, so that cheaper choices may exist.
     pub stopped: bool,
-    /// The inputs it belongs to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
-/// The cheapest of the tolerances that may be chosen, starting from those of `requirements`. Each requirement fails with at most the
-/// allowed probability to first order, that of several limits of one being summed; one without a limit
-/// ([`Requirement::Stable`](crate::requirement::Requirement::Stable)) is sampled only.
+/// Finds the cheapest of the allowed tolerances, starting from those of `requirements`.
+///
+/// Each requirement fails with at most the allowed probability to first order; if it has several limits, their probabilities are
+/// summed. A requirement without a limit ([`Requirement::Stable`](crate::requirement::Requirement::Stable)) is checked by samples
+/// only.
 ///
 /// # Errors
-/// [`Error::Infeasible`] where no choice is reliable enough; [`Error::Setting`], [`Error::WrongLength`] and [`Error::UnknownHandle`]
-/// for choices that make no sense and a cost that is not finite; what [`Requirements::reliability`] refuses;
-/// [`Error::NoReliability`] where a limit has no design point at the start although designs may fail; [`Error::Stopped`] where the
-/// search is stopped ([`Sampling::stop`]) before any choice was reliable enough. Later it ends with the best choice until then.
+/// [`Error::Infeasible`] if no choice is reliable enough; [`Error::Setting`], [`Error::WrongLength`] and [`Error::UnknownHandle`]
+/// for invalid choices or a cost that is not finite; the errors of [`Requirements::reliability`]; [`Error::NoReliability`] if a
+/// limit has no design point at the start although designs may fail; [`Error::Stopped`] if the search is stopped
+/// ([`Sampling::stop`]) before any choice was reliable enough. If stopped later, it returns the best choice so far.
 pub fn allocate(
     requirements: &Requirements<'_>,
     choices: &Choices<'_>,
@@ -120,7 +122,7 @@ pub fn allocate(
     })
 }
 
-/// The best choice, what it comes to, the cost at the start, and how many were tried.
+/// Returns the best choice, its evaluation, the cost at the start, and the number of choices tried.
 fn search(
     problem: &Problem<'_>,
     watch: Watch<'_>,
@@ -173,7 +175,7 @@ fn search(
         xtol_abs: vec![1e-10; start.len()],
         ..StopTols::default()
     };
-    // Whatever it ends with, the best choice on the way counts: the library takes rounding for a violated constraint.
+    // However the optimiser ends, the best choice on the way counts: it mistakes rounding for a violated constraint.
     let _ = minimize(
         objective,
         &start,
@@ -188,22 +190,22 @@ fn search(
     Ok((x, best, before, progress.tried))
 }
 
-/// As the optimiser sees it: finite also where nothing fails.
+/// The shortfall passed to the optimiser: finite even if nothing fails.
 fn shortfall(own: &Reached) -> f64 {
     own.shortfall().max(-1e3)
 }
 
-/// Cost and constraints are asked for at the same choice one after the other.
+/// Caches the last evaluation, because the optimiser queries cost and constraints of a choice one after the other.
 struct Progress {
     last_choice: Vec<f64>,
     last: Option<Evaluated>,
-    /// The cheapest that is reliable enough, or else the most reliable.
+    /// The cheapest choice that is reliable enough, or else the most reliable one.
     best: (Vec<f64>, Evaluated),
     tried: usize,
 }
 
 impl Progress {
-    /// What a choice comes to; nothing any more when the search is stopped, which ends it soon.
+    /// Evaluates a choice; returns nothing once the search is stopped, which soon ends it.
     fn at(&mut self, problem: &Problem<'_>, watch: Watch<'_>, x: &[f64]) -> Option<&Evaluated> {
         if watch.stopped() {
             return None;
@@ -224,7 +226,8 @@ impl Progress {
     }
 }
 
-/// Of two choices that are reliable enough the cheaper one, what is missing counted at more than it can save.
+/// Whether `new` is better: of two sufficiently reliable choices the cheaper one, with a penalty on shortfall that outweighs its
+/// savings.
 fn better(new: &Evaluated, old: &Evaluated) -> bool {
     match (new.shortfall() <= ENOUGH, old.shortfall() <= ENOUGH) {
         (true, true) => {

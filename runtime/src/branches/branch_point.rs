@@ -1,9 +1,9 @@
 //! Branch points, where two branches cross.
 //!
-//! About a branch point the equations reduce to one scalar of two variables (Lyapunov and Schmidt): on
-//! `g(x) + mu c = 0`, `n1 . x = xi`, `n2 . x = eta`, `x = (q, u_k)`, the branches are the lines `mu(xi, eta) = 0`, and they
-//! cross where `mu` has a saddle of height zero. Newton's method on the gradient of `mu` is regular there, and the
-//! second derivatives give the directions of both branches (algebraic branching equation).
+//! Near a branch point the equations reduce to one scalar equation in two variables (Lyapunov and Schmidt): with `g(x) + mu c = 0`,
+//! `n1 . x = xi`, `n2 . x = eta`, `x = (q, u_k)`, the branches are the curves `mu(xi, eta) = 0`, and they cross where `mu` has a
+//! saddle of height zero. Newton's method on the gradient of `mu` is regular there, and the second derivatives give the directions
+//! of both branches (algebraic branching equation).
 
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble, plane};
@@ -16,18 +16,18 @@ use crate::equilibrium::ACCEPTED;
 use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 30;
-/// A direction with a smaller part along the input is that of the critical vector.
+/// A direction whose input component is smaller than this is the critical vector's.
 const STATIONARY: f64 = 1e-6;
-/// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7.
+/// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7 of each other.
 const CROSSING: f64 = 1e-13;
-/// Halvings towards the change of sign where the critical vectors are looked for.
+/// Maximum number of bisections towards the sign change when looking for the critical vectors.
 const NEARER: usize = 12;
-/// Distance, in local units, at which the third order is felt out.
+/// Distance, in local units, at which the third order is probed.
 const PROBE: f64 = 1e-3;
 
-/// `mu` and its derivatives at one place.
+/// `mu` and its derivatives at a point.
 struct Reduced {
-    /// Newton step to `g + mu c = 0` and the value of `mu` after it.
+    /// Newton step to `g + mu c = 0`; `mu` is the value after it.
     correction: CurvePosition,
     mu: f64,
     /// `dx/dxi`, `dx/deta`.
@@ -37,19 +37,19 @@ struct Reduced {
     hessian: [[f64; 2]; 2],
 }
 
-/// Directions that complete the equations, and the column that does.
+/// The rows (directions) and the column that border the equations.
 struct Borders {
     normals: [CurvePosition; 2],
     column: Vector,
 }
 
 impl Curve<'_> {
-    /// The branch point between two stations.
+    /// Finds the branch point between two stations.
     pub(crate) fn branch_point(&self, a: &CurvePoint, b: &CurvePoint) -> Result<Junction, Trouble> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let (mut local, borders) = self.saddle(a, &end)?;
-        // Two more inner steps leave the residual at rounding.
+        // Two more inner steps reduce the residual to rounding.
         for _ in 0..2 {
             let reduced = self.reduced(frame, &local, 0.0, &borders)?;
             local = local.plus(1.0, &reduced.correction);
@@ -74,7 +74,7 @@ impl Curve<'_> {
             },
         };
         let critical = frame.stretched(&v);
-        // The branches pass each other at a distance of the root of mu / H.
+        // The branches pass each other at a distance of sqrt(mu / H).
         let size = reduced
             .hessian
             .iter()
@@ -92,7 +92,7 @@ impl Curve<'_> {
         })
     }
 
-    /// The saddle of `mu` between the origin of the frame and `end`, both on the branch.
+    /// Finds the saddle of `mu` between the origin of the frame and `end`, both on the branch.
     fn saddle(
         &self,
         a: &CurvePoint,
@@ -165,8 +165,8 @@ impl Curve<'_> {
         })
     }
 
-    /// `[Khat dg/du; n1^T]` near its change of sign between the origin of the frame and `end`. Farther away something else
-    /// may be softer than what becomes singular.
+    /// `[Khat dg/du; n1^T]` near its sign change between the origin of the frame and `end`. Farther away, another direction may be
+    /// softer than the one that becomes singular.
     fn nearly_singular(
         &self,
         frame: &Frame,
@@ -227,7 +227,7 @@ impl Curve<'_> {
             Ok(frame.stretched(&curvature))
         };
         let bent = [bend(&tangents[0])?, bend(&tangents[1])?];
-        // w^T [Khat dg/du] + a1 n1 + a2 n2 = 0, so that the slopes of mu are a1 and a2.
+        // w^T [Khat dg/du] + a1 n1 + a2 n2 = 0, so the slopes of mu are a1 and a2.
         Ok(Reduced {
             mu: mu + change,
             w,
@@ -240,7 +240,7 @@ impl Curve<'_> {
         })
     }
 
-    /// Sign of the third order along the critical vector, by differences of exact second orders.
+    /// Sign of the third order along the critical vector, from differences of exact second orders.
     fn supercritical(
         &self,
         frame: &Frame,
@@ -283,7 +283,7 @@ fn not_simple() -> Trouble {
     Trouble::Missed(NotFound::BranchPointNotSimple)
 }
 
-/// Unit directions of the two branches: the roots of the quadratic form of second derivatives.
+/// Unit directions of the two branches: the roots of the quadratic form of the second derivatives.
 fn directions(reduced: &Reduced) -> Result<[CurvePosition; 2], Trouble> {
     let [[a, b], [_, c]] = reduced.hessian;
     let discriminant = b * b - a * c;
@@ -297,7 +297,7 @@ fn directions(reduced: &Reduced) -> Result<[CurvePosition; 2], Trouble> {
     Ok([combine(q, a)?, combine(c, q)?])
 }
 
-/// The combination of the tangents along which the input stands still.
+/// The combination of the tangents along which the input is stationary.
 fn critical([x, y]: &[CurvePosition; 2]) -> Option<CurvePosition> {
     let v = x.scaled(y.p).plus(-x.p, y);
     CurvePosition { q: v.q, p: 0.0 }.unit()

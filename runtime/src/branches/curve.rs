@@ -13,7 +13,7 @@ use crate::kernels::{DirectionalKernels, Linear};
 use crate::rounding;
 use crate::{Description, Equilibrium, Error, Shared, Watch};
 
-/// A mechanism of which one input varies.
+/// A mechanism with one varying input.
 pub(crate) struct Curve<'a> {
     pub(crate) mechanism: &'a dyn DirectionalKernels,
     pub(crate) description: Shared<Description>,
@@ -22,20 +22,20 @@ pub(crate) struct Curve<'a> {
     pub(crate) design: &'a [f64],
     pub(crate) settings: &'a Continuation,
     pub(crate) watch: Watch<'a>,
-    /// Redundant constraints, which Newton's method is better off without; every point is held to all of them.
+    /// Redundant constraints, omitted from Newton's method for regularity; every point must still meet all of them.
     dropped: Vec<bool>,
 }
 
-/// Why a point was not reached.
+/// The reason why a point was not reached.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Trouble {
-    /// The equations are not finite there.
+    /// The equations are not finite at this point.
     OutsideDomain(Vector),
-    /// The input describes no body that can exist.
+    /// The input describes a body that cannot exist.
     Unphysical(Error),
-    /// The point does not pass as an equilibrium.
+    /// The point is not accepted as an equilibrium.
     Refused(Failure),
-    /// Why it was missed.
+    /// The search missed the point.
     Missed(NotFound),
 }
 
@@ -59,13 +59,13 @@ pub(crate) struct Corrected {
     pub(crate) iterations: usize,
 }
 
-/// Displacement, in units of coordinates and input, that residuals are compared with.
+/// Displacement, in units of coordinates and input, that residuals are compared to.
 const SMALL: f64 = 1e-3;
-/// A Newton step this small, in local units, leaves rounding.
+/// After a Newton step this small, in local units, only rounding remains.
 const LAST_STEP: f64 = 1e-13;
-/// A step that no longer shrinks has reached rounding below this size.
+/// Below this size, a step that no longer shrinks has reached rounding.
 const ROUNDING: f64 = 1e-8;
-/// A Newton step that keeps more than this share of the one before does not converge.
+/// Newton's method does not converge if a step is larger than this fraction of the previous one.
 const CONTRACTION: f64 = 0.5;
 
 impl<'a> Curve<'a> {
@@ -89,7 +89,7 @@ impl<'a> Curve<'a> {
         })
     }
 
-    /// The same, for somebody who waits.
+    /// The curve, with its work reported to `watch`, which can stop it.
     pub(crate) fn watched(self, watch: Watch<'a>) -> Self {
         Self { watch, ..self }
     }
@@ -99,12 +99,12 @@ impl<'a> Curve<'a> {
         self.description.coordinates.len()
     }
 
-    /// The problem at these inputs, with all constraints.
+    /// The operating point at these inputs, with all constraints.
     pub(crate) fn operating_point<'b>(&'b self, inputs: &'b [f64]) -> OperatingPoint<'b> {
         OperatingPoint::unchecked(self.mechanism, inputs, self.design)
     }
 
-    /// The same for branches near a state.
+    /// The curve prepared for branches near a state.
     pub(crate) fn about(mut self, state: &Equilibrium) -> Self {
         if self.structure.constraints() > 1 {
             self.dropped = redundant_rows(&state.linear.stiffness, self.structure);
@@ -120,7 +120,7 @@ impl<'a> Curve<'a> {
         inputs
     }
 
-    /// The linearised mechanism at a place.
+    /// The mechanism linearised at a point.
     pub(crate) fn linear(&self, at: &CurvePosition) -> Result<Linear, Trouble> {
         self.operating_point(&self.inputs_at(at.p))
             .linear(&at.q)
@@ -153,7 +153,7 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// Gradient by `(q, u_k)` of the derivative of `w^T g` along `direction`.
+    /// Gradient with respect to `(q, u_k)` of the derivative of `w^T g` along `direction`.
     pub(crate) fn curvature(
         &self,
         at: &CurvePosition,
@@ -186,9 +186,9 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// The equilibrium at a place. Its residual is relative, beside what an ordinary solve knows, to what a thousandth of the
-    /// range restores: where `Khat` is singular the input holds what coordinates do not. Where neither does, `also` is
-    /// another measure of it.
+    /// The equilibrium at a point of the branch. If the usual relative residual is not small, the residual is compared to the
+    /// forces due to a thousandth of the input range or of a coordinate's unit: where `Khat` is singular, the input restores what
+    /// the coordinates cannot. Where neither does, `also` is an alternative measure of the residual.
     pub(crate) fn equilibrium(
         &self,
         at: &CurvePosition,
@@ -255,7 +255,7 @@ impl<'a> Curve<'a> {
         })
     }
 
-    /// Greatest residual, each relative to what a thousandth of the range or of a coordinate's unit restores.
+    /// Largest residual, each relative to the forces due to a thousandth of the input range and of the coordinates' units.
     fn with_input(&self, q: &[f64], system: &System) -> f64 {
         (0..q.len()).fold(0.0, |most: f64, i| {
             let input = system.by_input[i].abs() * self.settings.range();
@@ -281,7 +281,7 @@ impl<'a> Curve<'a> {
         )
     }
 
-    /// Solves `g = 0` on the plane through `from` across `normal` (both local), not farther than `reach` from it.
+    /// Solves `g = 0` on the plane through `from` with normal `normal` (both local), no farther than `reach` from it.
     pub(crate) fn correct(
         &self,
         frame: &Frame,

@@ -1,4 +1,4 @@
-//! A point on a branch with what is needed to go on from it, and the signs that tell that something lies between two.
+//! A point on a branch with the data to continue from it, and the signs that reveal events between two points.
 
 use super::curve::{Curve, Trouble, plane};
 use super::local_scaling::{CurvePosition, Frame, System};
@@ -16,29 +16,29 @@ pub(crate) struct CurvePoint {
     pub(crate) place: CurvePosition,
     pub(crate) equilibrium: Equilibrium,
     pub(crate) frame: Frame,
-    /// Local unit tangent.
+    /// Unit tangent in local coordinates.
     pub(crate) tangent: CurvePosition,
     pub(crate) signs: Signs,
 }
 
-/// Signs that change where something happens.
+/// Signs that change at events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Signs {
-    /// The input falls along the branch.
+    /// The input decreases along the branch.
     pub(crate) falling: bool,
-    /// The input stands still along the branch.
+    /// The input is stationary along the branch.
     pub(crate) vertical: bool,
-    /// `det [Khat dg/du; t^T] < 0` where as many constraints as there are change no sign: changes where branches cross.
+    /// `det [Khat dg/du; t^T] < 0`, corrected for the sign of each constraint; changes where branches cross.
     pub(crate) crossed: bool,
-    /// Number of negative eigenvalues of a symmetric `Khat`, along the directions that constraints leave free.
+    /// Number of negative eigenvalues of a symmetric `Khat` in the directions that the constraints leave free.
     pub(crate) negative: Option<usize>,
 }
 
-/// Tangents with a smaller part along the input are vertical.
+/// Tangents with a smaller input component are vertical.
 pub(crate) const VERTICAL: f64 = 1e-10;
 
 impl Curve<'_> {
-    /// The station at a place on the branch, its tangent on the side of `towards` (SI units).
+    /// The station at a point of the branch, with its tangent on the side of `towards` (SI units).
     pub(crate) fn station(
         &self,
         place: &CurvePosition,
@@ -65,7 +65,7 @@ impl Curve<'_> {
                 _ => tangent.p < 0.0,
             },
             vertical,
-            // Each constraint turns the sign: its multiplier adds a negative eigenvalue.
+            // Each constraint flips the sign: its multiplier adds a negative eigenvalue.
             crossed: factors.negative_determinant() != (constraints % 2 == 1),
             negative: if vertical {
                 None
@@ -87,7 +87,7 @@ impl Curve<'_> {
         })
     }
 
-    /// The first station of a branch, its tangent towards the end of the range.
+    /// The first station of a branch, with its tangent towards the end of the range.
     pub(crate) fn first_station(&self, equilibrium: Equilibrium) -> Result<CurvePoint, Trouble> {
         let place = CurvePosition {
             q: equilibrium.coordinates.clone(),
@@ -122,7 +122,7 @@ impl Curve<'_> {
 }
 
 impl CurvePoint {
-    /// The same point, looking back.
+    /// The same point with the tangent reversed.
     pub(crate) fn reversed(&self) -> Self {
         Self {
             tangent: self.tangent.scaled(-1.0),
@@ -135,7 +135,7 @@ impl CurvePoint {
         }
     }
 
-    /// Whether the determinant of `Khat` (reduced by constraints), and where it is symmetric every eigenvalue, is positive.
+    /// Whether the determinant of `Khat` (reduced by constraints) is positive and, if it is symmetric, every eigenvalue is.
     pub(crate) fn stiff(&self) -> bool {
         self.signs.falling == self.signs.crossed
             && self.signs.negative.is_none_or(|count| count == 0)
@@ -147,7 +147,7 @@ impl CurvePoint {
     }
 }
 
-/// Negative eigenvalues of a symmetric `Khat` along the directions that constraints leave free.
+/// Number of negative eigenvalues of a symmetric `Khat` in the directions that the constraints leave free.
 fn negative(linear: &Linear, description: &Description) -> Option<usize> {
     if !symmetric_to_rounding(linear, description) {
         return None;
@@ -158,7 +158,7 @@ fn negative(linear: &Linear, description: &Description) -> Option<usize> {
     Some(free_pairs(linear, description).ok()?.negative())
 }
 
-/// Whether `Khat` has modes of its own: it is symmetric, and nothing in it belongs to speeds.
+/// Whether `Khat` has modes of its own: it is symmetric, and none of it belongs to speeds.
 pub(crate) fn symmetric_to_rounding(linear: &Linear, description: &Description) -> bool {
     Structure::of(description).holonomic()
         && (description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11)

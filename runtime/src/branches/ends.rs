@@ -1,4 +1,4 @@
-//! Where a walk along a branch ends, and why.
+//! Where and why a walk along a branch ends.
 
 use super::BranchEnd;
 use super::curve::{Corrected, Curve, Trouble};
@@ -9,16 +9,17 @@ use crate::equilibrium::Failure;
 use crate::error::NotFound;
 use crate::{Equilibrium, Error};
 
-/// Share of the range by which a branch along one of its ends may stray by rounding.
+/// Fraction of the range by which a branch that runs along one of its ends may stray due to rounding.
 pub(super) const STRAY: f64 = 1e-9;
-/// Local distance on which a branch is its tangent to rounding.
+/// Local distance over which a branch coincides with its tangent to rounding.
 const BESIDE: f64 = 1e-7;
 
-/// A last station, unless the walk already stands there, and how the branch ends.
+/// The last station, unless the walk is already there, and how the branch ends.
 type LastStep = (Option<CurvePoint>, BranchEnd);
 
 impl Curve<'_> {
-    /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
+    /// Like [`Self::arrive`], for an end of the range that is a singular point: tangent and signs are those of the previous
+    /// station.
     pub(super) fn arrive_singular(
         &self,
         corrected: &Corrected,
@@ -58,7 +59,7 @@ impl Curve<'_> {
         }
     }
 
-    /// The end of the range that an input lies beyond.
+    /// The end of the range beyond which an input lies.
     pub(super) fn beyond(&self, p: f64) -> Option<f64> {
         let (least, most) = self.settings.bounds();
         if p < least {
@@ -97,8 +98,8 @@ impl Curve<'_> {
         Ok(landed)
     }
 
-    /// The end of the range right beside a station, where the branch is singular: along the tangent, unless the station
-    /// is there.
+    /// Steps along the tangent to an end of the range right next to a station, where the branch is singular. No step is needed if
+    /// the station is already there.
     pub(super) fn last_step(&self, at: &CurvePoint) -> Option<LastStep> {
         let (least, most) = self.settings.bounds();
         let away = |bound: f64| (bound - at.place.p) / self.settings.range();

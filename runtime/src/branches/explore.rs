@@ -1,4 +1,4 @@
-//! All branches that can be reached: along each from its start, and at every branch point into the other one.
+//! Finds all reachable branches: follows each from its start, and enters the other branch at every branch point.
 
 use std::collections::VecDeque;
 
@@ -14,29 +14,29 @@ use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria, solve};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error, Watch};
 
-/// Share of the range by which a start on a singular state is moved.
+/// Fraction of the range by which a start at a singular state is moved.
 const NUDGE: f64 = 1e-6;
 
-/// A branch and the branch points passed on it, each with whether the branch is an arm that ends there.
+/// A branch and its branch points, each with a flag that tells whether the branch is an arm that ends there.
 type Followed = (Branch, Vec<(Junction, bool)>);
 
-/// What is still to be followed.
+/// A place from which to follow a branch.
 enum Lead {
-    /// Both ways from a regular point.
+    /// In both directions from a regular point.
     Start(CurvePoint),
-    /// Both ways through a junction.
+    /// In both directions through a junction.
     Through(Junction, CurvePosition),
-    /// One arm of a pitchfork.
+    /// Along one arm of a pitchfork.
     Arm(Junction, CurvePosition),
 }
 
-/// Follows the branch through the stable equilibrium at `settings.low` that is found from `start`, in both directions.
+/// Follows, in both directions, the branch through the stable equilibrium at `settings.low` that is found from `start`.
 ///
-/// `u` inputs (of which `settings.input` is replaced), `b` design variables, `start` coordinates, all SI. Branches that
-/// cross it show as special points, but are not followed: [`branches`] follows them.
+/// `u` are the inputs (`settings.input` is replaced), `b` the design variables, `start` the coordinates, all SI. Branches that
+/// cross this one appear as special points but are not followed; use [`branches`] for that.
 ///
 /// # Errors
-/// [`Error::Setting`], [`Error::UnknownHandle`], and those of [`equilibrium`] at the low end of the range.
+/// [`Error::Setting`], [`Error::UnknownHandle`], and the errors of [`equilibrium`] at the low end of the range.
 pub fn branch(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],
@@ -56,14 +56,14 @@ pub fn branch(
 
 /// Finds the branches of equilibria over a range of one input.
 ///
-/// Starts at the low end of the range with the equilibria found from `start`, at the high end where there are none, and
-/// at both ends with those that `search` finds; then follows every branch and enters every other branch that crosses
-/// one. The arms of a pitchfork are branches of their own. A branch that is connected to none of these and passes
-/// neither end near a start is not found: completeness is not promised.
+/// The search starts with the equilibria found from `start` at the low end of the range, at the high end if there are none at the
+/// low end, and at both ends with those that `search` finds. It then follows every branch and enters every branch that crosses one.
+/// The arms of a pitchfork are separate branches. A branch that is not connected to any of these and passes neither end near a
+/// start is not found: completeness is not guaranteed.
 ///
 /// # Errors
-/// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotFinite`]; those of [`equilibrium`] when there is no
-/// equilibrium at either end.
+/// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotFinite`]; the errors of [`equilibrium`] if there is no equilibrium at
+/// either end.
 pub fn branches(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],
@@ -76,8 +76,9 @@ pub fn branches(
     branches_each(mechanism, (u, b), start, (settings, search), nobody, |_| {})
 }
 
-/// As [`branches`], for somebody who waits: `each` sees every branch as soon as it is complete, and a search that is stopped gives what
-/// was found until then, the last branch with an end [`BranchEnd::Stopped`].
+/// Like [`branches`], but passes every branch to `each` as soon as it is complete.
+///
+/// A search that is stopped returns the branches found so far, the last of which ends with [`BranchEnd::Stopped`].
 ///
 /// # Errors
 /// As [`branches`].
@@ -124,7 +125,7 @@ pub fn branches_each(
 }
 
 impl Curve<'_> {
-    /// The station at an equilibrium, or beside it where branches cross there.
+    /// The station at an equilibrium, or next to it if branches cross there.
     pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, Trouble> {
         self.first_station(state.clone()).or_else(|trouble| {
             let (low, high) = (self.settings.low, self.settings.high);
@@ -142,7 +143,7 @@ impl Curve<'_> {
         })
     }
 
-    /// The branch through a station, and the junctions on it.
+    /// The branch through a station, followed in both directions, and its junctions.
     fn both_ways(&self, station: &CurvePoint) -> Followed {
         let front = self.walk(station, &station.place, |_, _| false);
         let back = if front.end == BranchEnd::Closed {
@@ -153,7 +154,7 @@ impl Curve<'_> {
         self.joined(back, Some(self.point(station)), front)
     }
 
-    /// One branch of two walks from one place.
+    /// Joins two walks from one place into a branch.
     fn joined(&self, back: Walk, start: Option<BranchPoint>, front: Walk) -> Followed {
         let mut points: Vec<_> = back
             .points
@@ -177,7 +178,7 @@ impl Curve<'_> {
         (branch, junctions)
     }
 
-    /// A branch of which nothing but one point is known.
+    /// A branch of which only one point is known.
     fn lone_point(&self, state: Equilibrium, trouble: Trouble) -> Branch {
         let end = self.broken_off(trouble, &state);
         Branch {
@@ -252,7 +253,7 @@ impl Curve<'_> {
         }
     }
 
-    /// The branch of a lead; `None` where there is none or it is known.
+    /// The branch of a lead; `None` if there is none or it is already known.
     fn follow(&self, lead: &Lead, known: &[Branch]) -> Option<Followed> {
         let fresh = |station: &CurvePoint| !self.known(known, &station.place);
         let from = |junction: &Junction, station: &CurvePoint| {

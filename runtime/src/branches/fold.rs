@@ -1,5 +1,5 @@
-//! Limit points: Newton's method on `(g, h) = 0` with `h` from `[Khat c; d^T 0] [v; h] = [0; 1]`, which is zero where
-//! `Khat` is singular (Griewank and Reddien, 1984).
+//! Limit points: Newton's method on `(g, h) = 0` with `h` from `[Khat c; d^T 0] [v; h] = [0; 1]`, which vanishes where `Khat` is
+//! singular (Griewank and Reddien, 1984).
 
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble};
@@ -10,9 +10,9 @@ use crate::algebra::{Values, Vector, dot, largest};
 use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 30;
-/// A Newton step this small, in local units, leaves rounding.
+/// After a Newton step this small, in local units, only rounding remains.
 pub(super) const LAST_STEP: f64 = 1e-14;
-/// A step that no longer shrinks has reached rounding below this size.
+/// Below this size, a step that no longer shrinks has reached rounding.
 pub(super) const ROUNDING: f64 = 1e-8;
 
 impl Curve<'_> {
@@ -26,7 +26,7 @@ impl Curve<'_> {
         let end = frame.local(&b.place);
         let end_tangent = frame.direction(&b.direction());
         let singular = || Trouble::Missed(NotFound::UnusualLimitPoint);
-        // The part along the input falls to zero on the way.
+        // The input component of the tangent falls to zero on the way.
         let (p_a, p_b) = (a.tangent.p, end_tangent.unit().map_or(0.0, |t| t.p));
         let fraction = p_a / (p_a - p_b);
         let mut local = end.scaled(if (0.0..=1.0).contains(&fraction) {
@@ -97,7 +97,7 @@ fn unit(x: &[f64]) -> Option<Vector> {
     (most > 0.0 && most.is_finite()).then(|| scaled.map(|value| value / length))
 }
 
-/// Whether a local place lies between the origin and `end`, and not far from the line.
+/// Whether a local point lies between the origin and `end`, and not far from the line.
 pub(super) fn beside(local: &CurvePosition, end: &CurvePosition) -> bool {
     let length = end.norm();
     let along = local.dot(end) / length;

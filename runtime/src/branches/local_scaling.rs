@@ -40,7 +40,7 @@ impl CurvePosition {
         self.dot(self).sqrt()
     }
 
-    /// The unit vector of this direction; `None` when it has none.
+    /// The unit vector in this direction; `None` for a zero vector.
     pub(crate) fn unit(&self) -> Option<Self> {
         let norm = self.norm();
         let unit = self.scaled(1.0 / norm);
@@ -66,7 +66,7 @@ impl CurvePosition {
     }
 }
 
-/// Residual, `Khat` and `dg/du_k` at one place.
+/// Residual, `Khat` and `dg/du_k` at a point.
 #[derive(Clone, Debug)]
 pub(crate) struct System {
     pub(crate) residual: Vector,
@@ -74,7 +74,7 @@ pub(crate) struct System {
     pub(crate) by_input: Vector,
 }
 
-/// Local coordinates about an origin: every unknown and every equation of order one.
+/// Local coordinates about an origin, in which all unknowns and equations are of order one.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) origin: CurvePosition,
@@ -83,7 +83,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The first `motions` unknowns are coordinates and speeds, the others reactions.
+    /// The first `motions` unknowns are coordinates and speeds; the rest are reactions.
     pub(crate) fn new(
         origin: CurvePosition,
         size: f64,
@@ -125,17 +125,17 @@ impl Frame {
         self.direction(&place.plus(-1.0, &self.origin))
     }
 
-    /// A direction in local coordinates.
+    /// Converts a direction to local coordinates.
     pub(crate) fn direction(&self, direction: &CurvePosition) -> CurvePosition {
         direction.per(&self.units)
     }
 
-    /// A local direction in SI units; a gradient in SI units by local coordinates.
+    /// Converts a local direction to SI units, or an SI gradient to local coordinates.
     pub(crate) fn stretched(&self, local: &CurvePosition) -> CurvePosition {
         local.by(&self.units)
     }
 
-    /// Weights of the scaled equations as weights of the equations.
+    /// Converts weights of the scaled equations to weights of the original ones.
     pub(crate) fn weights(&self, scaled: &[f64]) -> Vector {
         Vector::from_fn(scaled.len(), |i| scaled[i] / self.rows[i])
     }
@@ -152,8 +152,8 @@ impl Frame {
     }
 }
 
-/// Units of unknowns and input. A reaction is measured by the work that it does on a unit of the coordinates it holds, with
-/// the work of the other forces on units of all as the unit: it weighs as much as what it balances.
+/// Units of the unknowns and the input. A reaction is measured by the work it does on a unit of the coordinates it holds, relative
+/// to the work of the other forces on all units: it weighs as much as the forces it balances.
 fn units(
     place: &CurvePosition,
     size: f64,

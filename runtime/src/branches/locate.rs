@@ -1,4 +1,4 @@
-//! What happens between two neighbouring points of a branch.
+//! Locates events between two neighbouring points of a branch.
 
 use super::curve::{Curve, Trouble};
 use super::curve_point::{CurvePoint, Signs};
@@ -7,17 +7,17 @@ use crate::equilibrium::{Bracket, refine};
 use crate::error::NotFound;
 use crate::modes::free_pairs;
 
-/// Local distance below which events are not told apart.
+/// Local distance below which events are not separated.
 const NARROW: f64 = 1e-7;
-/// Most points set between two stations to tell events apart.
+/// Maximum number of points inserted between two stations to separate events.
 const MOST_POINTS: usize = 120;
 
-/// Which signs change between two stations.
+/// The signs that change between two stations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Changes {
     falling: bool,
     crossed: bool,
-    /// Change of the number of negative eigenvalues, where it is known.
+    /// Change in the number of negative eigenvalues, if known.
     negative: Option<usize>,
 }
 
@@ -42,7 +42,7 @@ impl Changes {
 }
 
 impl Curve<'_> {
-    /// Appends the special points between two stations in their order along the branch.
+    /// Appends the special points between two stations, in order along the branch.
     pub(crate) fn locate(
         &self,
         a: &CurvePoint,
@@ -81,7 +81,7 @@ impl Curve<'_> {
         self.divide(&middle, b, found, points)
     }
 
-    /// The one event that explains the changes, if one does.
+    /// The single event that explains the changes, if one does.
     fn simple(
         &self,
         a: &CurvePoint,
@@ -117,7 +117,7 @@ impl Curve<'_> {
         Ok(None)
     }
 
-    /// A station between two.
+    /// A station between two others.
     fn middle(&self, a: &CurvePoint, b: &CurvePoint) -> Result<CurvePoint, Trouble> {
         let mut trouble = Trouble::Missed(NotFound::NothingBetween);
         for fraction in [0.5, 0.41, 0.62] {
@@ -142,7 +142,7 @@ impl Curve<'_> {
         self.arrive(&corrected, &a.frame.stretched(&normal), Some(a))
     }
 
-    /// Several events in one place: where the mean of the eigenvalues that change sign is zero.
+    /// Several events in one place, located where the mean of the eigenvalues that change sign is zero.
     fn unresolved(
         &self,
         a: &CurvePoint,

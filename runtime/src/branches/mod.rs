@@ -1,8 +1,7 @@
-//! Branches of equilibria: how equilibria move with one input, where they turn back, where they cross, and where they
-//! are stable.
+//! Branches of equilibria: how equilibria move with one input, where they turn back, where they cross, and where they are stable.
 //!
-//! A branch is followed by pseudo-arclength continuation in `(q, u_k)`, so that it may turn back at limit points; special
-//! points are located to rounding, and at branch points the other branch is followed as well.
+//! A branch is followed by pseudo-arclength continuation in `(q, u_k)`, so that it can turn back at limit points. Special points
+//! are located to rounding accuracy, and at branch points the other branch is followed as well.
 
 mod bordered;
 mod branch_point;
@@ -34,12 +33,12 @@ use crate::{Description, Error, Input, Shared};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BranchPoint {
-    /// The input there, SI.
+    /// Value of the input, SI.
     pub value: f64,
-    /// The equilibrium there; its stability counts the critical modes of special points as neutral.
+    /// The equilibrium; at a special point its critical modes count as neutral.
     pub equilibrium: Equilibrium,
-    /// `dq/ds` along the branch, in the order of its points; with [`Self::input_tangent`] of length one in the units of
-    /// [`Continuation`].
+    /// `dq/ds` along the branch, in the order of its points; together with [`Self::input_tangent`] it has length one in the units
+    /// of [`Continuation`].
     pub tangent: Vector,
     /// `du/ds` along the branch, SI.
     pub input_tangent: f64,
@@ -62,32 +61,32 @@ pub enum BranchEnd {
     Low,
     /// At the high end of the range.
     High,
-    /// At a branch point: the arm of a pitchfork begins and ends there.
+    /// At a branch point, where an arm of a pitchfork begins or ends.
     BranchPoint,
-    /// Nowhere: the branch comes back to where it started.
+    /// Nowhere: the branch returns to its start.
     Closed,
     /// A coordinate grows without bound.
     Escape,
     /// At the edge of the domain of the equations; the error says which.
     Domain(Error),
-    /// The branch goes on, but the greatest number of points was reached.
+    /// The branch continues, but the maximum number of points was reached.
     PointLimit,
     /// The branch could not be followed; the error says why.
     Lost(Error),
-    /// The branch goes on, but the work was stopped ([`Watch::stop`](crate::Watch::stop)).
+    /// The branch continues, but the work was stopped ([`Watch::stop`](crate::Watch::stop)).
     Stopped,
 }
 
-/// A connected line of equilibria.
+/// A connected curve of equilibria.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Branch {
-    /// The input that varies.
+    /// The varied input.
     pub input: Input,
-    /// Points from one end to the other, special points among them.
+    /// Points from one end to the other, including special points.
     pub points: Vec<BranchPoint>,
-    /// Points at which `Khat` is singular, in their order along the branch.
+    /// Points at which `Khat` is singular, in order along the branch.
     pub special: Vec<SpecialPoint>,
     /// How it ends before its first and after its last point.
     pub ends: [BranchEnd; 2],
@@ -96,7 +95,7 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// The branch cut at its special points, which belong to both sides, and where the stability changes otherwise.
+    /// The branch cut at its special points, which belong to both sides, and at other changes of stability.
     #[must_use]
     pub fn stretches(&self) -> Vec<(Stability, &[BranchPoint])> {
         let mut runs = Vec::new();
@@ -140,14 +139,14 @@ impl Branch {
     }
 }
 
-/// The branches that were found.
+/// The branches found.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Branches {
-    /// The branches, in the order in which they were found; each once.
+    /// The branches, in the order in which they were found, without duplicates.
     pub branches: Vec<Branch>,
-    /// The search ended at [`Continuation::max_branches`], or was stopped, although there may be more.
+    /// Whether the search ended at [`Continuation::max_branches`] or was stopped, so that there may be more.
     pub truncated: bool,
 }
 
@@ -162,7 +161,7 @@ impl Branches {
         self.branches.iter().flat_map(stretches)
     }
 
-    /// Every special point once, those that differ by full turns of an angle counting as one.
+    /// All special points without duplicates; those that differ by full turns of an angle count as one.
     #[must_use]
     pub fn special(&self) -> Vec<&SpecialPoint> {
         let values = self.branches.iter().flat_map(|branch| &branch.points);

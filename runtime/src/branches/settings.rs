@@ -1,4 +1,4 @@
-//! How far and how finely branches are followed.
+//! Settings for following branches: range, step sizes and limits.
 
 use crate::arguments::check_input;
 use crate::setters::setters;
@@ -6,34 +6,33 @@ use crate::{Any, Description, Error, Input};
 
 /// Settings of a continuation: the range of one input and the sizes of the steps.
 ///
-/// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|` as the unit of a
-/// coordinate or speed; a reaction of a constraint counts by the work it does on a unit of the coordinates it holds,
-/// compared with the work of all other forces.
+/// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|` as the unit of a coordinate
+/// or speed. A constraint reaction is measured by the work it does on a unit of the coordinates it holds, relative to the work of
+/// all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound = ""))]
 pub struct Continuation<M = Any> {
-    /// The input that varies.
+    /// The varied input.
     pub input: Input<M>,
-    /// Where branches are started, SI.
+    /// Value at which branches start, SI.
     pub low: f64,
     /// The other end of the range, SI; it may be the smaller one.
     pub high: f64,
-    /// Greatest step along a branch: two events within one step can be missed. 0.05 unless set.
+    /// Largest step along a branch: two events within one step can be missed. 0.05 by default.
     pub max_step: f64,
-    /// A branch that cannot be followed with this step ends. 1e-8 unless set.
+    /// Smallest step: a branch that cannot be followed with it ends. 1e-8 by default.
     pub min_step: f64,
-    /// Most points in each direction of one branch. 2000 unless set.
+    /// Maximum number of points in each direction of one branch. 2000 by default.
     pub max_points: usize,
-    /// Most Newton iterations for one point. 8 unless set.
+    /// Maximum number of Newton iterations for one point. 8 by default.
     pub max_corrections: usize,
-    /// Most branches. 64 unless set.
+    /// Maximum number of branches. 64 by default.
     pub max_branches: usize,
-    /// A change of a coordinate, rad or m (of a speed, rad/s or m/s), that counts as large. 1 unless set.
+    /// A change of a coordinate, rad or m (of a speed, rad/s or m/s), that counts as large. 1 by default.
     pub size: f64,
-    /// Multiple of `size` (and of the coordinates at the start) beyond which a coordinate counts as infinite. 1e6 unless
-    /// set.
+    /// Multiple of `size` (plus the largest coordinate at the start) beyond which a coordinate counts as infinite. 1e6 by default.
     pub escape: f64,
 }
 
@@ -48,7 +47,7 @@ impl<M> Continuation<M> {
         escape: f64,
     );
 
-    /// From `low` to `high` with the settings that suit most mechanisms.
+    /// A range from `low` to `high`, with settings that suit most mechanisms.
     #[must_use]
     pub fn new(input: Input<M>, low: f64, high: f64) -> Self {
         Self {
@@ -65,7 +64,7 @@ impl<M> Continuation<M> {
         }
     }
 
-    /// The same, of any mechanism.
+    /// The settings without the type of their mechanism.
     #[must_use]
     pub fn any(&self) -> Continuation {
         Continuation {
@@ -123,7 +122,7 @@ impl Continuation {
         (self.high - self.low).abs()
     }
 
-    /// The least and the greatest value.
+    /// The smaller and the larger end of the range.
     pub(super) fn bounds(&self) -> (f64, f64) {
         (self.low.min(self.high), self.low.max(self.high))
     }

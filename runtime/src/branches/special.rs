@@ -10,20 +10,20 @@ use crate::kernels::Linear;
 use crate::modes::free_pairs;
 use crate::{DampingKind, Input};
 
-/// What happens where `Khat` is singular.
+/// The kind of a point at which `Khat` is singular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SpecialKind {
-    /// A limit point: the branch turns back, `w^T dg/du` is not zero.
+    /// A limit point: the branch turns back; `w^T dg/du` is not zero.
     Fold,
-    /// A branch crosses this one on which the input is stationary: two arms leave to the same side of the input.
+    /// Crossed by a branch on which the input is stationary, whose two arms leave to the same side of the input.
     Pitchfork {
-        /// The arms lie where the critical mode of the branch that they leave has lost its stiffness (supercritical, a
-        /// soft loss), or where it still has it (subcritical, a hard loss). `None` where the third order vanishes.
+        /// Whether the arms lie where the critical mode of the branch they leave has lost its stiffness (supercritical, a soft
+        /// loss), or where it still has it (subcritical, a hard loss). `None` if the third order vanishes.
         supercritical: Option<bool>,
     },
-    /// Another branch crosses this one and goes on to both sides of the input.
+    /// Crossed by another branch that continues to both sides of the input.
     Transcritical,
     /// Several modes lose their stiffness at once, or branches touch: located, but not resolved into branches.
     Degenerate,
@@ -34,27 +34,27 @@ pub enum SpecialKind {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SpecialPoint {
-    /// What happens there.
+    /// The kind of point.
     pub kind: SpecialKind,
-    /// The input that varies.
+    /// The varied input.
     pub input: Input,
-    /// Its value there, SI.
+    /// Its value at the point, SI.
     pub value: f64,
-    /// The equilibrium there; its stability counts the critical mode as neutral.
+    /// The equilibrium at the point; its critical mode counts as neutral.
     pub equilibrium: Equilibrium,
-    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of several if degenerate.
     pub v: Vector,
     /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
     pub w: Vector,
 }
 
-/// Where branches cross, with what is needed to enter the other one.
+/// A crossing of branches, with the data needed to enter the other one.
 #[derive(Clone, Debug)]
 pub(crate) struct Junction {
     pub(crate) special: SpecialPoint,
-    /// At the junction, with the units of a regular point nearby.
+    /// Frame at the junction, with the units of a regular point nearby.
     pub(crate) frame: Frame,
-    /// Local unit direction of the branch on which it was found, along the walk.
+    /// Local unit direction, along the walk, of the branch on which the junction was found.
     pub(crate) own: CurvePosition,
     /// Local unit direction of the other branch.
     pub(crate) other: CurvePosition,
@@ -66,12 +66,12 @@ pub(crate) struct Located {
     /// Tangent of the walk, SI units.
     pub(crate) direction: CurvePosition,
     pub(crate) junction: Option<Junction>,
-    /// The walk came along an arm of a pitchfork, which ends there.
+    /// Whether the walk came along an arm of a pitchfork, which ends here.
     pub(crate) ends_arm: bool,
 }
 
 impl Curve<'_> {
-    /// The special point at a place with these critical vectors of any length; `zero` modes are critical; `also` as for
+    /// The special point at a place with critical vectors `v` and `w` of any length; `zero` modes are critical; `also` as for
     /// [`Self::equilibrium`].
     pub(crate) fn special(
         &self,
@@ -100,7 +100,8 @@ impl Curve<'_> {
         })
     }
 
-    /// As [`Self::special`] for what is not resolved further: the softest mode, where there are modes.
+    /// Like [`Self::special`], for a point that is not resolved further. The critical vector is the softest mode if there are
+    /// modes, otherwise the tangent.
     pub(crate) fn degenerate(
         &self,
         place: &CurvePosition,
@@ -128,7 +129,7 @@ impl Curve<'_> {
     }
 }
 
-/// `v^T M v = 1` with the largest of the first components positive, `w^T M v = 1`.
+/// Scales the vectors so that `v^T M v = 1`, with the largest of the first `motions` components positive, and `w^T M v = 1`.
 fn normalised(linear: &Linear, motions: usize, v: &[f64], w: &[f64]) -> Option<(Vector, Vector)> {
     let motion = &v[..motions];
     let most = motion

@@ -5,11 +5,11 @@ use super::curve::Curve;
 use super::local_scaling::{CurvePosition, Frame};
 use crate::equilibrium::{turned_towards, turns_do_not_count};
 
-/// Local distance from a branch below which a place is on it.
+/// Local distance from a branch below which a point is on it.
 const CLOSE: f64 = 1e-6;
 
 impl Curve<'_> {
-    /// Whether a place, or one that differs from it by full turns and is the same state, lies on one of the branches.
+    /// Whether a point, or an equivalent one that differs by full turns, lies on one of the branches.
     pub(super) fn known(&self, branches: &[Branch], place: &CurvePosition) -> bool {
         branches.iter().any(|branch| self.on(branch, place))
     }
@@ -29,7 +29,7 @@ impl Curve<'_> {
         })
     }
 
-    /// Whether a place on some branch lies on the piece of branch between two neighbouring points.
+    /// Whether `place` lies on the piece of a branch between two neighbouring points.
     fn near(&self, from: &CurvePosition, to: &CurvePosition, place: &CurvePosition) -> bool {
         let Ok(system) = self.system(from) else {
             return false;
@@ -52,7 +52,7 @@ impl Curve<'_> {
         }
     }
 
-    /// Whether two places that differ by full turns are the same state.
+    /// Whether two points that differ by full turns are the same state.
     fn same(&self, place: &CurvePosition, turned: &CurvePosition) -> bool {
         let inputs = self.inputs_at(place.p);
         turns_do_not_count(&self.operating_point(&inputs), &place.q, &turned.q)

@@ -1,4 +1,4 @@
-//! Pseudo-arclength continuation: from one point of a branch along its tangent, with a step that follows the curvature.
+//! Pseudo-arclength continuation: follows a branch along its tangent with steps adapted to the curvature.
 
 use super::curve::{Corrected, Curve, Trouble};
 use super::curve_point::CurvePoint;
@@ -8,17 +8,17 @@ use super::special::{Junction, Located, SpecialPoint, make_critical};
 use super::{BranchEnd, BranchPoint};
 use crate::error::NotFound;
 
-/// Least cosine of the angle between the tangents at two neighbouring points.
+/// Minimum cosine of the angle between the tangents at two neighbouring points.
 const STRAIGHT: f64 = 0.9;
-/// Greatest distance of a point from the tangent, relative to the step.
+/// Maximum distance of a point from the tangent, relative to the step.
 const BEND: f64 = 0.3;
-/// First steps away from a branch point, as shares of the greatest step: small, so that nothing lies within, where that
-/// can be told from rounding.
+/// First steps away from a branch point, as fractions of the largest step: small, so that no event lies within them, as far as
+/// rounding permits.
 const DEPARTURES: [f64; 6] = [2e-3, 2e-2, 0.2, 2e-4, 2e-5, 2e-6];
-/// Local distance at which two places are the same.
+/// Local distance within which two points are the same.
 pub(super) const SAME: f64 = 1e-7;
 
-/// What was passed on the way in one direction; the start itself is not in it.
+/// The result of a walk in one direction, excluding the start itself.
 pub(crate) struct Walk {
     pub(crate) points: Vec<BranchPoint>,
     pub(crate) special: Vec<SpecialPoint>,
@@ -36,8 +36,8 @@ struct Step {
 }
 
 impl Curve<'_> {
-    /// Goes on from a station along its tangent, which started at `home`, until the branch ends or `stop` says so of a
-    /// special point and of the station before it.
+    /// Follows the branch from a station along its tangent until the branch ends, or until `stop` returns true for a special point
+    /// and the station before it. The branch started at `home`.
     pub(crate) fn walk(
         &self,
         start: &CurvePoint,
@@ -76,7 +76,7 @@ impl Curve<'_> {
                 Ok(step) => step,
                 Err(trouble) => {
                     length *= 0.5;
-                    // Beside the edge of a domain Newton's method fails for other reasons too.
+                    // Near the edge of a domain, Newton's method fails for other reasons too.
                     let reason = refused.take().filter(Trouble::at_edge).unwrap_or(trouble);
                     if length.is_nan() || length < settings.min_step {
                         walk.end = match self.last_step(&at) {
@@ -136,7 +136,7 @@ impl Curve<'_> {
         let direction = station.direction();
         let mut equilibrium = station.equilibrium.clone();
         if station.signs.vertical {
-            // Equilibria side by side at one input: the mode along them is neutral.
+            // Equilibria form a continuum at one input: the mode along it is neutral.
             make_critical(&mut equilibrium, 1);
         }
         BranchPoint {
@@ -147,7 +147,7 @@ impl Curve<'_> {
         }
     }
 
-    /// A special point as a point of the branch that passes it in this direction (SI units).
+    /// A special point as a branch point of the branch that passes it in this direction (SI units).
     pub(crate) fn special_point(
         &self,
         special: &SpecialPoint,
@@ -169,8 +169,8 @@ impl Curve<'_> {
         }
     }
 
-    /// The first station of the branch that leaves a junction in a local direction; `None` where it leaves the range at
-    /// once or cannot be followed.
+    /// The first station of the branch that leaves a junction in a local direction; `None` if it leaves the range at once or cannot
+    /// be followed.
     pub(crate) fn depart(
         &self,
         junction: &Junction,
@@ -252,7 +252,7 @@ impl Curve<'_> {
         self.station(place, system, equilibrium, towards, before)
     }
 
-    /// Whether the step from a station passes a place.
+    /// Whether the step from a station passes a point.
     fn passes(&self, at: &CurvePoint, to: &Corrected, place: &CurvePosition) -> bool {
         let end = &to.local;
         let target = at.frame.local(place);

@@ -1,4 +1,4 @@
-//! How design variables couple modes: the derivatives of the matrices in modal coordinates. Where eigenvalues are (nearly)
+//! Coupling of modes by design variables: the derivatives of the matrices in modal coordinates. Where eigenvalues are (nearly)
 //! equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997, Dailey 1989).
 
 use crate::algebra::{Matrix, dot_complex, times_complex};
@@ -7,7 +7,7 @@ use crate::modes::{Family, pencil_times};
 use crate::sensitivity::{check_modes, directions, normaliser};
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
-/// First-order motion of several modes together: along a change `db` their eigenvalues are those of
+/// First-order motion of several modes together: for a change `db` their eigenvalues are those of
 /// `diag(eigenvalues) + sum_k db_k by_design[k]`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -15,19 +15,19 @@ use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 pub struct ModalCouplings {
     /// Positions of the modes.
     pub modes: Vec<usize>,
-    /// Which eigenvalue moves: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
+    /// Which eigenvalue is meant: `lambda` (1/s^2) for undamped modes, `s` (1/s) for general ones.
     pub family: Family,
-    /// Their eigenvalues.
+    /// The eigenvalues of the modes.
     pub eigenvalues: Vec<Complex>,
-    /// One square matrix for each input: its diagonal holds the derivatives of the eigenvalues as if each mode stood alone, the other
-    /// elements say how the input mixes the modes. Per SI unit.
+    /// One square matrix per input, per SI unit. The diagonal holds the derivatives of the eigenvalues as if each mode stood alone;
+    /// the other elements tell how the input mixes the modes.
     pub by_input: Vec<Matrix<Complex>>,
-    /// One such matrix for each design variable.
+    /// One such matrix per design variable.
     pub by_design: Vec<Matrix<Complex>>,
 }
 
 impl ModalCouplings {
-    /// Couplings by design variables alone, of modes in the order of their eigenvalues.
+    /// Creates couplings by design variables only, for modes in the order of their eigenvalues.
     #[must_use]
     pub fn new(family: Family, eigenvalues: Vec<Complex>, by_design: Vec<Matrix<Complex>>) -> Self {
         Self {
@@ -45,19 +45,20 @@ impl ModalCouplings {
         self.eigenvalues.iter().sum::<Complex>() / self.modes.len().max(1) as f64
     }
 
-    /// Total derivatives of the mean of the eigenvalues by the inputs.
+    /// Total derivatives of the mean eigenvalue with respect to the inputs.
     #[must_use]
     pub fn mean_by_input(&self) -> Vec<Complex> {
         self.by_input.iter().map(|own| self.trace(own)).collect()
     }
 
-    /// Total derivatives of the mean of the eigenvalues by the design variables; they exist whatever the modes do.
+    /// Total derivatives of the mean eigenvalue with respect to the design variables; they exist even where those of single modes
+    /// do not.
     #[must_use]
     pub fn mean_by_design(&self) -> Vec<Complex> {
         self.by_design.iter().map(|own| self.trace(own)).collect()
     }
 
-    /// Trace of a matrix over its size.
+    /// Trace of a matrix divided by its size.
     fn trace(&self, matrix: &Matrix<Complex>) -> Complex {
         let count = self.modes.len();
         let diagonal = (0..count).map(|i| matrix[i][i]);
@@ -69,7 +70,7 @@ impl ModalCouplings {
         self.by_design.iter().map(move |matrix| matrix[i][j])
     }
 
-    /// The couplings among some of these modes, given by their places here.
+    /// The couplings among a subset of these modes, given by their places here.
     pub(crate) fn among(&self, places: &[usize]) -> Self {
         let size = places.len();
         let minor = |matrix: &Matrix<Complex>| {
@@ -85,10 +86,10 @@ impl ModalCouplings {
     }
 }
 
-/// The couplings among the modes at `positions`, the shift of the equilibrium included.
+/// The couplings among the modes at `positions`, including the shift of the equilibrium.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`], [`Error::NoSuchMode`].
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`], [`Error::NoSuchMode`].
 pub fn modal_couplings(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,
@@ -111,7 +112,7 @@ pub fn modal_couplings(
     let by_input: Vec<_> = matrices.by_ref().take(at.inputs.len()).collect();
     let by_design: Vec<_> = matrices.collect();
     let eigenvalue = |mode: &&Mode| match (modes.family, mode.behaviour) {
-        // Zero but for rounding, whose sign must not count as growth.
+        // Zero up to rounding, whose sign must not count as growth.
         (_, Behaviour::Neutral) => Complex::ZERO,
         (Family::Undamped, _) => mode.lambda.into(),
         (Family::General, _) => mode.s,
@@ -125,7 +126,7 @@ pub fn modal_couplings(
     })
 }
 
-/// `phi_i^T (dK - lambda dM) phi_j` with the mean of the two eigenvalues, which keeps it symmetric.
+/// `phi_i^T (dK - lambda dM) phi_j`, with the mean of the two eigenvalues to keep it symmetric.
 fn undamped(members: &[&Mode], change: &Linear) -> Matrix<Complex> {
     matrix(members, |b| {
         let k = times_complex(&change.stiffness, &b.shape);
@@ -146,7 +147,7 @@ fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Matrix<Compl
     })
 }
 
-/// `column` prepares for one right vector what every left vector meets.
+/// Builds a matrix; `column` precomputes, for one right vector, what all left vectors share.
 fn matrix<'a, F: Fn(&Mode) -> Complex>(
     members: &[&'a Mode],
     column: impl Fn(&'a Mode) -> F,

@@ -7,34 +7,34 @@ use crate::modes::{Family, merged};
 use crate::sensitivity::{eigenvalues, outside_domain};
 use crate::{Complex, Description, Equilibrium, Error, Modes, Shared, Vector};
 
-/// How the eigenvalues of a cluster move along one direction.
+/// Derivatives of the eigenvalues of a cluster along one direction.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DirectionalDerivatives {
-    /// Positions of its modes, from 0. Which derivative belongs to which mode is not defined.
+    /// Positions of its modes, from 0. Which derivative belongs to which mode is undefined.
     pub modes: Vec<usize>,
-    /// Which eigenvalue moves: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
+    /// Which eigenvalue is meant: `lambda` (1/s^2) for undamped modes, `s` (1/s) for general ones.
     pub family: Family,
-    /// Derivatives of the eigenvalues, ascending by their real parts, then by their imaginary ones.
+    /// Derivatives of the eigenvalues, sorted by real part, then by imaginary part.
     pub eigenvalues: Vec<Complex>,
     /// Derivatives of the frequencies, rad/s, ascending; `None` for modes that do not oscillate.
     pub frequencies: Option<Vec<f64>>,
-    /// The inputs they belong to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
-/// Derivatives of the eigenvalues of the cluster of mode number `mode` along the change `du` of the inputs and `db` of the design
-/// variables (SI), the shift of the equilibrium included: the eigenvalues of `Phi^T (dKhat - lambda dMhat) Phi`, of general modes
-/// those of the couplings `-psi_i^T (s^2 dMhat + s dChat + dKhat) phi_j / psi_i^T (2 s Mhat + Chat) phi_i`. The opposite
-/// direction has the opposite derivatives; other directions do not add up, because each splits the cluster in its own way. For
-/// a mode apart from all others it is the ordinary derivative.
+/// Derivatives of the eigenvalues in the cluster of mode number `mode` along the change `du` of the inputs and `db` of the design
+/// variables (SI), including the shift of the equilibrium. They are the eigenvalues of `Phi^T (dKhat - lambda dMhat) Phi`, for
+/// general modes those of the couplings `-psi_i^T (s^2 dMhat + s dChat + dKhat) phi_j / psi_i^T (2 s Mhat + Chat) phi_i`. The
+/// opposite direction has the opposite derivatives; derivatives along other directions do not add up, because each direction splits
+/// the cluster in its own way. For a mode apart from all others it is the ordinary derivative.
 ///
 /// # Errors
-/// [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`] where eigenvalues have merged, [`Error::CriticalState`] when `Khat` is singular,
-/// [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`] if eigenvalues have merged, [`Error::CriticalState`] if
+/// `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite.
 pub fn directional_derivatives(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,
@@ -67,7 +67,7 @@ pub fn directional_derivatives(
         return Err(outside_domain(at));
     }
     if modes.family == Family::Undamped {
-        // Symmetric: an imaginary part is rounding.
+        // The matrix is symmetric: an imaginary part is rounding.
         found.iter_mut().for_each(|value| value.im = 0.0);
     }
     found.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));

@@ -1,4 +1,4 @@
-//! Clusters: frequencies so close that tolerances bring them together, whose modes mix.
+//! Clusters: frequencies so close that their modes mix within the tolerances.
 
 mod couplings;
 mod directional;

@@ -1,5 +1,5 @@
-//! A cluster of eigenvalues that tolerances mix: no member has a derivative of its own, but the small matrix that splits
-//! them has.
+//! Sampling of a cluster of eigenvalues that tolerances mix: no member has a derivative of its own, but the small matrix that
+//! splits them does.
 
 use eigentol_statistics::summary::{CHUNK, Moments};
 
@@ -13,7 +13,7 @@ use crate::setters::setters;
 use crate::tolerance::{Draw, Statistics, Tolerances};
 use crate::{Complex, Error, Quantity};
 
-/// How to sample a cluster.
+/// Settings for sampling a cluster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -22,7 +22,7 @@ pub struct ClusterSampling {
     pub samples: usize,
     /// The same seed gives bit-identical results.
     pub seed: u64,
-    /// Which of the seed's independent sequences.
+    /// Which independent sequence of the seed to use.
     pub stream: u64,
 }
 
@@ -40,7 +40,7 @@ impl Default for ClusterSampling {
     }
 }
 
-/// Spread of a cluster: what its sorted members do.
+/// Spread of the sorted members of a cluster.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -55,9 +55,9 @@ pub struct ClusterSpread {
     pub growth: Option<SortedSpread>,
     /// Damping ratio; `None` for undamped modes.
     pub damping_ratio: Option<SortedSpread>,
-    /// Samples in which a member grows: `lambda` negative, or `Re s` positive, beyond rounding.
+    /// Number of samples in which a member grows: `lambda` negative, or `Re s` positive, beyond rounding.
     pub unstable: usize,
-    /// Samples whose eigenvalues were not found; they count in nothing else.
+    /// Number of samples whose eigenvalues were not found; they are excluded everywhere else.
     pub unsolved: usize,
 }
 
@@ -66,9 +66,9 @@ pub struct ClusterSpread {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SortedSpread {
-    /// By position, ascending. A member without the quantity counts as lower than all others.
+    /// By position, ascending. A member without the quantity is sorted below all others.
     pub members: Vec<MemberSpread>,
-    /// Highest less lowest, over the samples where every member has the quantity; `None` without any.
+    /// Highest minus lowest, over the samples in which every member has the quantity; `None` if there are none.
     pub splitting: Option<Statistics>,
 }
 
@@ -91,17 +91,17 @@ impl SortedSpread {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MemberSpread {
-    /// Over the samples whose member has the quantity, in its unit, without quantiles; `None` without any.
+    /// Statistics over the samples whose member has the quantity, in its unit, without quantiles; `None` if there are none.
     pub value: Option<Statistics>,
-    /// Samples whose member has no such quantity, for example no frequency.
+    /// Number of samples whose member lacks the quantity, for example a frequency.
     pub without: usize,
 }
 
-/// Samples the eigenvalues of `diag(eigenvalues) + sum_k x_k by_design[k]` for deviations `x` of the design variables,
-/// `x ~ N(0, Sigma)`.
+/// Samples the eigenvalues of `diag(eigenvalues) + sum_k x_k by_design[k]` for deviations `x ~ N(0, Sigma)` of the design
+/// variables.
 ///
 /// # Errors
-/// [`Error::Setting`] for matrices of a wrong number or size, not finite, or not real and symmetric for undamped modes,
+/// [`Error::Setting`] if matrices have the wrong number or size, are not finite, or for undamped modes are not real and symmetric,
 /// and for samples beyond the range of a double.
 pub fn sample_cluster(
     couplings: &ModalCouplings,
@@ -159,12 +159,12 @@ pub fn sample_cluster(
     })
 }
 
-/// Elements up to here can be squared and added by the eigenvalue iteration.
+/// Up to this size, elements can be squared and summed in the eigenvalue iteration.
 const LARGEST: f64 = 1e150;
-/// `Re s` of an oscillation that keeps its amplitude comes out below this, relative to `|s|`.
+/// For an oscillation of constant amplitude, the computed `Re s` is below this, relative to `|s|`.
 const ROUNDING: f64 = 1e-9;
 
-/// Whether a member grows beyond rounding, `rounding` that of `lambda`.
+/// Whether a member grows beyond rounding; `rounding` is the rounding error of `lambda`.
 fn grows(family: Family, value: Complex, rounding: f64) -> bool {
     match family {
         Family::Undamped => sign(value.re, rounding) == Sign::Negative,
@@ -184,7 +184,7 @@ fn damping_ratio(s: Complex) -> Option<f64> {
     (s.norm() > 0.0).then(|| Quantity::DampingRatio.value(s))
 }
 
-/// Matrices of the right number and size, finite, and symmetric where the method rests on it.
+/// Checks that the matrices have the right number and size, are finite, and are symmetric where the method relies on it.
 fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Error> {
     let m = couplings.eigenvalues.len();
     let (count, variables) = (couplings.by_design.len(), tolerances.half_widths().len());
@@ -226,7 +226,7 @@ fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Erro
     Ok(())
 }
 
-/// Mirrored elements may differ by rounding.
+/// Mirrored elements may differ by this much due to rounding.
 const SYMMETRIC: f64 = 1e-9;
 
 fn refuse(reason: String) -> Error {
@@ -236,7 +236,7 @@ fn refuse(reason: String) -> Error {
     }
 }
 
-/// Space for one sample.
+/// Workspace for one sample.
 struct Work {
     matrix: Vec<Complex>,
     real: Vec<f64>,
@@ -269,7 +269,7 @@ impl Work {
         }
     }
 
-    /// Fills the values; `false` when they were not found.
+    /// Computes the eigenvalues; `false` if they were not found.
     fn solve(&mut self, family: Family) -> bool {
         if family == Family::General {
             return eigenvalues(&mut self.matrix, &mut self.values);
@@ -286,7 +286,7 @@ impl Work {
     }
 }
 
-/// Moments of values that come one by one, summed as many at a time.
+/// Moments of a stream of values, summed in batches.
 #[derive(Clone, Default)]
 struct Sums {
     moments: Moments,
@@ -309,7 +309,7 @@ impl Sums {
     }
 }
 
-/// Sums over samples of one quantity of the members, sorted by it.
+/// Sums, over samples, of one quantity of the members, sorted by it.
 struct Sorted {
     values: Vec<f64>,
     members: Vec<Sums>,

@@ -1,5 +1,5 @@
-//! Which modes tolerances bring together, and what can be said of them: the mean of their eigenvalues, which has
-//! derivatives, and the sorted members, by sampling.
+//! Clusters of modes that mix within the tolerances, and their spread: the mean of the eigenvalues, which has derivatives, and the
+//! sorted members, by sampling.
 
 use super::couplings::{ModalCouplings, modal_couplings};
 use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
@@ -10,78 +10,79 @@ use crate::sensitivity::Quantity;
 use crate::tolerance::{Spread, TRUSTED_DISTANCE, Tolerances};
 use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
 
-/// Modes that tolerances bring together, or that rounding cannot tell apart. A mode that has merged with its own conjugate
-/// is a defective cluster of one.
+/// Modes that mix within the tolerances, or that rounding cannot tell apart.
+///
+/// A mode that has merged with its own conjugate is a defective cluster of one.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClusterTolerance {
     /// Positions of the modes, from 0, ascending.
     pub modes: Vec<usize>,
-    /// Which equation they solve.
+    /// The family of the modes.
     pub family: Family,
-    /// Their nominal eigenvalues: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
+    /// Nominal eigenvalues: `lambda` (1/s^2) for undamped modes, `s` (1/s) for general ones.
     pub eigenvalues: Vec<Complex>,
-    /// Least distance of two members, in standard deviations of what moves their difference
-    /// ([`clusters`] defines it); zero for equal eigenvalues.
+    /// Smallest distance between two members, in standard deviations of the effects that change their difference ([`clusters`]
+    /// defines it); zero for equal eigenvalues.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
     /// Mean of the eigenvalues with its derivatives; `None` for a defective cluster.
     pub mean: Option<MeanEigenvalue>,
-    /// Spread of the sorted members from 4096 samples of a fixed seed, or why there is none: [`Error::Defective`], or
+    /// Spread of the sorted members from 4096 samples with a fixed seed, or the reason why there is none: [`Error::Defective`], or
     /// [`Error::Setting`] for tolerances beyond the range of a double.
     pub spread: Result<ClusterSpread, Error>,
-    /// How many standard deviations a tolerance and a band hold.
+    /// Number of standard deviations that a tolerance and a band represent.
     pub sigma_level: f64,
-    /// The inputs it belongs to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
 impl ClusterTolerance {
-    /// Whether the members have merged into one eigenvalue that no derivative describes.
+    /// Whether the members have merged into one eigenvalue without derivatives.
     #[must_use]
     pub fn defective(&self) -> bool {
         matches!(self.spread, Err(Error::Defective { .. }))
     }
 }
 
-/// Mean of the eigenvalues of a cluster. Whatever its members do, it has exact derivatives: a trace.
+/// Mean of the eigenvalues of a cluster. It always has exact derivatives, because it is a trace.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MeanEigenvalue {
-    /// The mean: of `lambda`, 1/s^2, or of `s`, 1/s.
+    /// The mean of `lambda` (1/s^2) or of `s` (1/s).
     pub value: Complex,
-    /// Total derivatives by the inputs, per SI unit.
+    /// Total derivatives with respect to the inputs, per SI unit.
     pub by_input: Vector<Complex>,
-    /// Total derivatives by the design variables, per SI unit.
+    /// Total derivatives with respect to the design variables, per SI unit.
     pub by_design: Vector<Complex>,
-    /// Standard deviation of the real part: of `lambda`, or of the growth.
+    /// Standard deviation of the real part: of `lambda`, or of the growth rate.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma_re: f64,
     /// Standard deviation of the imaginary part; zero for undamped modes.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma_im: f64,
-    /// First-order spread of the frequency that belongs to the mean, `sqrt(lambda)` or `Im s`, rad/s; `None` without one.
+    /// First-order spread of the frequency of the mean, `sqrt(lambda)` or `Im s`, rad/s; `None` if it does not oscillate.
     pub frequency: Option<Spread>,
-    /// First-order spread of the damping ratio of the mean; `None` for undamped modes and without a frequency.
+    /// First-order spread of the damping ratio of the mean; `None` for undamped modes or without a frequency.
     pub damping_ratio: Option<Spread>,
 }
 
-/// The clusters of a set of modes under tolerances, each once, in the order of their first modes.
+/// Finds the clusters of a set of modes under tolerances, each once, in the order of their first modes.
 ///
-/// Along a change `x` of the design variables two modes have the difference `sqrt((gap + d)^2 + 4 o_ij o_ji)` with
-/// `d = x.(S_ii - S_jj)` and `o = x.S`, `S` the couplings of [`modal_couplings`]. It lies within `|d| + 2 sqrt|o_ij o_ji|`
-/// of the gap, whose standard deviations are added up: `spread = sigma(d) + 2 sqrt(sigma(o_ij) sigma(o_ji))`, the standard
-/// deviation of a complex number being that of its distance from the mean. Two modes belong together when `gap / spread` is less
-/// than [`TRUSTED_DISTANCE`], or the gap is within rounding (1e-6 of the greater eigenvalue); clusters are chains of such
-/// pairs. For two modes about to merge into a defective one `gap / spread` is the distance to that state: half the gap
-/// squared over the standard deviation of the discriminant.
+/// For a change `x` of the design variables, two modes differ by `sqrt((gap + d)^2 + 4 o_ij o_ji)` with `d = x.(S_ii - S_jj)` and
+/// `o = x.S`, where `S` are the couplings of [`modal_couplings`]. This lies within `|d| + 2 sqrt|o_ij o_ji|` of the gap. Adding the
+/// standard deviations of both terms gives `spread = sigma(d) + 2 sqrt(sigma(o_ij) sigma(o_ji))`, where the standard deviation of a
+/// complex number is that of its distance from the mean. Two modes belong together if `gap / spread` is less than
+/// [`TRUSTED_DISTANCE`], or if the gap is within rounding (1e-6 of the larger eigenvalue); clusters are chains of such pairs. For
+/// two modes about to merge into a defective one, `gap / spread` is the distance to that state: half the gap squared over the
+/// standard deviation of the discriminant.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`], [`Error::WrongLength`] for tolerances of another
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`], [`Error::WrongLength`] for tolerances of another
 /// mechanism.
 pub fn clusters(
     mechanism: &dyn DirectionalKernels,
@@ -117,12 +118,12 @@ pub fn clusters(
         .collect())
 }
 
-/// What moves the difference of two modes.
+/// The effects that change the difference of two modes.
 struct Pair {
     gap: f64,
     /// Standard deviation of the difference as if each mode stood alone.
     apart: f64,
-    /// Of what mixes them, `2 sqrt(sigma(o_ij) sigma(o_ji))`.
+    /// Standard deviation of the mixing, `2 sqrt(sigma(o_ij) sigma(o_ji))`.
     mixing: f64,
 }
 
@@ -150,8 +151,8 @@ impl Pair {
         self.gap / (self.apart + self.mixing)
     }
 
-    /// Whether the difference under tolerances is that of two great numbers that agree to rounding: next to a defective
-    /// eigenvalue couplings grow without bound and cancel in what can be seen, `(gap + d)^2 + 4 o_ij o_ji`.
+    /// Whether the difference under tolerances results from cancellation: near a defective eigenvalue, couplings grow without bound
+    /// and cancel in the observable difference `(gap + d)^2 + 4 o_ij o_ji`.
     fn hidden_by_rounding(&self, condition: f64) -> bool {
         const WELL_CONDITIONED: f64 = 1e4;
         const NOTICEABLE: f64 = 1e-3;
@@ -174,7 +175,7 @@ fn together(
         return true;
     }
     if merged(modes, i) || merged(modes, j) {
-        // Their couplings mean nothing: only rounding can be compared.
+        // Their couplings are meaningless: only rounding errors can be compared.
         let error = if a.error < b.error { b.error } else { a.error };
         return error.is_finite() && gap <= error;
     }

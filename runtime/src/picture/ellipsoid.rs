@@ -1,10 +1,10 @@
-//! What a body of a given inertia tensor may look like.
+//! The ellipsoid that represents a body with a given inertia tensor.
 
 use super::scene::Shape;
 use crate::eigenproblem::diagonalise;
 
-/// The uniform ellipsoid of a mass and a tensor `inertia` (xx, yy, zz, xy, yz, xz) about a point that is `about` from the centre of
-/// mass. All are given along the axes `frame`, the shape is along those in which `frame` is written.
+/// The uniform ellipsoid with a given mass and tensor `inertia` (xx, yy, zz, xy, yz, xz) about a point that is `about` from the
+/// centre of mass. Both are given along the axes `frame`; the shape is given along the axes in which `frame` is written.
 ///
 /// With semi-axes `a`: `J_1 = m (a_2^2 + a_3^2) / 5`, so that `a_1^2 = 5 (J_2 + J_3 - J_1) / (2 m)`.
 pub(super) fn ellipsoid(
@@ -22,7 +22,7 @@ pub(super) fn ellipsoid(
         let diagonal = if i == j { square } else { 0.0 };
         *value -= mass * (diagonal - about[i] * about[j]);
     }
-    // Rows of the matrix whose columns are the principal axes; the rotations are the same for each.
+    // Rows of the matrix whose columns are the principal axes; each undergoes the same rotations.
     let mut principal = tensor;
     let rows: [[f64; 3]; 3] = core::array::from_fn(|i| {
         let mut row = [0.0; 3];
@@ -35,7 +35,7 @@ pub(super) fn ellipsoid(
     let sum: f64 = moments.iter().sum();
     let semi_axes = moments.map(|own| {
         let square = 2.5 * (sum - 2.0 * own) / mass;
-        // Nothing for a flat body, whose square may be negative by rounding, and for one without mass.
+        // Zero for a body without mass, and for a flat body, whose square may be negative due to rounding.
         if square > 0.0 && square.is_finite() {
             square.sqrt()
         } else {
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn a_box_has_the_ellipsoid_of_its_inertia() {
-        // m = 12, edges 1, 2, 3, along the axes of a frame that is turned about z by a right angle; about a point off the centre.
+        // m = 12, edges 1, 2, 3, along the axes of a frame rotated by 90 degrees about z; about a point off the centre.
         let about = [0.5, -0.25, 2.0];
         let central = [13.0, 10.0, 5.0];
         let shifted = |i: usize| {
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn principal_axes_are_those_of_the_tensor() {
-        // Moments 2, 3, 4 along axes turned about z by an angle with sine 0.6 and cosine 0.8.
+        // Moments 2, 3, 4 along axes rotated about z by an angle with sine 0.6 and cosine 0.8.
         let (sine, cosine) = (0.6, 0.8);
         let inertia = [
             2.0 * cosine * cosine + 3.0 * sine * sine,

@@ -1,4 +1,4 @@
-//! How far things reach.
+//! Extents of bodies and scenes.
 
 use super::scene::{Pose, Scene, Shape, Solid};
 
@@ -6,13 +6,13 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The part of a direction of length one that is across a unit vector.
+/// Length of the component of a unit direction perpendicular to a unit vector.
 fn across(axis: [f64; 3], direction: [f64; 3]) -> f64 {
     (1.0 - dot(axis, direction).powi(2)).max(0.0).sqrt()
 }
 
 impl Solid {
-    /// How far it reaches from its centre in the direction of a unit vector.
+    /// Extent from its centre in the direction of a unit vector.
     fn reach(&self, direction: [f64; 3]) -> f64 {
         let along = |axis: [f64; 3]| dot(axis, direction).abs();
         match &self.shape {
@@ -46,7 +46,7 @@ impl Solid {
         }
     }
 
-    /// Places of it in the frame of the body, some in each direction in which it reaches.
+    /// Points on it, in the frame of the body, at its extremes in each direction.
     pub(super) fn tips(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let directions = (0..6).map(|k| {
             let mut direction = [0.0; 3];
@@ -60,7 +60,7 @@ impl Solid {
     }
 }
 
-/// The least box along the axes of the common frame that holds everything.
+/// The smallest box along the axes of the common frame that contains everything.
 pub(super) fn bounds(scene: &Scene) -> [[f64; 3]; 2] {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let mut include = |place: [f64; 3], reach: [f64; 3]| {
@@ -72,7 +72,7 @@ pub(super) fn bounds(scene: &Scene) -> [[f64; 3]; 2] {
     for body in &scene.bodies {
         let Pose { rotation, .. } = body.pose;
         for solid in &body.solids {
-            // A row of the rotation is an axis of the common frame as the body sees it.
+            // A row of the rotation is an axis of the common frame, expressed in the body frame.
             let reach = rotation.map(|axis| solid.reach(axis));
             include(body.pose.place(solid.center), reach);
         }

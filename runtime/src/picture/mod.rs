@@ -1,5 +1,4 @@
-//! What a mechanism looks like, at rest and in its modes: where bodies are, what they are made of, where joints, points and forces
-//! are.
+//! The appearance of a mechanism, at rest and in its modes: positions and shapes of bodies, joints, points and forces.
 
 mod ellipsoid;
 mod extent;

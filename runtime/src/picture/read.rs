@@ -1,4 +1,4 @@
-//! From the numbers of the kernel to what they say.
+//! Reads the numbers of the picture kernel into a scene.
 
 use super::ellipsoid::ellipsoid;
 use super::extent::bounds;
@@ -8,9 +8,9 @@ use crate::arguments::check_count;
 use crate::kernels::PictureKernels;
 use crate::{Description, Error, PictureInfo, SolidInfo, SolidKind};
 
-/// What there is to see at one state.
+/// The scene at one state.
 ///
-/// `q` coordinates (then speeds and reactions, which do not matter), `u` inputs, `b` design variables; all SI.
+/// `q` are the coordinates (then speeds and reactions, which are ignored), `u` the inputs, `b` the design variables; all SI.
 ///
 /// ```
 /// use eigentol::picture::{Shape, scene};
@@ -34,7 +34,7 @@ use crate::{Description, Error, PictureInfo, SolidInfo, SolidKind};
 /// ```
 ///
 /// # Errors
-/// [`Error::WrongLength`]; [`Error::OutsideDomain`] when a number is not finite.
+/// [`Error::WrongLength`]; [`Error::OutsideDomain`] if a number is not finite.
 pub fn scene(
     mechanism: &dyn PictureKernels,
     q: &[f64],
@@ -122,7 +122,7 @@ pub(super) fn poses(
     Ok(info.bodies.iter().map(|_| numbers.pose()).collect())
 }
 
-/// The numbers of a picture that have not been read yet.
+/// The numbers of a picture that are still unread.
 struct Numbers {
     rest: std::vec::IntoIter<f64>,
 }
@@ -158,7 +158,7 @@ impl Numbers {
         Ok(Self { rest })
     }
 
-    /// The next numbers; zeros after the last.
+    /// Takes the next numbers; zeros after the last.
     fn take<const N: usize>(&mut self) -> [f64; N] {
         core::array::from_fn(|_| self.rest.next().unwrap_or_default())
     }
@@ -240,7 +240,7 @@ fn place(body: Option<u32>) -> Option<usize> {
     body.map(|body| body as usize)
 }
 
-/// A vector, or zeros for none.
+/// A vector; `None` if it is zero.
 fn direction(vector: [f64; 3]) -> Option<[f64; 3]> {
     (vector != [0.0; 3]).then_some(vector)
 }

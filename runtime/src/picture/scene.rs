@@ -1,32 +1,32 @@
-//! What there is to see: bodies with their solids, joints, points, links, wheels.
+//! The contents of a picture: bodies with their solids, joints, points, links and wheels.
 //!
-//! Only bodies have a place in the common frame, their pose; all else is fixed in one of them or in the ground. To show another
-//! state of the same mechanism it is enough to exchange the poses.
+//! Only bodies have a pose in the common frame; everything else is fixed to one of them or to the ground. To show another state of
+//! the same mechanism, only the poses need to be replaced.
 
 use crate::Text;
 
 /// A mechanism at one state. Lengths m, masses kg.
 ///
-/// The common frame is that of the ground at the instant at which all running coordinates (driven and coasting ones) are zero.
+/// The common frame is the ground's, at the instant when all running coordinates (driven and coasting ones) are zero.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scene {
-    /// The bodies, in the order of declaration.
+    /// The bodies, in declaration order.
     pub bodies: Vec<Body>,
-    /// The joints, in the order of declaration.
+    /// The joints, in declaration order.
     pub joints: Vec<Joint>,
-    /// The declared points, in the order of declaration.
+    /// The declared points, in declaration order.
     pub points: Vec<Point>,
     /// Forces and constraints between two points.
     pub links: Vec<Link>,
-    /// What rolls.
+    /// Rolling wheels and balls.
     pub wheels: Vec<Wheel>,
-    /// What acts and what binds, in words: gravity, drives, forces, constraints, curves.
+    /// Loads and constraints in words: gravity, drives, forces, constraints, curves.
     pub elements: Vec<Element>,
-    /// Acceleration of gravity in the common frame, m/s^2; `None` where none is declared, or where it is zero.
+    /// Acceleration of gravity in the common frame, m/s^2; `None` if undeclared or zero.
     pub gravity: Option<[f64; 3]>,
-    /// The least box along the axes of the common frame that holds everything: its two opposite corners.
+    /// Two opposite corners of the smallest box along the axes of the common frame that contains everything.
     pub bounds: [[f64; 3]; 2],
 }
 
@@ -39,9 +39,11 @@ impl Scene {
         squares.sum::<f64>().sqrt()
     }
 
-    /// Which way is up, a unit vector in the common frame: against gravity. Without gravity it is the axis of the first driven joint on
-    /// the ground, since most machines turn about their long axis or stand on it, and without such a joint z. An axis has two
-    /// directions: the one whose largest component is positive is taken.
+    /// The upward direction, a unit vector in the common frame: against gravity.
+    ///
+    /// Without gravity it is the axis of the first driven joint on the ground, since most machines turn about their long axis or
+    /// stand on it; without such a joint it is z. Of the two directions of an axis, the one whose largest component is positive is
+    /// used.
     #[must_use]
     pub fn up(&self) -> [f64; 3] {
         if let Some(gravity) = self.gravity {
@@ -62,7 +64,7 @@ impl Scene {
         axis.map(|own| sign * own + 0.0)
     }
 
-    /// A place of a body, or of the ground, in the common frame.
+    /// Transforms a place on a body, or on the ground, to the common frame.
     #[must_use]
     pub fn place(&self, body: Option<usize>, place: [f64; 3]) -> [f64; 3] {
         match body.and_then(|body| self.bodies.get(body)) {
@@ -72,7 +74,7 @@ impl Scene {
     }
 }
 
-/// Where a frame is: the common frame sees its vector `r` at `position + rotation r`.
+/// Position and orientation of a frame: a vector `r` in it is `position + rotation r` in the common frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
@@ -83,14 +85,14 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// A place of the frame in the common frame.
+    /// Transforms a place to the common frame.
     #[must_use]
     pub fn place(&self, place: [f64; 3]) -> [f64; 3] {
         let turned = self.direction(place);
         core::array::from_fn(|i| self.position[i] + turned[i])
     }
 
-    /// A direction of the frame in the common frame.
+    /// Transforms a direction to the common frame.
     #[must_use]
     pub fn direction(&self, direction: [f64; 3]) -> [f64; 3] {
         self.rotation
@@ -104,9 +106,9 @@ impl Pose {
 pub struct Body {
     /// Declared name.
     pub name: Text,
-    /// Where it is.
+    /// Its position and orientation.
     pub pose: Pose,
-    /// What its mass is made of; nothing when massless.
+    /// The pieces of its mass; empty if massless.
     pub solids: Vec<Solid>,
 }
 
@@ -116,9 +118,9 @@ pub struct Body {
 pub struct Solid {
     /// Its centre of mass.
     pub center: [f64; 3],
-    /// What it looks like.
+    /// Its shape.
     pub shape: Shape,
-    /// The piece is missing from the others.
+    /// Whether the piece is subtracted from the others.
     pub hole: bool,
 }
 
@@ -135,23 +137,23 @@ pub enum Shape {
     Rod {
         /// Its direction.
         along: [f64; 3],
-        /// m.
+        /// Length, m.
         length: f64,
     },
     /// A thin disk.
     Disk {
         /// Its axis.
         axis: [f64; 3],
-        /// m.
+        /// Radius, m.
         radius: f64,
     },
     /// A solid cylinder.
     Cylinder {
         /// Its axis.
         axis: [f64; 3],
-        /// m.
+        /// Radius, m.
         radius: f64,
-        /// m.
+        /// Length, m.
         length: f64,
     },
     /// A cylinder with a coaxial bore.
@@ -160,9 +162,9 @@ pub enum Shape {
         axis: [f64; 3],
         /// Radius of the bore, m.
         inner: f64,
-        /// Radius of the outside, m.
+        /// Outer radius, m.
         outer: f64,
-        /// m.
+        /// Length, m.
         length: f64,
     },
     /// A box.
@@ -174,10 +176,11 @@ pub enum Shape {
     },
     /// A ball.
     Sphere {
-        /// m.
+        /// Radius, m.
         radius: f64,
     },
-    /// The uniform solid ellipsoid of the mass and inertia of a body whose tensor is given; flat where no body has such an inertia.
+    /// The uniform solid ellipsoid with the mass and inertia of a body whose tensor is given; flat if no body can have this
+    /// inertia.
     Ellipsoid {
         /// Directions of its semi-axes.
         axes: [[f64; 3]; 3],
@@ -192,15 +195,15 @@ pub enum Shape {
 pub struct Joint {
     /// Declared name.
     pub name: Text,
-    /// The word it was declared with, for example `revolute`.
+    /// The keyword it was declared with, for example `revolute`.
     pub kind: Text,
-    /// The side it was declared from; the axis is that of its first motion.
+    /// The side it was declared from; its axis is that of the first motion.
     pub from: Seat,
-    /// The side it was declared to; the axis is that of its last motion.
+    /// The side it was declared to; its axis is that of the last motion.
     pub to: Seat,
-    /// It closes a loop.
+    /// Whether it closes a loop.
     pub closes_loop: bool,
-    /// One of its motions runs at a prescribed speed.
+    /// Whether one of its motions runs at a prescribed speed.
     pub driven: bool,
 }
 
@@ -212,7 +215,7 @@ pub struct Seat {
     pub body: Option<usize>,
     /// Its place in the frame of the body.
     pub place: [f64; 3],
-    /// A unit vector in the frame of the body; `None` where nothing moves.
+    /// A unit vector in the frame of the body; `None` for a joint without motion.
     pub axis: Option<[f64; 3]>,
 }
 
@@ -234,7 +237,7 @@ pub struct Point {
 pub struct Link {
     /// Declared name.
     pub name: Text,
-    /// The word it is declared with, for example `spring_damper`.
+    /// The keyword it was declared with, for example `spring_damper`.
     pub kind: Text,
     /// Numbers of the points at its ends.
     pub ends: [usize; 2],
@@ -248,9 +251,9 @@ pub struct Wheel {
     pub name: Text,
     /// Number of the point at its centre.
     pub center: usize,
-    /// Its axle, a unit vector in the frame of the body of its centre; `None` of a ball.
+    /// Its axle, a unit vector in the frame of the body of its centre; `None` for a ball.
     pub axle: Option<[f64; 3]>,
-    /// m.
+    /// Radius, m.
     pub radius: f64,
     /// Number of the point in the plane.
     pub on: usize,
@@ -258,26 +261,26 @@ pub struct Wheel {
     pub normal: [f64; 3],
 }
 
-/// Something that acts on the mechanism or binds it, as it was declared: gravity, a drive, a force, a constraint, a curve.
+/// A load or constraint as declared: gravity, a drive, a force, a constraint, a curve.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Element {
     /// Declared name.
     pub name: Text,
-    /// The word it is declared with, for example `bushing`; `drive` of a driven coordinate.
+    /// The keyword it was declared with, for example `bushing`; `drive` for a driven coordinate.
     pub kind: Text,
-    /// What it acts on and its law, without arguments that are zero, with numbers in SI: `on theta stiffness k rest 0.1`.
+    /// The elements it acts on and its law, omitting zero arguments, with numbers in SI: `on theta stiffness k rest 0.1`.
     pub law: Text,
 }
 
-/// A mode as poses along one period.
+/// A mode as poses over one period.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModePictures {
     /// Number of the mode, counted from 0.
     pub mode: usize,
-    /// Factor of the shape of the mode; zero where the mode moves no body.
+    /// Scale factor of the mode shape; zero if the mode moves no body.
     pub amplitude: f64,
     /// The poses of all bodies at evenly spaced phases, the first at phase 0.
     pub frames: Vec<Vec<Pose>>,

@@ -1,4 +1,4 @@
-//! Modes as poses along one period.
+//! Modes as poses over one period.
 
 use super::extent::dot;
 use super::read::{poses, scene};
@@ -8,24 +8,24 @@ use crate::equilibrium::assemble;
 use crate::kernels::PictureKernels;
 use crate::{Complex, Equilibrium, Error, Modes};
 
-/// The step, rad or m, over which displacements along a mode are measured.
+/// Step, rad or m, for differencing displacements along a mode.
 const STEP: f64 = 1e-4;
-/// What is displaced by less, relative to the size of the mechanism, stands still: rounding.
+/// Smaller displacements, relative to the size of the mechanism, are rounding: the body stands still.
 const STILL: f64 = 1e-12;
-/// Most that a body turns to either side, rad: of a slender shaft in torsion nothing else could be seen.
+/// Maximum rotation of a body to either side, rad: the rotation is the only visible motion of a slender shaft in torsion.
 const MOST_TURN: f64 = 0.5;
 
-/// The poses of all bodies along one period of mode `mode`, counted from 0: at `q* + a Re(phi e^(i theta))` for so many evenly spaced
+/// Poses of all bodies over one period of mode `mode` (counted from 0): at `q* + a Re(phi e^(i theta))` for `phases` evenly spaced
 /// phases `theta`, the first at zero.
 ///
-/// The factor `a` is such that what moves most goes to either side by the share `amplitude` of the size of the mechanism
-/// ([`Scene::size`]; of one without size, of a metre), to first order, and no body turns by more than half a radian. Growth and decay
-/// are not shown. Loops are closed: coordinates go from there to the nearest place that meets the constraints on positions, and stay
-/// where none is found.
+/// The factor `a` is chosen such that, to first order, the largest displacement to either side is the fraction `amplitude` of the
+/// size of the mechanism ([`Scene::size`]; a metre if the size is zero), and no body rotates by more than half a radian. Growth and
+/// decay are not shown. Loops are closed: coordinates move to the nearest point that satisfies the position constraints, and stay
+/// if none is found.
 ///
 /// # Errors
-/// [`Error::NoSuchMode`], [`Error::WrongLength`], [`Error::OutsideDomain`]; [`Error::Setting`] for an amplitude that is negative or not
-/// finite.
+/// [`Error::NoSuchMode`], [`Error::WrongLength`], [`Error::OutsideDomain`]; [`Error::Setting`] for an amplitude that is negative or
+/// not finite.
 pub fn mode_pictures(
     mechanism: &dyn PictureKernels,
     at: &Equilibrium,
@@ -70,7 +70,7 @@ pub fn mode_pictures(
     })
 }
 
-/// The states about an equilibrium.
+/// States about an equilibrium.
 struct Motion<'a> {
     mechanism: &'a dyn PictureKernels,
     at: &'a Equilibrium,
@@ -96,7 +96,7 @@ impl Motion<'_> {
         poses(self.mechanism, q, inputs, design)
     }
 
-    /// The factor of the shape with which the mechanism moves by a share of its size.
+    /// The shape factor for which the mechanism moves by the fraction `share` of its size.
     fn factor(&self, shape: &[Complex], share: f64) -> Result<f64, Error> {
         let largest = shape.iter().fold(0.0, |most: f64, c| most.max(c.norm()));
         if largest == 0.0 || share == 0.0 {
@@ -145,8 +145,8 @@ impl Motion<'_> {
     }
 }
 
-/// The greatest displacement of what can be seen of the bodies; `displaced` tells the displacements of a place of a body at
-/// two phases a quarter of a period apart.
+/// The largest displacement of the visible parts of the bodies; `displaced` gives the displacements of a place on a body at two
+/// phases a quarter of a period apart.
 fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
     let solids = scene.bodies.iter().enumerate().flat_map(|(body, found)| {
         let tips = found.solids.iter().flat_map(|solid| solid.tips());
@@ -164,7 +164,7 @@ fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2])
         .fold(0.0, f64::max)
 }
 
-/// Half of the rotation from one pose to the other, as a vector, to second order in it.
+/// Half of the rotation from one pose to the other, as a vector, to second order.
 fn turned(ahead: &Pose, behind: &Pose) -> [f64; 3] {
     let rows = (ahead.rotation, behind.rotation);
     // The antisymmetric part of `ahead behind^T`.

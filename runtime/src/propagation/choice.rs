@@ -1,4 +1,4 @@
-//! The method that answers best for what may be spent.
+//! The choice of the most cost-effective method.
 
 use super::quadrature::{cost, quadrature, refuse_discrete};
 use super::result::Propagation;
@@ -12,26 +12,26 @@ use crate::response::{Response, Responses};
 use crate::setters::setters;
 use crate::tolerance::Tolerances;
 
-/// Levels of quadrature that are worth their points.
+/// Quadrature levels that are worth their points.
 const LEVELS: core::ops::RangeInclusive<usize> = 2..=6;
-/// Fewer samples say little.
+/// Fewer samples are not informative.
 const FEW: u64 = 64;
 
-/// What an answer may cost.
+/// The effort an answer may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Effort {
-    /// Solutions of the equilibrium that may be spent: one for each design, and one more for each step of the range of each critical
+    /// Number of equilibrium solutions allowed: one for each design, and one more for each step of the range of each critical
     /// value.
     pub solutions: u64,
-    /// Samples, where these are not too many.
+    /// Number of samples, if the solutions allow as many.
     pub samples: u64,
     /// Seed of the samples.
     pub seed: u64,
-    /// Which of the seed's independent sequences.
+    /// Which independent sequence of the seed to use.
     pub stream: u64,
-    /// Number of threads; 0 takes as many as the machine has.
+    /// Number of threads; 0 uses all available.
     pub threads: usize,
 }
 
@@ -58,11 +58,12 @@ impl Default for Effort {
     }
 }
 
-/// How tolerances spread responses, by the method that answers best for what may be spent; [`Propagation::reason`] says why.
+/// Computes how tolerances spread responses, by the most cost-effective method; [`Propagation::reason`] says why it was chosen.
 ///
-/// Samples at scrambled Sobol' points where they are affordable: they hold for every response and distribution, give
-/// quantiles, and count what fails. Where they are not, because critical values are searched for in every design: quadrature, while few
-/// variables vary and every node has a value; then second order, where every response has second derivatives; then first order.
+/// The first choice is sampling at scrambled Sobol' points, if affordable: it works for every response and distribution, gives
+/// quantiles, and counts failures. It is not affordable when critical values must be searched for in every design. Then the choice
+/// is quadrature, if few variables vary and every node has a value; otherwise second order, if every response has second
+/// derivatives; otherwise first order.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -148,7 +149,7 @@ pub fn propagate(
     with(first_order(mechanism, responses, tolerances), reason)
 }
 
-/// Solutions of the equilibrium that a design costs.
+/// Equilibrium solutions needed for one design.
 fn price(wanted: &[Response]) -> u64 {
     let steps = wanted.iter().map(|response| match response {
         Response::Critical(range) | Response::Crossing { range, .. } => range.steps as u64,

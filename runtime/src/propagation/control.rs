@@ -1,4 +1,4 @@
-//! Sampling with the Taylor model as a control variate: what the model explains need not be sampled.
+//! Sampling with the Taylor model as a control variate: only what the model does not explain needs sampling.
 
 use super::expansion::{Expansion, expansions};
 use super::gather::{Gathered, Scale, Task};
@@ -13,7 +13,7 @@ use crate::response::{Response, Responses};
 use crate::tolerance::{Counts, Tolerances};
 use crate::{Description, Error, Shared};
 
-/// Mean and standard deviation of a response, corrected by those of its Taylor model. SI.
+/// Mean and standard deviation of a response, corrected with those of its Taylor model. SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -22,38 +22,39 @@ pub struct ControlledSpread {
     pub mean: Estimated,
     /// Standard deviation, with its standard error.
     pub sigma: Estimated,
-    /// How many plain samples one of these is worth for the mean: the variance of the response over what the model leaves of it.
-    /// Infinite where the model is exact.
+    /// Number of plain samples that one of these is worth for the mean: the ratio of the response variance to the variance that the
+    /// model leaves unexplained. Infinite if the model is exact.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub worth: f64,
-    /// The same for the standard deviation.
+    /// Number of plain samples that one of these is worth for the standard deviation.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub worth_of_sigma: f64,
     /// Order of the model: [`Method::FirstOrder`] or [`Method::SecondOrder`].
     pub model: Method,
 }
 
-/// Spreads of several responses by sampling with control variates.
+/// Spreads of several responses from sampling with control variates.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Controlled {
-    /// What was asked for.
+    /// The responses requested.
     pub wanted: Vec<Response>,
-    /// By response; `None` for one without slopes at the nominal design, and for one that some samples do not have: the mean of the model
-    /// over the others is not known.
+    /// One per response; `None` if the response has no slopes at the nominal design, or if some samples lack it, because the
+    /// model's mean over the remaining samples is unknown.
     pub spreads: Vec<Option<ControlledSpread>>,
-    /// What became of the samples.
+    /// Outcomes of the samples.
     pub counts: Counts,
-    /// The inputs they belong to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
-/// Mean and standard deviation by random samples of each response beside its Taylor model, whose mean and standard deviation are known
-/// exactly: second order of quantities of modes, first order of others, and where dependent variables are not normal. Only the
-/// difference is left to chance (Glasserman, Monte Carlo Methods in Financial Engineering, 2003, section 4.1).
+/// Mean and standard deviation of each response from random samples, with its Taylor model, whose mean and standard deviation are
+/// known exactly, as a control variate. The model is of second order for quantities of modes; it is of first order for other
+/// responses and if dependent variables are not normal. Only the difference is left to chance (Glasserman, Monte Carlo Methods in
+/// Financial Engineering, 2003, section 4.1).
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -122,7 +123,7 @@ pub fn controlled(
     })
 }
 
-/// Of each response: its value, that of the model, and the squares of their deviations from the mean of the model.
+/// Quantities per response: its value, that of the model, and the squared deviations of both from the mean of the model.
 const QUANTITIES: usize = 4;
 
 /// A model with exact mean and standard deviation.
@@ -177,7 +178,7 @@ impl<'a> Control<'a> {
         .unwrap_or_else(|| self.own.first_order(x))
     }
 
-    /// From the samples, whose quantities begin at `place`.
+    /// The spread from the samples, whose quantities for this response start at `place`.
     fn spread(&self, samples: &Gathered, place: usize) -> Result<Option<ControlledSpread>, Error> {
         let total = samples.counts().total() as u64;
         if samples.count(place)? < total {
@@ -208,15 +209,15 @@ impl<'a> Control<'a> {
     }
 }
 
-/// A mean corrected by a control variate.
+/// A mean corrected with a control variate.
 struct Corrected {
     value: f64,
     error: f64,
     worth: f64,
 }
 
-/// The mean of a quantity, with the one behind it as control, whose mean is `known`: `f - beta (g - known)`,
-/// `beta = Cov(f, g) / Var(g)`.
+/// The mean of the quantity at `place`, with the next quantity, whose mean `known` is exact, as control variate:
+/// `f - beta (g - known)`, `beta = Cov(f, g) / Var(g)`.
 fn corrected(samples: &Gathered, place: usize, known: f64) -> Result<Option<Corrected>, Error> {
     let covariance = |i, j| samples.covariance(i, j);
     let all = (
@@ -232,7 +233,7 @@ fn corrected(samples: &Gathered, place: usize, known: f64) -> Result<Option<Corr
     };
     let slope = if other > 0.0 { both / other } else { 0.0 };
     let left = (own - slope * both).max(0.0);
-    // What rounding leaves of a variance that is explained.
+    // A fully explained variance, up to rounding.
     let exact = left <= 1e-14 * own;
     Ok(Some(Corrected {
         value: f - slope * (g - known),
@@ -245,7 +246,7 @@ fn corrected(samples: &Gathered, place: usize, known: f64) -> Result<Option<Corr
     }))
 }
 
-/// Responses of the mechanism beside those of their models.
+/// Responses of the mechanism paired with those of their models.
 struct Pairs<'a> {
     designs: Designs<'a>,
     nominal: &'a [f64],

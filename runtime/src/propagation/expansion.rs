@@ -1,4 +1,4 @@
-//! Responses by their derivatives at the nominal design.
+//! Taylor expansions of responses at the nominal design.
 
 use std::collections::BTreeMap;
 
@@ -18,25 +18,25 @@ use crate::tolerance::Outcome;
 pub(super) struct Expansion {
     pub(super) value: f64,
     pub(super) slopes: Vector,
-    /// `H`, where it is known.
+    /// `H`, if known.
     pub(super) curvature: Option<Matrix>,
 }
 
 impl Expansion {
-    /// The value a step `x` away from the nominal design, to first order.
+    /// The first-order value at a step `x` from the nominal design.
     pub(super) fn first_order(&self, x: &[f64]) -> f64 {
         self.value + dot(&self.slopes, x)
     }
 
-    /// The same to second order.
+    /// The second-order value at a step `x`.
     pub(super) fn second_order(&self, x: &[f64]) -> Option<f64> {
         let curvature = self.curvature.as_ref()?;
         Some(self.first_order(x) + 0.5 * form(x, curvature, x))
     }
 }
 
-/// The responses about the nominal design; `None` for one without value or slopes there. They have second derivatives, but for
-/// modes that are too close together, outputs that are not smooth and transcritical branch points.
+/// Expands the responses about the nominal design; `None` if a response has no value or slopes there. Second derivatives are
+/// missing for modes that are too close together, outputs that are not smooth, and transcritical branch points.
 pub(super) fn expansions(
     mechanism: &dyn CurvatureKernels,
     responses: &Responses<'_>,
@@ -78,14 +78,14 @@ pub(super) fn expansions(
     Ok(each.collect())
 }
 
-/// Every expansion to first order, then every one to second order.
+/// Evaluates every expansion to first order, then every one to second order.
 pub(super) struct Polynomials<'a> {
     pub(super) space: &'a Space<'a>,
     pub(super) expansions: &'a [Option<Expansion>],
 }
 
 impl Model for Polynomials<'_> {
-    /// A design, the step to it, and what the expansions give there.
+    /// A design, the step to it, and the values of the expansions there.
     type Room = (Vector, Vector, Vec<Option<f64>>);
 
     fn room(&self) -> Self::Room {

@@ -1,4 +1,4 @@
-//! Samples of any model, in parallel, and their statistics.
+//! Parallel sampling of any model, and sample statistics.
 
 use core::ops::Range;
 
@@ -17,27 +17,27 @@ use crate::algebra::Vector;
 use crate::tolerance::gather::{Part, Work};
 use crate::tolerance::{Counts, Outcome};
 
-/// What is known of some samples, by randomisation: responses, then the design variables that vary.
+/// Statistics of some samples, per randomisation: responses first, then the varying design variables.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gathered {
     pub(super) parts: Vec<Partial>,
 }
 
-/// Where to look for the values of a response, and how far apart they may be, SI: any that are positive will do.
+/// Reference value and scale of a response for its quantile sketch, SI; any positive scale works.
 pub(super) type Scale = (f64, f64);
 
-/// What samples are gathered of.
+/// The model to sample.
 pub(super) struct Task<'a, M> {
     pub(super) model: &'a M,
     pub(super) space: &'a Space<'a>,
     pub(super) scales: Vec<Scale>,
-    /// Unknowns of the mechanism, which the stack of a thread depends on.
+    /// Number of unknowns of the mechanism, which determines the stack size of a thread.
     pub(super) unknowns: usize,
 }
 
 impl<M: Model> Task<'_, M> {
-    /// What is to be learnt from the samples of each randomisation.
+    /// The statistics to gather from the samples of each randomisation.
     fn plan(&self) -> Result<Plan, Error> {
         let (responses, variables) = (self.scales.len(), self.space.variables().len());
         let all: Vec<usize> = (0..responses + variables).collect();
@@ -50,7 +50,7 @@ impl<M: Model> Task<'_, M> {
         Ok(plan)
     }
 
-    /// The samples of the range that is asked for, or those that are done when the run is stopped.
+    /// Solves the requested range of samples, or as many of them as are done when the run is stopped.
     pub(super) fn gather(&self, sampler: &Sampler<'_>) -> Result<Gathered, Error> {
         let plan = self.plan()?;
         let (of_each, now) = (sampler.of_each()?, sampler.now()?);
@@ -80,7 +80,7 @@ impl<M: Model> Task<'_, M> {
         Ok(Gathered { parts })
     }
 
-    /// Some samples at a time.
+    /// Solves a chunk of samples.
     fn solve(
         &self,
         room: &mut M::Room,
@@ -107,12 +107,12 @@ impl<M: Model> Task<'_, M> {
     }
 }
 
-/// Standard normal numbers of probabilities.
+/// Converts probabilities to standard normal numbers.
 pub(super) fn normals(probabilities: &[f64]) -> impl Iterator<Item = f64> {
     probabilities.iter().map(|p| normal::quantile(*p))
 }
 
-/// Takes what became of a sample.
+/// Records the result of a sample.
 fn take(
     chunk: &mut Chunk,
     sample: u64,
@@ -157,8 +157,8 @@ impl Gathered {
         Ok(Covariance::of(&all).and_then(covariance))
     }
 
-    /// What turns a divisor `n - 1` into that of these points. A mean over random points takes one degree of freedom from a variance; one
-    /// over balanced points is so much better than the spread that it takes none.
+    /// Factor that replaces the variance divisor `n - 1` by the right one for these points. A mean over random points takes one
+    /// degree of freedom from a variance; a mean over balanced points is so much more accurate than the spread that it takes none.
     fn divisor(&self, count: u64) -> f64 {
         let n = count as f64;
         if self.parts.len() == 1 {
@@ -168,12 +168,12 @@ impl Gathered {
         }
     }
 
-    /// Samples that have a quantity.
+    /// Number of samples that have a quantity.
     pub(super) fn count(&self, quantity: usize) -> Result<u64, Error> {
         Ok(self.moments(quantity)?.count())
     }
 
-    /// Mean of a quantity; `None` where no sample has it.
+    /// Mean of a quantity; `None` if no sample has it.
     pub(super) fn mean(&self, quantity: usize) -> Result<Option<f64>, Error> {
         Ok(self.moments(quantity)?.mean())
     }
@@ -186,7 +186,7 @@ impl Gathered {
         Ok(all)
     }
 
-    /// Of all samples, whichever randomisation they are of.
+    /// Statistics over the samples of all randomisations.
     fn statistics(&self, quantity: usize) -> Result<Option<Statistics>, Error> {
         let mut sketch: Option<Sketch> = None;
         for part in &self.parts {
@@ -202,7 +202,7 @@ impl Gathered {
         Ok(Statistics::of(&self.moments(quantity)?, sketch))
     }
 
-    /// How a response is spread; `None` where no sample has it.
+    /// The spread of a response; `None` if no sample has it.
     pub(super) fn spread(
         &self,
         response: usize,
@@ -234,7 +234,7 @@ impl Gathered {
         }
         let total = self.counts().total() as f64;
         let (n, divisor) = (all.count as f64, self.divisor(all.count));
-        // That of `n` random values has `sqrt(n (n - 1)) / (n - 2)` against bias.
+        // The estimate for `n` random values contains the factor `sqrt(n (n - 1)) / (n - 2)` against bias; remove it.
         let unskewed = if one {
             1.0
         } else {
@@ -260,7 +260,7 @@ impl Gathered {
         }))
     }
 
-    /// Statistics of each randomisation; none unless all of them have as many samples.
+    /// Statistics of each randomisation; empty unless all have the same number of samples.
     fn groups(&self, response: usize) -> Result<Vec<Statistics>, Error> {
         let number = |part: &Partial| part.outcomes().iter().sum::<u64>();
         let equal = self
@@ -275,10 +275,10 @@ impl Gathered {
     }
 }
 
-/// Probability of a normal variable to lie within one standard deviation.
+/// Probability that a normal variable lies within one standard deviation.
 const ONE_SIGMA: f64 = 0.682_689_492_137_085_9;
 
-/// Standard error of the mean of what independent randomisations give.
+/// Standard error of the mean over independent randomisations.
 fn scatter(groups: &[Statistics], of: &dyn Fn(&Statistics) -> Option<f64>) -> Option<f64> {
     let values = groups.iter().map(of).collect::<Option<Vec<f64>>>()?;
     Statistics::of(&Moments::of(&values), None)?.standard_error

@@ -1,4 +1,4 @@
-//! Which variables the scatter of responses comes from.
+//! Attributes the scatter of responses to the variables.
 
 use eigentol_statistics::sensitivity::{
     Bootstrap, Estimate, Estimator, SaltelliDesign, Sample, sobol_indices,
@@ -15,70 +15,70 @@ use crate::response::{Response, Responses};
 use crate::tolerance::{Counts, Outcome, Tolerances, pool};
 use crate::{Description, Error, Shared};
 
-/// How one response depends on one variable.
+/// The dependence of a response on one variable.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VariableInfluence {
     /// Position of the design variable.
     pub variable: usize,
-    /// The part of the variance that goes if this variable is known, with its 95 % interval; `None` where variables depend on each
-    /// other, and where the response does not vary.
+    /// First-order Sobol' index: the fraction of the variance that vanishes if this variable is known, with its 95 % interval.
+    /// `None` if variables depend on each other or if the response does not vary.
     pub first: Option<Estimate>,
-    /// The part that stays if all others are known.
+    /// Total Sobol' index: the fraction of the variance that remains if all other variables are known.
     pub total: Option<Estimate>,
-    /// Correlation of the response with the variable (Pearson), between -1 and 1; `None` where the response does not vary.
+    /// Pearson correlation of the response with the variable, between -1 and 1; `None` if the response does not vary.
     pub correlation: Option<f64>,
-    /// That of the ranks (Spearman).
+    /// Spearman rank correlation of the response with the variable.
     pub rank_correlation: Option<f64>,
-    /// Standard deviations of the response for one of the variable in the best linear fit; `None` also where variables are linear
-    /// functions of each other.
+    /// Standardised regression coefficient: standard deviations of the response per standard deviation of the variable in the best
+    /// linear fit. `None` also if variables are linear functions of each other.
     pub regression: Option<f64>,
-    /// The response where the variable is at its lower limit and all others are nominal, SI; `None` where it has no value.
+    /// The response with the variable at its lower limit and all others nominal, SI; `None` if it has no value there.
     pub at_low: Option<f64>,
-    /// The same at the upper limit.
+    /// The response with the variable at its upper limit and all others nominal, SI.
     pub at_high: Option<f64>,
 }
 
-/// How one response depends on all variables.
+/// The dependence of a response on all variables.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ResponseInfluence {
     /// Value at the nominal design, SI.
     pub nominal: Option<f64>,
-    /// By design variable that varies.
+    /// One per varying design variable.
     pub variables: Vec<VariableInfluence>,
-    /// The part of the variance that the linear fit explains, between 0 and 1.
+    /// Fraction of the variance that the linear fit explains, between 0 and 1.
     pub determination: Option<f64>,
-    /// Evaluations without value, which the numbers leave out.
+    /// Number of evaluations without a value, which are excluded.
     pub missing: usize,
 }
 
-/// How several responses depend on the variables.
+/// The dependence of several responses on the variables.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Influence {
-    /// What was asked for.
+    /// The responses requested.
     pub wanted: Vec<Response>,
-    /// By response.
+    /// One per response.
     pub responses: Vec<ResponseInfluence>,
-    /// Limits of each design variable, SI: those of [`worst_case`](super::worst_case).
+    /// Limits of each design variable, SI: the same as for [`worst_case`](super::worst_case).
     pub limits: Vec<(f64, f64)>,
-    /// What became of the evaluated designs, those at limits left out.
+    /// Outcomes of the evaluated designs, excluding those at limits.
     pub counts: Counts,
-    /// The inputs they belong to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
-/// Which variables the scatter of responses comes from: Sobol' indices of independent variables, correlation and regression, and the
-/// values at the limits of each variable by itself (the bars of a tornado diagram). At most `effort.samples` designs are sampled, at
-/// scrambled Sobol' points.
+/// Attributes the scatter of responses to the variables by Sobol' indices of independent variables, correlation and regression, and
+/// the responses at the limits of each variable by itself (the bars of a tornado diagram). At most `effort.samples` designs are
+/// sampled, at scrambled Sobol' points.
 ///
-/// Where variables depend on each other, no share of the variance belongs to one of them, and there are no Sobol' indices.
+/// If variables depend on each other, no share of the variance belongs to a single variable, and there are no Sobol' indices.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -135,11 +135,11 @@ pub fn influence(
     })
 }
 
-/// Designs and their responses; rows of a Saltelli design where variables are independent.
+/// Designs and their responses, as rows of a Saltelli design if variables are independent.
 struct Table {
-    /// Evaluations in a row: 1, or two more than there are variables.
+    /// Evaluations per row: 1, or the number of variables plus two.
     blocks: usize,
-    /// The variables that vary, by evaluation.
+    /// The varying variables of each evaluation.
     designs: Vec<Vec<f64>>,
     values: Vec<Vec<Option<f64>>>,
     counts: Counts,
@@ -199,7 +199,7 @@ fn table(responses: &Responses<'_>, space: &Space<'_>, effort: Effort) -> Result
     Ok(table)
 }
 
-/// Whether no variable depends on another.
+/// Whether the variables are independent of each other.
 fn independent(space: &Space<'_>) -> bool {
     space.tolerances.correlation().is_none_or(|matrix| {
         matrix.iter().enumerate().all(|(i, row)| {
@@ -210,7 +210,7 @@ fn independent(space: &Space<'_>) -> bool {
     })
 }
 
-/// Where to evaluate.
+/// The points to evaluate.
 enum Points {
     Rows(SaltelliDesign),
     Plain(Sequence),
@@ -257,7 +257,7 @@ impl Table {
             )
         });
         let indices = indices.and_then(Result::ok);
-        // The first two of a row are independent of each other; the others repeat them.
+        // The first two evaluations of a row are independent of each other; the others reuse their values.
         let own = |k: &usize| self.blocks == 1 || k % self.blocks < 2;
         let own: Vec<usize> = (0..values.len()).filter(own).collect();
         let designs: Vec<Vec<f64>> = own.iter().map(|&k| self.designs[k].clone()).collect();

@@ -1,11 +1,11 @@
-//! The box of limits that a worst case is looked for in.
+//! The box of limits for a worst case.
 
 use eigentol_statistics::Distribution;
 
 use crate::tolerance::Tolerances;
 
-/// Least and greatest value of each design variable, SI: the limits of distributions that have both, and what lies as many standard
-/// normal deviations from the median as a half-width holds for all others.
+/// Smallest and largest value of each design variable, SI. Distributions bounded on both sides use their limits; all others use as
+/// many standard normal deviations from the median as a half-width represents.
 pub(super) fn limits(nominal: &[f64], tolerances: &Tolerances) -> Vec<(f64, f64)> {
     let level = tolerances.sigma_level();
     let Some((joint, about)) = tolerances.joint() else {

@@ -1,15 +1,15 @@
-//! How tolerances spread any responses, several at once with their covariance: quantities of modes, outputs, critical values of an
-//! input.
+//! Propagation of tolerances to any responses, several at once with their covariance: quantities of modes, outputs, critical values
+//! of an input.
 //!
-//! | method | what it takes | what it gives |
+//! | method | cost | result |
 //! | --- | --- | --- |
-//! | [`sampled`] | some thousand designs, whatever the distribution and the response | everything, failures counted |
-//! | [`controlled`] | random samples beside the Taylor model | mean and sigma, worth many plain samples |
-//! | [`quadrature`] | few designs while few variables vary | mean, sigma, skewness, covariance |
-//! | [`first_order`], [`second_order`] | derivatives at the nominal design | everything, of the model; how far it holds |
-//! | [`worst_case`] | some corners of the box of limits | least and greatest value |
+//! | [`sampled`] | a few thousand designs, for any distribution and response | everything, including failure counts |
+//! | [`controlled`] | random samples with the Taylor model as control | mean and sigma, each sample worth many plain ones |
+//! | [`quadrature`] | few designs if few variables vary | mean, sigma, skewness, covariance |
+//! | [`first_order`], [`second_order`] | derivatives at the nominal design | everything, for the model; an estimate of its error |
+//! | [`worst_case`] | some corners of the box of limits | smallest and largest value |
 //!
-//! [`propagate`] chooses by what may be spent, [`influence`] tells which variables the scatter comes from.
+//! [`propagate`] chooses a method by the allowed effort; [`influence`] attributes the scatter to the variables.
 
 mod choice;
 mod control;

@@ -1,4 +1,4 @@
-//! What is evaluated at points of the standard normal space.
+//! Models to evaluate at points of the standard normal space.
 
 use super::space::Space;
 use crate::Error;
@@ -8,24 +8,24 @@ use crate::sensitivity::Quantity;
 use crate::tolerance::side_by_side::{Lanes, SideBySide};
 use crate::tolerance::{Outcome, Tolerances};
 
-/// A design, SI, with what becomes of it.
+/// A design (SI), its outcome and its responses.
 pub(super) struct Evaluated<'a> {
     pub(super) design: &'a [f64],
     pub(super) outcome: Outcome,
     pub(super) values: &'a [Option<f64>],
 }
 
-/// Takes the design of a point, by position.
+/// Receives the evaluated design of a point, with the position of the point.
 pub(super) type Take<'a> = dyn FnMut(usize, Evaluated<'_>) -> Result<(), Error> + 'a;
 
-/// Responses of designs: those of the mechanism, or of a model of it.
+/// Computes responses of designs, by the mechanism itself or by a model of it.
 pub(super) trait Model: Sync {
-    /// What a thread works in.
+    /// Workspace of a thread.
     type Room;
 
     fn room(&self) -> Self::Room;
 
-    /// Evaluates the designs of at most [`TOGETHER`] points, each of one standard normal number for each design variable.
+    /// Evaluates the designs of at most [`TOGETHER`] points, each with one standard normal number per design variable.
     fn evaluate(
         &self,
         room: &mut Self::Room,
@@ -34,14 +34,15 @@ pub(super) trait Model: Sync {
     ) -> Result<(), Error>;
 }
 
-/// Most points that are evaluated at a time.
+/// Maximum number of points evaluated at a time.
 pub(super) const TOGETHER: usize = SideBySide::MOST;
 
 /// The mechanism itself.
 pub(super) struct Designs<'a> {
     responses: &'a Responses<'a>,
     space: &'a Space<'a>,
-    /// Where every response is a quantity of a mode that can be solved side by side: these.
+    /// If every response is a quantity of a mode and designs can be solved in vectorised blocks: the block solver and these
+    /// quantities.
     side_by_side: Option<(SideBySide<'a>, Vec<(usize, Quantity)>)>,
 }
 
@@ -74,7 +75,7 @@ fn side_by_side<'a>(
     Some((lanes, wanted))
 }
 
-/// What designs are solved in.
+/// Workspace for solving designs.
 pub(super) struct DesignRoom {
     alone: Workspace,
     design: Vector,

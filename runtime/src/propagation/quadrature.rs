@@ -1,4 +1,4 @@
-//! Quadrature in the standard normal space: few designs for smooth responses to few variables.
+//! Quadrature in standard normal space: few designs for smooth responses to few variables.
 
 use eigentol_statistics::quadrature::{CompensatedSum, SparseGrid, TensorGrid};
 
@@ -10,17 +10,19 @@ use crate::response::Responses;
 use crate::tolerance::{Counts, Outcome, Tolerances, pool};
 use crate::{Equilibrium, Error};
 
-/// Up to this many dimensions every combination of the nodes of each is taken.
+/// Maximum number of dimensions for a full tensor product of nodes.
 const TENSOR: usize = 3;
-/// Designs that are solved before their sums are added up.
+/// Number of designs solved before their sums are accumulated.
 const ROUND: usize = 4096;
 
-/// A point of the standard normal space, its weight, and that in the coarser grid.
+/// A point in standard normal space, and its weights in the fine and the coarse grid.
 type Node = (Vec<f64>, [f64; 2]);
 
-/// Mean, standard deviation, skewness and covariance by Gauss-Hermite quadrature: the tensor product of rules of `level + 1` nodes up to
-/// three variables, Smolyak's sparse grid of such a level beyond, exact for responses whose square is a polynomial of total degree
-/// `2 level + 1` in the standard normal numbers behind the variables. Errors are the differences to the level below, commonly generous.
+/// Mean, standard deviation, skewness and covariance by Gauss-Hermite quadrature.
+///
+/// Up to three variables it uses the tensor product of rules with `level + 1` nodes, beyond that Smolyak's sparse grid of this
+/// level. It is exact for responses whose square is a polynomial of total degree `2 level + 1` in the standard normal numbers
+/// behind the variables. Errors are the differences from the next lower level, which usually overestimate.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -83,12 +85,12 @@ pub fn quadrature(
     sums.propagation(grid.method(), responses, at, found.counts, &nominal)
 }
 
-/// How many designs [`quadrature`] evaluates; `None` where there is no such grid.
+/// Number of designs that [`quadrature`] evaluates; `None` if there is no such grid.
 pub(super) fn cost(dimensions: usize, level: usize) -> Option<u64> {
     Grid::new(dimensions, level).ok()?.points()
 }
 
-/// A response has no derivative by a variable that jumps.
+/// Rejects discrete variables, with respect to which responses have no derivative.
 pub(super) fn refuse_discrete(tolerances: &Tolerances) -> Result<(), Error> {
     let joint = tolerances.joint();
     let variables = joint.map_or(&[][..], |(joint, _)| joint.variables());
@@ -101,7 +103,7 @@ pub(super) fn refuse_discrete(tolerances: &Tolerances) -> Result<(), Error> {
     })
 }
 
-/// Nodes of two levels.
+/// The nodes of two successive levels.
 enum Grid {
     Tensor(TensorGrid, TensorGrid, usize),
     Sparse(SparseGrid, usize),
@@ -138,7 +140,7 @@ impl Grid {
         }
     }
 
-    /// Hands all nodes out, some at a time.
+    /// Passes all nodes to `take`, in rounds.
     fn rounds(&self, take: &mut dyn FnMut(&[Node]) -> Result<(), Error>) -> Result<(), Error> {
         let mut round: Vec<Node> = Vec::new();
         let mut add = |node: Node| {
@@ -172,7 +174,7 @@ impl Grid {
     }
 }
 
-/// What became of the nodes, and how many have no value, by response.
+/// Outcomes of the nodes, and the number of nodes without a value for each response.
 struct Found {
     counts: Counts,
     missing: Vec<usize>,
@@ -199,11 +201,12 @@ impl Found {
     }
 }
 
-/// Weighted sums of deviations from a centre, of their products and cubes, on both grids: of responses, then of all design variables.
+/// Weighted sums of deviations from a centre, their products and cubes, on both grids: for the responses, then for all design
+/// variables.
 struct Sums {
     centres: Vec<f64>,
     first: Vec<[CompensatedSum; 2]>,
-    /// By response and other quantity.
+    /// By response, then by the other quantity.
     products: Vec<Vec<[CompensatedSum; 2]>>,
     cubes: Vec<[CompensatedSum; 2]>,
 }
@@ -245,7 +248,7 @@ impl Sums {
         self.products[i][j][grid].value() - mean(i) * mean(j)
     }
 
-    /// Mean, standard deviation and skewness of a response; `None` for a negative variance.
+    /// Mean, standard deviation and skewness of a response; `None` if the variance is negative.
     fn moments(&self, i: usize, grid: usize) -> Option<[f64; 3]> {
         let [mean, cube] = [&self.first, &self.cubes].map(|sums| sums[i][grid].value());
         let square = self.products[i][i][grid].value();

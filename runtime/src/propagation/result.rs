@@ -1,4 +1,4 @@
-//! What every method gives.
+//! Results common to all methods.
 
 use crate::algebra::{Matrix, Vector};
 use crate::response::Response;
@@ -7,8 +7,8 @@ use crate::{Description, Shared};
 
 use super::Points;
 
-/// Probabilities of the quantiles that are reported: the median, and what 1, 2 and 3 standard deviations of a normal variable leave on
-/// either side.
+/// Probabilities of the reported quantiles: the median, and those of a normal variable at 1, 2 and 3 standard deviations on either
+/// side.
 pub const QUANTILES: [f64; 7] = [
     0.001_349_898_031_630_094_6,
     0.022_750_131_948_179_21,
@@ -19,7 +19,7 @@ pub const QUANTILES: [f64; 7] = [
     0.998_650_101_968_369_9,
 ];
 
-/// A number and how far it may be off.
+/// An estimate and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -27,7 +27,7 @@ pub struct Estimated {
     /// The estimate.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub value: f64,
-    /// Its error, by the method's own estimate: one standard error of a sampled value. `None` where nothing is known of it.
+    /// Its error according to the method: one standard error for a sampled value. `None` if nothing is known about it.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub error: Option<f64>,
 }
@@ -38,7 +38,7 @@ impl Estimated {
     }
 }
 
-/// The value below which a response lies with some probability.
+/// The value below which a response lies with a given probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -47,31 +47,31 @@ pub struct Quantile {
     pub probability: f64,
     /// The value, in the unit of the response.
     pub value: f64,
-    /// Its error, as of [`Estimated`].
+    /// Its error, as in [`Estimated`].
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub error: Option<f64>,
 }
 
-/// How a response is spread, over the designs that have it. Values are in its SI unit.
+/// The spread of a response over the designs that have it. Values are in its SI unit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ResponseSpread {
-    /// Value at the nominal design; `None` where it has none.
+    /// Value at the nominal design; `None` if it has none there.
     pub nominal: Option<f64>,
     /// Mean.
     pub mean: Estimated,
-    /// Standard deviation; `None` of a single value.
+    /// Standard deviation; `None` for a single value.
     pub sigma: Option<Estimated>,
-    /// Third central moment over the cube of the standard deviation; `None` where nothing varies.
+    /// Third central moment over the cube of the standard deviation; `None` if nothing varies.
     pub skewness: Option<Estimated>,
-    /// Quantiles for [`QUANTILES`]; empty where the method has none.
+    /// Quantiles for [`QUANTILES`]; empty if the method gives none.
     pub quantiles: Vec<Quantile>,
-    /// Share of the designs that have it, between 0 and 1.
+    /// Fraction of the designs that have the response, between 0 and 1.
     pub share: f64,
 }
 
-/// Where a result comes from.
+/// The method behind a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -82,47 +82,47 @@ pub enum Method {
     SecondOrder,
     /// [`sampled`](super::sampled).
     Sampled(Points),
-    /// [`quadrature`](super::quadrature) on the tensor product of rules of so many nodes.
+    /// [`quadrature`](super::quadrature) on the tensor product of one rule per variable.
     Tensor {
-        /// Nodes for each variable.
+        /// Nodes per variable.
         nodes: usize,
     },
-    /// [`quadrature`](super::quadrature) on a sparse grid of such a level.
+    /// [`quadrature`](super::quadrature) on a sparse grid.
     Sparse {
         /// The level.
         level: usize,
     },
 }
 
-/// How tolerances spread responses.
+/// The spread of responses due to tolerances.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Propagation {
-    /// How it was found.
+    /// The method used.
     pub method: Method,
-    /// Why it was found that way; empty where it was asked for.
+    /// The reason for this method; empty if it was requested explicitly.
     pub reason: String,
-    /// What was asked for.
+    /// The responses requested.
     pub wanted: Vec<Response>,
-    /// By response; `None` for one that no design has.
+    /// One per response; `None` if no design has it.
     pub spreads: Vec<Option<ResponseSpread>>,
-    /// Covariances of responses, SI, over the designs that have both; `None` where no two designs have.
+    /// Covariances of responses, SI, over the designs that have both; `None` if no two designs do.
     pub covariance: Matrix<Option<f64>>,
     /// Covariance of each response, by row, with each design variable, SI.
     pub with_design: Matrix<Option<f64>>,
-    /// Designs that were evaluated.
+    /// Number of designs evaluated.
     pub evaluations: u64,
-    /// What became of them.
+    /// Outcomes of the designs.
     pub counts: Counts,
-    /// The inputs they belong to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
 impl Propagation {
-    /// Correlation of two responses, between -1 and 1; `None` where either does not vary.
+    /// Correlation of two responses, between -1 and 1; `None` if either does not vary.
     #[must_use]
     pub fn correlation(&self, first: usize, second: usize) -> Option<f64> {
         let sigma = |k: usize| Some(self.spreads.get(k)?.as_ref()?.sigma?.value);

@@ -15,9 +15,9 @@ use crate::tolerance::run::{Format, Run};
 use crate::tolerance::{Counts, Fingerprint, Tolerances};
 use crate::{Description, Error, Shared};
 
-/// What is known of some samples. Parts of a run merge to the same bits as the whole, however it was split.
+/// Statistics of a set of samples. Parts of a run merge to the same bits as the whole, however it was split.
 ///
-/// With the feature `serde` it can be written and read, by the same version of the format only.
+/// With the feature `serde` it can be serialised; only the same version of the format can be read.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -27,20 +27,20 @@ use crate::{Description, Error, Shared};
 #[non_exhaustive]
 pub struct Samples {
     format: Format,
-    /// Which points.
+    /// The kind of points.
     pub points: Points,
-    /// What was asked for.
+    /// The responses requested.
     pub wanted: Vec<Response>,
     run: Run,
     gathered: Gathered,
     nominal: Vec<Option<f64>>,
-    /// The design variables that vary, and how many there are.
+    /// The varying design variables, and the number of all design variables.
     variables: (Vec<usize>, usize),
     inputs: Vector,
     description: Shared<Description>,
 }
 
-/// Samples designs by their tolerances and solves each anew, from the nominal equilibrium, on the stable branch.
+/// Samples designs within their tolerances and solves each anew, starting from the nominal equilibrium, on the stable branch.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -94,7 +94,7 @@ pub fn sampled(
     })
 }
 
-/// What the samples are of.
+/// Identifies the model and settings behind the samples.
 fn fingerprint(
     responses: &Responses<'_>,
     tolerances: &Tolerances,
@@ -123,52 +123,52 @@ fn fingerprint(
 }
 
 impl Samples {
-    /// Adds other samples of the same run.
+    /// Adds further samples of the same run.
     ///
     /// # Errors
-    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for those that have been added already; nothing has
-    /// been added then.
+    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that have already been added; in
+    /// either case nothing is added.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
         let added = (&other.run, other.gathered.parts);
         self.run.merge(&mut self.gathered.parts, added)
     }
 
-    /// The ranges of samples that are done, in order and apart.
+    /// The ranges of samples that are done, sorted and disjoint.
     #[must_use]
     pub fn ranges(&self) -> Vec<Range<u64>> {
         self.run.ranges(&self.gathered.parts)
     }
 
-    /// The ranges of samples that are not done, in order and apart.
+    /// The ranges of samples that are missing, sorted and disjoint.
     #[must_use]
     pub fn missing(&self) -> Vec<Range<u64>> {
         self.run.missing(&self.gathered.parts)
     }
 
-    /// Refuses a run that is not complete.
+    /// Fails if the run is incomplete.
     ///
     /// # Errors
-    /// [`Error::SamplesMissing`], which names the gaps.
+    /// [`Error::SamplesMissing`], which lists the gaps.
     pub fn check_complete(&self) -> Result<(), Error> {
         self.run.check_complete(&self.gathered.parts)
     }
 
-    /// What the run was asked for: equal for parts that can be merged.
+    /// Identifies the run: equal for parts that can be merged.
     #[must_use]
     pub fn fingerprint(&self) -> &Fingerprint {
         &self.run.fingerprint
     }
 
-    /// What became of the samples.
+    /// Outcomes of the samples.
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.gathered.counts()
     }
 
-    /// How the responses are spread over the samples that are done.
+    /// The spread of the responses over the samples done so far.
     ///
     /// # Errors
-    /// None that is known of: those of the statistics of samples.
+    /// Those of the sample statistics; none is known to occur.
     pub fn propagation(&self) -> Result<Propagation, Error> {
         let responses = self.wanted.len();
         let mut spreads = Vec::new();
@@ -199,7 +199,7 @@ impl Samples {
     }
 }
 
-/// [`Samples`] as they were read.
+/// [`Samples`] as read, before validation.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 struct Unchecked {

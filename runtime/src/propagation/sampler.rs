@@ -1,4 +1,4 @@
-//! How to sample: which points, how many of them, which of these now.
+//! Sampling settings: the kind of points, their number, and the range to solve now.
 
 use core::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -8,42 +8,42 @@ use eigentol_statistics::sequence::Sequence;
 use crate::Error;
 use crate::setters::setters;
 
-/// What kind of points to sample at.
+/// The kind of sampling points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Points {
-    /// Independent random ones.
+    /// Independent random points.
     Random,
     /// Latin hypercubes.
     LatinHypercube,
-    /// The Sobol' sequence, scrambled.
+    /// The scrambled Sobol' sequence.
     Sobol,
 }
 
-/// How to sample.
+/// Sampling settings.
 #[derive(Clone)]
 #[non_exhaustive]
 pub struct Sampler<'a> {
-    /// Which points.
+    /// The kind of points.
     pub points: Points,
-    /// At most this many samples: see [`Self::total`].
+    /// Maximum number of samples: see [`Self::total`].
     pub samples: u64,
-    /// How many independent randomisations of a Latin hypercube or a Sobol' sequence the samples are made of; the scatter between them is
-    /// the error that is reported. Random samples have one.
+    /// Number of independent randomisations of a Latin hypercube or a Sobol' sequence; the scatter between them is the reported
+    /// error. Random samples have one.
     pub randomisations: u64,
-    /// The same seed gives the same samples, and the same bits for any number of threads.
+    /// Seed. The same seed gives the same samples, and the same bits for any number of threads.
     pub seed: u64,
-    /// Which of the seed's independent sequences.
+    /// Which independent sequence of the seed to use.
     pub stream: u64,
-    /// Number of threads; 0 takes as many as the machine has.
+    /// Number of threads; 0 uses all available.
     pub threads: usize,
-    /// Which of the samples to take now; all unless set. Results of other ranges are added by
+    /// The range of samples to solve now; all by default. Results of other ranges are added by
     /// [`Samples::merge`](super::Samples::merge).
     pub range: Option<Range<u64>>,
-    /// Called with the number of samples done since the last call, from any thread.
+    /// Called from any thread with the number of samples done since the last call.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
-    /// Ends the run soon after it becomes true, with the samples that are done.
+    /// Stops the run soon after it becomes true, keeping the samples done so far.
     pub stop: Option<&'a AtomicBool>,
 }
 
@@ -59,7 +59,7 @@ impl<'a> Sampler<'a> {
         stop: Option<&'a AtomicBool>,
     );
 
-    /// At most 4096 samples at such points, of 8 randomisations.
+    /// At most 4096 samples at points of this kind, in 8 randomisations.
     #[must_use]
     pub fn new(points: Points) -> Self {
         Self {
@@ -75,16 +75,16 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// How many samples there are in all: as many in each randomisation, a power of two of a Sobol' sequence.
+    /// Total number of samples: equally many in each randomisation, and a power of two for a Sobol' sequence.
     ///
     /// # Errors
-    /// [`Error::Setting`] without any sample, with less than two randomisations of points that are not random, or less than two
-    /// samples for each.
+    /// [`Error::Setting`] for zero samples, fewer than two randomisations of points that are not random, or fewer than two samples
+    /// in each.
     pub fn total(&self) -> Result<u64, Error> {
         Ok(self.groups() * self.of_each()?)
     }
 
-    /// How many randomisations there are.
+    /// Number of randomisations.
     pub(super) fn groups(&self) -> u64 {
         match self.points {
             Points::Random => 1,
@@ -92,7 +92,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Samples of each randomisation.
+    /// Number of samples in each randomisation.
     pub(super) fn of_each(&self) -> Result<u64, Error> {
         let refused = |setting, reason| Err(Error::Setting { setting, reason });
         let (samples, groups) = (self.samples, self.groups());
@@ -112,10 +112,10 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// The points of a randomisation.
+    /// The points of one randomisation.
     pub(super) fn sequence(&self, group: u64, dimensions: usize) -> Result<Sequence, Error> {
         let (d, seed) = (dimensions.max(1), self.seed);
-        // Streams of a run and of its neighbours must not meet.
+        // The streams of a run and its neighbours must not coincide.
         let stream = self.stream.wrapping_mul(self.groups()).wrapping_add(group);
         Ok(match self.points {
             Points::Random => Sequence::random(d, seed, stream)?,
@@ -124,7 +124,7 @@ impl<'a> Sampler<'a> {
         })
     }
 
-    /// The samples to take now.
+    /// The range of samples to solve now.
     pub(super) fn now(&self) -> Result<Range<u64>, Error> {
         let total = self.total()?;
         let range = self.range.clone().unwrap_or(0..total);

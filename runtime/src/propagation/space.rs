@@ -1,4 +1,4 @@
-//! Where tolerances are sampled: independent standard normal numbers, as many as anything depends on.
+//! The space in which tolerances are sampled: independent standard normal numbers, only as many as matter.
 
 use crate::algebra::Vector;
 use crate::tolerance::Tolerances;
@@ -21,18 +21,18 @@ impl<'a> Space<'a> {
         })
     }
 
-    /// Number of dimensions; zero where nothing varies.
+    /// Number of dimensions; zero if nothing varies.
     pub(super) fn dimensions(&self) -> usize {
         self.dimensions.len()
     }
 
-    /// The design variables that vary.
+    /// The varying design variables.
     pub(super) fn variables(&self) -> Vec<usize> {
         let sigmas = self.tolerances.sigmas();
         (0..sigmas.len()).filter(|&i| sigmas[i] > 0.0).collect()
     }
 
-    /// One standard normal number for each design variable, from those that matter.
+    /// Expands the numbers that matter to one standard normal number per design variable.
     pub(super) fn standard(&self, z: impl Iterator<Item = f64>) -> Vector {
         let mut all = Vector::zeros(self.nominal.len());
         for (&j, z) in self.dimensions.iter().zip(z) {
@@ -41,7 +41,7 @@ impl<'a> Space<'a> {
         all
     }
 
-    /// Writes the design, SI, that belongs to one standard normal number for each design variable.
+    /// Writes the design (SI) for one standard normal number per design variable.
     pub(super) fn design(&self, z: &[f64], design: &mut [f64]) {
         self.tolerances.design_from_normal(self.nominal, z, design);
     }

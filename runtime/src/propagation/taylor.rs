@@ -1,4 +1,4 @@
-//! First and second order, for any distribution of the variables.
+//! First- and second-order propagation, for any distribution of the variables.
 
 use eigentol_statistics::normal;
 
@@ -14,12 +14,14 @@ use crate::kernels::CurvatureKernels;
 use crate::response::Responses;
 use crate::tolerance::{Counts, Outcome, Tolerances};
 
-/// Samples of the expansions themselves, for what has no closed form.
+/// Number of samples of the expansions themselves, for results without a closed form.
 const SAMPLES: u64 = 1 << 15;
 
-/// First order, for any distribution: mean and standard deviation exact for the linear model, skewness too unless dependent variables are
-/// not normal; quantiles, and what else has no closed form, from samples of the model. Errors are the difference to second order,
-/// where second derivatives exist. To that of the standard deviation comes what third derivatives may add
+/// First-order propagation of tolerances, for any distribution.
+///
+/// Mean and standard deviation are exact for the linear model, as is the skewness unless dependent variables are not normal.
+/// Quantiles, and anything else without a closed form, come from samples of the model. Errors are the differences from second
+/// order, if second derivatives exist. The error of the standard deviation also includes what third derivatives may add
 /// ([`second_order`]).
 ///
 /// ```
@@ -42,13 +44,16 @@ pub fn first_order(
     taylor(mechanism, responses, tolerances, Method::FirstOrder)
 }
 
-/// Second order, for any distribution: the mean is exact for the quadratic model, the standard deviation too unless dependent variables
-/// are not normal; skewness, quantiles and covariances come from samples of the model. Responses without second derivatives have
-/// no spread: quantities of modes that lie too close together, outputs that are not smooth, transcritical branch points.
+/// Second-order propagation of tolerances, for any distribution.
 ///
-/// Errors go on from the difference to first order as a series does: smaller by the ratio `r` of what curvature and slopes add to the
-/// standard deviation. That of the standard deviation itself is the whole difference and `r^2` of it, because third derivatives,
-/// which are left out, add terms of this order. Near a critical state the series does not converge, and no such error holds.
+/// The mean is exact for the quadratic model, as is the standard deviation unless dependent variables are not normal. Skewness,
+/// quantiles and covariances come from samples of the model. Responses without second derivatives have no spread: quantities of
+/// modes that are too close together, outputs that are not smooth, transcritical branch points.
+///
+/// Errors extrapolate the difference from first order like a series: it is multiplied by `r`, the ratio of the contributions of
+/// curvature and slopes to the standard deviation. The error of the standard deviation itself is the whole difference plus `r^2`
+/// times the standard deviation, because the neglected third derivatives contribute terms of this order. Near a critical state the
+/// series does not converge, and these error estimates do not hold.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -136,7 +141,7 @@ fn taylor(
     })
 }
 
-/// Samples of the expansions: to first order, then to second.
+/// Samples the expansions: to first order, then to second.
 fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Gathered, Error> {
     let scale = |own: &Option<Expansion>| {
         let own = own.as_ref();
@@ -187,7 +192,8 @@ impl Models<'_> {
         Ok(found)
     }
 
-    /// What curvature adds to the standard deviation and, where means are shifted, to slopes, against what slopes do; at most 1.
+    /// Ratio of the contributions of curvature (to the standard deviation and, if means are shifted, to the slopes) to that of the
+    /// slopes; at most 1.
     fn ratio(&self, own: &Expansion, curvature: &Matrix) -> f64 {
         let columns = self.tolerances.factor().transpose();
         let curved = columns.iter().map(|row| times(curvature, row));
@@ -202,7 +208,7 @@ impl Models<'_> {
         if ratio < 1.0 { ratio } else { 1.0 }
     }
 
-    /// The spread of an expansion, with the errors of sampling it.
+    /// The spread of an expansion, including the errors of sampling it.
     fn model(
         &self,
         i: usize,
@@ -254,7 +260,7 @@ fn exactly_normal(mean: f64, sigma: f64) -> Vec<Quantile> {
     each.into()
 }
 
-/// Without second derivatives nothing is known of how far the model holds.
+/// Removes the errors: without second derivatives nothing is known about the accuracy of the model.
 fn without_errors(mut own: ResponseSpread) -> ResponseSpread {
     own.mean.error = None;
     for one in [&mut own.sigma, &mut own.skewness].into_iter().flatten() {
@@ -266,7 +272,8 @@ fn without_errors(mut own: ResponseSpread) -> ResponseSpread {
     own
 }
 
-/// Adds a share of the difference to another spread to each error, and the whole of it to that of the standard deviation.
+/// Adds the fraction `share` of the difference from another spread to each error, and the whole difference to that of the standard
+/// deviation.
 fn add_difference(own: &mut ResponseSpread, other: &ResponseSpread, share: f64) {
     let further = |own: &mut Estimated, other: Option<Estimated>, share: f64| {
         let difference = other.map(|other| share * (own.value - other.value).abs());

@@ -1,4 +1,4 @@
-//! The worst case: the corners of the box of limits at which responses are least and greatest, found by their exact gradients.
+//! Worst case: the corners of the box of limits at which responses are smallest and largest, found with exact gradients.
 
 use std::collections::BTreeMap;
 
@@ -8,15 +8,16 @@ use crate::response::{Realisation, Response, Responses, Workspace};
 use crate::tolerance::{Outcome, Tolerances};
 use crate::{Description, Error, Shared};
 
-/// Where a response is not monotonic, all corners are looked at up to this many variables.
+/// Maximum number of variables for which all corners are checked if a response is not monotonic.
 const ALL_CORNERS: usize = 10;
-/// A variable that changes a response by less than this share of what the most important one does has no sign.
+/// A slope counts as zero if its variable changes the response by less than this fraction of the change due to the most important
+/// variable.
 const NO_SIGN: f64 = 1e-9;
 
-/// Values that differ by less than this share of them are equal.
+/// Values with a smaller relative difference are equal.
 const ROUNDING: f64 = 1e-13;
 
-/// Where a response is least or greatest of all designs that were looked at.
+/// The smallest or largest value of a response among all evaluated designs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -25,18 +26,18 @@ pub struct Extreme {
     pub value: f64,
     /// The design, SI.
     pub design: Vector,
-    /// The gradient there points out of the box, or along its limits: no design nearby is worse.
+    /// Whether the gradient there points out of the box or along its limits: no design nearby is worse.
     pub confirmed: bool,
 }
 
-/// A corner at which a response has no value.
+/// A corner where a response has no value.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MissingCorner {
     /// The design, SI.
     pub design: Vector,
-    /// What becomes of it.
+    /// The outcome of the design.
     pub outcome: Outcome,
 }
 
@@ -47,20 +48,20 @@ pub struct MissingCorner {
 pub struct ResponseLimits {
     /// Value at the nominal design, SI.
     pub nominal: Option<f64>,
-    /// Where it is least; `None` where no design that was looked at has it.
+    /// The minimum; `None` if no evaluated design has the response.
     pub least: Option<Extreme>,
-    /// Where it is greatest.
+    /// The maximum; `None` if no evaluated design has the response.
     pub greatest: Option<Extreme>,
-    /// The design variables whose slope changes its sign between designs that were looked at: the response is not monotonic, and may be
-    /// worse inside of the box than at its corners.
+    /// The design variables whose slope changes sign between evaluated designs: the response is not monotonic, and may be worse
+    /// inside the box than at its corners.
     pub turning: Vec<usize>,
-    /// The corners that were looked at and have no value.
+    /// The evaluated corners without a value.
     pub missing: Vec<MissingCorner>,
 }
 
 impl ResponseLimits {
-    /// Whether nothing speaks against the limits: the gradient kept its signs at all designs that were looked at, both extremes are
-    /// confirmed, and no corner is without value.
+    /// Whether the limits are reliable: the gradient kept its signs at all evaluated designs, both extremes are confirmed, and no
+    /// corner lacks a value.
     #[must_use]
     pub fn is_monotonic(&self) -> bool {
         let confirmed = |end: &Option<Extreme>| end.as_ref().is_some_and(|end| end.confirmed);
@@ -76,27 +77,29 @@ impl ResponseLimits {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WorstCase {
-    /// What was asked for.
+    /// The responses requested.
     pub wanted: Vec<Response>,
-    /// By response.
+    /// One per response.
     pub responses: Vec<ResponseLimits>,
-    /// Least and greatest value of each design variable, SI.
+    /// Smallest and largest value of each design variable, SI.
     pub limits: Vec<(f64, f64)>,
-    /// Designs that were evaluated.
+    /// Number of designs evaluated.
     pub evaluations: usize,
-    /// The inputs they belong to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
-/// The least and the greatest value of each response over the box of limits: hard limits of distributions that have both, and as many
-/// standard normal deviations as half-widths hold ([`Tolerances::sigma_level`]) of the others. Correlation does not matter to a box.
+/// Smallest and largest value of each response over the box of limits.
 ///
-/// From the nominal design the search goes to the corner that the gradient points to, and on until the gradient there agrees. A
-/// variable without a slope there is looked at at both its ends: the response may be stationary in it, as in an eccentricity. A
-/// gradient that changes its signs on the way tells that the response is not monotonic; then all corners are looked at, up to ten
-/// variables.
+/// Distributions bounded on both sides use their hard limits; the others extend as many standard normal deviations as half-widths
+/// represent ([`Tolerances::sigma_level`]). A box ignores correlation.
+///
+/// From the nominal design the search goes to the corner that the gradient points to, and continues until the gradient there agrees
+/// with the corner. A variable with zero slope is checked at both its ends, because the response may be stationary in it, as in an
+/// eccentricity. If the gradient changes sign on the way, the response is not monotonic; then all corners are checked, for up to
+/// ten variables.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -142,7 +145,7 @@ pub fn worst_case(responses: &Responses<'_>, tolerances: &Tolerances) -> Result<
     })
 }
 
-/// By design variable: at its least value (-1), its nominal (0), its greatest (1).
+/// The side of each design variable: smallest value (-1), nominal (0) or largest (1).
 type Corner = Vec<i8>;
 
 struct Search<'a> {
@@ -176,7 +179,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Follows the signs of the gradient up (1) or down (-1) until they agree with the corner, or nothing new is met.
+    /// Follows the signs of the gradient up (1) or down (-1) until they agree with the corner or the corner is known.
     fn climb(&mut self, response: usize, way: i8) -> Result<(), Error> {
         let mut corner = vec![0; self.limits.len()];
         let mut met = Vec::new();
@@ -191,7 +194,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Variables without a sign at the nominal design do not matter, or the response is stationary in them: their ends tell.
+    /// Checks the ends of variables with zero slope at the nominal design: either they do not matter, or the response is stationary
+    /// in them.
     fn look_where_still(&mut self, response: usize) -> Result<(), Error> {
         let nominal = vec![0; self.limits.len()];
         let Some(signs) = self.signs(&nominal, response) else {
@@ -210,7 +214,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// All corners of the box, where they are few.
+    /// Checks all corners of the box if they are few.
     fn all_corners(&mut self) -> Result<(), Error> {
         let wide = self.limits.iter().enumerate();
         let varying: Vec<usize> = wide
@@ -230,7 +234,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The signs of the slopes of a response at a corner that was looked at; 0 where the slope is nothing but rounding.
+    /// The signs of the slopes of a response at an evaluated corner; 0 if a slope is nothing but rounding.
     fn signs(&self, corner: &[i8], response: usize) -> Option<Corner> {
         let slopes = self.seen.get(corner)?.gradients.get(response)?.as_ref()?;
         let widths = self.limits.iter().map(|(low, high)| high - low);

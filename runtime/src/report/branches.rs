@@ -44,7 +44,7 @@ impl fmt::Display for BranchEnd {
     }
 }
 
-/// The mechanism and the inputs that keep their value.
+/// The mechanism and the inputs that keep their values.
 fn branch_title(branch: &Branch) -> String {
     let inputs = branch.points.first().map(|one| &one.equilibrium.inputs[..]);
     title_along(
@@ -66,7 +66,7 @@ fn input_value(d: &Description, input: Input, value: f64) -> String {
         .map_or_else(|| number(value), |info| in_unit(value, &info.unit))
 }
 
-/// The coordinates and speeds that are anywhere else than at zero. Reactions are in the tables.
+/// The coordinates and speeds that are nonzero somewhere. Reactions are in the tables.
 struct Moving<'a> {
     description: &'a Description,
     columns: Vec<usize>,
@@ -117,7 +117,7 @@ impl<'a> Moving<'a> {
     }
 }
 
-/// Critical vectors by coordinate; the left one where it is another.
+/// Critical vectors by coordinate; the left one only if it differs.
 pub(super) fn critical_vectors(
     f: &mut fmt::Formatter<'_>,
     d: &Description,
@@ -233,7 +233,7 @@ impl fmt::Display for Branch {
 }
 
 impl fmt::Display for Branches {
-    /// One row for each stretch of one stability, then the special points.
+    /// One row per stretch of constant stability, then the special points.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(one) = self.branches.first() else {
             return writeln!(f, "no branches");

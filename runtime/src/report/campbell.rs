@@ -1,4 +1,4 @@
-//! Campbell diagrams as text: what happens, each mode in one line, and some of the points.
+//! Campbell diagrams as text: events, one line per mode, and some of the points.
 
 use core::fmt;
 
@@ -30,7 +30,7 @@ impl fmt::Display for Campbell {
 }
 
 impl Campbell {
-    /// Critical values, onsets of flutter, crossings.
+    /// Critical values, onsets of flutter and crossings.
     fn events(&self, f: &mut fmt::Formatter<'_>, info: &InputInfo) -> fmt::Result {
         let mut table = Table::new(vec![
             "what happens".to_owned(),
@@ -59,7 +59,7 @@ impl Campbell {
         }
     }
 
-    /// Each mode from end to end: where its spread is greatest and its damping least.
+    /// Each mode over the whole range: its largest spread and its smallest damping.
     fn by_mode(&self, f: &mut fmt::Formatter<'_>, info: &InputInfo) -> fmt::Result {
         let general = self.family == Family::General;
         let spread = |own: &CampbellMode| own.frequency.as_ref().map_or(0.0, spread_of);
@@ -112,7 +112,7 @@ impl Campbell {
         }
     }
 
-    /// The frequencies at some of the values.
+    /// The frequencies at some of the input values.
     fn by_point(&self, f: &mut fmt::Formatter<'_>, info: &InputInfo) -> fmt::Result {
         let oscillates = |label: &usize| {
             let mut branch = self.branch(*label);
@@ -167,7 +167,7 @@ impl Campbell {
     }
 }
 
-/// What a mode does along the way, each once, in order.
+/// The behaviours of a mode along the branch, each once, in order.
 fn motions(branch: &[(f64, &CampbellMode)]) -> String {
     let mut said: Vec<&str> = Vec::new();
     for (_, mode) in branch {

@@ -38,7 +38,7 @@ impl fmt::Display for Stability {
     }
 }
 
-/// What mode number `mode` does at a value of the input called `name`.
+/// The event of mode number `mode` at a value of the input called `name`.
 pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
     let mode = mode + 1;
     match condition {
@@ -77,8 +77,8 @@ impl fmt::Display for Equilibrium {
     }
 }
 
-/// Coordinates, speeds and reactions, each with its own heading, and how far each was moved. A reaction is what `from` exerts on `to`.
-/// Of a long list those that are zero are only counted.
+/// Coordinates, speeds and reactions, each with its own heading, and their displacements. A reaction is exerted by `from` on `to`.
+/// In a long list, zeros are only counted.
 fn unknowns(
     f: &mut fmt::Formatter<'_>,
     description: &Description,
@@ -129,7 +129,7 @@ fn unknowns(
     }
 }
 
-/// Unknowns of which all are listed.
+/// Maximum number of unknowns that are all listed.
 const LISTED: usize = 12;
 
 fn redundancy(

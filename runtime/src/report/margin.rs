@@ -11,17 +11,17 @@ use crate::second_order::Margin;
 use crate::setters::setters;
 use crate::{Description, Unit};
 
-/// A margin, printed with the name and the unit of its quantity and the names of the design variables.
+/// Prints a margin with the name and unit of its quantity and the names of the design variables.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MarginTable<'a> {
-    /// The margin, as [`margin`](crate::second_order::margin) returns it.
+    /// The margin returned by [`margin`](crate::second_order::margin).
     pub margin: &'a Margin,
-    /// What the quantity is, for example `frequency 1`.
+    /// Name of the quantity, for example `frequency 1`.
     pub quantity: &'a str,
     /// Its unit, for example rad/s.
     pub unit: Unit,
-    /// The inputs it belongs to, SI; empty where they do not matter.
+    /// The inputs of the operating point, SI; empty if irrelevant.
     pub inputs: &'a [f64],
     /// The mechanism it belongs to.
     pub description: &'a Description,
@@ -30,7 +30,7 @@ pub struct MarginTable<'a> {
 impl<'a> MarginTable<'a> {
     setters!(inputs: &'a [f64]);
 
-    /// A margin of a `quantity` in `unit`.
+    /// Creates a table of the margin of `quantity` in `unit`.
     #[must_use]
     pub fn new(
         margin: &'a Margin,
@@ -48,7 +48,7 @@ impl<'a> MarginTable<'a> {
     }
 }
 
-/// A probability, as far as it can be told from zero.
+/// A probability, as far as it can be distinguished from zero.
 pub(super) fn chance(value: f64, error: f64) -> String {
     let told = error.max(CHANCE);
     if value == 0.0 && error == 0.0 {

@@ -1,8 +1,8 @@
-//! Results as text: every result prints itself as an aligned table with names and units, under the name of the mechanism and
-//! the operating point it belongs to, in declared units.
+//! Results as text: every result prints itself as an aligned table with names and declared units, under the name of its mechanism
+//! and its operating point.
 //!
-//! A text says what matters: what is below 0.1 % of the largest beside it, points between those shown, and digits beyond the fourth
-//! to sixth are left out of it, and it says so. The tables of `eigentol-tables` leave out nothing.
+//! A text shows what matters. It omits values below 0.1 % of the largest next to them, points between those shown, and digits
+//! beyond the fourth to sixth, and it says so. The tables of `eigentol-tables` omit nothing.
 
 mod allocation;
 mod branches;

@@ -88,19 +88,19 @@ impl fmt::Display for Modes {
     }
 }
 
-/// Shapes as columns: one for each coordinate or speed that moves in any mode, or one with the largest components.
+/// Shapes as columns: one column for each coordinate or speed that moves in any mode, or a single one with the largest components.
 struct Shapes<'a> {
-    /// Unknown, what it is, and how far it moves in any mode.
+    /// Index and description of the unknown, and its largest motion in any mode.
     moving: Vec<(usize, &'a CoordinateInfo, f64)>,
     still: Vec<&'a str>,
 }
 
-/// Components that are named where there is one column.
+/// Number of components named in a single column.
 const NAMED: usize = 4;
 
 impl<'a> Shapes<'a> {
     fn of(modes: &'a Modes) -> Self {
-        // Reactions come last among the unknowns; a shape is what moves.
+        // Reactions come last among the unknowns; a shape consists of motions.
         let moves = |info: &CoordinateInfo| matches!(info.role, Role::Position | Role::Speed);
         let most = |i: usize| largest(modes.modes.iter().map(|mode| mode.shape[i].norm()));
         let all = modes.description.coordinates.iter().enumerate();
@@ -129,7 +129,7 @@ impl<'a> Shapes<'a> {
     }
 
     fn cells(&self, mode: &Mode) -> Vec<String> {
-        // Rounding beside what the coordinate does in other modes.
+        // Rounding compared to the motion of the coordinate in other modes.
         let shown = |(i, _, most): &(usize, &CoordinateInfo, f64)| {
             let value = mode.shape[*i];
             match unless_rounding(value.norm(), *most) {
@@ -172,7 +172,7 @@ impl<'a> Shapes<'a> {
 /// A component of a shape: real, or amplitude and phase in degrees.
 fn component(value: Complex) -> String {
     let phase = value.arg().to_degrees();
-    // A phase of less than half a degree is none.
+    // A phase of less than half a degree counts as zero.
     if value.im == 0.0 || phase.abs() < 0.5 {
         rough(value.re)
     } else if phase.abs() >= 179.5 {

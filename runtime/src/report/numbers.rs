@@ -1,23 +1,23 @@
-//! Numbers as text, with as many digits as they deserve.
+//! Numbers as text, with an appropriate number of digits.
 
 use crate::Unit;
 
-/// A computed value: six significant digits, in scientific form where that is shorter to read.
+/// A computed value: six significant digits, in scientific notation where that is shorter.
 pub(super) fn number(value: f64) -> String {
     digits(value, 6)
 }
 
-/// A spread or a derivative: four.
+/// A spread or a derivative: four significant digits.
 pub(super) fn rough(value: f64) -> String {
     digits(value, 4)
 }
 
-/// A distance in standard deviations, or the error of something: three.
+/// A distance in standard deviations, or an error: three significant digits.
 pub(super) fn short(value: f64) -> String {
     digits(value, 3)
 }
 
-/// A value that somebody gave: no zeros at the end.
+/// A value entered by the user: no trailing zeros.
 pub(super) fn given(value: f64) -> String {
     let text = number(value);
     match text.split_once('e') {
@@ -48,7 +48,7 @@ fn digits(value: f64, count: usize) -> String {
         if !(1e-3..1e6).contains(&size) {
             return scientific;
         }
-        // Of the rounded number: 0.99999 has one digit before the point.
+        // Use the rounded number: 0.99999 has one digit before the point.
         let exponent = scientific.rsplit('e').next();
         let exponent = exponent.and_then(|text| text.parse::<i32>().ok());
         let decimals = (count as i32 - 1 - exponent.unwrap_or(0)).clamp(0, 8) as usize;
@@ -56,25 +56,25 @@ fn digits(value: f64, count: usize) -> String {
     }
 }
 
-/// `-` where there is none.
+/// A computed value, or `-` if there is none.
 pub(super) fn optional(value: Option<f64>) -> String {
     or_dash(value, number)
 }
 
-/// In a form of its own, or `-`.
+/// A value in the given format, or `-` if there is none.
 pub(super) fn or_dash(value: Option<f64>, form: fn(f64) -> String) -> String {
     value.map_or_else(|| "-".to_owned(), form)
 }
 
-/// `12.3 %`.
+/// A fraction as `12.3 %`.
 pub(super) fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// What stands in place of a number that a member of a cluster of equal eigenvalues does not have.
+/// Replaces a number that a member of a cluster of equal eigenvalues does not have.
 pub(super) const CLUSTER: &str = "cluster";
 
-/// As [`or_dash`], of a mode that may be a member of a cluster.
+/// Like [`or_dash`], for a mode that may be a member of a cluster.
 pub(super) fn of_mode(value: Option<f64>, clustered: bool, form: fn(f64) -> String) -> String {
     if clustered {
         CLUSTER.to_owned()
@@ -88,12 +88,12 @@ pub(super) fn in_unit(value: f64, unit: &Unit) -> String {
     number(converted(value, unit))
 }
 
-/// As [`in_unit`], of a value that somebody gave.
+/// Like [`in_unit`], for a value entered by the user.
 pub(super) fn given_in(value: f64, unit: &Unit) -> String {
     given(converted(value, unit))
 }
 
-/// As [`in_unit`], of a spread.
+/// Like [`in_unit`], for a spread.
 pub(super) fn rough_in(value: f64, unit: &Unit) -> String {
     rough(converted(value, unit))
 }
@@ -115,7 +115,7 @@ pub(super) fn heading(name: &str, unit: &Unit) -> String {
     }
 }
 
-/// A number with its unit, where it has one: `3000 rpm`.
+/// A number with its unit, if it has one: `3000 rpm`.
 pub(super) fn with_unit(number: String, unit: &Unit) -> String {
     match unit.symbol.is_empty() {
         true => number,

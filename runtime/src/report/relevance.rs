@@ -1,35 +1,35 @@
-//! What is worth reading, decided here for every report. What is left out of a text is counted in it, and is in the tables that CSV,
-//! JSON and Parquet are written from.
+//! Decides what is worth reading, for all reports. Whatever a text omits is counted in it, and is contained in the tables from
+//! which CSV, JSON and Parquet are written.
 
 use crate::Description;
 
-/// What is below this part of the largest beside it is left out.
+/// Values below this fraction of the largest next to them are omitted.
 pub(super) const RELEVANT: f64 = 1e-3;
 /// [`RELEVANT`] in words.
 pub(super) const BELOW: &str = "below 0.1 %";
-/// Where everything is to be found.
+/// Tells where to find everything.
 pub(super) const EVERYTHING: &str = "CSV and JSON have all";
 
-/// What is below this part of its neighbours is rounding.
+/// Values below this fraction of their neighbours are rounding.
 const ROUNDING: f64 = 1e-12;
-/// No length, angle, speed or force of an equilibrium is known to this, SI: where all are smaller, all are zero.
+/// Lengths, angles, speeds and forces (SI) of an equilibrium are not known more accurately: if all are smaller, all are zero.
 const NOTHING: f64 = 1e-15;
-/// A chance below this is not told apart from none: no tolerance is known so far out.
+/// A smaller probability is indistinguishable from zero: no tolerance is known so far out.
 pub(super) const CHANCE: f64 = 1e-12;
 
-/// Rows of a long table that are shown.
+/// Number of rows shown of a long table.
 const SHOWN: usize = 11;
-/// Names that are listed; of more the number is told.
+/// Maximum number of names listed; if there are more, only their number is given.
 const NAMED: usize = 6;
-/// Columns of one kind that stand side by side; of more the largest are named in one.
+/// Maximum number of columns of one kind; if there are more, a single column names the largest.
 pub(super) const COLUMNS: usize = 6;
 
-/// Whether a value matters beside the largest.
+/// Whether a value matters compared to the largest.
 pub(super) fn relevant(value: f64, largest: f64) -> bool {
     value.abs() >= RELEVANT * largest.abs() && value != 0.0
 }
 
-/// The value, or zero where it is rounding beside the largest of its kind.
+/// The value, or zero if it is rounding compared to the largest of its kind.
 pub(super) fn unless_rounding(value: f64, largest: f64) -> f64 {
     if value.abs() <= ROUNDING * largest.abs() || value.abs() <= NOTHING && largest.abs() <= NOTHING
     {
@@ -39,12 +39,12 @@ pub(super) fn unless_rounding(value: f64, largest: f64) -> f64 {
     }
 }
 
-/// The largest size; zero of nothing.
+/// The largest magnitude; zero for an empty list.
 pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     (values.into_iter()).fold(0.0, |most, value| value.abs().max(most))
 }
 
-/// The value of an unknown, or zero where it is rounding beside others of its unit.
+/// The value of an unknown, or zero if it is rounding compared to others with the same unit.
 pub(super) fn of_its_kind(description: &Description, values: &[f64], i: usize) -> f64 {
     let infos = description.coordinates.iter().zip(values);
     let own = &description.coordinates[i].unit.symbol;
@@ -52,7 +52,7 @@ pub(super) fn of_its_kind(description: &Description, values: &[f64], i: usize) -
     unless_rounding(values[i], largest(kind.map(|(_, value)| *value)))
 }
 
-/// Which of so many rows are shown: all of a short table, else some at equal distances, both ends among them.
+/// The rows to show: all of a short table, otherwise some at equal intervals, including both ends.
 pub(super) fn shown(count: usize) -> Vec<usize> {
     if count < 2 * SHOWN {
         return (0..count).collect();

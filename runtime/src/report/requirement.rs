@@ -1,4 +1,4 @@
-//! Chances of meeting requirements, and design points, as text.
+//! Probabilities of meeting requirements, and design points, as text.
 
 use core::fmt;
 
@@ -12,7 +12,7 @@ use crate::requirement::{
     Chances, DesignPoint, Edge, Limit, LimitReliability, RareFailure, Reliability, Tally,
 };
 
-/// How sure the intervals are.
+/// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
 
 impl fmt::Display for Chances {

@@ -6,7 +6,7 @@ use crate::sweep::Condition;
 use crate::{Description, Quantity, Text, Unit};
 
 impl Quantity {
-    /// What it is measured in.
+    /// The unit of the quantity.
     #[must_use]
     pub fn unit(self) -> Unit {
         Unit {
@@ -21,8 +21,9 @@ impl Quantity {
 }
 
 impl Response {
-    /// What it is called in texts and tables: `frequency 1`, the name of an output, `critical speed`, `speed where frequency 2 is 1
-    /// times speed`. `of` describes the mechanism that is asked.
+    /// Its name in texts and tables: `frequency 1`, the name of an output, `critical speed`, `speed where frequency 2 is 1 times speed`.
+    ///
+    /// `of` describes the mechanism.
     #[must_use]
     pub fn name(&self, of: &Description) -> String {
         let input = |range: &crate::sweep::Range| {
@@ -51,7 +52,7 @@ impl Response {
         }
     }
 
-    /// The unit of its values in texts and tables: that of the declaration.
+    /// The unit of its values in texts and tables, as declared.
     #[must_use]
     pub fn unit(&self, of: &Description) -> Unit {
         let declared = match self {

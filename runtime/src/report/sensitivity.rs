@@ -11,7 +11,7 @@ use crate::modes::Family;
 use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
 use crate::{Description, Text, Unit};
 
-/// A variable: its name, its unit and its value, SI. Inputs come first.
+/// Name, unit and value (SI) of each variable, inputs first.
 fn variables<'a>(
     d: &'a Description,
     inputs: &'a [f64],
@@ -26,13 +26,14 @@ fn variables<'a>(
 struct Derivatives<'a> {
     description: &'a Description,
     inputs: &'a [f64],
-    /// What the quantities are.
+    /// Headings of the quantities.
     columns: Vec<String>,
 }
 
 impl Derivatives<'_> {
-    /// One row for each variable that matters, in its declared unit, one column for each quantity that depends on any. A variable
-    /// matters if the derivative times its value is among the large ones of a column; of a value of zero nobody can tell.
+    /// Writes one row for each variable that matters, in its declared unit, and one column for each quantity that depends on any. A
+    /// variable matters if the derivative times its value is among the large ones in a column; a variable whose value is zero
+    /// cannot be judged.
     fn write(
         &self,
         f: &mut fmt::Formatter<'_>,
@@ -104,7 +105,7 @@ impl Derivatives<'_> {
     }
 }
 
-/// Element `j` of inputs followed by design variables.
+/// Element `j` of the inputs followed by the design variables.
 fn pick(inputs: &[f64], design: &[f64], j: usize) -> Option<f64> {
     inputs
         .get(j)

@@ -1,4 +1,4 @@
-//! What to think of the spread of each mode, in sentences.
+//! Assessment of the spread of each mode, in sentences.
 
 use core::fmt;
 
@@ -12,22 +12,22 @@ use crate::tolerance::Outcome;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sentence {
-    /// What it is for the reader.
+    /// Its meaning for the reader.
     pub news: News,
-    /// The sentence, with a capital and a full stop.
+    /// The sentence, with a capital letter and a full stop.
     pub text: String,
 }
 
-/// What a sentence is for its reader.
+/// The meaning of a sentence for its reader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum News {
     /// First order can be used.
     Good,
-    /// Something is not as first order has it.
+    /// Something deviates from first order.
     Bad,
-    /// What was measured, or what to use.
+    /// A measurement or a recommendation.
     Fact,
 }
 
@@ -38,8 +38,8 @@ impl fmt::Display for Sentence {
 }
 
 impl Summary {
-    /// What to think of it, in the order in which a reader needs it: each doubt once, with all the modes that share it; by how much
-    /// first and second order miss the samples of those modes; what to use; what became of the samples.
+    /// The assessment, in the order a reader needs it: each doubt once, with all the modes that share it; the errors of first and
+    /// second order compared to the samples of those modes; recommendations; the outcomes of the samples.
     ///
     /// ```
     /// use eigentol::report::News;
@@ -117,7 +117,7 @@ impl Summary {
         all.into_iter().filter_map(sentence).collect()
     }
 
-    /// What became of the samples, or why there are none.
+    /// The outcomes of the samples, or why there are none.
     fn about_samples(&self) -> Vec<String> {
         match &self.sampling {
             Sampling::NotNeeded => Vec::new(),
@@ -150,7 +150,7 @@ fn fact(text: String) -> Sentence {
     }
 }
 
-/// By how much first order misses the samples at most; empty without samples.
+/// The largest error of first order compared to the samples; empty without samples.
 fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
     let errors = checks.filter_map(|check| Some((check.first_order_error?, check.count)));
     let most = errors.max_by(|(a, _), (b, _)| a.value.abs().total_cmp(&b.value.abs()));
@@ -164,7 +164,7 @@ fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
     }
 }
 
-/// By how much first and second order miss the samples; where the series does not converge, second order has no sigma.
+/// Errors of first and second order compared to the samples; where the series does not converge, second order has no sigma.
 fn measured(mode: usize, check: &Check, converges: bool) -> String {
     let percent = |error: Measured| {
         let (value, uncertain) = (100.0 * error.value, 200.0 * error.standard_error);
@@ -188,7 +188,7 @@ fn measured(mode: usize, check: &Check, converges: bool) -> String {
     format!("Mode {number}: sigma of the {name} over {count} {sigma}{errors}.")
 }
 
-/// How probable it is, with its interval; nothing where it happened to no sample.
+/// A probability with its interval; `None` if no sample counted.
 fn chance(name: &str, own: Chance) -> Option<String> {
     let percent = |share: f64| format!("{:.3}", 100.0 * share);
     (own.count > 0).then(|| {
@@ -202,7 +202,7 @@ fn chance(name: &str, own: Chance) -> Option<String> {
     })
 }
 
-/// What happened to samples that are not stable on the nominal branch.
+/// A name for the outcome of samples that are not stable on the nominal branch.
 fn name_of(outcome: Outcome) -> Option<&'static str> {
     Some(match outcome {
         Outcome::Stable => return None,

@@ -6,11 +6,12 @@ use super::numbers::percent;
 use super::relevance::{BELOW, COLUMNS, RELEVANT, names, unless_rounding};
 use crate::Description;
 
-/// So many are named at most, and no more than make up this part of the variance.
+/// At most this many variables are named, and no more than make up this fraction of the variance.
 const NAMED: usize = 4;
 const MOST: f64 = 0.9;
 
-/// Columns of shares for several quantities: one for each variable that matters to any of them, or one that names the greatest.
+/// Columns of shares for several quantities: one column for each variable that matters to any of them, or a single one that names
+/// the largest.
 pub(super) struct Shares<'a> {
     description: &'a Description,
     columns: Vec<usize>,
@@ -18,7 +19,7 @@ pub(super) struct Shares<'a> {
 }
 
 impl<'a> Shares<'a> {
-    /// For quantities with these shares.
+    /// Columns for quantities with these shares.
     pub(super) fn of<'b>(
         description: &'a Description,
         quantities: impl Iterator<Item = &'b [f64]> + Clone,
@@ -52,7 +53,7 @@ impl<'a> Shares<'a> {
         self.columns.iter().map(name).collect()
     }
 
-    /// The cells below the head; `None` where there are no shares.
+    /// The cells below the header; `None` if there are no shares.
     pub(super) fn cells(&self, shares: Option<&[f64]>) -> Vec<String> {
         let Some(shares) = shares else {
             return vec!["-".to_owned(); self.head().len()];
@@ -63,7 +64,7 @@ impl<'a> Shares<'a> {
         vec![mostly(self.description, shares)]
     }
 
-    /// Names the variables that vary and have no column.
+    /// Lists the variables that vary and have no column.
     pub(super) fn rest(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.below.is_empty() || !self.side_by_side() {
             return Ok(());
@@ -73,7 +74,7 @@ impl<'a> Shares<'a> {
     }
 }
 
-/// A share in a column where another one matters.
+/// A share in a column in which another share matters.
 fn share(value: f64) -> String {
     let value = unless_rounding(value, 1.0);
     if value == 0.0 || value.abs() >= RELEVANT {
@@ -83,7 +84,7 @@ fn share(value: f64) -> String {
     }
 }
 
-/// The greatest shares by name: `modulus 52.3 %, diameter 23.2 %`.
+/// The largest shares by name: `modulus 52.3 %, diameter 23.2 %`.
 pub(super) fn mostly(description: &Description, shares: &[f64]) -> String {
     let mut order: Vec<usize> = (0..description.design.len().min(shares.len())).collect();
     order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));

@@ -55,7 +55,7 @@ fn statistics(name: String, value: Option<&Statistics>) -> Vec<String> {
     ]
 }
 
-/// Rows for the lowest, those between and the highest.
+/// Rows for the lowest member, those in between, and the highest.
 fn members(table: &mut Table, quantity: &str, spread: &SortedSpread) {
     let count = spread.members.len();
     for (k, MemberSpread { value, .. }) in spread.members.iter().enumerate() {
@@ -109,7 +109,7 @@ impl fmt::Display for ClusterTolerance {
     }
 }
 
-/// Counts what the table leaves out.
+/// Counts what the table omits.
 fn without(f: &mut fmt::Formatter<'_>, spread: &ClusterSpread) -> fmt::Result {
     let lowest = spread.frequency.lowest().map_or(0, |member| member.without);
     if lowest > 0 {
@@ -164,12 +164,12 @@ fn verdict(doubts: &[Doubt]) -> String {
 }
 
 impl Summary {
-    /// Whether no tolerance moves a mode, or mixes it with others.
+    /// Whether no tolerance moves a mode or mixes it with others.
     pub(super) fn unmoved(&self) -> bool {
         self.clusters.is_empty() && self.first.modes.iter().all(unmoved)
     }
 
-    /// The spread of each frequency by every method, what it comes from, and whether first order is right.
+    /// The spread of each frequency by every method, its sources, and whether first order is right.
     fn frequencies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut head = cells([
             "mode",
@@ -210,7 +210,7 @@ impl Summary {
         write!(f, "{table}")
     }
 
-    /// The same of damping ratios, where any varies.
+    /// The spread of each damping ratio, if any varies, in the same form.
     fn damping_ratios(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sampled = self.sampled().is_some();
         let mut head = cells(["mode", "damping ratio", "sigma: first order"]);

@@ -1,4 +1,4 @@
-//! Sweeps as text: one row for each point, or for some of many.
+//! Sweeps as text: one row per point, or some of many.
 
 use core::fmt;
 

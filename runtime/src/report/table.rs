@@ -5,14 +5,14 @@ use core::fmt;
 use crate::modes::Family;
 use crate::{DampingKind, Description};
 
-/// A table: a head and rows; the first column and columns of words are left-aligned, the others right. Columns that do not fit into
-/// the width of a page follow below, beside the first column again.
+/// A table with a header and rows. The first column and columns of words are left-aligned, the others right-aligned. Columns that
+/// exceed the page width follow below, next to the first column again.
 #[derive(Default)]
 pub(super) struct Table {
     rows: Vec<Vec<String>>,
 }
 
-/// Characters side by side.
+/// Page width in characters.
 const WIDTH: usize = 150;
 
 impl Table {
@@ -24,7 +24,7 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// Whether there is nothing below the head.
+    /// Whether there are no rows below the header.
     pub(super) fn is_empty(&self) -> bool {
         self.rows.len() < 2
     }
@@ -41,7 +41,7 @@ impl Table {
         column == 0 || cells.all(|cell| cell.starts_with(char::is_alphabetic) && cell != "inf")
     }
 
-    /// Columns that fit side by side, beside the first: as few blocks as possible, and all of about the same width.
+    /// Groups of columns that fit next to the first one: as few blocks as possible, all of about the same width.
     fn blocks(widths: &[usize]) -> Vec<Vec<usize>> {
         let fewest = within(widths, WIDTH);
         let mut limits = (1..WIDTH).rev();
@@ -50,7 +50,7 @@ impl Table {
     }
 }
 
-/// As many columns as the limit allows in each block, and one at least.
+/// As many columns per block as the limit allows, but at least one.
 fn within(widths: &[usize], limit: usize) -> Vec<Vec<usize>> {
     let first = widths.first().map_or(0, |width| width + 2);
     let mut blocks = vec![vec![0]];
@@ -97,7 +97,7 @@ pub(super) fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
     texts.map(str::to_owned).to_vec()
 }
 
-/// Says of what runs along an input that it was stopped.
+/// Reports that a computation along an input was stopped.
 pub(super) fn not_reached(f: &mut fmt::Formatter<'_>, unreached: usize) -> fmt::Result {
     match unreached {
         0 => Ok(()),
@@ -108,7 +108,7 @@ pub(super) fn not_reached(f: &mut fmt::Formatter<'_>, unreached: usize) -> fmt::
     }
 }
 
-/// Says of results that rest on undamped modes what they leave out.
+/// States what results based on undamped modes neglect.
 pub(super) fn undamped(
     f: &mut fmt::Formatter<'_>,
     family: Family,

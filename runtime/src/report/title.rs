@@ -1,4 +1,4 @@
-//! What a report is about: a mechanism at an operating point.
+//! The subject of a report: a mechanism at an operating point.
 
 use super::numbers::{given_in, with_unit};
 use crate::{Description, Input};
@@ -8,7 +8,7 @@ pub(super) fn title(description: &Description, inputs: &[f64]) -> String {
     named(description, inputs, None)
 }
 
-/// The same of what happens along one input: only the others have a value.
+/// The title of a computation along one input: only the others have values.
 pub(super) fn title_along(description: &Description, inputs: &[f64], varied: Input) -> String {
     named(description, inputs, Some(varied.index()))
 }

@@ -19,7 +19,7 @@ use crate::tolerance::{
 };
 use crate::{FirstOrder, MonteCarlo};
 
-/// The standard deviation, or zero where it is rounding beside the mean.
+/// The standard deviation, or zero if it is rounding compared to the mean.
 pub(super) fn spread_of(spread: &Spread) -> f64 {
     unless_rounding(spread.sigma, spread.mean)
 }
@@ -56,7 +56,7 @@ impl fmt::Display for OutputTolerances {
     }
 }
 
-/// A distance in standard deviations; `-` where nothing leads there.
+/// A distance in standard deviations; `-` if it is infinite.
 pub(super) fn far(distance: f64) -> String {
     or_dash(
         Some(distance).filter(|distance| distance.is_finite()),
@@ -64,7 +64,7 @@ pub(super) fn far(distance: f64) -> String {
     )
 }
 
-/// Whether no tolerance moves the mode, alone or beside others.
+/// Whether no tolerance moves the mode, alone or relative to others.
 pub(super) fn unmoved(mode: &ModeTolerance) -> bool {
     let moved = |spread: Option<Spread>| spread.is_some_and(|own| spread_of(&own) != 0.0);
     !mode.clustered
@@ -146,7 +146,7 @@ impl fmt::Display for FirstOrder {
 }
 
 impl FirstOrder {
-    /// The spread of every mode and what it comes from.
+    /// The spread of every mode and its sources.
     fn spreads(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
         let general = self.family == Family::General;
@@ -310,14 +310,14 @@ fn names_of_modes(numbers: &[&str]) -> String {
     format!("{word} {}", names(numbers, "of them"))
 }
 
-/// Skewness from which mean and sigma do not describe a distribution: tails of 3 sigma differ by half.
+/// Skewness above which mean and sigma do not describe a distribution: the 3-sigma tails differ by half.
 const SKEWED: f64 = 0.1;
-/// Shares of a normal distribution below minus one to three sigma, its middle, and the same above.
+/// Normal probabilities below minus three and minus one sigma, the median, and plus one and plus three sigma.
 const QUANTILES: [f64; 5] = [0.00135, 0.15866, 0.5, 0.84134, 0.99865];
 
 impl MonteCarlo {
-    /// What to ask for to draw the same samples again, in words: `4000 samples, seed 7`, with stream and ranges where these are not the
-    /// first and all.
+    /// The settings that reproduce the samples, in words: `4000 samples, seed 7`, with stream and ranges unless these are the first
+    /// and all.
     #[must_use]
     pub fn drawn(&self) -> String {
         let mut text = format!("{} samples, seed {}", self.samples, self.seed);
@@ -338,7 +338,7 @@ impl MonteCarlo {
         text
     }
 
-    /// Quantiles of what is not distributed like a normal variable.
+    /// Quantiles of quantities that are not normally distributed.
     fn skewed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut head = cells(["not symmetric", "skewness"]);
         head.extend(QUANTILES.map(|p| format!("{} %", given(100.0 * p))));
@@ -372,7 +372,7 @@ impl MonteCarlo {
     }
 }
 
-/// What happens, without the value: `frequency 1 is 2 times speed (backward)`.
+/// The event, without the value: `frequency 1 is 2 times speed (backward)`.
 pub(super) fn what_happens(event: &Event, name: &str) -> String {
     match event {
         Event::Critical => "critical".to_owned(),

@@ -1,4 +1,4 @@
-//! Chances of meeting requirements, from samples.
+//! Probabilities of meeting requirements, from samples.
 
 use eigentol_statistics::reliability::sampling::{Interval, clopper_pearson, wilson};
 
@@ -9,19 +9,19 @@ use crate::response::Workspace;
 use crate::tolerance::{Counts, Draw, Sampling, Tolerances, pool};
 use crate::{Description, Error, Shared};
 
-/// Samples worked on by one thread at a time.
+/// Number of samples that one thread solves as a unit.
 const CHUNK: u64 = 64;
 
-/// How many samples met a requirement.
+/// Numbers of samples that met a requirement, failed it, or could not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tally {
-    /// Those that met it.
+    /// Samples that met it.
     pub met: usize,
-    /// Those that did not.
+    /// Samples that failed it.
     pub failed: usize,
-    /// Those that have no response to tell.
+    /// Samples that lack the response needed to tell.
     pub untold: usize,
 }
 
@@ -32,19 +32,19 @@ impl Tally {
         self.met + self.failed + self.untold
     }
 
-    /// Part of the samples that met it.
+    /// Fraction of the samples that met it.
     #[must_use]
     pub fn yield_of(&self) -> f64 {
         self.met as f64 / self.samples() as f64
     }
 
-    /// Part of the samples that failed.
+    /// Fraction of the samples that failed.
     #[must_use]
     pub fn failure(&self) -> f64 {
         self.failed as f64 / self.samples() as f64
     }
 
-    /// Wilson's interval of the probability of failure.
+    /// Wilson confidence interval of the failure probability.
     ///
     /// # Errors
     /// [`Error::Setting`] for a confidence that is not inside (0, 1).
@@ -56,7 +56,7 @@ impl Tally {
         )?)
     }
 
-    /// The interval of Clopper and Pearson of the probability of failure: it holds the confidence for certain.
+    /// Clopper-Pearson confidence interval of the failure probability: its coverage is at least `confidence`.
     ///
     /// # Errors
     /// As [`Self::wilson`].
@@ -80,38 +80,39 @@ impl Tally {
     }
 }
 
-/// Chances of meeting requirements, from samples.
+/// Probabilities of meeting requirements, from samples.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chances {
-    /// Of all requirements at once.
+    /// For all requirements at once.
     pub all: Tally,
-    /// Of each requirement.
+    /// For each requirement.
     pub each: Vec<Tally>,
-    /// What became of the samples.
+    /// Outcomes of the samples.
     pub counts: Counts,
-    /// Number of samples that were asked for: more where the work was stopped, or where this is a part of a run.
+    /// Number of samples requested: larger than the number solved if the run was stopped, or if this is part of a run.
     pub planned: usize,
-    /// The inputs they belong to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
 impl Requirements<'_> {
-    /// Chances of meeting the requirements, by plain Monte Carlo; the same for any number of threads. Numbers of samples of ranges that
-    /// make up a run add up to those of the run. A run that is stopped has at least its first 64 samples. Of `sampling`, what is kept
-    /// and which vectors are used do not matter.
+    /// Probabilities of meeting the requirements, by plain Monte Carlo; identical for any number of threads.
+    ///
+    /// The counts of sample ranges that make up a run add up to those of the run. A stopped run has at least its first 64 samples.
+    /// The settings of `sampling` for keeping samples and for vector instructions have no effect.
     ///
     /// # Errors
-    /// [`Error::Setting`] for no sample and for a range that is none of the samples, [`Error::Threads`].
+    /// [`Error::Setting`] for zero samples or an invalid range, [`Error::Threads`].
     pub fn chances(&self, sampling: &Sampling<'_>) -> Result<Chances, Error> {
         chances_of(self, self.deviations(), sampling)
     }
 }
 
-/// The same of other deviations.
+/// Like [`Requirements::chances`], for given deviations.
 pub(crate) fn chances_of(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
@@ -176,7 +177,7 @@ pub(crate) fn chances_of(
     })
 }
 
-/// Independent standard normal numbers, the same that [`Draw`] makes designs of.
+/// Independent standard normal numbers, the same ones from which [`Draw`] makes designs.
 struct Standard {
     zeros: Vector,
     ones: Tolerances,

@@ -1,4 +1,4 @@
-//! The most probable design that just fails, in the terms of the design variables.
+//! The most probable design that just fails, expressed in the design variables.
 
 use eigentol_statistics::reliability::{self, FormSensitivity, LimitState, sorm};
 
@@ -7,51 +7,51 @@ use super::limit::LimitAt;
 use crate::Error;
 use crate::algebra::Vector;
 
-/// How far beside a design point it is tried whether the limit lies there, in standard deviations.
+/// Distance on either side of a design point at which the limit is checked, in standard deviations.
 const STEP: f64 = 1e-3;
 
-/// A design point: of all designs on a limit, the most probable one, at least in its neighbourhood.
+/// A design point: the most probable of all designs on a limit, at least locally.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DesignPoint {
-    /// The design variables there, SI.
+    /// The design variables at the point, SI.
     pub design: Vector,
-    /// The same in standard normal space.
+    /// The point in standard normal space.
     pub normal: reliability::DesignPoint,
-    /// The part of each design variable in the variance of the limit linearised here. Their sum is 1; of correlated variables
-    /// some may be negative.
+    /// Share of each design variable in the variance of the limit linearised at the point. The shares sum to 1; for correlated
+    /// variables some may be negative.
     pub importance: Vector,
-    /// Derivatives of the reliability index and of the first-order probability by the nominal value of each design variable, per
-    /// SI unit, tolerances moved along with it.
+    /// Derivatives of the reliability index and the first-order probability with respect to the nominal value of each design
+    /// variable, per SI unit, with the tolerances moving along.
     pub by_nominal: Vec<FormSensitivity>,
-    /// Derivatives by each half-width, per SI unit, the distribution scaled about its mean, correlation unchanged.
+    /// Derivatives with respect to each half-width, per SI unit, scaling the distribution about its mean at fixed correlation.
     pub by_half_width: Vec<FormSensitivity>,
-    /// Principal curvatures of the limit in standard normal space; `None` where it has no value beside the point.
+    /// Principal curvatures of the limit in standard normal space; `None` if the limit has no value near the point.
     pub curvatures: Option<Vec<f64>>,
-    /// Probability of failure by the paraboloid with these curvatures, exactly (Tvedt); `None` without curvatures or where these
-    /// bend around the origin more than a sphere.
+    /// Failure probability of the paraboloid with these curvatures, exactly (Tvedt); `None` without curvatures, or if they bend
+    /// around the origin more than a sphere.
     pub second_order: Option<f64>,
-    /// Whether the mechanism, solved anew, fails a thousandth of a standard deviation beyond this point and does not as far before
-    /// it.
+    /// Whether the re-solved mechanism fails a thousandth of a standard deviation beyond this point and does not fail the same
+    /// distance before it.
     pub verified: bool,
 }
 
 impl DesignPoint {
-    /// The reliability index: distance from the origin of standard normal space, negative where the origin fails.
+    /// The reliability index: distance from the origin of standard normal space, negative if the origin fails.
     #[must_use]
     pub fn beta(&self) -> f64 {
         self.normal.beta
     }
 
-    /// Probability of failure to first order.
+    /// First-order failure probability.
     #[must_use]
     pub fn probability(&self) -> f64 {
         self.normal.probability()
     }
 
     /// # Errors
-    /// [`Error::NoReliability`] where the point has no derivatives.
+    /// [`Error::NoReliability`] if the point has no derivatives.
     pub(super) fn new(
         limit: &LimitAt<'_>,
         deviations: &Deviations<'_>,
@@ -73,18 +73,18 @@ impl DesignPoint {
     }
 }
 
-/// Derivatives at a design point, by each design variable.
+/// Derivatives at a design point with respect to each design variable.
 pub(crate) struct Slopes {
-    /// Of the distance from failure.
+    /// Derivatives of the distance from failure.
     by_design: Vec<f64>,
-    /// Of the reliability index and the probability, by nominal values.
+    /// Derivatives of the reliability index and the probability with respect to nominal values.
     pub(crate) by_nominal: Vec<FormSensitivity>,
-    /// The same by half-widths.
+    /// Derivatives of the reliability index and the probability with respect to half-widths.
     pub(crate) by_half_width: Vec<FormSensitivity>,
 }
 
 /// # Errors
-/// [`Error::NoReliability`] where the point has no derivatives.
+/// [`Error::NoReliability`] if the point has no derivatives.
 pub(crate) fn slopes_at(
     limit: &LimitAt<'_>,
     deviations: &Deviations<'_>,
@@ -110,7 +110,7 @@ pub(crate) fn slopes_at(
     })
 }
 
-/// Whether the limit lies at this point.
+/// Whether the limit is crossed at this point.
 fn crosses(limit: &LimitAt<'_>, at: &reliability::DesignPoint) -> bool {
     let beside = |step: f64| {
         let moved = at.point.iter().zip(&at.direction);

@@ -1,4 +1,5 @@
-//! Designs as functions of independent standard normal numbers: nominal values moved, tolerances scaled about their means.
+//! Designs as functions of independent standard normal numbers, with shifted nominal values and tolerances scaled about their
+//! means.
 
 use eigentol_statistics::{Distribution, semidefinite_factor};
 
@@ -6,14 +7,15 @@ use crate::algebra::Vector;
 use crate::tolerance::Tolerances;
 use crate::{Description, Error};
 
-/// How designs deviate from a nominal one.
+/// The deviations of designs from a nominal one.
 #[derive(Clone, Debug)]
 pub(crate) struct Deviations<'a> {
     tolerances: &'a Tolerances,
     nominal: Vector,
-    /// Of each half-width, relative to the tolerances.
+    /// Scale of each half-width, relative to the tolerances.
     scales: Vector,
-    /// Standard normal values by unit half-width of the variables whose half-width is zero, row by row.
+    /// Factor of the correlation matrix, row by row: standard normal values per unit half-width of variables whose half-width is
+    /// zero.
     root: Vec<f64>,
 }
 
@@ -21,7 +23,7 @@ impl<'a> Deviations<'a> {
     /// Deviations of `tolerances` about a nominal design.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a correlation that has no factor.
+    /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a correlation that cannot be factorised.
     pub(crate) fn new(tolerances: &'a Tolerances, nominal: &[f64]) -> Result<Self, Error> {
         tolerances.check_count(nominal.len())?;
         let size = nominal.len();
@@ -37,7 +39,7 @@ impl<'a> Deviations<'a> {
         })
     }
 
-    /// Refuses variables without a density: they are no smooth functions of normal ones.
+    /// Rejects variables without a density, which are not smooth functions of normal ones.
     pub(crate) fn check_densities(&self, description: &Description) -> Result<(), Error> {
         let all = self.tolerances.joint().map(|(joint, _)| joint.variables());
         let discrete =
@@ -54,7 +56,7 @@ impl<'a> Deviations<'a> {
         })
     }
 
-    /// The same about another nominal design, with other half-widths; those that are zero stay zero.
+    /// The deviations about another nominal design, with other half-widths; those that are zero stay zero.
     pub(crate) fn moved(&self, nominal: &[f64], half_widths: &[f64]) -> Self {
         let own = half_widths.iter().zip(self.tolerances.half_widths());
         let scales = own.map(|(new, old)| if *old > 0.0 { new / old } else { 1.0 });
@@ -84,7 +86,7 @@ impl<'a> Deviations<'a> {
         design
     }
 
-    /// The design, SI, that belongs to independent standard normal numbers.
+    /// The design (SI) for given independent standard normal numbers.
     pub(crate) fn design(&self, z: &[f64]) -> Vector {
         let mut design = self.unscaled(z);
         for (k, (value, scale)) in design.iter_mut().zip(&self.scales).enumerate() {
@@ -95,7 +97,7 @@ impl<'a> Deviations<'a> {
         design
     }
 
-    /// Derivatives by the standard normal numbers of a function with these derivatives by the design variables.
+    /// Transforms derivatives with respect to the design variables into derivatives with respect to the standard normal numbers.
     pub(crate) fn gradient(&self, z: &[f64], by_design: &[f64]) -> Vec<f64> {
         let scaled: Vec<f64> = by_design
             .iter()
@@ -116,7 +118,7 @@ impl<'a> Deviations<'a> {
         by_normal
     }
 
-    /// Derivative of each design variable by its own half-width, distribution scaled about its mean.
+    /// Derivative of each design variable with respect to its own half-width, scaling the distribution about its mean.
     pub(crate) fn by_half_width(&self, z: &[f64]) -> Vector {
         let design = self.unscaled(z);
         let all = self.tolerances.half_widths().iter().enumerate();
@@ -138,9 +140,9 @@ impl<'a> Deviations<'a> {
         (0..size).map(|j| element(j) * z[j]).sum()
     }
 
-    /// The part of each design variable in the variance of a function linearised at `z`: `s_k (Sigma s)_k / (s Sigma s)` with its
-    /// slopes `s` and the covariance `Sigma` of the equivalent normal variables. They sum to 1; of independent variables they are
-    /// the squares of the direction cosines.
+    /// Share of each design variable in the variance of a function linearised at `z`: `s_k (Sigma s)_k / (s Sigma s)`, with the
+    /// slopes `s` of the function and the covariance `Sigma` of the equivalent normal variables. The shares sum to 1; for
+    /// independent variables they are the squares of the direction cosines.
     pub(crate) fn shares(&self, z: &[f64], by_design: &[f64]) -> Vector {
         let by_normal = self.gradient(z, by_design);
         let square: f64 = by_normal.iter().map(|slope| slope * slope).sum();

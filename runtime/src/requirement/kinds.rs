@@ -5,14 +5,14 @@ use crate::Error;
 use crate::response::Response;
 use crate::tolerance::Outcome;
 
-/// Something that a design has to meet. Numbers are in the SI unit of the response.
+/// A requirement on a design. Numbers are in the SI unit of the response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Requirement {
-    /// A response lies in a band, ends included; either may be infinite.
+    /// A response lies in a band, ends included; either end may be infinite.
     Within {
-        /// What has to lie there.
+        /// The response.
         response: Response,
         /// Low end.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
@@ -21,9 +21,9 @@ pub enum Requirement {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
-    /// A response lies outside a forbidden band, or on one of its ends; either may be infinite.
+    /// A response lies outside a forbidden band or on one of its ends; either end may be infinite.
     Outside {
-        /// What must not lie there.
+        /// The response.
         response: Response,
         /// Low end.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
@@ -34,13 +34,13 @@ pub enum Requirement {
     },
     /// The equilibrium is stable: the design has [`Outcome::Stable`].
     ///
-    /// Stability is no number, so it has chances but no design point. For that, require a critical value of an input beyond
-    /// the operating point ([`Response::Critical`]).
+    /// Stability is not a number, so it has a probability but no design point. For a design point, require a critical value of an
+    /// input beyond the operating point ([`Response::Critical`]).
     Stable,
 }
 
 impl Requirement {
-    /// A response is at least this.
+    /// Requires a response to be at least `low`.
     #[must_use]
     pub fn at_least(response: Response, low: f64) -> Self {
         let high = f64::INFINITY;
@@ -51,7 +51,7 @@ impl Requirement {
         }
     }
 
-    /// A response is at most this.
+    /// Requires a response to be at most `high`.
     #[must_use]
     pub fn at_most(response: Response, high: f64) -> Self {
         let low = f64::NEG_INFINITY;
@@ -62,7 +62,7 @@ impl Requirement {
         }
     }
 
-    /// The response that it is about.
+    /// The response it constrains, if any.
     #[must_use]
     pub fn response(&self) -> Option<Response> {
         match self {
@@ -71,7 +71,7 @@ impl Requirement {
         }
     }
 
-    /// Whether a design meets it that has this outcome and this response; `None` where it has no response to tell.
+    /// Whether a design with this outcome and response meets it; `None` if the response needed to tell is missing.
     #[must_use]
     pub fn met(&self, outcome: Outcome, response: Option<f64>) -> Option<bool> {
         match *self {
@@ -81,7 +81,7 @@ impl Requirement {
         }
     }
 
-    /// The limits of failure.
+    /// The limits at which the requirement fails.
     pub(super) fn edges(&self) -> Vec<Edge> {
         let (low, high) = match *self {
             Self::Stable => return Vec::new(),

@@ -7,16 +7,16 @@ use eigentol_statistics::reliability::{LimitState, LimitValue};
 use super::deviations::Deviations;
 use crate::response::{Realisation, Response, Responses, Workspace};
 
-/// Where a response fails, in its SI unit.
+/// The values at which a response fails, in its SI unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Edge {
-    /// Below this.
+    /// Below this value.
     AtLeast(f64),
-    /// Above this.
+    /// Above this value.
     AtMost(f64),
-    /// Between these.
+    /// Between these values.
     Outside {
         /// Low end of the forbidden band.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
@@ -35,7 +35,7 @@ impl Edge {
         }
     }
 
-    /// How far a value is from failing, negative in failure, and the derivative of that by the value.
+    /// Distance of a value from failure, negative in failure, and its derivative with respect to the value.
     pub(super) fn distance(&self, value: f64) -> (f64, f64) {
         match *self {
             Self::AtLeast(low) => (value - low, 1.0),
@@ -46,20 +46,20 @@ impl Edge {
     }
 }
 
-/// A limit that a requirement puts to a response.
+/// A limit that a requirement sets on a response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limit {
     /// Position of the requirement.
     pub requirement: usize,
-    /// The response.
+    /// The response that is limited.
     pub response: Response,
-    /// Where it fails.
+    /// The values at which it fails.
     pub edge: Edge,
 }
 
-/// A limit of the designs that deviate from a nominal one.
+/// A limit as a function of deviations from a nominal design.
 pub(crate) struct LimitAt<'a> {
     responses: &'a Responses<'a>,
     place: usize,
@@ -69,7 +69,7 @@ pub(crate) struct LimitAt<'a> {
 }
 
 impl<'a> LimitAt<'a> {
-    /// A limit of the response at a place among the others.
+    /// Creates a limit for the response at position `place`.
     pub(crate) fn new(
         responses: &'a Responses<'a>,
         place: usize,
@@ -85,7 +85,7 @@ impl<'a> LimitAt<'a> {
         }
     }
 
-    /// Distance from failure and its derivatives by the design variables.
+    /// Distance from failure and its derivatives with respect to the design variables.
     pub(super) fn by_design(&self, z: &[f64]) -> Result<(f64, Vec<f64>), String> {
         let found = self.at(z, true)?;
         let value = self.value_of(&found)?;

@@ -1,8 +1,8 @@
-//! What a design has to meet, and how probable it is that tolerances let it: by samples, by design points in standard normal
-//! space, and by samples about these where failure is rare.
+//! Requirements on a design and the probability of meeting them under tolerances: by samples, by design points in standard normal
+//! space, and by samples about these points where failure is rare.
 //!
 //! First-order reliability (A. M. Hasofer and N. C. Lind, *Exact and invariant second-moment code format*, J. Eng. Mech. 1974)
-//! looks for the most probable design that just fails, with exact total derivatives of the responses
+//! finds the most probable design that just fails, with exact total derivatives of the responses
 //! ([`Responses`](crate::response::Responses)). The methods themselves are those of [`eigentol_statistics::reliability`].
 
 mod chances;

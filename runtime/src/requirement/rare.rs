@@ -1,4 +1,4 @@
-//! Small probabilities of failure: importance sampling about design points.
+//! Small failure probabilities: importance sampling about design points.
 
 use core::cell::{Cell, RefCell};
 
@@ -14,36 +14,37 @@ use crate::response::Workspace;
 use crate::tolerance::{Counts, Outcome, pool};
 use crate::{Description, Error, Shared};
 
-/// Samples worked on by one thread at a time, and how often that between two looks at the result.
+/// Number of samples that one thread solves as a unit, and number of such units between checks of the result.
 const CHUNK: u64 = 64;
 const CHUNKS: u64 = 16;
 
-/// Probability of failing any requirement, by importance sampling. Its derivatives are by mean and standard deviation of the
-/// standard normal variables.
+/// Probability of failing any requirement, by importance sampling.
+///
+/// Derivatives are with respect to mean and standard deviation of the standard normal variables.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RareFailure {
-    /// What the samples say. Samples without a response to tell are counted and do not count as failures.
+    /// The estimate from the samples. Samples that lack the response needed to tell are counted, but not as failures.
     pub failure: SampledProbability,
-    /// What became of the samples; they are not distributed like the designs, so these are no chances.
+    /// Outcomes of the samples; these are not distributed like the designs, so their fractions are not probabilities.
     pub counts: Counts,
-    /// Number of design points that they were drawn about.
+    /// Number of design points about which samples were drawn.
     pub centres: usize,
-    /// The inputs it belongs to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
 impl Requirements<'_> {
-    /// Probability of failing any requirement, by samples about the design points of `about`, on so many threads (0 for as many as
-    /// the machine has); the same for any number. Unbiased wherever failure is; it knows of no region of failure that is far from
-    /// all design points.
+    /// Probability of failing any requirement, from samples about the design points of `about`, on `threads` threads (0 for all
+    /// available); identical for any number of threads. The estimate is unbiased wherever failure lies, but its error estimate
+    /// cannot see a failure region far from all design points.
     ///
     /// # Errors
-    /// [`Error::Setting`] where `about` has no design point, for no samples and for a wished coefficient of variation that makes
-    /// no sense; [`Error::Threads`].
+    /// [`Error::Setting`] if `about` has no design point, for zero samples or for an invalid target coefficient of variation;
+    /// [`Error::Threads`].
     pub fn rare_failure(
         &self,
         about: &Reliability,
@@ -113,7 +114,7 @@ impl Requirements<'_> {
     }
 }
 
-/// All requirements as one limit state that only says whether they are met.
+/// All requirements as one limit state that only tells whether they are met.
 struct Whole<'a> {
     requirements: &'a Requirements<'a>,
     room: RefCell<Workspace>,

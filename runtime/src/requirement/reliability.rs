@@ -1,4 +1,4 @@
-//! Probabilities of failure by design points.
+//! Failure probabilities from design points.
 
 use eigentol_statistics::normal;
 use eigentol_statistics::reliability::sampling::{Estimate, Interval};
@@ -12,21 +12,20 @@ use super::requirements::Requirements;
 use crate::algebra::Vector;
 use crate::{Description, Error, Shared};
 
-/// One limit and its design points.
+/// A limit and its design points.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LimitReliability {
     /// The limit.
     pub limit: Limit,
-    /// Its design points, the most probable one first, at least one; or why there is none, for example because no design within
+    /// Its design points, most probable first, at least one; or the reason why there are none, for example because no design within
     /// reach fails.
     pub design_points: Result<Vec<DesignPoint>, Error>,
 }
 
 impl LimitReliability {
-    /// Probability of failure to first order: of all regions of failure one after the other, at most their sum; `None` without
-    /// design points.
+    /// First-order failure probability, summed over all failure regions (at most 1); `None` without design points.
     #[must_use]
     pub fn probability(&self) -> Option<f64> {
         let points = self.design_points.as_ref().ok()?;
@@ -45,14 +44,14 @@ impl LimitReliability {
     }
 }
 
-/// Probability that at least one of several limits is passed, each replaced by its tangent plane.
+/// Probability that at least one of several limits is exceeded, each replaced by its tangent plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SystemFailure {
-    /// The probability, with the error of its integration.
+    /// The probability, with its integration error.
     pub probability: Estimate,
-    /// Bounds from the probabilities of pairs (Ditlevsen 1979).
+    /// Bounds from pairwise probabilities (Ditlevsen 1979).
     pub bounds: Interval,
 }
 
@@ -61,22 +60,22 @@ pub struct SystemFailure {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reliability {
-    /// Every limit that the requirements put to responses.
+    /// Every limit that the requirements set.
     pub limits: Vec<LimitReliability>,
-    /// Failure of any of the limits that have design points; `None` where none has, or where the middle of all designs fails at a
-    /// forbidden band, which is no plane.
+    /// Failure of any of the limits that have design points; `None` if none has, or if the centre of the distribution fails at a
+    /// forbidden band, which is not a plane.
     pub system: Option<SystemFailure>,
     /// Requirements without a limit: [`Requirement::Stable`](super::Requirement::Stable).
     pub left_out: Vec<usize>,
-    /// The inputs it belongs to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
 impl Reliability {
-    /// Reliability index of failing a requirement to first order, `-Phi^-1` of the summed probabilities of its limits; `None`
-    /// where it has no design point.
+    /// First-order reliability index of a requirement, `-Phi^-1` of the summed probabilities of its limits; `None` if it has no
+    /// design point.
     #[must_use]
     pub fn beta_of(&self, requirement: usize) -> Option<f64> {
         let own = self
@@ -87,7 +86,7 @@ impl Reliability {
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
     }
 
-    /// Whether every limit has a design point and all of these are verified.
+    /// Whether every limit has a design point and all design points are verified.
     #[must_use]
     pub fn verified(&self) -> bool {
         let verified = |own: &LimitReliability| match &own.design_points {
@@ -99,17 +98,17 @@ impl Reliability {
 }
 
 impl Requirements<'_> {
-    /// Probabilities of failure by first- and second-order reliability, with design points and exact derivatives.
+    /// Failure probabilities by first- and second-order reliability, with design points and exact derivatives.
     ///
     /// # Errors
-    /// [`Error::Setting`] where no requirement puts a limit to a response, where nothing varies, and for variables without a
-    /// density. A limit without a design point carries its own error.
+    /// [`Error::Setting`] if no requirement sets a limit on a response, if nothing varies, or for variables without a density. A
+    /// limit without a design point carries its own error.
     pub fn reliability(&self, settings: &FormSettings) -> Result<Reliability, Error> {
         reliability_of(self, self.deviations(), settings)
     }
 }
 
-/// The same of other deviations.
+/// Like [`Requirements::reliability`], for given deviations.
 pub(crate) fn reliability_of(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
@@ -136,7 +135,7 @@ pub(crate) fn reliability_of(
     })
 }
 
-/// Refuses what has no design point for certain.
+/// Rejects problems that certainly have no design point.
 pub(crate) fn check(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,

@@ -8,10 +8,10 @@ use crate::response::{Realisation, Response, Responses};
 use crate::tolerance::Tolerances;
 use crate::{Equilibrium, Error, Modes, Watch};
 
-/// Requirements of the designs near a nominal one, to be met all at once.
+/// Requirements on designs near a nominal one, all to be met at once.
 ///
-/// A design without a response does not tell whether it meets a requirement on it. It counts as neither meeting nor failing,
-/// unless another requirement decides: require [`Requirement::Stable`] where a design without a stable equilibrium has failed.
+/// If a design lacks a response, it cannot tell whether it meets a requirement on it. It then counts as neither meeting nor
+/// failing, unless another requirement decides: add [`Requirement::Stable`] if a design without a stable equilibrium is a failure.
 pub struct Requirements<'a> {
     wanted: Vec<Requirement>,
     responses: Responses<'a>,
@@ -19,10 +19,10 @@ pub struct Requirements<'a> {
 }
 
 impl<'a> Requirements<'a> {
-    /// Requirements of designs that vary by `tolerances` about the nominal one.
+    /// Requirements on designs that vary by `tolerances` about the nominal one.
     ///
     /// # Errors
-    /// [`Error::Setting`] for no requirement or a band that is empty or asks for nothing; what [`Responses::new`] refuses;
+    /// [`Error::Setting`] for an empty list, an empty band, or a band that excludes nothing; the errors of [`Responses::new`];
     /// [`Error::WrongLength`] for tolerances of another mechanism.
     pub fn new(
         mechanism: &'a dyn DirectionalKernels,
@@ -46,7 +46,7 @@ impl<'a> Requirements<'a> {
         })
     }
 
-    /// Lets `watch` see each design, and end the evaluation with [`Error::Stopped`].
+    /// Reports every design to `watch`, which can end the evaluation with [`Error::Stopped`].
     #[must_use]
     pub fn watched(mut self, watch: Watch<'a>) -> Self {
         self.responses = self.responses.watched(watch);
@@ -67,7 +67,7 @@ impl<'a> Requirements<'a> {
         &self.deviations
     }
 
-    /// The limits of failure, in the order of the requirements, each with the place of its response.
+    /// The limits of failure, in the order of the requirements, each with the position of its response.
     pub(crate) fn limits(&self) -> Vec<(usize, Limit)> {
         let mut place = 0;
         let mut limits = Vec::new();
@@ -99,7 +99,7 @@ impl<'a> Requirements<'a> {
     }
 }
 
-/// Whether all are met, as far as can be told: one that is not decides.
+/// Whether all requirements are met, as far as can be told: a single failure decides.
 pub(super) fn all_met(each: &[Option<bool>]) -> Option<bool> {
     match each.contains(&Some(false)) {
         true => Some(false),

@@ -1,15 +1,15 @@
-//! The motion of the equilibrium in a gradient and in its derivative along a direction.
+//! Accounts for the motion of the equilibrium in a gradient and in its derivative along a direction.
 
 use crate::algebra::{Lu, Vector};
 use crate::kernels::{CurvatureKernels, Gradient, Kernels};
 use crate::sensitivity::{Direction, subtract};
 use crate::{Equilibrium, Error};
 
-/// Makes partial derivatives of a number `y` total: `dy - (dg)^T w`, `Khat^T w = dy/dq`.
+/// Turns the partial derivatives of a scalar `y` into total ones: `dy - (dg)^T w`, `Khat^T w = dy/dq`.
 pub(super) struct Adjoint<'a> {
     mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,
-    /// Of `Khat^T`.
+    /// LU factors of `Khat^T`.
     factors: Lu<f64>,
 }
 
@@ -26,7 +26,7 @@ impl<'a> Adjoint<'a> {
         })
     }
 
-    /// Makes a gradient total; `w`.
+    /// Makes a gradient total and returns `w`.
     pub(super) fn total(&self, gradient: &mut Gradient, room: &mut Gradient) -> Vector {
         let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
         let w = self.factors.solve(&gradient.coordinates);
@@ -36,7 +36,8 @@ impl<'a> Adjoint<'a> {
         w
     }
 
-    /// Makes the derivative of a gradient along a direction that of the total gradient; `w` is what [`Self::total`] gave for it.
+    /// Turns the derivative of a partial gradient along a direction into that of the total gradient; `w` is the result of
+    /// [`Self::total`].
     pub(super) fn total_along(
         &self,
         change: &mut Gradient,

@@ -1,4 +1,4 @@
-//! Exact second derivatives of a critical value by the design.
+//! Exact second derivatives of a critical value with respect to the design.
 
 use super::derivatives::symmetric;
 use super::event::EventCurvature;
@@ -11,17 +11,18 @@ use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels};
 use crate::sensitivity::{Direction, Slopes, subtract};
 use crate::sweep::{CriticalState, Crossed, bordered, critical_sensitivity};
 
-/// First and second derivatives of a critical value by all design variables: how the state where `Khat` is singular moves with the
-/// design, `v` and `w` its critical vectors.
+/// First and second derivatives of a critical value with respect to all design variables.
 ///
-/// - At a limit point `w^T dg/du_c du_c + w^T dg/db = 0` is differentiated along the curve of limit points: `dq` has the part along
-///   `v` that keeps `Khat` singular, `dw` follows `Khat`.
-/// - At a pitchfork `w^T Khat v` vanishes; its first and second derivatives by input and design are those along the branch that is
-///   crossed, which the design does not destroy.
+/// They follow the state where `Khat` is singular; `v` and `w` are its critical vectors.
+///
+/// - At a limit point, `w^T dg/du_c du_c + w^T dg/db = 0` is differentiated along the curve of limit points: `dq` includes the
+///   component along `v` that keeps `Khat` singular, and `dw` follows `Khat`.
+/// - At a pitchfork, `w^T Khat v` vanishes; its first and second derivatives with respect to input and design are taken along the
+///   crossed branch, which survives changes of the design.
 ///
 /// # Errors
 /// As [`critical_sensitivity`](crate::sweep::critical_sensitivity); [`Error::NoSensitivity`] at a transcritical branch point, which
-/// takes third derivatives of the residual, and at a cusp.
+/// needs third derivatives of the residual, and at a cusp.
 pub fn critical_curvature(
     mechanism: &dyn CurvatureKernels,
     critical: &CriticalState,
@@ -99,10 +100,10 @@ impl State<'_> {
         Ok(rows.collect())
     }
 
-    /// Whether `curved`, `w^T g'' v v` at a limit point, is next to nothing beside what it is a small motion along `v` away: another
-    /// limit point may then be at the same place, as far as that is known.
+    /// Whether `curved`, the value of `w^T g'' v v` at a limit point, is negligible compared with its values a small motion along
+    /// `v` away. If so, another limit point may coincide with this one within the accuracy of its location.
     fn flat(&self, curved: f64) -> bool {
-        /// To half of the digits is a place known where a slope vanishes; as a share of a small motion.
+        /// A point where a slope vanishes is known to half the digits only; as a fraction of a small motion.
         const UNCERTAIN: f64 = 1e-5;
         let CriticalState { v, w, .. } = self.critical;
         let along = self.direction(v.clone(), 0.0, None);
@@ -124,7 +125,7 @@ impl State<'_> {
         let crossed = Crossed::new(self.mechanism, self.critical, &forces.of_input)?;
         let [by_v, by_along] = &crossed.second;
         let [[_, mixed], [_, straight]] = crossed.hessian;
-        // The parts along `v` that keep to the branch: its residual vanishes to second order.
+        // The components along `v` that stay on the branch: the residual vanishes to second order.
         let along = -straight / (2.0 * mixed);
         let mut directions = Vec::with_capacity(self.first.len() + 1);
         for k in 0..self.first.len() {
@@ -158,7 +159,8 @@ impl State<'_> {
         Ok(rows.collect())
     }
 
-    /// Derivative along a direction of the total gradient of `w^T Khat v`: `z` is `Khat^-T` times its derivative by the coordinates.
+    /// Derivative along a direction of the total gradient of `w^T Khat v`; `z` is `Khat^-T` times its derivative with respect to
+    /// the coordinates.
     fn stiffness_change(&self, factors: &Bordered, z: &[f64], along: &Direction) -> Gradient {
         let CriticalState {
             equilibrium: at,
@@ -181,7 +183,7 @@ impl State<'_> {
         change
     }
 
-    /// `dq`, `du_c`, and one of design variable `design`.
+    /// The direction with `dq`, `du_c` and a unit change of design variable `design`.
     fn direction(&self, coordinates: Vector, rate: f64, design: Option<usize>) -> Direction {
         let at = &self.critical.equilibrium;
         let input = self.critical.input.index();
@@ -200,7 +202,7 @@ impl State<'_> {
         self.bend_at(&self.critical.equilibrium.coordinates, w, direction)
     }
 
-    /// The same at coordinates beside those of the critical state.
+    /// `w^T g''(direction, .)` at coordinates other than those of the critical state.
     fn bend_at(&self, q: &[f64], w: &[f64], direction: &Direction) -> Gradient {
         let at = &self.critical.equilibrium;
         let (u, b) = (&at.inputs, &at.design);
@@ -229,7 +231,7 @@ impl State<'_> {
     }
 }
 
-/// Partial derivatives of the residual.
+/// Partial derivatives of the residual with respect to the input and the design.
 struct Forces {
     of_input: Vector,
     by_design: Matrix,
@@ -241,7 +243,7 @@ impl Forces {
     }
 }
 
-/// A direction with a part along `v` added.
+/// The direction plus a component along `v`.
 fn moved(mut direction: Direction, part: f64, v: &[f64]) -> Direction {
     add_to(&mut direction.coordinates, part, v);
     direction

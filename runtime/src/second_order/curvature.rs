@@ -1,5 +1,5 @@
-//! Exact second total derivatives of a mode, by differentiating its adjoint gradient along the motion of the equilibrium,
-//! of the shapes and of the eigenvalue with each variable: as many gradient evaluations as there are variables.
+//! Exact second total derivatives of a mode. Its adjoint gradient is differentiated along the change of the equilibrium, the shapes
+//! and the eigenvalue with each variable, so the number of gradient evaluations equals the number of variables.
 
 use super::adjoint::Adjoint;
 use super::derivatives::{SecondDerivatives, symmetric};
@@ -25,19 +25,19 @@ pub struct ModeCurvature {
     pub s: Complex,
     /// First derivatives, from the same gradients.
     pub first: ModeSensitivity,
-    /// Of `lambda = -Re s^2`.
+    /// Second derivatives of `lambda = -Re s^2`.
     pub lambda: SecondDerivatives<f64>,
-    /// Of `s`; `None` for an undamped neutral mode.
+    /// Second derivatives of `s`; `None` for an undamped neutral mode.
     pub eigenvalue: Option<SecondDerivatives<Complex>>,
-    /// Greatest difference of mirrored second derivatives before they were averaged, relative to the greatest: exact
-    /// arithmetic would give zero.
+    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative: zero in exact
+    /// arithmetic.
     pub asymmetry: f64,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
 impl ModeCurvature {
-    /// Second derivatives of a quantity of the mode; `None` where it has none.
+    /// Second derivatives of a quantity of the mode; `None` if it has no such quantity.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<SecondDerivatives<f64>> {
         self.first.of(quantity)?;
@@ -47,11 +47,11 @@ impl ModeCurvature {
     }
 }
 
-/// First and second total derivatives of mode number `mode` by all inputs and design variables.
+/// First and second total derivatives of mode number `mode` with respect to all inputs and design variables.
 ///
 /// # Errors
-/// [`Error::ClusteredMode`] where the mode has (nearly) equal neighbours, [`Error::CriticalState`] when `Khat` is
-/// singular, [`Error::OutsideDomain`] when a derivative is not finite, [`Error::NoSuchMode`].
+/// [`Error::ClusteredMode`] if the mode has (nearly) equal neighbours, [`Error::CriticalState`] if `Khat` is singular,
+/// [`Error::OutsideDomain`] if a derivative is not finite, [`Error::NoSuchMode`].
 pub fn mode_curvature(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
@@ -102,16 +102,16 @@ pub fn mode_curvature(
     })
 }
 
-/// The adjoint gradient of a mode, ready to be differentiated: with `n` the total derivative of
-/// `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors `dlambda = n` for an undamped mode; with that of
-/// `a = psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi` it is `ds = -n / d` for a general one.
+/// The adjoint gradient of a mode, prepared for differentiation. For an undamped mode `dlambda = n`, where `n` is the total
+/// derivative of `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors. For a general mode `ds = -n / d`, where `n` is that of
+/// `a = psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi`.
 struct AdjointGradient<'a> {
     mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,
     family: Family,
     mode: &'a Mode,
     adjoint: Adjoint<'a>,
-    /// `Khat^T w = da/dq`: the real part, and the imaginary one of a general mode.
+    /// `Khat^T w = da/dq`: the real part and, for a general mode, the imaginary one.
     w: Vec<Vector>,
     /// `n`.
     numerator: Slopes<Complex>,
@@ -153,7 +153,7 @@ impl<'a> AdjointGradient<'a> {
         })
     }
 
-    /// Derivatives of `lambda` of an undamped mode, of `s` of a general one.
+    /// First derivatives: of `lambda` for an undamped mode, of `s` for a general one.
     fn slopes(&self) -> Slopes<Complex> {
         match self.family {
             Family::Undamped => self.numerator.clone(),
@@ -161,7 +161,7 @@ impl<'a> AdjointGradient<'a> {
         }
     }
 
-    /// Their derivatives along a direction.
+    /// The derivatives of [`Self::slopes`] along a direction.
     fn along(&self, direction: &Direction, shapes: &Shapes<'_>) -> Slopes<Complex> {
         let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
@@ -202,7 +202,7 @@ impl<'a> AdjointGradient<'a> {
         slopes
     }
 
-    /// Derivative of `d` while the matrices move by `change`, the eigenvalue by `ds` and the shapes by `dphi` and `dpsi`.
+    /// Derivative of `d` when the matrices change by `change`, the eigenvalue by `ds` and the shapes by `dphi` and `dpsi`.
     fn denominator_along(
         &self,
         change: &Linear,
@@ -223,13 +223,13 @@ fn form(mode: &Mode) -> Form {
     Form::of(&mode.left, mode.s, &mode.shape)
 }
 
-/// Room for the gradient of a complex number, and for one more.
+/// Buffers for the gradient of a complex number and one real gradient.
 fn gradients(kernels: &(impl Kernels + ?Sized)) -> (ComplexGradient, Gradient) {
     let zeros = || Gradient::zeros(kernels.sizes());
     ([zeros(), zeros()], zeros())
 }
 
-/// By inputs and design variables, from the real and the imaginary part.
+/// Combines real and imaginary parts into derivatives with respect to inputs and design variables.
 fn joined([re, im]: &ComplexGradient) -> Slopes<Complex> {
     let join = |re: &Vector, im: &Vector| {
         let parts = re.iter().zip(im);
@@ -241,7 +241,7 @@ fn joined([re, im]: &ComplexGradient) -> Slopes<Complex> {
     }
 }
 
-/// How many real numbers an eigenvalue is.
+/// Number of real components of an eigenvalue.
 fn parts(family: Family) -> usize {
     match family {
         Family::Undamped => 1,

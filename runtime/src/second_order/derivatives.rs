@@ -1,11 +1,11 @@
-//! Second derivatives of one number, made of the derivatives of its gradient.
+//! Second derivatives of a scalar, assembled from the derivatives of its gradient.
 
 use core::ops::{Add, Mul, Sub};
 
 use crate::algebra::Matrix;
 use crate::sensitivity::Slopes;
 
-/// Second derivatives of one number, SI.
+/// Second derivatives of a scalar, SI.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -14,16 +14,16 @@ use crate::sensitivity::Slopes;
     serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
 )]
 pub struct SecondDerivatives<T> {
-    /// By two inputs.
+    /// With respect to two inputs.
     pub by_input: Matrix<T>,
-    /// `by_input_and_design[i][j]`: by input `i` and design variable `j`.
+    /// `by_input_and_design[i][j]`: with respect to input `i` and design variable `j`.
     pub by_input_and_design: Matrix<T>,
-    /// By two design variables: the Hessian.
+    /// With respect to two design variables: the Hessian.
     pub by_design: Matrix<T>,
 }
 
 impl<T: Copy> SecondDerivatives<T> {
-    /// Element by element with the two first derivatives it belongs to.
+    /// Combines each element with the two first derivatives of its row and column.
     pub(super) fn combine<F: Copy, R: Copy + Default>(
         &self,
         first: &Slopes<F>,
@@ -48,7 +48,7 @@ impl<T: Copy> SecondDerivatives<T> {
     }
 }
 
-/// The mean of mirrored elements, and how far they differ relative to the greatest; the first `inputs` rows belong to inputs.
+/// Averages mirrored elements, and returns their largest relative difference; the first `inputs` rows belong to inputs.
 pub(super) fn symmetric<T>(
     rows: &[Slopes<T>],
     inputs: usize,

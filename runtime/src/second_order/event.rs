@@ -1,4 +1,4 @@
-//! Exact second derivatives by the design of values of an input at which something happens.
+//! Exact second derivatives, with respect to the design, of the input values at which an event occurs.
 
 use super::curvature::mode_curvature;
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
@@ -8,22 +8,22 @@ use crate::sensitivity::outside_domain;
 use crate::sweep::{Crossing, crossing_sensitivity};
 use crate::{Description, Equilibrium, Error, Input, Shared};
 
-/// First and second derivatives by the design of a value of an input at which something happens, SI.
+/// First and second derivatives, with respect to the design, of an input value at which an event occurs, SI.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EventCurvature {
     /// The input.
     pub input: Input,
-    /// Its value there.
+    /// Its value at the event.
     pub value: f64,
-    /// First derivatives by the design variables ([`critical_sensitivity`](crate::sweep::critical_sensitivity),
+    /// First derivatives with respect to the design variables ([`critical_sensitivity`](crate::sweep::critical_sensitivity),
     /// [`crossing_sensitivity`](crate::sweep::crossing_sensitivity)).
     pub first: Vector,
-    /// Second derivatives by two design variables.
+    /// Second derivatives with respect to two design variables.
     pub second: Matrix,
-    /// Greatest difference of mirrored second derivatives before they were averaged, relative to the greatest: exact
-    /// arithmetic would give zero.
+    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative: zero in exact
+    /// arithmetic.
     pub asymmetry: f64,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
@@ -39,8 +39,8 @@ impl EventCurvature {
     }
 }
 
-/// First and second derivatives of a crossing by all design variables: `f(u, b) = 0`, `f = omega_j - k u - c` or `Re s_j`,
-/// differentiated twice along `u(b)`.
+/// First and second derivatives of a crossing with respect to all design variables: `f(u, b) = 0` with `f = omega_j - k u - c` or
+/// `Re s_j`, differentiated twice along `u(b)`.
 ///
 /// # Errors
 /// As [`crossing_sensitivity`] and [`mode_curvature`].

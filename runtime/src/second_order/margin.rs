@@ -1,4 +1,4 @@
-//! Safety margin of a forbidden band: how probable it is that tolerances bring a quantity into it, and what changes that.
+//! Safety margin against a forbidden band: the probability that tolerances bring a quantity into it, and its derivatives.
 
 use super::probability::{Probability, check_interval};
 use super::quadratic::Quadratic;
@@ -7,7 +7,7 @@ use crate::algebra::{Vector, all_finite, dot};
 use crate::second_order::distribution::normal_cdf::density;
 use crate::tolerance::Tolerances;
 
-/// Margin of a quantity against a forbidden band, in the units of the quantity.
+/// Margin of a quantity against a forbidden band, in units of the quantity.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -21,59 +21,60 @@ pub struct Margin {
     /// First-order standard deviation.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
-    /// Distance of the first-order mean to the nearest end of the band in standard deviations: negative inside, infinite when
+    /// Distance of the first-order mean from the nearest end of the band, in standard deviations: negative inside, infinite if
     /// nothing varies.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
-    /// Probability of the band at first order; of normal variables, that of a normal distribution.
+    /// First-order probability of the band; for normal variables, that of a normal distribution.
     pub first_order: f64,
-    /// Probability of the band by the second-order model ([`Quadratic::probability`]).
+    /// Probability of the band from the second-order model ([`Quadratic::probability`]).
     pub corrected: Probability,
-    /// Derivatives of the first-order probability; `None` when nothing varies, when variables are not normal, or when one exceeds the
-    /// range of a double.
+    /// Derivatives of the first-order probability. `None` if nothing varies, if variables are not normal, or if a derivative
+    /// exceeds the range of a double.
     pub derivatives: Option<MarginDerivatives>,
 }
 
 /// Derivatives of the first-order probability of a band.
 ///
-/// Those by mean, sigma and ends are exact for a normal distribution. Those by half-widths are exact for the first-order
-/// model. Those by design variables are exact for the first-order probability as a function of the nominal design, since
-/// slopes and curvature are total derivatives and half-widths stay as they are; a half-width that follows its nominal value
-/// (a tolerance in percent) adds its `by_half_width` times its own derivative.
+/// The derivatives with respect to mean, sigma and band ends are exact for a normal distribution, those with respect to half-widths
+/// for the first-order model. Those with respect to design variables are exact for the first-order probability as a function of the
+/// nominal design, because slopes and curvature are total derivatives and half-widths are held fixed; for a half-width that follows
+/// its nominal value (a tolerance in percent), add `by_half_width` times the derivative of the half-width.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MarginDerivatives {
-    /// By the mean.
+    /// With respect to the mean.
     pub by_mean: f64,
-    /// By the standard deviation.
+    /// With respect to the standard deviation.
     pub by_sigma: f64,
-    /// By the low end; zero when it is infinite.
+    /// With respect to the low end; zero if it is infinite.
     pub by_low: f64,
-    /// By the high end; zero when it is infinite.
+    /// With respect to the high end; zero if it is infinite.
     pub by_high: f64,
-    /// By the nominal value of each design variable, half-widths and band unchanged:
+    /// With respect to the nominal value of each design variable, with half-widths and band fixed:
     /// `dP/dmean S + dP/dsigma H Sigma S / sigma`.
     pub by_design: Vector,
-    /// By each half-width, correlation and sigma level unchanged.
+    /// With respect to each half-width, with correlation and sigma level fixed.
     pub by_half_width: Vector,
 }
 
 impl MarginDerivatives {
-    /// Derivative along anything that moves mean, standard deviation, low and high end at these rates: for the running
-    /// speed `u` and the band `[0.9 u, 1.1 u]` the rates are `dmean/du`, `dsigma/du`, `0.9` and `1.1`.
+    /// Derivative along anything that moves mean, standard deviation, low end and high end at these rates.
+    ///
+    /// For the running speed `u` and the band `[0.9 u, 1.1 u]` the rates are `dmean/du`, `dsigma/du`, `0.9` and `1.1`.
     #[must_use]
     pub fn along(&self, mean: f64, sigma: f64, low: f64, high: f64) -> f64 {
         self.by_mean * mean + self.by_sigma * sigma + self.by_low * low + self.by_high * high
     }
 }
 
-/// Margin of `quadratic` against the forbidden `band` (low and high end, either may be infinite).
+/// Margin of `quadratic` against the forbidden `band` (low and high end; either may be infinite).
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables than
-/// the tolerances have, [`Error::Setting`] for a band whose ends are NaN or in the wrong order, or a spread beyond the range of
-/// a double.
+/// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ in the number
+/// of design variables, [`Error::Setting`] for a band whose ends are NaN or in the wrong order, or a spread beyond the range of a
+/// double.
 pub fn margin(
     quadratic: &Quadratic,
     tolerances: &Tolerances,
@@ -136,7 +137,7 @@ fn derivatives(
     finite.then_some(found)
 }
 
-/// Derivatives of `sigma = sqrt(S Sigma S^T)` by the nominal design, `H Sigma S / sigma`, and by the half-widths.
+/// Derivatives of `sigma = sqrt(S Sigma S^T)` with respect to the nominal design, `H Sigma S / sigma`, and to the half-widths.
 fn sigma_derivatives(
     quadratic: &Quadratic,
     tolerances: &Tolerances,

@@ -1,4 +1,5 @@
-//! Second order: how frequencies, outputs and critical values depend on tolerances quadratically, and the exact distribution of such a quadratic model.
+//! Second-order theory: the quadratic dependence of frequencies, outputs and critical values on tolerances, and the exact
+//! distribution of such a quadratic model.
 
 mod adjoint;
 mod critical;

@@ -1,13 +1,13 @@
-//! When first order can be trusted: its error, estimated by the second-order model.
+//! Whether first order can be trusted: its error, estimated by the second-order model.
 
 use super::quadratic::Quadratic;
 use crate::Error;
 use crate::tolerance::Tolerances;
 
-/// Second-order terms in units of the first-order standard deviation; both small where first order holds.
+/// Second-order terms in units of the first-order standard deviation; both are small where first order holds.
 ///
-/// They measure the curvature at the nominal design, not what lies beyond second order: near a critical state the series
-/// does not converge, and the distance to it in standard deviations is the measure.
+/// They measure the curvature at the nominal design, not the terms beyond second order. Near a critical state the series does not
+/// converge; there, use the distance to it in standard deviations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -15,13 +15,13 @@ pub struct Nonlinearity {
     /// Shift of the mean, `|tr(H Sigma) / 2| / sigma`.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean_shift: f64,
-    /// Standard deviation that curvature adds, `sqrt(tr((H Sigma)^2) / 2) / sigma`.
+    /// Standard deviation added by curvature, `sqrt(tr((H Sigma)^2) / 2) / sigma`.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub spread: f64,
 }
 
 impl Nonlinearity {
-    /// Relative error of the first-order standard deviation against that of the model, `1 - 1 / sqrt(1 + spread^2)`.
+    /// Relative error of the first-order standard deviation with respect to the second-order model, `1 - 1 / sqrt(1 + spread^2)`.
     #[must_use]
     pub fn sigma_error(&self) -> f64 {
         let ratio = 1.0_f64.hypot(self.spread);
@@ -33,7 +33,7 @@ impl Nonlinearity {
         }
     }
 
-    /// The greater of the two ratios.
+    /// The larger of the two ratios.
     #[must_use]
     pub fn largest(&self) -> f64 {
         self.mean_shift.max(self.spread)
@@ -41,8 +41,7 @@ impl Nonlinearity {
 }
 
 impl Quadratic {
-    /// Second-order terms against first order: infinite where first order sees no spread and second order does, zero
-    /// where nothing varies.
+    /// Second-order terms relative to first order: infinite if only second order has a spread, zero if nothing varies.
     ///
     /// # Errors
     /// As [`moments`](Self::moments).

@@ -1,4 +1,4 @@
-//! The probability that a quantity lies in an interval: first order, and exact for the second-order model.
+//! The probability that a quantity lies in an interval: to first order, and exactly for the second-order model.
 
 use super::distribution::{Sampled, Standard, Terms};
 use super::quadratic::Quadratic;
@@ -6,26 +6,28 @@ use crate::Error;
 use crate::second_order::distribution::normal_cdf;
 use crate::tolerance::Tolerances;
 
-/// A probability and how far it may be wrong.
+/// A probability and its numerical error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Probability {
     /// In [0, 1].
     pub value: f64,
-    /// Bound or estimate of the numerical error of `value`, not of the model.
+    /// Bound or estimate of the numerical error of `value`, not of the model error.
     pub error: f64,
 }
 
 impl Quadratic {
-    /// Probability that the quantity lies between `low` and `high` (either may be infinite) at first order. Of normal variables that
-    /// of a normal quantity with standard deviation `sqrt(S Sigma S^T)`, whose tails keep their relative accuracy; of others the
-    /// share of 32,768 quasi-random points. Zero or one when nothing varies, the ends of the interval included.
+    /// First-order probability that the quantity lies between `low` and `high` (either may be infinite).
+    ///
+    /// For normal variables it is that of a normal quantity with standard deviation `sqrt(S Sigma S^T)`, with relative accuracy in
+    /// the tails; for others it is the fraction of 32,768 quasi-random points. If nothing varies it is zero or one, the ends of the
+    /// interval included.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables
-    /// than the tolerances have, [`Error::Setting`] for ends that are NaN or in the wrong order or a spread beyond the range of
-    /// a double.
+    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ in the
+    /// number of design variables, [`Error::Setting`] for ends that are NaN or in the wrong order or a spread beyond the range of a
+    /// double.
     pub fn probability_first_order(
         &self,
         tolerances: &Tolerances,
@@ -46,15 +48,14 @@ impl Quadratic {
         Ok(normal_probability(mean, sigma, (low, high)))
     }
 
-    /// Probability that the quantity lies between `low` and `high` (either may be infinite), exact for the second-order
-    /// model in normal variables. In others it is the share of 32,768 quasi-random points, and the error says how far it may be
-    /// off.
+    /// Probability that the quantity lies between `low` and `high` (either may be infinite), exact for the second-order model in
+    /// normal variables. For other variables it is the fraction of 32,768 quasi-random points, with an estimate of its error.
     ///
-    /// With `L^T H L = Q diag(nu) Q^T`, `Sigma = L L^T` and `c = Q^T L^T S` the quantity is
-    /// `f0 + sum_j (c_j z_j + nu_j z_j^2 / 2)` of independent standard normal `z_j`, with characteristic function
-    /// `e^(i t f0) prod_j (1 - i t nu_j)^(-1/2) exp(-t^2 c_j^2 / (2 (1 - i t nu_j)))` (Imhof 1961). No curvature and a
-    /// single variable have closed forms with accurate tails; the rest is inverted numerically (Gil-Pelaez 1951, Davies
-    /// 1980, or on a turned contour), with an absolute error below about `1e-11`, stated beside the value.
+    /// With `L^T H L = Q diag(nu) Q^T`, `Sigma = L L^T` and `c = Q^T L^T S`, the quantity is
+    /// `f0 + sum_j (c_j z_j + nu_j z_j^2 / 2)` with independent standard normal `z_j`; its characteristic function is
+    /// `e^(i t f0) prod_j (1 - i t nu_j)^(-1/2) exp(-t^2 c_j^2 / (2 (1 - i t nu_j)))` (Imhof 1961). Closed forms with accurate
+    /// tails exist without curvature and for a single variable. Otherwise it is inverted numerically (Gil-Pelaez 1951, Davies 1980,
+    /// or on a tilted contour), with an absolute error below about `1e-11`, which is returned with the value.
     ///
     /// # Errors
     /// As [`probability_first_order`](Self::probability_first_order).
@@ -100,7 +101,7 @@ impl Quadratic {
     }
 }
 
-/// `P(low < X < high)` of a normal `X`; without spread, whether the mean lies there.
+/// `P(low < X < high)` of a normal `X`; without spread, one if the mean lies there and zero otherwise.
 pub(super) fn normal_probability(mean: f64, sigma: f64, (low, high): (f64, f64)) -> f64 {
     if sigma > 0.0 {
         let value = normal_cdf::between((low - mean) / sigma, (high - mean) / sigma);
@@ -110,7 +111,7 @@ pub(super) fn normal_probability(mean: f64, sigma: f64, (low, high): (f64, f64))
     }
 }
 
-/// Refuses ends that are NaN or in the wrong order.
+/// Rejects ends that are NaN or in the wrong order.
 pub(super) fn check_interval((low, high): (f64, f64)) -> Result<(), Error> {
     if low <= high {
         return Ok(());

@@ -6,53 +6,55 @@ use crate::algebra::{Matrix, Vector, dot};
 use crate::tolerance::Tolerances;
 use crate::{Error, Text};
 
-/// Second-order model `f(b0 + x) = value + S x + x^T H x / 2` of a quantity, `x` distributed as the tolerances say.
+/// Second-order model `f(b0 + x) = value + S x + x^T H x / 2` of a quantity, with `x` distributed according to the tolerances.
 ///
-/// Slopes and curvature are total derivatives: they follow the equilibrium. All in SI units.
+/// Slopes and curvature are total derivatives: they include the motion of the equilibrium. All in SI units.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quadratic {
     /// Nominal value.
     pub value: f64,
-    /// Derivatives `S` by the design variables.
+    /// Derivatives `S` with respect to the design variables.
     pub slopes: Vector,
-    /// Second derivatives `H`; only the symmetric part counts.
+    /// Second derivatives `H`; only the symmetric part matters.
     pub curvature: Matrix,
 }
 
-/// Moments of a second-order model. Exact for the model where the variables are jointly normal. Mean and first-order standard deviation are
-/// exact whatever their distribution; the others then are those of 32,768 quasi-random points, standard deviations to about four
-/// digits.
+/// Moments of a second-order model.
+///
+/// They are exact for the model if the variables are jointly normal. Mean and first-order standard deviation are exact for any
+/// distribution; otherwise the remaining moments are those of 32,768 quasi-random points, with standard deviations accurate to
+/// about four digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModelMoments {
-    /// Mean `f(b0 + d) + tr(H Sigma) / 2`, `d` what the means of the variables differ from `b0` by.
+    /// Mean `f(b0 + d) + tr(H Sigma) / 2`, where `d` is the deviation of the variables' means from `b0`.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean: f64,
-    /// What spread adds to the mean, `tr(H Sigma) / 2`, not rounded against the value.
+    /// Shift of the mean due to spread, `tr(H Sigma) / 2`, without rounding against the value.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean_shift: f64,
     /// First-order standard deviation `sqrt(S Sigma S^T)`.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub first_order_sigma: f64,
-    /// What curvature alone adds, `sqrt(tr((H Sigma)^2) / 2)`; of variables that are not normal, in which curvature also acts with
-    /// their skewness, the root of how much the variances with and without it differ.
+    /// Contribution of curvature alone, `sqrt(tr((H Sigma)^2) / 2)`. For variables that are not normal, where curvature also
+    /// interacts with their skewness, it is the root of the difference between the variances with and without curvature.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub curvature_sigma: f64,
-    /// Standard deviation; of normal variables `sqrt(S Sigma S^T + tr((H Sigma)^2) / 2)`, `S` at their means.
+    /// Standard deviation; for normal variables `sqrt(S Sigma S^T + tr((H Sigma)^2) / 2)`, with `S` at their means.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
-    /// Third central moment over `sigma^3`; zero when nothing varies.
+    /// Third central moment over `sigma^3`; zero if nothing varies.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub skewness: f64,
-    /// Fourth central moment over `sigma^4`, less the 3 of a normal distribution; zero when nothing varies.
+    /// Fourth central moment over `sigma^4`, minus the 3 of a normal distribution; zero if nothing varies.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub excess_kurtosis: f64,
 }
 
 impl Quadratic {
-    /// What a change of the variables adds to the value.
+    /// Change of the value for a change `x` of the variables.
     pub(crate) fn change(&self, x: &[f64]) -> f64 {
         let bent = self.curvature.iter().map(|row| dot(row, x));
         let parts = x.iter().zip(&self.slopes).zip(bent);
@@ -61,7 +63,7 @@ impl Quadratic {
         })
     }
 
-    /// The same model about the means of the variables.
+    /// The same model expanded about the means of the variables.
     pub(super) fn about_means(&self, tolerances: &Tolerances) -> Cow<'_, Self> {
         let shifts = tolerances.shifts();
         if shifts.iter().all(|shift| *shift == 0.0) {
@@ -79,7 +81,7 @@ impl Quadratic {
         })
     }
 
-    /// Refuses what is NaN or infinite, or does not belong to these tolerances.
+    /// Rejects a model that is not finite or does not match the tolerances.
     pub(super) fn check(&self, tolerances: &Tolerances) -> Result<(), Error> {
         for count in [
             self.slopes.len(),

@@ -1,4 +1,4 @@
-//! Spread to second order: what the curvature of a frequency adds to first order, and whether the two agree.
+//! Spread to second order: the contribution of curvature to the spread of a frequency, and whether it agrees with first order.
 
 use super::curvature::{ModeCurvature, mode_curvature};
 use super::nonlinearity::Nonlinearity;
@@ -14,11 +14,11 @@ use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SecondOrderSpread {
-    /// Value, gradient and Hessian by the design variables.
+    /// Value, gradient and Hessian with respect to the design variables.
     pub model: Quadratic,
     /// Mean, standard deviation, skewness and kurtosis of that model.
     pub moments: ModelMoments,
-    /// How much of them is due to curvature.
+    /// The part of them that is due to curvature.
     pub nonlinearity: Nonlinearity,
 }
 
@@ -40,18 +40,18 @@ pub struct ModeSecondOrder {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SecondOrder {
-    /// In the order of the modes; a mode that does not oscillate or has no derivatives of its own says so.
+    /// One result per mode, in order; an error for a mode that does not oscillate or has no derivatives of its own.
     pub modes: Vec<Result<ModeSecondOrder, Error>>,
-    /// Standard deviations that a tolerance holds.
+    /// Number of standard deviations that a tolerance represents.
     pub sigma_level: f64,
-    /// The inputs it belongs to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
 impl ModeCurvature {
-    /// The second-order model of a quantity by the design variables; `None` where the mode has no such quantity.
+    /// The second-order model of a quantity in the design variables; `None` if the mode has no such quantity.
     #[must_use]
     pub fn quadratic(&self, quantity: Quantity) -> Option<Quadratic> {
         Some(Quadratic {
@@ -62,8 +62,8 @@ impl ModeCurvature {
     }
 }
 
-/// Spread of every mode to second order: exact mean and variance of the second-order model of each
-/// quantity under normally distributed design variables.
+/// Second-order spread of every mode: exact mean and variance of the second-order model of each quantity under normally distributed
+/// design variables.
 pub fn second_order(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
@@ -74,7 +74,7 @@ pub fn second_order(
     of_each((0..modes.modes.len()).map(one).collect(), at, tolerances)
 }
 
-/// As [`second_order`], for somebody who waits.
+/// Like [`second_order`], but `watch` can stop it.
 pub(crate) fn second_order_watched(
     mechanism: &dyn CurvatureKernels,
     (at, modes): (&Equilibrium, &Modes),
@@ -122,7 +122,7 @@ fn mode_second_order(
     })
 }
 
-/// The spread of one quantity; `None` where the mode has no such quantity.
+/// The spread of one quantity; `None` if the mode has no such quantity.
 fn second_order_spread(
     curvature: &ModeCurvature,
     quantity: Quantity,

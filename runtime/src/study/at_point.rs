@@ -1,4 +1,4 @@
-//! What a study can be asked at one operating point.
+//! Methods of a study at one operating point.
 
 use core::ops::Range;
 
@@ -18,7 +18,7 @@ use crate::tolerance::{OutputTolerances, PartialMonteCarlo, Sampling};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
 impl<M: Kernels> Study<M> {
-    /// The dynamic equilibrium ([`equilibrium::equilibrium`]).
+    /// Finds the dynamic equilibrium ([`equilibrium::equilibrium`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -39,7 +39,7 @@ impl<M: Kernels> Study<M> {
         Ok(state)
     }
 
-    /// The assembled mechanism, with the coordinates held that have a [`Study::start`] ([`equilibrium::assemble`]).
+    /// Assembles the mechanism, holding the coordinates that have a [`Study::start`] ([`equilibrium::assemble`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -55,7 +55,7 @@ impl<M: Kernels> Study<M> {
         self.settings.assembly(&self.mechanism)
     }
 
-    /// Distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
+    /// Searches for distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -76,7 +76,7 @@ impl<M: Kernels> Study<M> {
         equilibrium::find_equilibria(&self.mechanism, u, b, &start, search)
     }
 
-    /// The equilibrium and its modes, for several questions about them.
+    /// Solves the equilibrium and its modes once, for several questions about them.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -94,7 +94,7 @@ impl<M: Kernels> Study<M> {
         Ok(solved)
     }
 
-    /// The natural modes ([`modes`](crate::modes::modes)).
+    /// Computes the natural modes ([`modes`](crate::modes::modes)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -113,7 +113,7 @@ impl<M: Kernels> Study<M> {
         Ok(solved.modes)
     }
 
-    /// How far every input and design variable shifts the equilibrium ([`sensitivity::equilibrium_shift`]).
+    /// Derivatives of the equilibrium with respect to every input and design variable ([`sensitivity::equilibrium_shift`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -179,7 +179,7 @@ impl<M: Kernels> Study<M> {
         solved.sensitivities()
     }
 
-    /// First-order spread of the frequencies ([`tolerance::first_order`]).
+    /// First-order spread of the modes and frequencies ([`tolerance::first_order`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -196,7 +196,7 @@ impl<M: Kernels> Study<M> {
         solved.first_order()
     }
 
-    /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`](crate::modes::whirls)).
+    /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`](crate::modes::whirls)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -214,7 +214,7 @@ impl<M: Kernels> Study<M> {
 }
 
 impl<M: PictureKernels> Study<M> {
-    /// What there is to see at the equilibrium ([`picture::scene`]).
+    /// The visible scene at the equilibrium: poses and shapes of the bodies ([`picture::scene`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -235,8 +235,10 @@ impl<M: PictureKernels> Study<M> {
         picture::scene(&self.mechanism, &coordinates, &inputs, &design)
     }
 
-    /// The poses of all bodies along one period of a mode, counted from 0, at so many evenly spaced phases; what moves most goes to
-    /// either side by the share `amplitude` of the size of the mechanism ([`picture::mode_pictures`]).
+    /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases.
+    ///
+    /// The largest displacement to either side is the fraction `amplitude` of the size of the mechanism
+    /// ([`picture::mode_pictures`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -258,8 +260,8 @@ impl<M: PictureKernels> Study<M> {
 }
 
 impl<M: DirectionalKernels> Study<M> {
-    /// Derivatives of the eigenvalue of one mode, counted from 0, and of all eigenvalues equal to it, along a direction in the inputs
-    /// and design variables ([`directional_derivatives`](crate::clusters::directional_derivatives)).
+    /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a direction in the
+    /// space of inputs and design variables ([`directional_derivatives`](crate::clusters::directional_derivatives)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -279,7 +281,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.directional_derivatives(mode, direction)
     }
 
-    /// Derivatives of the shapes of one mode, counted from 0 ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
+    /// Derivatives of the mode shapes of one mode, counted from 0 ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -294,7 +296,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.shape_sensitivity(mode)
     }
 
-    /// The modes that tolerances bring together, and their spread ([`clusters`](crate::clusters::clusters)).
+    /// Finds the clusters of modes that mix within the tolerances, and their spread ([`clusters`](crate::clusters::clusters)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -344,7 +346,7 @@ impl<M: CurvatureKernels> Study<M> {
         self.solve()?.output_curvature(output)
     }
 
-    /// Spread of every mode to second order ([`second_order`](crate::second_order::second_order)).
+    /// Second-order spread of every mode ([`second_order`](crate::second_order::second_order)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -358,7 +360,7 @@ impl<M: CurvatureKernels> Study<M> {
         self.solve()?.second_order()
     }
 
-    /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
+    /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
     /// ([`mode_margin`](crate::second_order::mode_margin)).
     ///
     /// ```
@@ -377,8 +379,8 @@ impl<M: CurvatureKernels> Study<M> {
         self.solve()?.margin(mode, band)
     }
 
-    /// As [`Study::margin`] for any quantity of the mode: [`Quantity::Growth`] between zero and infinity is the
-    /// probability that it is unstable.
+    /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is the
+    /// probability that the mode is unstable.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -403,7 +405,7 @@ impl<M: CurvatureKernels> Study<M> {
 }
 
 impl<M: BatchKernels> Study<M> {
-    /// Monte Carlo with re-solved equilibria ([`tolerance::monte_carlo`]).
+    /// Monte Carlo simulation that solves the equilibrium anew for every sample ([`tolerance::monte_carlo`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -418,7 +420,7 @@ impl<M: BatchKernels> Study<M> {
         self.solve()?.monte_carlo()
     }
 
-    /// As [`Study::monte_carlo`]; `progress` is called with the number of samples done since its last call.
+    /// Like [`Study::monte_carlo`], calling `progress` with the number of samples done since its last call.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -442,7 +444,8 @@ impl<M: BatchKernels> Study<M> {
         self.solve()?.monte_carlo_with_progress(progress)
     }
 
-    /// Some samples of [`Study::monte_carlo`], on this machine or another: parts of a run merge to the same bits as the whole.
+    /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same bits as the
+    /// whole run.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -460,7 +463,8 @@ impl<M: BatchKernels> Study<M> {
         self.solve()?.samples_between(range)
     }
 
-    /// As [`Study::samples_between`], with any settings ([`tolerance::partial_monte_carlo`]): a run that is watched, and stopped.
+    /// Like [`Study::samples_between`], with custom settings, for example to watch and stop a run
+    /// ([`tolerance::partial_monte_carlo`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -486,7 +490,7 @@ impl<M: BatchKernels> Study<M> {
         self.solve()?.sample_modes(sampling)
     }
 
-    /// Does the samples of a run that are missing, unless it is stopped again; see [`Study::sample_modes`].
+    /// Solves the missing samples of a run, unless it is stopped again; see [`Study::sample_modes`].
     ///
     /// # Errors
     /// As [`Study::sample_modes`]; [`Error::OtherRun`] where it is not a run of this study.

@@ -1,4 +1,4 @@
-//! A study, and how it is set up.
+//! The [`Study`] type and its settings.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -38,12 +38,12 @@ use crate::{Coordinate, Description, DesignVariable, Error, Input, Law, Matrix, 
 /// # Ok::<(), eigentol::Error>(())
 /// ```
 ///
-/// The examples below go on with this one. A study starts from the declared nominal values and tolerances, with inputs and
-/// start values of zero, and looks for a stable equilibrium. Values are SI, or in the
-/// declared unit where the caller says so ([`InDeclaredUnit`](crate::InDeclaredUnit)). Each question solves what it needs; to ask several
-/// about one operating point, call [`Study::solve`] once and ask what it returns.
+/// The examples below continue this one. A study starts with the declared nominal values and tolerances, with all inputs and start
+/// values zero, and looks for a stable equilibrium. Values are in SI units unless wrapped in
+/// [`InDeclaredUnit`](crate::InDeclaredUnit). Each method solves whatever it needs; to ask several questions about one operating
+/// point, call [`Study::solve`] once and call the methods of the result.
 ///
-/// Handles such as `Pendulum::omega` belong to their mechanism. The handle of another one does not compile:
+/// Handles such as `Pendulum::omega` belong to their mechanism. Using a handle of another mechanism does not compile:
 ///
 /// ```compile_fail,E0308
 /// # use eigentol::{Study, mechanism};
@@ -70,7 +70,7 @@ pub struct Study<M> {
 }
 
 impl<M: Kernels> Study<M> {
-    /// A study of `mechanism` at its nominal design.
+    /// Creates a study of `mechanism` at its nominal design.
     #[must_use]
     pub fn new(mechanism: M) -> Self {
         let settings = Settings::new(mechanism.description());
@@ -80,15 +80,17 @@ impl<M: Kernels> Study<M> {
         }
     }
 
-    /// Sets an input.
+    /// Sets the value of an input.
     #[must_use]
     pub fn input(mut self, input: Input<M>, value: impl Into<Value>) -> Self {
         self.settings.set_input(input.any(), value.into());
         self
     }
 
-    /// Sets a design variable. A declared tolerance keeps its half-width, also one in percent
-    /// ([`Study::relative_tolerance`] follows the value).
+    /// Sets the value of a design variable.
+    ///
+    /// A declared tolerance keeps its absolute half-width, even if it was declared in percent (use [`Study::relative_tolerance`]
+    /// for one that scales with the value).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -102,8 +104,10 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets where the search for an equilibrium starts. A mechanism with constraints is first assembled with this coordinate
-    /// held at the value: give a start value to as many coordinates as are independent, and a [`Study::guess`] to the others.
+    /// Sets the value at which the search for an equilibrium starts.
+    ///
+    /// A mechanism with constraints is first assembled with this coordinate held at the value: give start values to as many
+    /// coordinates as are independent, and a [`Study::guess`] to the others.
     #[must_use]
     pub fn start(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
         self.settings
@@ -111,8 +115,9 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the value from which a dependent coordinate moves when a mechanism with constraints is assembled. It chooses the
-    /// assembly mode. Without constraints it does the same as [`Study::start`].
+    /// Sets the initial guess of a dependent coordinate for the assembly of a mechanism with constraints.
+    ///
+    /// The guess selects the assembly mode. Without constraints this is equivalent to [`Study::start`].
     #[must_use]
     pub fn guess(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
         self.settings
@@ -120,9 +125,11 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the half-width of a tolerance of a design variable or an input. It stays as it is when the parameter is given another
-    /// value; so does a declared tolerance, also one of a design variable in percent ([`Study::relative_tolerance`] follows the
-    /// value). The distribution stays normal, or what it was set to be.
+    /// Sets the tolerance half-width of a design variable or an input.
+    ///
+    /// The half-width does not change when the parameter is later given another value; nor does a declared tolerance, even one in
+    /// percent (use [`Study::relative_tolerance`] for one that scales with the value). The distribution is unchanged: normal unless
+    /// set otherwise.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -143,8 +150,9 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the half-width of a tolerance as a fraction of the value: 0.03 for 3 %. It follows the value, whether that
-    /// is set before or after.
+    /// Sets the half-width of a tolerance as a fraction of the value: 0.03 for 3 %.
+    ///
+    /// It scales with the value, whether that is set before or after.
     #[must_use]
     pub fn relative_tolerance(mut self, parameter: impl Into<Parameter<M>>, fraction: f64) -> Self {
         let limits = (-fraction, fraction);
@@ -153,7 +161,7 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the limits of a tolerance as deviations from the value, the lower one first: `(0.0, 0.1e-3)` for a bore of +0.1 -0 mm.
+    /// Sets the limits of a tolerance as deviations from the value, lower limit first: `(0.0, 0.1e-3)` for a bore of +0.1 -0 mm.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -173,7 +181,7 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets how values are distributed between the limits of a tolerance.
+    /// Sets the distribution of a parameter between its tolerance limits.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -193,7 +201,7 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the distribution of a parameter, of its values in SI, whatever its nominal value.
+    /// Sets the distribution of a parameter's values (SI), independently of its nominal value.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -216,78 +224,83 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets how many standard deviations the half-width of a tolerance stands for (3 unless set).
+    /// Sets how many standard deviations the half-width of a tolerance represents (3 by default).
     #[must_use]
     pub fn sigma_level(mut self, level: f64) -> Self {
         self.settings.set_sigma_level(level);
         self
     }
 
-    /// Sets the correlation matrix of the design variables, and after them of the inputs that have a tolerance (independent unless
-    /// set).
+    /// Sets the correlation matrix of the design variables followed by the inputs that have a tolerance (uncorrelated by default).
     #[must_use]
     pub fn correlation(mut self, matrix: impl Into<Matrix>) -> Self {
         self.settings.set_correlation(matrix.into());
         self
     }
 
-    /// Chooses which equilibrium is wanted.
+    /// Chooses which equilibrium to look for.
     #[must_use]
     pub fn policy(mut self, policy: Policy) -> Self {
         self.settings.policy = policy;
         self
     }
 
-    /// Chooses which modes are wanted. Unless set, those that neglect nothing: undamped modes where `Chat` is zero and `Khat`
-    /// symmetric, general modes otherwise ([`Family::of`]).
+    /// Chooses the family of modes to compute.
+    ///
+    /// By default it is the family that neglects nothing: undamped modes where `Chat` is zero and `Khat` symmetric, general modes
+    /// otherwise ([`Family::of`]).
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
         self.settings.family = Some(family);
         self
     }
 
-    /// Sets the number of Monte Carlo samples (3000 unless set).
+    /// Sets the number of Monte Carlo samples (3000 by default).
     #[must_use]
     pub fn samples(mut self, samples: usize) -> Self {
         self.settings.samples = samples;
         self
     }
 
-    /// Sets the seed of the samples (0 unless set).
+    /// Sets the seed of the random samples (0 by default).
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.settings.seed = seed;
         self
     }
 
-    /// Chooses one of the seed's independent sequences of samples (0 unless set). With one for each point of a sweep, the sampling
-    /// errors of the points are independent.
+    /// Selects one of the independent sample sequences of the seed (0 by default).
+    ///
+    /// With a different stream at each point of a sweep, the sampling errors of the points are independent.
     #[must_use]
     pub fn stream(mut self, stream: u64) -> Self {
         self.settings.stream = stream;
         self
     }
 
-    /// Chooses the vector instructions with which a Monte Carlo run and questions about responses solve several samples at once, and
-    /// a sweep several values, where the mechanism allows it (the best of the processor unless set); `None` solves one at a time.
-    /// Results of the two ways differ in the last bits; all instruction sets give the same bits. A run says which way it went
-    /// ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
+    /// Chooses the vector instructions used to solve several samples (in Monte Carlo runs and response studies) or several input
+    /// values (in sweeps) at once, where the mechanism allows it. The default is the best set that the processor supports; `None`
+    /// solves one at a time. Scalar and vector results differ in the last bits; all instruction sets give identical bits. A run
+    /// reports which way was used ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
         self.settings.vectors = vectors;
         self
     }
 
-    /// Sets the number of threads of a Monte Carlo run; 0, the default, takes as many as the machine has. The limit is 256, or as many
-    /// as the machine has if that is more.
+    /// Sets the number of threads of a Monte Carlo run; 0, the default, uses all available.
+    ///
+    /// The limit is 256, or the number the machine has if that is larger.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.settings.threads = threads;
         self
     }
 
-    /// Calls `progress`, from any thread, with the number of steps of long work that are done since its last call: samples, values of
-    /// an input, points of branches, choices of tolerances.
+    /// Registers a callback for long computations.
+    ///
+    /// It is called from any thread with the number of steps done since its last call: samples, input values, branch points or
+    /// tolerance choices.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -301,8 +314,10 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Ends long work soon after `flag` becomes true, from another thread or a handler of Ctrl-C, with what is done: samples, sweeps and
-    /// branches as far as they came. What is of no use by halves is [`Error::Stopped`].
+    /// Stops long computations soon after `flag` becomes true, for example from another thread or a Ctrl-C handler.
+    ///
+    /// Samples, sweeps and branches return what is done so far; anything that is useless when incomplete returns
+    /// [`Error::Stopped`].
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -322,21 +337,21 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Asks a Monte Carlo run to return every sample.
+    /// Makes Monte Carlo runs return every sample.
     #[must_use]
     pub fn keep_samples(mut self, keep: bool) -> Self {
         self.settings.keep_samples = keep;
         self
     }
 
-    /// Sets the number of steps in which a range is searched (200 unless set).
+    /// Sets the number of steps used to search a range (200 by default).
     #[must_use]
     pub fn steps(mut self, steps: usize) -> Self {
         self.settings.steps = steps;
         self
     }
 
-    /// The mechanism.
+    /// The mechanism under study.
     #[must_use]
     pub fn mechanism(&self) -> &M {
         &self.mechanism
@@ -348,7 +363,7 @@ impl<M: Kernels> Study<M> {
         &self.settings.description
     }
 
-    /// The coordinate, or other unknown, of this name.
+    /// Looks up a coordinate, or another unknown, by name.
     ///
     /// # Errors
     /// [`Error::UnknownName`], which lists the names that exist.
@@ -357,7 +372,7 @@ impl<M: Kernels> Study<M> {
         self.find("coordinate", name, names).map(Coordinate::new)
     }
 
-    /// The input of this name: a handle for names that are known only at run time.
+    /// Looks up an input by name, for names known only at run time.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -377,7 +392,7 @@ impl<M: Kernels> Study<M> {
         self.find("input", name, names).map(Input::new)
     }
 
-    /// The design variable of this name.
+    /// Looks up a design variable by name.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -394,7 +409,7 @@ impl<M: Kernels> Study<M> {
             .map(DesignVariable::new)
     }
 
-    /// The output of this name.
+    /// Looks up an output by name.
     ///
     /// # Errors
     /// [`Error::UnknownName`], which lists the names that exist.
@@ -420,19 +435,19 @@ impl<M: Kernels> Study<M> {
             })
     }
 
-    /// The inputs, SI.
+    /// Values of the inputs, SI.
     #[must_use]
     pub fn input_values(&self) -> &[f64] {
         &self.settings.inputs
     }
 
-    /// The design variables, SI.
+    /// Values of the design variables, SI.
     #[must_use]
     pub fn design_values(&self) -> &[f64] {
         &self.settings.design
     }
 
-    /// Start values as set, SI, before assembly.
+    /// Start values as set (before assembly), SI.
     #[must_use]
     pub fn start_values(&self) -> &[f64] {
         &self.settings.start
@@ -453,16 +468,17 @@ impl<M: Kernels> Study<M> {
         all.map(|input| Input::new(input.index())).collect()
     }
 
-    /// The tolerances as set.
+    /// The tolerances that result from the settings.
     ///
     /// # Errors
-    /// [`Error::Setting`] where they make no sense; [`Error::UnknownHandle`].
+    /// [`Error::Setting`] if the tolerances are invalid; [`Error::UnknownHandle`].
     pub fn tolerances(&self) -> Result<Tolerances, Error> {
         self.settings.tolerances().cloned()
     }
 
-    /// How this study samples: what [`Study::samples`], [`Study::seed`] and other settings say. Range, progress and stop can be added
-    /// for [`Study::sample_modes`].
+    /// The sampling settings of this study ([`Study::samples`], [`Study::seed`] and so on).
+    ///
+    /// Add a range, progress callback or stop flag for [`Study::sample_modes`].
     #[must_use]
     pub fn sampling(&self) -> Sampling<'_> {
         self.settings.sampling()

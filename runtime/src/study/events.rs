@@ -1,4 +1,4 @@
-//! What a study can be asked about what happens along an input: where stiffness is lost, a frequency meets a line, flutter begins.
+//! Methods of a study for events along an input: loss of stiffness, a frequency crossing a line, onset of flutter.
 
 use super::subject::Subject;
 use super::{Study, Value};
@@ -9,7 +9,7 @@ use crate::tolerance::Tolerances;
 use crate::{Error, Input};
 
 impl<M: DirectionalKernels> Study<M> {
-    /// First critical value of an input between `low` and `high` ([`sweep::critical_state`]).
+    /// Finds the first critical value of an input between `low` and `high` ([`sweep::critical_state`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -32,7 +32,7 @@ impl<M: DirectionalKernels> Study<M> {
             .critical_state(range)
     }
 
-    /// As [`Study::critical_state`], with its sensitivity and spread ([`sweep::critical_tolerance`]).
+    /// Like [`Study::critical_state`], with the sensitivity and spread of the value ([`sweep::critical_tolerance`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -55,7 +55,7 @@ impl<M: DirectionalKernels> Study<M> {
 }
 
 impl<M: CurvatureKernels> Study<M> {
-    /// As [`Study::critical_state`], with first and second derivatives of the value
+    /// Like [`Study::critical_state`], with first and second derivatives of the value
     /// ([`critical_curvature`](crate::second_order::critical_curvature)).
     ///
     /// ```
@@ -81,9 +81,8 @@ impl<M: CurvatureKernels> Study<M> {
 }
 
 impl<M: Kernels> Study<M> {
-    /// Values of an input between `low` and `high` where a frequency meets a line: a number `k` for the line
-    /// `k u`, or a [`Line`]
-    /// ([`sweep::crossings`]).
+    /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the line `k u`, or
+    /// a [`Line`] ([`sweep::crossings`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -106,7 +105,7 @@ impl<M: Kernels> Study<M> {
             .crossings(range, line.into())
     }
 
-    /// As [`Study::crossings`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
+    /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -130,7 +129,7 @@ impl<M: Kernels> Study<M> {
             .crossing_tolerances(range, line.into())
     }
 
-    /// Values of an input between `low` and `high` where an oscillation begins or ceases to grow
+    /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
     /// ([`sweep::flutter_onsets`]).
     ///
     /// ```
@@ -153,7 +152,7 @@ impl<M: Kernels> Study<M> {
             .flutter_onsets(range)
     }
 
-    /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
+    /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -229,7 +228,7 @@ impl Subject<'_, dyn Kernels + '_> {
     }
 }
 
-/// Spread of each value at which something happens.
+/// The spread of each crossing value.
 fn spreads(
     mechanism: &dyn Kernels,
     crossings: &[Crossing],

@@ -1,4 +1,4 @@
-//! The front door: a mechanism, the values to study it at, and what to ask of it.
+//! The front door of the library: a mechanism, its operating point, and the questions to ask about it.
 
 // The documentation of `Study` shows its methods in the order of these modules: `Study::new` first.
 mod at_point;

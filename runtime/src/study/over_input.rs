@@ -1,4 +1,4 @@
-//! What a study can be asked along an input: sweeps, diagrams, branches.
+//! Methods of a study along one input: sweeps, diagrams and branches.
 
 use core::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ use crate::tolerance::{FirstOrder, Tolerances};
 use crate::{Error, Input, Watch};
 
 impl<M: BatchKernels> Study<M> {
-    /// Equilibria and modes at each value of one input, and the critical values between them ([`sweep::sweep`]).
+    /// Computes equilibria and modes at each value of one input, and the critical values between them ([`sweep::sweep`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -36,7 +36,7 @@ impl<M: BatchKernels> Study<M> {
             .sweep((input.any(), &values))
     }
 
-    /// As [`Study::sweep`], but shows each point to `each` as soon as it is found, until that breaks off, and keeps none
+    /// Like [`Study::sweep`], but passes each point to `each` as soon as it is found and keeps none; `each` can break off the sweep
     /// ([`sweep::sweep_each`]).
     ///
     /// ```
@@ -64,7 +64,7 @@ impl<M: BatchKernels> Study<M> {
             .sweep_each((input.any(), &values), &mut each)
     }
 
-    /// Calls `each` with equilibrium, modes and their total derivatives at each value of one input, in order
+    /// Calls `each` with the equilibrium, the modes and their total derivatives at each value of one input, in order
     /// ([`sweep::sensitivity_sweep`]).
     ///
     /// ```
@@ -90,7 +90,7 @@ impl<M: BatchKernels> Study<M> {
             .sensitivity_sweep((input.any(), &values), &mut each)
     }
 
-    /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and their label
+    /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and label
     /// ([`Study::sensitivity_sweep`], [`tolerance::first_order`]).
     ///
     /// ```
@@ -115,8 +115,8 @@ impl<M: BatchKernels> Study<M> {
 }
 
 impl<M: DirectionalKernels> Study<M> {
-    /// Campbell diagram along one input, with the crossings of lines: engine orders as numbers, or
-    /// [`Line`]s ([`campbell::campbell`]).
+    /// Campbell diagram along one input, with its crossings of lines: engine orders as numbers, or [`Line`]s
+    /// ([`campbell::campbell`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -138,8 +138,8 @@ impl<M: DirectionalKernels> Study<M> {
             .campbell(&Axes::new(input.any(), &values, &orders))
     }
 
-    /// As [`Study::campbell`], but gives each point to `each` as soon as it is found, until that breaks off, and keeps none
-    /// ([`campbell::campbell_each`]).
+    /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can break off the
+    /// sweep ([`campbell::campbell_each`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -169,7 +169,7 @@ impl<M: DirectionalKernels> Study<M> {
             .campbell_each(&Axes::new(input.any(), &values, &orders), &mut each)
     }
 
-    /// Branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
+    /// Follows branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -191,7 +191,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.branches_with(&self.continuation(input, low, high)?, None)
     }
 
-    /// As [`Study::branches`], with other settings, and with a search that starts from many places.
+    /// Like [`Study::branches`], with custom settings and a search from many starting points.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -213,7 +213,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.branches_each(continuation, search, |_| {})
     }
 
-    /// As [`Study::branches_with`]; `each` sees every branch as soon as it is complete ([`branches::branches_each`]).
+    /// Like [`Study::branches_with`], passing each branch to `each` as soon as it is complete ([`branches::branches_each`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -234,7 +234,7 @@ impl<M: DirectionalKernels> Study<M> {
             .branches_each((continuation, search), &mut each)
     }
 
-    /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be changed and passed to
+    /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be modified and passed to
     /// [`Study::branches_with`].
     ///
     /// ```
@@ -351,7 +351,7 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
     }
 }
 
-/// One more value is done.
+/// Reports progress after one more value, and checks whether to stop.
 fn go_on(wanted: ControlFlow<()>, watch: Watch<'_>) -> ControlFlow<()> {
     watch.advance(1);
     match watch.stopped() {
@@ -360,7 +360,7 @@ fn go_on(wanted: ControlFlow<()>, watch: Watch<'_>) -> ControlFlow<()> {
     }
 }
 
-/// Spread of the frequencies at one value, or why there is none.
+/// First-order spread at one input value, or the error there.
 fn spread(
     point: &SweepPoint,
     slopes: &Result<Sensitivities, Error>,

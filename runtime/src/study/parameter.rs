@@ -1,9 +1,9 @@
-//! What may have a tolerance.
+//! Parameters that may have a tolerance.
 
 use crate::mechanism::Any;
 use crate::{DesignVariable, Input};
 
-/// A design variable or an input: what may have a tolerance. Made from a handle of either.
+/// A design variable or an input, either of which may have a tolerance. Converts from the handle of either.
 #[derive(Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound = ""))]
@@ -23,7 +23,7 @@ impl<M> Clone for Parameter<M> {
 impl<M> Copy for Parameter<M> {}
 
 impl<M> Parameter<M> {
-    /// The same without its mechanism.
+    /// The parameter without the type of its mechanism.
     #[must_use]
     pub fn any(self) -> Parameter {
         match self {

@@ -1,4 +1,4 @@
-//! What tolerances do to any responses: quantities of modes, outputs, critical values of an input.
+//! Effect of tolerances on arbitrary responses: quantities of modes, outputs, critical values of an input.
 
 use super::subject::SolvedSubject;
 use super::{Solved, Study};
@@ -11,7 +11,7 @@ use crate::tolerance::Tolerances;
 use crate::{Error, Watch};
 
 impl<M: SummaryKernels> Study<M> {
-    /// How tolerances spread any responses, several at once with their covariance, by the method that answers best for what it costs
+    /// Computes how tolerances spread the given responses, with their covariance, by the most cost-effective method
     /// ([`propagation::propagate`]).
     ///
     /// ```
@@ -31,7 +31,7 @@ impl<M: SummaryKernels> Study<M> {
         self.solve()?.propagate(wanted)
     }
 
-    /// Samples of any responses, with any points and any range of them ([`propagation::sampled`]).
+    /// Samples the given responses at any kind of points, over any range of them ([`propagation::sampled`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -54,7 +54,7 @@ impl<M: SummaryKernels> Study<M> {
         self.solve()?.sample_responses(wanted, sampler)
     }
 
-    /// The least and the greatest value of any responses over the box of limits ([`propagation::worst_case`]).
+    /// Smallest and largest value of each response over the box of tolerance limits ([`propagation::worst_case`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -72,7 +72,7 @@ impl<M: SummaryKernels> Study<M> {
         self.solve()?.worst_case(wanted)
     }
 
-    /// Means and standard deviations of any responses from few random samples, with the Taylor model as a control variate
+    /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control variate
     /// ([`propagation::controlled`]).
     ///
     /// ```
@@ -91,7 +91,7 @@ impl<M: SummaryKernels> Study<M> {
         self.solve()?.controlled(wanted)
     }
 
-    /// Which variables the scatter of any responses comes from ([`propagation::influence`]).
+    /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -211,7 +211,7 @@ impl SolvedSubject<'_, dyn SummaryKernels + '_> {
         })
     }
 
-    /// What the settings allow.
+    /// The effort that the settings allow.
     fn effort(&self) -> Effort {
         let settings = self.settings;
         Effort::default()
@@ -221,7 +221,7 @@ impl SolvedSubject<'_, dyn SummaryKernels + '_> {
             .threads(settings.threads)
     }
 
-    /// Asks about responses.
+    /// Builds the responses and passes them to `question`.
     fn about<R>(
         &self,
         wanted: &[Response],

@@ -1,4 +1,4 @@
-//! Requirements of a study: chances of meeting them, and the cheapest tolerances that do.
+//! Requirements of a study: the probability of meeting them, and the cheapest tolerances that do.
 
 use super::subject::SolvedSubject;
 use super::{Solved, Study};
@@ -11,7 +11,7 @@ use crate::requirement::{
 use crate::tolerance::Sampling;
 
 impl<M: DirectionalKernels> Solved<'_, M> {
-    /// Chances of meeting requirements all at once, and of each by itself, from as many samples as the study takes
+    /// Probabilities of meeting the requirements, jointly and individually, from the study's number of samples
     /// ([`Requirements::chances`]).
     ///
     /// ```
@@ -32,7 +32,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         self.chances_by(wanted, &self.study.sampling())
     }
 
-    /// As [`Solved::chances`], with any settings: a range of the samples, a run that is watched and stopped.
+    /// Like [`Solved::chances`], with custom settings, for example a range of the samples, or a run to watch and stop.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -59,7 +59,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             .chances_by(wanted, sampling)
     }
 
-    /// Probabilities of failure by design points, with importance factors and exact derivatives ([`Requirements::reliability`]).
+    /// Failure probabilities from design points, with importance factors and exact derivatives ([`Requirements::reliability`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -81,8 +81,8 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             .reliability(wanted)
     }
 
-    /// A small probability of failing any requirement, by importance sampling about the design points
-    /// ([`Requirements::rare_failure`]), with seed, stream and threads of the study.
+    /// Estimates a small probability of failing any requirement by importance sampling about the design points
+    /// ([`Requirements::rare_failure`]), with the seed, stream and threads of the study.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -107,7 +107,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             .rare_failure(wanted, settings)
     }
 
-    /// The cheapest tolerances that meet requirements, checked by as many samples as the study takes
+    /// Finds the cheapest tolerances that meet the requirements, verified with the study's number of samples
     /// ([`allocation::allocate`](crate::allocation::allocate)).
     ///
     /// ```
@@ -141,7 +141,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
 }
 
 impl<M: DirectionalKernels> Study<M> {
-    /// Chances of meeting requirements, as [`Solved::chances`].
+    /// Probabilities of meeting requirements; see [`Solved::chances`].
     ///
     /// # Errors
     /// As [`Study::modes`] and [`Solved::chances`].
@@ -149,7 +149,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.chances(wanted)
     }
 
-    /// Chances of meeting requirements, as [`Solved::chances_by`].
+    /// Probabilities of meeting requirements, with custom settings; see [`Solved::chances_by`].
     ///
     /// # Errors
     /// As [`Study::modes`] and [`Solved::chances`].
@@ -161,7 +161,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.chances_by(wanted, sampling)
     }
 
-    /// Probabilities of failure by design points, as [`Solved::reliability`].
+    /// Failure probabilities from design points; see [`Solved::reliability`].
     ///
     /// # Errors
     /// As [`Study::modes`] and [`Solved::reliability`].
@@ -169,7 +169,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.reliability(wanted)
     }
 
-    /// A small probability of failing any requirement, as [`Solved::rare_failure`].
+    /// A small probability of failing any requirement; see [`Solved::rare_failure`].
     ///
     /// # Errors
     /// As [`Study::modes`] and [`Solved::rare_failure`].
@@ -181,7 +181,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.rare_failure(wanted, settings)
     }
 
-    /// The cheapest tolerances that meet requirements, as [`Solved::allocation`].
+    /// The cheapest tolerances that meet requirements; see [`Solved::allocation`].
     ///
     /// # Errors
     /// As [`Study::modes`] and [`Solved::allocation`].

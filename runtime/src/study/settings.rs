@@ -1,4 +1,4 @@
-//! What is set of a study, and the questions that need no type of mechanism.
+//! The settings of a study, and the steps that do not depend on the mechanism's type.
 
 use std::borrow::Cow;
 
@@ -21,7 +21,7 @@ use crate::{
     Watch,
 };
 
-/// The operating point, the tolerances and how to solve.
+/// The operating point, the tolerances and the solver options.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Settings {
     pub(super) description: Shared<Description>,
@@ -36,7 +36,7 @@ pub(super) struct Settings {
     input_variations: Vec<Variation>,
     sigma_level: f64,
     correlation: Option<Matrix>,
-    /// What these make at the inputs and the design.
+    /// The tolerances that result from these settings at the current inputs and design.
     tolerances: Result<Tolerances, Error>,
     pub(super) samples: usize,
     pub(super) seed: u64,
@@ -117,7 +117,7 @@ impl Settings {
         }
     }
 
-    /// Sets limits about the value of a parameter.
+    /// Sets tolerance limits as deviations from the value of a parameter.
     pub(super) fn set_limits(&mut self, parameter: Parameter, lower: Value, upper: Value) {
         match self.unit(parameter) {
             Ok(unit) => {
@@ -128,12 +128,12 @@ impl Settings {
         }
     }
 
-    /// Sets limits that are fractions of the value.
+    /// Sets tolerance limits as fractions of the value of a parameter.
     pub(super) fn set_relative_limits(&mut self, parameter: Parameter, limits: (f64, f64)) {
         self.vary(parameter, |own| own.set_limits(limits, true));
     }
 
-    /// Changes how a parameter varies.
+    /// Changes the variation of a parameter.
     pub(super) fn vary(&mut self, parameter: Parameter, change: impl FnOnce(&mut Variation)) {
         let (all, index) = match parameter {
             Parameter::Design(variable) => (&mut self.design_variations, variable.index()),
@@ -181,7 +181,7 @@ impl Settings {
         self.make_tolerances();
     }
 
-    /// A value of an input, SI.
+    /// Converts a value of an input to SI.
     pub(super) fn input_si(&self, input: Input, value: Value) -> Result<f64, Error> {
         match self.description.inputs.get(input.index()) {
             Some(info) => Ok(value.si(&info.unit)),
@@ -212,7 +212,7 @@ impl Settings {
         }
     }
 
-    /// The tolerances of the design variables, and after them of the inputs that have any.
+    /// The tolerances of the design variables, followed by those of the inputs that have one.
     pub(super) fn tolerances(&self) -> Result<&Tolerances, Error> {
         self.ready()?;
         self.tolerances.as_ref().map_err(Error::clone)
@@ -239,8 +239,8 @@ impl Settings {
         Tolerances::distributed(&nominal, values, level, correlation)
     }
 
-    /// The same of a mechanism of which deviations of inputs are further design variables. Tolerances stay as they stand; the inputs
-    /// themselves do not vary.
+    /// Settings for the mechanism in which input deviations are additional design variables. The tolerances are unchanged; the
+    /// inputs themselves no longer vary.
     pub(super) fn widened(&self, description: Shared<Description>, design: Vector) -> Self {
         let none = Variation::About(ToleranceInfo::NONE);
         let mut settings = self.clone();
@@ -271,7 +271,7 @@ impl Settings {
         Ok(Range::new(input, low, high).steps(self.steps))
     }
 
-    /// Values of an input, SI.
+    /// Converts values of an input to SI.
     pub(super) fn values_si(
         &self,
         input: Input,
@@ -281,7 +281,7 @@ impl Settings {
         values.iter().map(si).collect()
     }
 
-    /// Who waits.
+    /// The progress callback and stop flag.
     pub(super) fn watch(&self) -> Watch<'_> {
         self.watcher.watch()
     }
@@ -308,7 +308,7 @@ impl Settings {
         equilibrium::assemble(mechanism, &self.inputs, &self.design, &self.start, &held)
     }
 
-    /// Where solvers start: the start values, assembled where coordinates are held.
+    /// The start of the solvers: the start values, assembled if any coordinate is held.
     pub(super) fn assembled_start(&self, mechanism: &dyn Kernels) -> Result<Cow<'_, [f64]>, Error> {
         self.ready()?;
         if Structure::of(&self.description).open() || !self.held.contains(&true) {
@@ -318,12 +318,12 @@ impl Settings {
         Ok(Cow::Owned(assembly.coordinates.into()))
     }
 
-    /// What a state at this point is written over.
+    /// An empty equilibrium at this operating point, to be overwritten.
     pub(super) fn blank_state(&self) -> Equilibrium {
         Equilibrium::blank(&self.description, &self.inputs, &self.design)
     }
 
-    /// Writes the equilibrium over a blank state; returns its general modes where its stability was judged by them.
+    /// Solves the equilibrium into `state`; returns its general modes if they were needed to judge its stability.
     pub(super) fn equilibrium_into(
         &self,
         mechanism: &dyn Kernels,
@@ -334,7 +334,7 @@ impl Settings {
         equilibrium::equilibrium_into(mechanism, u, b, &start, self.policy, state)
     }
 
-    /// An equilibrium that has derivatives.
+    /// An equilibrium that is regular, so that it has derivatives.
     pub(super) fn regular(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
         let mut state = self.blank_state();
         self.equilibrium_into(mechanism, &mut state)?;
@@ -342,12 +342,12 @@ impl Settings {
         Ok(state)
     }
 
-    /// The family of the modes that are wanted.
+    /// The family of the requested modes.
     pub(super) fn family(&self) -> Family {
         self.family.unwrap_or(Family::of(&self.description))
     }
 
-    /// Writes equilibrium and modes over blank ones.
+    /// Solves equilibrium and modes into existing buffers.
     pub(super) fn solve_into(
         &self,
         mechanism: &dyn Kernels,
@@ -360,7 +360,7 @@ impl Settings {
     }
 }
 
-/// Puts a value in its place, or keeps the first reason why not.
+/// Stores a value, or records the first error.
 fn set<T>(place: Option<&mut T>, value: Result<T, Error>, fault: &mut Option<Error>) {
     match (place, value) {
         (Some(place), Ok(value)) => *place = value,

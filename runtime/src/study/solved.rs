@@ -1,4 +1,4 @@
-//! A study with its equilibrium and modes, which are solved once for all questions.
+//! A study whose equilibrium and modes are solved once for all questions.
 
 use core::ops::Range;
 
@@ -14,8 +14,9 @@ use crate::shapes::{self, ShapeSensitivity};
 use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
-/// The equilibrium and the modes of a study, solved once for the questions that build on them. Its methods are those of [`Study`] of
-/// the same name.
+/// The equilibrium and the modes of a study, solved once for all questions that build on them.
+///
+/// Methods have the same names as those of [`Study`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Solved<'a, M> {
@@ -27,7 +28,7 @@ pub struct Solved<'a, M> {
 }
 
 impl<'a, M: Kernels> Solved<'a, M> {
-    /// Not solved yet: solved in place, because what is found is long to move.
+    /// An unsolved value, to be solved in place: the results are large to move.
     #[inline]
     pub(super) fn blank(study: &'a Study<M>) -> Self {
         let settings = &study.settings;
@@ -50,7 +51,7 @@ impl<'a, M: Kernels> Solved<'a, M> {
             .solve_into(&study.mechanism, equilibrium, modes)
     }
 
-    /// How far every input and design variable shifts the equilibrium ([`sensitivity::equilibrium_shift`]).
+    /// Derivatives of the equilibrium with respect to every input and design variable ([`sensitivity::equilibrium_shift`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -107,7 +108,7 @@ impl<'a, M: Kernels> Solved<'a, M> {
         sensitivity::sensitivities(&self.study.mechanism, &self.equilibrium, &self.modes)
     }
 
-    /// First-order spread of the frequencies ([`tolerance::first_order`]).
+    /// First-order spread of the modes and frequencies ([`tolerance::first_order`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -122,7 +123,7 @@ impl<'a, M: Kernels> Solved<'a, M> {
             .first_order()
     }
 
-    /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`]).
+    /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -138,7 +139,7 @@ impl<'a, M: Kernels> Solved<'a, M> {
 }
 
 impl<M: PictureKernels> Solved<'_, M> {
-    /// What there is to see at the equilibrium ([`picture::scene`]).
+    /// The visible scene at the equilibrium: poses and shapes of the bodies ([`picture::scene`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -159,8 +160,10 @@ impl<M: PictureKernels> Solved<'_, M> {
         picture::scene(&self.study.mechanism, coordinates, inputs, design)
     }
 
-    /// The poses of all bodies along one period of a mode, counted from 0, at so many evenly spaced phases; what moves most goes to
-    /// either side by the share `amplitude` of the size of the mechanism ([`picture::mode_pictures`]).
+    /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases.
+    ///
+    /// The largest displacement to either side is the fraction `amplitude` of the size of the mechanism
+    /// ([`picture::mode_pictures`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -188,8 +191,8 @@ impl<M: PictureKernels> Solved<'_, M> {
 }
 
 impl<M: DirectionalKernels> Solved<'_, M> {
-    /// Derivatives of the eigenvalue of one mode, counted from 0, and of all eigenvalues equal to it, along a direction in the inputs
-    /// and design variables ([`clusters::directional_derivatives`]).
+    /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a direction in the
+    /// space of inputs and design variables ([`clusters::directional_derivatives`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -213,7 +216,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         clusters::directional_derivatives(&study.mechanism, equilibrium, modes, mode, direction)
     }
 
-    /// Derivatives of the shapes of one mode, counted from 0 ([`shapes::shape_sensitivity`]).
+    /// Derivatives of the mode shapes of one mode, counted from 0 ([`shapes::shape_sensitivity`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -233,7 +236,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         shapes::shape_sensitivity(&study.mechanism, equilibrium, modes, mode)
     }
 
-    /// The modes that tolerances bring together, and their spread ([`clusters::clusters`]).
+    /// Finds the clusters of modes that mix within the tolerances, and their spread ([`clusters::clusters`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -287,7 +290,7 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         second_order::output_curvature(mechanism, at, output.any())
     }
 
-    /// Spread of every mode to second order ([`second_order::second_order`]).
+    /// Second-order spread of every mode ([`second_order::second_order`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -302,8 +305,7 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             .second_order()
     }
 
-    /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
-    /// ([`second_order::mode_margin`]).
+    /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band ([`second_order::mode_margin`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -321,8 +323,8 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         self.margin_of(mode, Quantity::Frequency, band)
     }
 
-    /// As [`Solved::margin`] for any quantity of the mode: [`Quantity::Growth`] between zero and infinity is the
-    /// probability that it is unstable.
+    /// Like [`Solved::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is the
+    /// probability that the mode is unstable.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -348,7 +350,7 @@ impl<M: CurvatureKernels> Solved<'_, M> {
 }
 
 impl<M: BatchKernels> Solved<'_, M> {
-    /// Monte Carlo with re-solved equilibria ([`tolerance::monte_carlo`]).
+    /// Monte Carlo simulation that solves the equilibrium anew for every sample ([`tolerance::monte_carlo`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -363,7 +365,7 @@ impl<M: BatchKernels> Solved<'_, M> {
         self.drawn(&self.study.sampling())
     }
 
-    /// As [`Solved::monte_carlo`]; `progress` is called with the number of samples done since its last call.
+    /// Like [`Solved::monte_carlo`], calling `progress` with the number of samples done since its last call.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -414,7 +416,7 @@ impl<M: BatchKernels> Solved<'_, M> {
         sampling: &Sampling<'_>,
     ) -> Result<(), Error> {
         let part = |range| self.sample_modes(&sampling.clone().range(Some(range)));
-        // Of another run? That is to be known before the work is done.
+        // Reject a run of another study before any work is done.
         done.merge(part(0..0)?)?;
         for range in done.missing() {
             done.merge(part(range)?)?;

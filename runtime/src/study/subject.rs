@@ -1,5 +1,5 @@
-//! What a question is put to: no type of a mechanism in it, so that questions are compiled once. Where inputs have tolerances, it is
-//! the mechanism that has their deviations as further design variables.
+//! The operand of a question: kernels and settings without the mechanism's type, so that each question is compiled only once. If
+//! inputs have tolerances, the kernels are those of the mechanism with the input deviations as additional design variables.
 
 use super::settings::Settings;
 use super::{Solved, Study};
@@ -8,13 +8,13 @@ use crate::kernels::{
 };
 use crate::{Equilibrium, Error, Modes};
 
-/// A mechanism behind a table of kernels, and how it is studied.
+/// A table of kernels and the settings to study it with.
 pub(super) struct Subject<'a, K: ?Sized> {
     pub(super) kernels: &'a K,
     pub(super) settings: &'a Settings,
 }
 
-/// The same, solved.
+/// A [`Subject`] whose equilibrium and modes are solved.
 pub(super) struct SolvedSubject<'a, K: ?Sized> {
     pub(super) kernels: &'a K,
     pub(super) settings: &'a Settings,
@@ -23,7 +23,7 @@ pub(super) struct SolvedSubject<'a, K: ?Sized> {
 }
 
 impl<M> Study<M> {
-    /// The mechanism behind one of its tables.
+    /// The mechanism behind one of its kernel tables.
     pub(super) fn subject<'a, K: ?Sized>(&'a self, kernels: &'a K) -> Subject<'a, K> {
         Subject {
             kernels,
@@ -33,7 +33,7 @@ impl<M> Study<M> {
 }
 
 impl<M> Solved<'_, M> {
-    /// The mechanism behind one of its tables.
+    /// The mechanism behind one of its kernel tables.
     pub(super) fn subject<'a, K: ?Sized>(&'a self, kernels: &'a K) -> SolvedSubject<'a, K> {
         SolvedSubject {
             kernels,
@@ -45,7 +45,7 @@ impl<M> Solved<'_, M> {
 }
 
 impl Settings {
-    /// The mechanism whose inputs deviate, and its settings; `None` where no input has a tolerance.
+    /// The mechanism with deviating inputs and its settings; `None` if no input has a tolerance.
     fn deviating<'a, K: Kernels + ?Sized>(
         &self,
         kernels: &'a K,
@@ -63,7 +63,7 @@ impl Settings {
 macro_rules! deviating {
     ($subject:ident, $table:ident $(, $state:ident)*) => {
         impl<'k> $subject<'_, dyn $table + 'k> {
-            /// Puts a question to the mechanism, or to that whose inputs deviate where inputs have tolerances.
+            /// Asks the question of the mechanism, or of the one with deviating inputs if any input has a tolerance.
             pub(super) fn deviating<R>(
                 &self,
                 question: impl FnOnce(&$subject<'_, dyn $table + '_>) -> Result<R, Error>,

@@ -1,4 +1,4 @@
-//! Verdicts on first order, for a study.
+//! Verdicts on first-order results of a study.
 
 use super::subject::SolvedSubject;
 use super::{Solved, Study};
@@ -7,7 +7,7 @@ use crate::kernels::SummaryKernels;
 use crate::summary::{self, BUDGET, Summary};
 
 impl<M: SummaryKernels> Solved<'_, M> {
-    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
+    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be trusted
     /// ([`summary::summary`]).
     ///
     /// ```
@@ -22,7 +22,7 @@ impl<M: SummaryKernels> Solved<'_, M> {
         self.summary_within(BUDGET)
     }
 
-    /// As [`Solved::summary`], with samples that may cost so many operations ([`summary::summary_within`]).
+    /// Like [`Solved::summary`], with a limit on the number of operations spent on samples ([`summary::summary_within`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -40,7 +40,7 @@ impl<M: SummaryKernels> Solved<'_, M> {
 }
 
 impl<M: SummaryKernels> Study<M> {
-    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
+    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be trusted
     /// ([`summary`](crate::summary::summary)).
     ///
     /// ```

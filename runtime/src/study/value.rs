@@ -1,12 +1,12 @@
-//! Numbers with or without their declared unit.
+//! Numbers in SI or in their declared unit.
 
 use crate::Unit;
 
-/// A number in the unit in which the mechanism declares the quantity that it is given to: for an input declared in rpm,
-/// `InDeclaredUnit(3000.0)` is 3000 rpm.
+/// A number in the declared unit of the quantity it is assigned to: for an input declared in rpm, `InDeclaredUnit(3000.0)` is 3000
+/// rpm.
 ///
-/// Everywhere a [`Study`](crate::Study) takes a value it takes this or a plain `f64`, which is SI. Coordinates have no
-/// declared unit: theirs is rad or m.
+/// Wherever a [`Study`](crate::Study) takes a value, it accepts this or a plain `f64` in SI. Coordinates have no declared unit:
+/// they are in rad or m.
 ///
 /// ```
 /// use eigentol::{InDeclaredUnit, Study, mechanism};
@@ -40,13 +40,13 @@ use crate::Unit;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InDeclaredUnit(pub f64);
 
-/// A value as it is given: an `f64` in SI, or one [`InDeclaredUnit`].
+/// A value as entered: an `f64` in SI, or an [`InDeclaredUnit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Value {
-    /// SI.
+    /// In SI units.
     Si(f64),
-    /// In the unit of the declaration.
+    /// In the declared unit.
     Declared(f64),
 }
 
@@ -63,7 +63,7 @@ impl From<InDeclaredUnit> for Value {
 }
 
 impl Value {
-    /// The same with the opposite sign.
+    /// The value with the opposite sign.
     pub(super) fn negative(self) -> Self {
         match self {
             Self::Si(value) => Self::Si(-value),
@@ -71,7 +71,7 @@ impl Value {
         }
     }
 
-    /// The value of a quantity declared in `unit`, SI.
+    /// Converts the value of a quantity declared in `unit` to SI.
     #[must_use]
     pub fn si(self, unit: &Unit) -> f64 {
         match self {

@@ -4,17 +4,17 @@ use crate::Error;
 use crate::mechanism::{Law, ToleranceInfo};
 use crate::tolerance::{Distribution, distribution};
 
-/// How a parameter varies.
+/// The variation of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Variation {
-    /// About its value.
+    /// About its nominal value.
     About(ToleranceInfo),
-    /// With these values, SI.
+    /// Distributed independently of its nominal value, SI.
     Values(Distribution),
 }
 
 impl Variation {
-    /// Sets limits about the value; the law stays, or is normal in place of given values.
+    /// Sets limits about the nominal value. The law is kept; an explicit distribution is replaced by a normal one.
     pub(super) fn set_limits(&mut self, (lower, upper): (f64, f64), relative: bool) {
         let law = match self {
             Self::About(info) => info.law.clone(),
@@ -28,7 +28,7 @@ impl Variation {
         });
     }
 
-    /// Sets the law; limits stay, or are none in place of given values.
+    /// Sets the law. The limits are kept; an explicit distribution is replaced by one without limits.
     pub(super) fn set_law(&mut self, law: Law) {
         let info = match self {
             Self::About(info) => info.clone(),
@@ -37,17 +37,17 @@ impl Variation {
         *self = Self::About(ToleranceInfo { law, ..info });
     }
 
-    /// Whether it does not vary at all.
+    /// Whether the parameter does not vary at all.
     pub(super) fn is_none(&self) -> bool {
         matches!(self, Self::About(info) if info.lower == 0.0 && info.upper == 0.0)
     }
 
-    /// Whether its tolerances are the same whatever the value is.
+    /// Whether the tolerances are independent of the nominal value.
     pub(super) fn is_fixed(&self) -> bool {
         matches!(self, Self::About(info) if !info.relative && info.normal_half_width(0.0).is_some())
     }
 
-    /// The half-width of a normal variable about this value; `None` for any other.
+    /// The half-width of a normal variable about this value; `None` for any other distribution.
     pub(super) fn normal_half_width(&self, value: f64) -> Option<f64> {
         match self {
             Self::About(info) => info.normal_half_width(value),
@@ -55,7 +55,7 @@ impl Variation {
         }
     }
 
-    /// The distribution of the parameter when this is its nominal value.
+    /// The distribution of the parameter for a nominal value.
     pub(super) fn distribution(&self, value: f64, sigma_level: f64) -> Result<Distribution, Error> {
         match self {
             Self::About(info) => distribution(value, info, sigma_level),

@@ -1,4 +1,4 @@
-//! Who waits for the answers of a study.
+//! The observer of a study's long computations.
 
 use core::fmt;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::Watch;
 
-/// A [`Watch`] that a study keeps.
+/// A [`Watch`] owned by a study.
 #[derive(Clone, Default)]
 pub(super) struct Watcher {
     pub(super) progress: Option<Arc<dyn Fn(usize) + Send + Sync>>,
@@ -22,7 +22,7 @@ impl Watcher {
     }
 }
 
-/// Who waits changes nothing about a study.
+/// The observer does not affect equality of studies.
 impl PartialEq for Watcher {
     fn eq(&self, _other: &Self) -> bool {
         true

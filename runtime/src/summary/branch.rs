@@ -5,15 +5,15 @@ use crate::equilibrium::equilibrium;
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Policy};
 
-/// How often the way to a sample is halved: what lies this near to a branch point counts as beyond it.
+/// Maximum number of bisections of the path to a sample: a sample this close to a branch point counts as beyond it.
 const HALVINGS: usize = 10;
 
-/// Whether the equilibrium `q` of a design lies on the branch of the nominal one.
+/// Whether the equilibrium `q` of a design lies on the same branch as the nominal one.
 ///
-/// Two stable equilibria of neighbouring designs lie on one branch where each is in the valley of the other: where `det Khat` has
-/// the same sign at one's place with the other's design. At a pitchfork the branch that ends and the one that begins fail this
-/// however near they are. Ways on which that is not clear are halved. Branches that meet where two stiffnesses vanish at once are
-/// not told apart.
+/// Two stable equilibria of neighbouring designs lie on one branch if each is in the potential valley of the other: if `det Khat`
+/// of either design has the same sign at both equilibria. At a pitchfork, the branch that ends and the one that begins fail this
+/// test however close they are. Where the test is inconclusive, the path between the two designs is bisected. Branches that meet
+/// where two stiffnesses vanish at once cannot be told apart.
 pub(super) fn on_nominal_branch(
     mechanism: &dyn Kernels,
     nominal: &Equilibrium,

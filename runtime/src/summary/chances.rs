@@ -1,4 +1,4 @@
-//! What becomes of samples, with its uncertainty.
+//! Outcomes of samples, with their uncertainty.
 
 use eigentol_statistics::reliability::sampling::wilson;
 
@@ -8,23 +8,23 @@ use crate::tolerance::{Counts, Outcome};
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
 
-/// How probable something is, by samples.
+/// A probability estimated from samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chance {
-    /// Samples to which it happened.
+    /// Number of samples with the event.
     pub count: usize,
-    /// Samples that were looked at.
+    /// Number of samples examined.
     pub samples: usize,
-    /// Lower end of the interval that holds the probability with a confidence of 95 % (Wilson's).
+    /// Lower end of the 95 % Wilson confidence interval of the probability.
     pub lower: f64,
-    /// Upper end.
+    /// Upper end of the interval.
     pub upper: f64,
 }
 
 impl Chance {
-    /// Of something that happened to `count` of some samples.
+    /// The probability of an event that occurred in `count` of `samples` samples.
     pub(super) fn new(count: usize, samples: usize) -> Result<Self, Error> {
         let interval = wilson(count as u64, samples as u64, CONFIDENCE)?;
         Ok(Self {
@@ -35,24 +35,24 @@ impl Chance {
         })
     }
 
-    /// Share of the samples.
+    /// Fraction of the samples with the event.
     #[must_use]
     pub fn value(&self) -> f64 {
         self.count as f64 / self.samples as f64
     }
 }
 
-/// What became of the samples.
+/// The outcomes of the samples.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sampled {
-    /// How many were drawn.
+    /// Number of samples drawn.
     pub samples: usize,
-    /// Each outcome.
+    /// Probability of each outcome.
     pub outcomes: Vec<(Outcome, Chance)>,
-    /// Stable ones on another branch of equilibria than the nominal one: beyond a branch point, or in another valley. Of the first
-    /// few thousand samples; `None` where the nominal state is not stable, so that there is no branch to stay on.
+    /// Stable samples on a branch of equilibria other than the nominal one: beyond a branch point, or in another valley. Only the
+    /// first few thousand samples are examined; `None` if the nominal state is not stable, so that there is no branch to stay on.
     pub other_branch: Option<Chance>,
 }
 
@@ -67,7 +67,7 @@ impl Sampled {
         })
     }
 
-    /// How probable an outcome is.
+    /// Probability of an outcome.
     #[must_use]
     pub fn chance(&self, outcome: Outcome) -> Option<Chance> {
         let found = self.outcomes.iter().find(|(own, _)| *own == outcome);
@@ -75,22 +75,22 @@ impl Sampled {
     }
 }
 
-/// Whether samples were asked.
+/// Whether samples were drawn.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sampling {
-    /// They were.
+    /// Samples were drawn.
     Done(Sampled),
-    /// They would cost more than they may: verdicts rest on distances and the second-order model.
+    /// Samples would exceed the budget: verdicts are based on distances and the second-order model.
     TooDear {
-        /// Operations of the fewest samples that decide anything.
+        /// Operations of the smallest decisive number of samples.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         operations: f64,
-        /// Operations that they may cost.
+        /// Operations allowed.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         budget: f64,
     },
-    /// There is no quantity that varies.
+    /// No quantity varies.
     NotNeeded,
 }

@@ -1,28 +1,29 @@
-//! What a sample costs: a count of operations, so that how many are drawn is the same on every machine.
+//! Cost of a sample: a count of operations, so that the number of samples is the same on every machine.
 
 use crate::Description;
 use crate::modes::{Family, Modes};
 use crate::tolerance::side_by_side_possible;
 
-/// What an elementary function costs, in additions and multiplications.
+/// Cost of an elementary function, in additions and multiplications.
 const FUNCTION: f64 = 40.0;
-/// Evaluations of residual and stiffness until a sample is at rest.
+/// Evaluations of residual and stiffness until a sample has converged.
 const STEPS: f64 = 4.0;
-/// Samples solved side by side take a share of the time of as many operations one by one.
+/// Time of a vectorised operation relative to a scalar one.
 const SIDE_BY_SIDE: f64 = 0.25;
 
-/// Whether samples may be solved side by side.
+/// Whether samples may be solved in vectorised blocks.
 pub(super) fn together(modes: &Modes) -> bool {
     side_by_side_possible(&modes.description, modes.family)
 }
 
-/// Operations of a sample: equilibrium and modes, and what it takes to look at them.
+/// Operations per sample: equilibrium, modes and their evaluation.
 pub(super) fn operations(modes: &Modes, together: bool) -> f64 {
     let description = &modes.description;
     let n = description.coordinates.len() as f64;
     let kernels =
         STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
-    // Of n^3: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size, left and right.
+    // The n^3 terms: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size, left and
+    // right.
     match (together, modes.family) {
         (true, Family::Undamped) => 200.0 + SIDE_BY_SIDE * (kernels + 16.0 * n.powi(3)),
         (true, Family::General) => 400.0 + SIDE_BY_SIDE * (kernels + 160.0 * n.powi(3)),
@@ -31,7 +32,7 @@ pub(super) fn operations(modes: &Modes, together: bool) -> f64 {
     }
 }
 
-/// Operations of a kernel, by the size of what it writes where it is not written out.
+/// Operations of a kernel; estimated from the size of its result if its code was not generated.
 fn kernel(description: &Description, name: &str) -> f64 {
     let n = description.coordinates.len() as f64;
     description.kernel(name).map_or(50.0 * n * n, |kernel| {

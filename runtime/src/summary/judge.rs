@@ -1,4 +1,4 @@
-//! The verdict on a mode, from what samples found, from distances and from the second-order model.
+//! The verdict on a mode, from samples, distances and the second-order model.
 
 use super::chances::Sampling;
 use super::paired::Measured;
@@ -11,33 +11,34 @@ use crate::sensitivity::Quantity;
 use crate::tolerance::{FirstOrder, TRUSTED_DISTANCE};
 use crate::{Behaviour, Mode};
 
-/// A critical state or another mode within as many standard deviations takes more samples: rare ones may matter.
+/// With a critical state or another mode within this many standard deviations, more samples are drawn: rare ones may matter.
 const DOUBTFUL_DISTANCE: f64 = 6.0;
 
-/// What verdicts are made from.
+/// The data on which verdicts are based.
 pub(super) struct Judge<'a> {
     pub(super) first: &'a FirstOrder,
     pub(super) second: &'a SecondOrder,
     pub(super) clusters: &'a [ClusterTolerance],
 }
 
-/// What samples said of a mode.
+/// What the samples showed about a mode.
 #[derive(Default)]
 struct Findings {
     checks: Vec<Check>,
     errors: Vec<(Quantity, Measured, Finding)>,
-    /// First order is wrong for a quantity.
+    /// Whether first order is wrong for some quantity.
     wrong: bool,
-    /// It is right for all.
+    /// Whether first order is right for all quantities.
     right: bool,
-    /// Values of a quantity of too few samples.
+    /// Set if too few samples have a value of some quantity.
     missing: Option<Doubt>,
-    /// It belongs to a cluster by distances, but samples keep the modes in their order.
+    /// Whether the samples keep the modes in order, although distances put this mode in a cluster.
     separate: bool,
 }
 
 impl<'a> Judge<'a> {
-    /// What samples are to check of a mode: of one that has a frequency of its own, or would have one beside a critical state.
+    /// The predictions that samples are to check: for modes that have a frequency of their own, or would have one beside a critical
+    /// state.
     pub(super) fn predictions(&self, mode: usize, own: &Mode) -> Vec<Prediction<'a>> {
         let oscillates = own.frequency().is_some();
         let critical = own.behaviour == Behaviour::Neutral;
@@ -120,7 +121,7 @@ impl<'a> Judge<'a> {
             }
             let spread = self.first.modes[mode].of(quantity);
             if quantity == Quantity::Frequency {
-                // Checked, or nothing moves it and samples agree.
+                // Checked, or else nothing moves the frequency and the samples agree.
                 let still = spread.is_some_and(|own| own.sigma <= ROUNDING * prediction.size);
                 said.right = check.is_some_and(|check| check.first_order_error.is_some())
                     || (check.is_none() && still && count >= FEWEST);
@@ -142,7 +143,7 @@ impl<'a> Judge<'a> {
         said
     }
 
-    /// What distances and the second-order model say against a mode that samples found wrong, right, or did not decide.
+    /// Doubts from distances and the second-order model, given that samples found the mode wrong, right, or undecided.
     fn doubts(&self, mode: usize, own: &Mode, said: &Findings) -> Vec<Doubt> {
         let mut doubts = Vec::new();
         let near = |distance: f64| distance < TRUSTED_DISTANCE;
@@ -203,13 +204,13 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The cluster of a mode, by distances.
+    /// The cluster of a mode, according to distances.
     fn cluster(&self, mode: usize) -> Option<&'a ClusterTolerance> {
         let mut all = self.clusters.iter();
         all.find(|cluster| cluster.modes.contains(&mode))
     }
 
-    /// Whether samples can tell that tolerances do not mix a mode with others: undamped ones keep their order then.
+    /// Whether samples can show that tolerances do not mix the mode with others: undamped modes then keep their order.
     fn may_be_separate(&self, mode: usize) -> bool {
         self.cluster(mode).is_none_or(|cluster| {
             self.first.family == Family::Undamped
@@ -218,7 +219,8 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// `(Im s)^2` over its standard deviation; `None` for undamped modes and those that do not oscillate.
+    /// `(Im s)^2` divided by its own standard deviation, `Im s / (2 sigma)`; `None` for undamped modes and those that do not
+    /// oscillate.
     fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
         let own = self.first.modes[mode].frequency()?;
         (self.first.family == Family::General && own.sigma > 0.0)
@@ -247,7 +249,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// What of a mode is judged, and what it is measured by.
+/// The quantities of a mode to judge, each with the magnitude that it is compared to.
 fn quantities(own: &Mode) -> Vec<(Quantity, f64)> {
     let damped = matches!(own.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
     let mut all = vec![(Quantity::Frequency, own.s.norm())];
@@ -264,8 +266,8 @@ fn second_spread_of(mode: &ModeSecondOrder, quantity: Quantity) -> &SecondOrderS
     }
 }
 
-/// Whether a frequency is the root of something that vanishes nearby: its Taylor series does not converge within the
-/// tolerances, and one term more is no check of the first.
+/// Whether a frequency is the root of something that vanishes nearby. Its Taylor series then does not converge within the
+/// tolerances, and second order is no check of first order.
 pub(super) fn expanded_near_a_root(doubts: &[Doubt]) -> bool {
     doubts.iter().any(|doubt| {
         matches!(

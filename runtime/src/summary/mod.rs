@@ -1,20 +1,20 @@
-//! First order, second order and clusters side by side, and for every mode whether its standard deviation can be
-//! trusted: measured against samples where these are cheap.
+//! First order, second order and clusters side by side, and for every mode whether its standard deviation can be trusted: checked
+//! against samples where these are cheap.
 //!
-//! # How a verdict is found
+//! # How a verdict is reached
 //!
-//! Some samples, always the same ones, are solved anew, each on its own stable equilibrium, and first and second order predict
-//! each of them. The ratio of the standard deviations over the same samples is known much better than either, and more are
-//! drawn until the error of first order is clearly below 3 %, clearly above, or known to 0.4 %. The number of operations
-//! is limited ([`BUDGET`]), not the time, so that the answer is the same on every machine. What samples cannot decide within it is
-//! judged by distances to the critical state and by the second-order model, which errs: a distance does not tell how large the error
-//! is, and near a critical state the Taylor series does not converge.
+//! A number of samples, always the same ones, are solved anew, each on its own stable equilibrium, and first and second order
+//! predict each of them. The ratio of the standard deviations over the same samples is known much more accurately than either of
+//! them. More samples are drawn until the error of first order is clearly below 3 %, clearly above it, or known to 0.4 %. The
+//! number of operations is limited ([`BUDGET`]), not the time, so that the answer is the same on every machine. Cases that samples
+//! cannot decide within the budget are judged by distances to the critical state and by the second-order model. These are less
+//! reliable: a distance does not tell how large the error is, and near a critical state the Taylor series does not converge.
 //!
-//! # What a frequency is across critical states
+//! # The meaning of a frequency across critical states
 //!
-//! Standard deviations of samples are those over all stable samples together, on whatever branch of equilibria each of them has settled.
-//! A mode that does not oscillate in a sample has no frequency there, and an unstable sample has none at all. Both are counted
-//! ([`Check::count`], [`Sampled`]) and left out of mean and standard deviation.
+//! Standard deviations of samples are taken over all stable samples together, on whatever branch of equilibria each of them has
+//! settled. A mode that does not oscillate in a sample has no frequency there, and an unstable sample has none at all. Both are
+//! counted ([`Check::count`], [`Sampled`]) and excluded from mean and standard deviation.
 
 mod branch;
 mod chances;
@@ -38,25 +38,25 @@ use crate::sensitivity::sensitivities;
 use crate::tolerance::{FirstOrder, Tolerances, first_order};
 use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
 
-/// Additions and multiplications that the samples of a [`summary`] may cost: some ten milliseconds.
+/// Limit on the additions and multiplications spent on the samples of a [`summary`]: some ten milliseconds.
 pub const BUDGET: f64 = 1.5e8;
 
-/// What tolerances do to the modes, with a verdict for each.
+/// The effect of tolerances on the modes, with a verdict for each mode.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Summary {
     /// First-order spread.
     pub first: FirstOrder,
-    /// Spread to second order.
+    /// Second-order spread.
     pub second: SecondOrder,
-    /// The modes that tolerances may bring together, by their distances.
+    /// The modes that tolerances may mix, according to their distances.
     pub clusters: Vec<ClusterTolerance>,
-    /// For each mode whether its standard deviation can be trusted.
+    /// For each mode, whether its standard deviation can be trusted.
     pub trust: Vec<Trust>,
-    /// What became of the samples.
+    /// Whether samples were drawn, and what they showed.
     pub sampling: Sampling,
-    /// The inputs it belongs to, SI.
+    /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
@@ -68,7 +68,7 @@ impl Summary {
         self.trust.iter().all(Trust::trusted)
     }
 
-    /// The cluster that a mode belongs to; `None` where samples found that its modes do not mix.
+    /// The cluster of a mode; `None` if the mode has none or samples showed that its modes do not mix.
     #[must_use]
     pub fn cluster_of(&self, mode: usize) -> Option<&ClusterTolerance> {
         let mut all = self.clusters.iter();
@@ -77,8 +77,8 @@ impl Summary {
         (self.trust.get(mode)?.doubts.iter().any(mixed)).then_some(own)
     }
 
-    /// The standard deviation of a frequency to second order, rad/s; `None` where there is none, or where it means nothing
-    /// because the series does not converge.
+    /// The second-order standard deviation of a frequency, rad/s; `None` if there is none, or if it is meaningless because the
+    /// series does not converge.
     pub(crate) fn second_order_sigma(&self, mode: usize) -> Option<f64> {
         let second = self.second.modes[mode].as_ref().ok()?;
         let trust = &self.trust[mode];
@@ -86,7 +86,7 @@ impl Summary {
         converges.then_some(second.frequency.moments.sigma)
     }
 
-    /// What became of the samples; `None` where there are none.
+    /// The results of the samples; `None` if none were drawn.
     #[must_use]
     pub fn sampled(&self) -> Option<&Sampled> {
         match &self.sampling {
@@ -96,11 +96,11 @@ impl Summary {
     }
 }
 
-/// First order, second order, clusters and a verdict for each mode, by samples within [`BUDGET`].
+/// First order, second order, clusters and a verdict for each mode, checked by samples within [`BUDGET`].
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite,
-/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Threads`] when worker threads cannot be started.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite, [`Error::WrongLength`]
+/// for tolerances of another mechanism, [`Error::Threads`] if worker threads cannot be started.
 pub fn summary(
     mechanism: &dyn SummaryKernels,
     at: &Equilibrium,
@@ -110,7 +110,8 @@ pub fn summary(
     summary_within(mechanism, at, modes, tolerances, BUDGET)
 }
 
-/// As [`summary`], with samples that may cost so many operations: more decide closer cases, none leave the distances.
+/// Like [`summary`], with a custom budget for samples: a larger one decides closer cases; with zero, only distances and the
+/// second-order model remain.
 ///
 /// # Errors
 /// As [`summary`].
@@ -124,10 +125,10 @@ pub fn summary_within(
     summary_watched(mechanism, (at, modes), tolerances, budget, Watch::default())
 }
 
-/// As [`summary_within`], for somebody who waits.
+/// Like [`summary_within`], but `watch` follows the work and can stop it.
 ///
 /// # Errors
-/// As [`summary`]; [`Error::Stopped`] if the work is stopped: half a verdict is none.
+/// As [`summary`]; [`Error::Stopped`] if the work is stopped, because half a verdict is worthless.
 pub fn summary_watched(
     mechanism: &dyn SummaryKernels,
     (at, modes): (&Equilibrium, &Modes),

@@ -1,10 +1,10 @@
-//! Samples beside what was predicted of each: the ratio of two standard deviations from the same samples is known much better than
-//! either.
+//! Samples paired with their predictions: the ratio of two standard deviations over the same samples is known much more accurately
+//! than either.
 
-/// Groups of samples, each of which is left out once.
+/// Number of groups of samples; the jackknife leaves out one at a time.
 const GROUPS: usize = 32;
 
-/// Sums over numbers, deviations from some fixed value.
+/// Sums over numbers, as deviations from a fixed value.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     count: f64,
@@ -35,7 +35,7 @@ impl Sums {
     }
 }
 
-/// Of some samples: what was found, and what was predicted of all of them.
+/// Sums over some samples: the values found, and the predictions for all of them.
 #[derive(Clone, Copy, Debug, Default)]
 struct Group {
     found: Sums,
@@ -64,8 +64,8 @@ pub struct Measured {
     pub standard_error: f64,
 }
 
-/// A quantity of a mode over samples, with its prediction to first and second order for each. All are deviations from its
-/// nominal value, so that no digits are lost.
+/// A quantity of a mode over samples, with its first- and second-order prediction for each. All are deviations from the nominal
+/// value, so that no digits are lost.
 #[derive(Clone, Debug)]
 pub(super) struct Paired {
     groups: [Group; GROUPS],
@@ -80,7 +80,7 @@ impl Paired {
         }
     }
 
-    /// Adds a sample; `None` where it does not have the quantity.
+    /// Adds a sample; `found` is `None` if it does not have the quantity.
     pub(super) fn add(&mut self, found: Option<f64>, first: f64, second: f64) {
         let group = &mut self.groups[self.samples % GROUPS];
         self.samples += 1;
@@ -91,32 +91,32 @@ impl Paired {
         group.second.add(second);
     }
 
-    /// How many samples have the quantity.
+    /// Number of samples that have the quantity.
     pub(super) fn count(&self) -> usize {
         self.total().found.count as usize
     }
 
-    /// How many samples there are.
+    /// Number of samples.
     pub(super) fn samples(&self) -> usize {
         self.samples
     }
 
-    /// Mean of what was found.
+    /// Mean of the values found.
     pub(super) fn mean(&self) -> Option<f64> {
         self.total().found.mean()
     }
 
-    /// Standard deviation of what was found.
+    /// Standard deviation of the values found.
     pub(super) fn sigma(&self) -> Option<Measured> {
         self.jackknife(|group| group.found.sigma())
     }
 
-    /// Standard deviation of the first-order prediction over that of what was found.
+    /// Ratio of the standard deviation of the first-order prediction to that of the values found.
     pub(super) fn first_ratio(&self) -> Option<Measured> {
         self.jackknife(|group| Some(group.first.sigma()? / group.found.sigma()?))
     }
 
-    /// The same of the second-order prediction.
+    /// Ratio of the standard deviation of the second-order prediction to that of the values found.
     pub(super) fn second_ratio(&self) -> Option<Measured> {
         self.jackknife(|group| Some(group.second.sigma()? / group.found.sigma()?))
     }
@@ -129,8 +129,8 @@ impl Paired {
         total
     }
 
-    /// A statistic and its standard error, by what it becomes without each group (Efron, The Jackknife, the Bootstrap and
-    /// Other Resampling Plans, 1982, section 2.2); `None` where it is not a finite number.
+    /// A statistic and its standard error, from its values with one group left out at a time (Efron, The Jackknife, the Bootstrap
+    /// and Other Resampling Plans, 1982, section 2.2); `None` if it is not finite.
     fn jackknife(&self, statistic: impl Fn(&Group) -> Option<f64>) -> Option<Measured> {
         let total = self.total();
         let value = statistic(&total)?;
@@ -155,7 +155,7 @@ impl Paired {
 mod tests {
     use super::*;
 
-    /// Ten numbers in each of the groups: the standard error of a mean by the jackknife is that of the means of the groups.
+    /// With ten numbers in each group, the jackknife standard error of a mean is that of the group means.
     #[test]
     fn the_jackknife_of_a_mean_is_its_standard_error() {
         let mut paired = Paired::new();
@@ -180,7 +180,7 @@ mod tests {
             paired.add((k < 2 * GROUPS).then_some(value), 2.0 * value, 0.0);
         }
         assert_eq!(paired.count(), 2 * GROUPS);
-        // Variance of 0, 1 .. n-1 is n (n + 1) / 12.
+        // The variance of 0, 1 .. n-1 is n (n + 1) / 12.
         let n = (2 * GROUPS) as f64;
         let expected = 2.0 * (4.0 * (2.0 * n + 1.0) / (2.0 * (n + 1.0))).sqrt();
         let ratio = paired.first_ratio().map_or(0.0, |ratio| ratio.value);

@@ -1,4 +1,4 @@
-//! First and second order against samples that are solved anew: as many as it takes to decide, within a budget.
+//! Checks first and second order against re-solved samples: as many as a decision needs, within a budget.
 
 use super::branch::on_nominal_branch;
 use super::chances::{Chance, Sampled, Sampling};
@@ -12,43 +12,43 @@ use crate::sensitivity::Quantity;
 use crate::tolerance::{self, Counts, Outcome, Sample, Tolerances, monte_carlo};
 use crate::{Equilibrium, Error, Modes, Stability, Watch};
 
-/// Numbers of samples, of which the next is taken where the last did not decide.
+/// Successive numbers of samples; the next is used if the last did not decide.
 const STAGES: [usize; 5] = [256, 1024, 4096, 16_384, 65_536];
-/// As many decide, unless no quantity has values, and more where rare samples matter.
+/// Minimum number of samples for a decision, and the number where rare samples matter. Quantities without values do not count.
 const DECISIVE: usize = 1024;
 const DECISIVE_IN_DOUBT: usize = 4096;
-/// Samples that are drawn together.
+/// Maximum number of samples drawn at once.
 const TOGETHER: usize = 8192;
-/// Samples whose branch is asked for.
+/// Number of samples whose branch is checked.
 const BRANCHES: usize = 4096;
 /// The error of a standard deviation that separates right from wrong.
 const LIMIT: f64 = 0.03;
-/// What is off by less is not refused.
+/// A smaller error is not rejected.
 const GOOD: f64 = 0.01;
-/// An error beyond the limit by as many standard errors is clearly beyond it.
+/// An error beyond the limit by this many standard errors is clearly beyond it.
 const CLEARLY: f64 = 4.0;
-/// A standard error of the error that decides in any case.
+/// With a standard error of the error this small, the case is decided.
 const FINE: f64 = 0.004;
 /// Fewer values say nothing about a standard deviation.
 pub(super) const FEWEST: usize = 128;
-/// Standard deviations below this, relative to the quantity, are rounding.
+/// Standard deviations below this, relative to the quantity, are rounding errors.
 pub(super) const ROUNDING: f64 = 1e-10;
 
-/// A quantity that is to be checked, and its predictions.
+/// A quantity to check, and its predictions.
 pub(super) struct Prediction<'a> {
     pub(super) mode: usize,
     pub(super) quantity: Quantity,
     pub(super) nominal: f64,
-    /// What it is measured by: a spread much smaller is rounding.
+    /// Magnitude of the quantity: a spread much smaller is rounding.
     pub(super) size: f64,
-    /// Derivatives by the design variables.
+    /// Derivatives with respect to the design variables.
     pub(super) slopes: Option<Vector>,
     pub(super) second: Option<&'a Quadratic>,
-    /// Rare samples may matter: a critical state is not far.
+    /// Whether a critical state is near, so that rare samples may matter.
     pub(super) doubtful: bool,
 }
 
-/// What a mechanism is sampled about.
+/// The nominal state about which samples are drawn.
 pub(super) struct About<'a> {
     pub(super) mechanism: &'a dyn SummaryKernels,
     pub(super) at: &'a Equilibrium,
@@ -57,17 +57,17 @@ pub(super) struct About<'a> {
     pub(super) watch: Watch<'a>,
 }
 
-/// What was found: a check of each prediction where there are enough values, and how many there are.
+/// The result: a check of each prediction for which there are enough values, and the number of values.
 pub(super) struct Found {
     pub(super) checks: Vec<Option<Check>>,
     pub(super) counts: Vec<usize>,
-    /// Samples in which modes of each group stand in another order than the nominal ones.
+    /// For each group, the number of samples in which its modes are not in nominal order.
     pub(super) exchanged: Vec<usize>,
     pub(super) sampling: Sampling,
 }
 
 impl About<'_> {
-    /// Draws samples until every prediction is decided or the budget of operations is spent.
+    /// Draws samples until every prediction is decided or the operation budget is spent.
     pub(super) fn sample(
         &self,
         predictions: &[Prediction<'_>],
@@ -174,7 +174,7 @@ impl About<'_> {
         }
     }
 
-    /// Whether the frequencies that a sample has of some modes stand in the order of the nominal ones.
+    /// Whether the frequencies of these modes are in nominal order in a sample.
     fn in_order(&self, group: &[usize], sample: &Sample) -> bool {
         let both = |mode: &usize| {
             let nominal = self.modes.modes.get(*mode)?.frequency().unwrap_or(0.0);
@@ -187,7 +187,7 @@ impl About<'_> {
         !pairs.into_iter().any(turned)
     }
 
-    /// Counts the first samples on another branch, and all that were asked.
+    /// Counts the samples checked so far, and those on another branch.
     fn follow(&self, sample: &Sample, branches: &mut Option<(usize, usize)>) {
         let Some((others, asked)) = branches else {
             return;
@@ -205,7 +205,7 @@ impl About<'_> {
     }
 }
 
-/// What samples say of a prediction; `None` where there are too few, or nothing varies.
+/// Checks a prediction against the samples; `None` if there are too few, or if nothing varies.
 fn check(prediction: &Prediction<'_>, paired: &Paired) -> Option<Check> {
     let (count, sigma) = (paired.count(), paired.sigma()?);
     if count < FEWEST || sigma.value <= ROUNDING * prediction.size {
@@ -234,7 +234,7 @@ fn decided(check: &Check) -> bool {
     })
 }
 
-/// What samples say of first order.
+/// What samples say about first order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Finding {
     Right,
@@ -243,7 +243,7 @@ pub(super) enum Finding {
     Open,
 }
 
-/// Whether a standard deviation is off by less than the limit, within two standard errors by less than
+/// Judges the error of a standard deviation: right if it is below the limit and, with two standard errors, below
 /// [`TRUSTED_SIGMA_ERROR`].
 pub(super) fn finding(error: Measured) -> Finding {
     let (size, uncertain) = (error.value.abs(), 2.0 * error.standard_error);

@@ -9,22 +9,22 @@ use crate::equilibrium::{Policy, equilibrium};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error, Input, Text};
 
-/// Least and greatest step of the continuation, whatever the number of steps that is asked for.
+/// Smallest and largest step of the continuation, whatever number of steps is requested.
 const FINEST_STEP: f64 = 1e-4;
 const COARSEST_STEP: f64 = 0.05;
-/// Most points of the continuation.
+/// Maximum number of continuation points.
 const MOST_POINTS: usize = 50_000;
 
-/// Finds the first value of an input at which the branch that is stable at `range.low` loses its stiffness: a limit
-/// point or a branch point, located to rounding.
+/// Finds the first input value at which the branch that is stable at `range.low` loses its stiffness: a limit point or branch
+/// point, located to rounding accuracy.
 ///
-/// The branch itself is followed, by continuation with steps of at most the `steps`-th part of the range, also where a
-/// neighbouring one is the stable one. A branch that runs to infinity is not critical. A non-symmetric `Khat` is critical
-/// where its determinant changes sign.
+/// The branch itself is followed by continuation, with steps of at most `1/steps` of the range, even where a neighbouring branch is
+/// the stable one. A branch that runs to infinity is not critical. A non-symmetric `Khat` is critical where its determinant changes
+/// sign.
 ///
 /// # Errors
-/// [`Error::NotInRange`] when the branch keeps its stiffness; the reason where the branch cannot be followed to the end of the
-/// range; otherwise as [`equilibrium`].
+/// [`Error::NotInRange`] if the branch keeps its stiffness; the cause if the branch cannot be followed to the end of the range;
+/// otherwise as [`equilibrium`].
 pub fn critical_state(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],
@@ -73,17 +73,17 @@ pub fn critical_state(
     }
 }
 
-/// Most critical states on one path: a safeguard, far above what a machine has.
+/// Maximum number of critical states on one path: a safeguard, far above what real machines have.
 const MOST_STATES: usize = 32;
 
-/// A path of stable equilibria, of which is kept what it takes to find the critical states on it.
+/// A path of stable equilibria, reduced to what is needed to find its critical states.
 pub(crate) struct Path {
-    /// Stable equilibria are what is followed.
+    /// Whether stable equilibria are followed.
     stable: bool,
-    /// Values, states, and whether the path leads to it from the one before so smoothly that there is no critical state between the
-    /// two. Of smooth states in a row only the last.
+    /// Value, state, and whether the path reaches it from the previous state so smoothly that no critical state lies between. Of
+    /// consecutive smooth states only the last is kept.
     stations: Vec<(f64, Vector, bool)>,
-    /// The first value, and the last one.
+    /// The first and the last value.
     ends: Option<(f64, f64)>,
     ascends: bool,
     descends: bool,
@@ -100,7 +100,7 @@ impl Path {
         }
     }
 
-    /// Goes on to a state, if there is one.
+    /// Extends the path by a state, if there is one.
     pub(crate) fn add(&mut self, value: f64, state: &Result<Equilibrium, Error>, smooth: bool) {
         let Ok(state) = state else {
             return;
@@ -127,8 +127,8 @@ impl Path {
         }
     }
 
-    /// The critical states, each on the branch that the path follows up to it. None where stable equilibria are not what is followed,
-    /// or the values neither ascend nor descend.
+    /// The critical states, each on the branch that leads up to it. Empty if the path does not follow stable equilibria or if its
+    /// values are not monotonic.
     pub(crate) fn critical_states(
         &self,
         mechanism: &dyn DirectionalKernels,
@@ -144,7 +144,7 @@ impl Path {
         while let [(low, start, _), after @ ..] = rest
             && found.len() < MOST_STATES
         {
-            // How far nothing excludes one.
+            // The stretch on which a critical state cannot be excluded.
             let steps = after.iter().take_while(|(.., smooth)| !smooth).count();
             if steps == 0 {
                 rest = after;

@@ -1,5 +1,5 @@
-//! Values of an input where a mode meets a condition: its frequency equals a multiple of the input (resonance, critical
-//! speed of a rotor), or its oscillation stops decaying (onset of flutter). Located by Newton's method with exact slopes.
+//! Values of an input at which a mode meets a condition: its frequency equals a multiple of the input (resonance, critical speed of
+//! a rotor), or its oscillation stops decaying (onset of flutter). They are located by Newton's method with exact slopes.
 
 use super::points::SweepPoint;
 use super::range::Range;
@@ -10,13 +10,13 @@ use crate::modes::Family;
 use crate::sensitivity::{Quantity, sensitivities};
 use crate::{Equilibrium, Error, Input, Mode, Modes};
 
-/// A line `ratio u + offset` that a frequency is compared with: an engine order, or a fixed excitation.
+/// A line `ratio u + offset` to compare frequencies with: an engine order or a fixed excitation frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Line {
     /// Multiple of the input; rad/s per SI unit of the input.
     pub ratio: f64,
-    /// Part that does not depend on the input, rad/s.
+    /// Constant part, rad/s.
     pub offset: f64,
 }
 
@@ -27,14 +27,14 @@ impl From<f64> for Line {
     }
 }
 
-/// What a mode meets at a value of an input.
+/// A condition that a mode can meet at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Condition {
-    /// Its frequency equals a line: `Im s = ratio u + offset`.
+    /// The frequency equals a line: `Im s = ratio u + offset`.
     Line(Line),
-    /// Its oscillation neither grows nor decays: `Re s = 0`, with growth on one side.
+    /// The oscillation neither grows nor decays: `Re s = 0`, with growth on one side.
     FlutterOnset,
 }
 
@@ -43,35 +43,35 @@ pub enum Condition {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crossing {
-    /// The input that was varied.
+    /// The varied input.
     pub input: Input,
-    /// Its value there, SI.
+    /// Its value at the crossing, SI.
     pub value: f64,
-    /// What is met.
+    /// The condition that is met.
     pub condition: Condition,
     /// Position of the mode in `modes`.
     pub mode: usize,
-    /// The equilibrium there.
+    /// The equilibrium at the crossing.
     pub equilibrium: Equilibrium,
-    /// The modes there, in the order they have at the start of the range.
+    /// The modes at the crossing, in their order at the start of the range.
     pub modes: Modes,
 }
 
 impl Condition {
-    /// What is zero where the condition is met; `value` is what the input really is.
+    /// The function that vanishes where the condition is met; `value` is the actual input, deviation included.
     fn excess(self, modes: &Modes, label: usize, value: f64) -> Option<f64> {
         let mode = modes.modes.iter().find(|mode| mode.label == label)?;
         let omega = mode.frequency()?;
         Some(match self {
             Self::Line(line) => omega - line.ratio * value - line.offset,
-            // What cannot be told from zero counts as not growing.
+            // Growth indistinguishable from zero counts as no growth.
             Self::FlutterOnset if mode.s.re.abs() <= mode.error => -mode.error,
             Self::FlutterOnset => mode.s.re,
         })
     }
 
-    /// Whether a mode meets the condition, but for rounding: where the equilibrium jumps to another branch, its frequency
-    /// jumps across a line without meeting it.
+    /// Whether a mode meets the condition within rounding. Where the equilibrium jumps to another branch, a frequency jumps across
+    /// a line without meeting it.
     fn is_met(self, mode: &Mode, value: f64) -> bool {
         const ROUNDING: f64 = 1e-6;
         let Some(omega) = mode.frequency() else {
@@ -87,7 +87,7 @@ impl Condition {
         }
     }
 
-    /// The quantity of the mode, and how the other side of the condition moves with the input.
+    /// The quantity of the mode on one side of the condition, and the rate at which the other side changes with the input.
     pub(crate) fn sides(self) -> (Quantity, f64) {
         match self {
             Self::Line(line) => (Quantity::Frequency, line.ratio),
@@ -95,7 +95,7 @@ impl Condition {
         }
     }
 
-    /// Derivative of the excess by the input along the equilibria; `None` where there is none.
+    /// Derivative of the excess with respect to the input along the equilibria; `None` where it does not exist.
     fn slope(
         self,
         mechanism: &dyn Kernels,
@@ -111,12 +111,12 @@ impl Condition {
     }
 }
 
-/// Finds every value of an input in a range at which a frequency equals a line (a number is the multiple of the input),
-/// on the equilibria that are followed; modes keep their identity along the range. Points without an equilibrium or
-/// without modes are passed over, and a frequency that jumps across the line with the equilibrium does not meet it.
+/// Finds every input value in a range at which a frequency equals a line (a plain number is the multiple of the input), along the
+/// followed equilibria. Modes keep their identity along the range. Points without an equilibrium or without modes are skipped. A
+/// frequency that jumps across the line together with the equilibrium does not count.
 ///
 /// # Errors
-/// [`Error::UnknownHandle`], [`Error::Setting`], and the error of the first point.
+/// [`Error::UnknownHandle`], [`Error::Setting`], or the error of the first point.
 pub fn crossings(
     mechanism: &dyn Kernels,
     u: &[f64],
@@ -138,8 +138,9 @@ pub fn crossings(
     )
 }
 
-/// Finds every value of an input in a range at which an oscillation begins or ceases to grow, on the equilibria that
-/// are followed. As [`crossings`], always with general modes.
+/// Finds every input value in a range at which an oscillation starts or stops growing, along the followed equilibria.
+///
+/// Otherwise like [`crossings`], but always with general modes.
 ///
 /// # Errors
 /// As [`crossings`].
@@ -163,7 +164,7 @@ pub fn flutter_onsets(
     )
 }
 
-/// The first value in a range at which the mode that is number `mode` at its start meets a condition; `None` where it does not.
+/// The first value in a range at which the mode that has position `mode` at the start meets a condition; `None` if there is none.
 pub(crate) fn first_crossing(
     mechanism: &dyn Kernels,
     values: (&[f64], &[f64]),
@@ -172,19 +173,19 @@ pub(crate) fn first_crossing(
     range: Range,
     (mode, condition): (usize, Condition),
 ) -> Result<Option<Crossing>, Error> {
-    // Labels at the start are positions; modes that end on the way move the positions of others.
+    // Labels at the start are positions; modes that end on the way change the positions of others.
     let wanted = |crossing: &Crossing| crossing.modes.modes[crossing.mode].label == mode;
     let met = |found: &[Crossing]| found.iter().any(wanted);
     let found = meetings(mechanism, values, start, following, range, condition, met)?;
     Ok(found.into_iter().find(wanted))
 }
 
-/// However many there are, there may be more.
+/// Never enough: all crossings are wanted.
 fn never(_: &[Crossing]) -> bool {
     false
 }
 
-/// The meetings in a range, until there are enough.
+/// Finds the crossings in a range until `enough` returns true.
 fn meetings(
     mechanism: &dyn Kernels,
     values: (&[f64], &[f64]),
@@ -222,7 +223,7 @@ fn meetings(
     Ok(found)
 }
 
-/// Adds the meetings between two neighbouring points, by label of the modes.
+/// Adds the crossings between two neighbouring points, matching modes by label.
 pub(crate) fn between(
     tracker: &Tracker<'_>,
     before: &SweepPoint,

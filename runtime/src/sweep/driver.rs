@@ -1,5 +1,5 @@
-//! Following an equilibrium from value to value of an input: side by side in the vectors of the processor where the way is
-//! smooth, one by one elsewhere.
+//! Follows an equilibrium through successive values of an input: in vectorised blocks where the path is smooth, one value at a time
+//! elsewhere.
 
 use core::ops::ControlFlow;
 
@@ -11,17 +11,17 @@ use crate::scalar::WIDTH;
 use crate::sensitivity::{Adjoint, Method};
 use crate::{Error, Sensitivities};
 
-/// What is known at one value.
+/// The results at one value.
 pub(crate) struct Station<'a> {
     pub(crate) point: &'a SweepPoint,
-    /// Derivatives of the modes, if they are wanted.
+    /// Derivatives of the modes, if requested.
     pub(crate) slopes: Option<&'a Result<Sensitivities, Error>>,
-    /// No critical state lies between it and the value before.
+    /// Whether no critical state lies between the previous value and this one.
     pub(crate) smooth: bool,
 }
 
-/// Goes on to each of `values` until `each` breaks off; it sees what is there, in order, with derivatives of the modes if they are
-/// wanted.
+/// Advances through `values` until `each` breaks off. `each` receives the results in order, with derivatives of the modes if
+/// requested.
 pub(crate) fn follow(
     tracker: &mut Tracker<'_>,
     kernels: &dyn BatchKernels,
@@ -35,7 +35,7 @@ pub(crate) fn follow(
         (tracker.side_by_side()).then(|| tracker.workspace(&mut memory, with_slopes));
     let mut adjoint = with_slopes.then(|| Adjoint::new(tracker.mechanism, tracker.family()));
     let mut slopes = None;
-    // Values to be solved one by one before a block is tried again; three tell a way.
+    // Number of values to solve one by one before the next block; three define a path.
     let mut alone = 3;
     while let Some((&value, behind)) = rest.split_first() {
         if let Some(workspace) = &mut workspace
@@ -49,7 +49,7 @@ pub(crate) fn follow(
             }
             tracker.commit(block, number);
             rest = &rest[number..];
-            // Where the way bends too much for a whole block, so it does a little farther on.
+            // Where the path bends too much for a whole block, it will do so a little farther on as well.
             alone = WIDTH - number;
             continue;
         }
@@ -72,7 +72,7 @@ pub(crate) fn follow(
     }
 }
 
-/// The derivatives at a point, written over those at another where there are any.
+/// The derivatives at a point, reusing the buffers of earlier ones if available.
 fn slopes_at(
     point: &SweepPoint,
     adjoint: &mut Adjoint<'_>,
@@ -85,7 +85,7 @@ fn slopes_at(
     Ok(slopes)
 }
 
-/// The first states of a block, each written over the one before.
+/// Passes the first states of a block to `each`, each overwriting the one before.
 fn show(
     tracker: &mut Tracker<'_>,
     block: &Block<'_>,

@@ -1,4 +1,4 @@
-//! First-order spread of the values of an input at which something happens: critical speeds and resonances.
+//! First-order spread of the input values at which an event occurs: critical speeds and resonances.
 
 use super::crossing::{Condition, Crossing};
 use super::event_sensitivity::{critical_sensitivity, crossing_sensitivity};
@@ -9,7 +9,7 @@ use crate::modes::{Family, Whirl, whirls};
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Complex, Description, Error, Input, Shared};
 
-/// What happens at a value of an input.
+/// An event at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -20,40 +20,40 @@ pub enum Event {
     Crossing {
         /// Position of the mode, from 0.
         mode: usize,
-        /// What it meets.
+        /// The condition it meets.
         condition: Condition,
-        /// Its eigenvalue there, 1/s.
+        /// Its eigenvalue at the event, 1/s.
         s: Complex,
-        /// How it whirls there; `None` where that does not apply.
+        /// Its whirl direction at the event; `None` where whirl is not applicable.
         whirl: Option<Whirl>,
     },
 }
 
-/// A value of an input at which something happens, and how tolerances move it.
+/// The input value at which an event occurs, and its spread due to tolerances.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EventTolerance {
-    /// What happens.
+    /// The event.
     pub event: Event,
     /// The input.
     pub input: Input,
-    /// Its nominal value there, SI.
+    /// Its nominal value at the event, SI.
     pub value: f64,
-    /// How tolerances move the value, or why it has no derivative.
+    /// Spread of the value, or the reason why it has no derivative.
     pub spread: Result<Spread, Error>,
-    /// How many standard deviations a tolerance and a band hold.
+    /// Number of standard deviations that a tolerance and a band represent.
     pub sigma_level: f64,
-    /// Which modes it was found with.
+    /// The family of modes used to find the event.
     pub family: Family,
-    /// The inputs there, SI.
+    /// The inputs at the event, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
 impl EventTolerance {
-    /// The same with another number for the mode of a crossing.
+    /// The event with another number for the mode of a crossing.
     pub(crate) fn with_mode(mut self, number: usize) -> Self {
         if let Event::Crossing { mode, .. } = &mut self.event {
             *mode = number;
@@ -61,14 +61,14 @@ impl EventTolerance {
         self
     }
 
-    /// Standard deviation of the value, SI; `None` where it has no derivative.
+    /// Standard deviation of the value, SI; `None` if it has no derivative.
     #[must_use]
     pub fn sigma(&self) -> Option<f64> {
         self.spread.as_ref().ok().map(|spread| spread.sigma)
     }
 }
 
-/// Spread of a critical value ([`critical_sensitivity`]).
+/// First-order spread of a critical value ([`critical_sensitivity`]).
 pub fn critical_tolerance(
     mechanism: &dyn DirectionalKernels,
     critical: &CriticalState,
@@ -87,7 +87,7 @@ pub fn critical_tolerance(
     }
 }
 
-/// Spread of a crossing ([`crossing_sensitivity`]).
+/// First-order spread of a crossing ([`crossing_sensitivity`]).
 pub fn crossing_tolerance(
     mechanism: &dyn Kernels,
     crossing: &Crossing,

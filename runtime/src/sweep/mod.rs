@@ -1,4 +1,4 @@
-//! Along an input: equilibria and modes from value to value, and where they become critical, resonant or unstable.
+//! Studies along an input: equilibria and modes at successive values, and where they become critical, resonant or unstable.
 
 mod critical;
 mod crossing;

@@ -1,4 +1,4 @@
-//! What is found along an input.
+//! Results along an input.
 
 use crate::algebra::Vector;
 use crate::branches::SpecialKind;
@@ -11,15 +11,14 @@ use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 pub struct Sweep {
     /// The swept input.
     pub input: Input,
-    /// One point for each value.
+    /// One point per value.
     pub points: Vec<SweepPoint>,
-    /// Critical values of the input, where the stable equilibrium that the sweep follows loses its stiffness; located to
-    /// rounding, each on the branch before it. Found only where stable equilibria are wanted and the values ascend or
-    /// descend.
+    /// Critical values of the input, where the stable equilibrium that the sweep follows loses its stiffness, each located to
+    /// rounding accuracy on the branch before it. Computed only if stable equilibria are followed and the values are monotonic.
     pub critical: Vec<CriticalState>,
-    /// How many of the values were not reached, because the run was stopped.
+    /// Number of values not reached because the run was stopped.
     pub unreached: usize,
-    /// The inputs, SI; all but the swept one keep their value.
+    /// The inputs, SI; all but the swept one keep their values.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
@@ -50,19 +49,19 @@ impl<'a> IntoIterator for &'a Sweep {
 pub struct SweepPoint {
     /// Value of the swept input, SI.
     pub value: f64,
-    /// The equilibrium, or why there is none.
+    /// The equilibrium, or the reason why there is none.
     pub equilibrium: Result<Equilibrium, Error>,
-    /// The modes there: modes with one label are one motion along the whole sweep.
+    /// The modes at this point: modes with the same label are the same motion along the whole sweep.
     pub modes: Result<Modes, Error>,
 }
 
 impl SweepPoint {
-    /// Equilibrium and modes, or why there are not both.
+    /// Equilibrium and modes, or the reason why one of them is missing.
     pub(crate) fn solved(&self) -> Result<(&Equilibrium, &Modes), &Error> {
         Ok((self.equilibrium.as_ref()?, self.modes.as_ref()?))
     }
 
-    /// The same, to be written over.
+    /// Equilibrium and modes as buffers to overwrite, or the reason why one of them is missing.
     pub(super) fn solved_mut(&mut self) -> Result<(&mut Equilibrium, &mut Modes), &mut Error> {
         Ok((self.equilibrium.as_mut()?, self.modes.as_mut()?))
     }
@@ -73,15 +72,15 @@ impl SweepPoint {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CriticalState {
-    /// The input that was varied.
+    /// The varied input.
     pub input: Input,
     /// Its critical value, SI.
     pub value: f64,
-    /// What happens to the branch there.
+    /// The kind of critical point.
     pub kind: SpecialKind,
-    /// The equilibrium there, on the branch that is stable below; its critical mode counts as neutral.
+    /// The equilibrium at the critical value, on the branch that is stable below it; its critical mode counts as neutral.
     pub equilibrium: Equilibrium,
-    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of several if degenerate.
     pub v: Vector,
     /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
     pub w: Vector,

@@ -1,29 +1,29 @@
-//! A range of one input in which something is looked for.
+//! A range of one input to be searched.
 
 use crate::arguments::check_input;
 use crate::setters::setters;
 use crate::{Any, Description, Error, Input};
 
-/// Where to look: `steps` equal steps of one input from `low` to `high`.
+/// The range to search: `steps` equal steps of one input from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound = ""))]
 pub struct Range<M = Any> {
-    /// The input that varies.
+    /// The varied input.
     pub input: Input<M>,
-    /// Where the search starts, SI.
+    /// Start of the search, SI.
     pub low: f64,
-    /// Where it ends, SI; below `low` to search downwards.
+    /// End of the search, SI; below `low` to search downwards.
     pub high: f64,
-    /// Number of steps; two events within one step are not told apart. 200 unless set.
+    /// Number of steps; two events within one step cannot be told apart. 200 by default.
     pub steps: usize,
 }
 
 impl<M> Range<M> {
     setters!(steps: usize);
 
-    /// From `low` to `high`, SI.
+    /// Creates a range from `low` to `high`, SI.
     #[must_use]
     pub fn new(input: Input<M>, low: f64, high: f64) -> Self {
         Self {
@@ -34,7 +34,7 @@ impl<M> Range<M> {
         }
     }
 
-    /// The same, of any mechanism.
+    /// The range without the type of its mechanism.
     #[must_use]
     pub fn any(&self) -> Range {
         Range {
@@ -47,7 +47,7 @@ impl<M> Range<M> {
 }
 
 impl Range {
-    /// The ends of the steps, `low` excluded.
+    /// The end points of the steps, `low` excluded.
     pub(super) fn values(&self) -> impl Iterator<Item = f64> + use<> {
         let (low, high, count) = (self.low, self.high, self.steps);
         (1..=count).map(move |step| low + (high - low) * step as f64 / count as f64)

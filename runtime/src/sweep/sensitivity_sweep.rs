@@ -10,12 +10,13 @@ use crate::kernels::BatchKernels;
 use crate::sensitivity::Sensitivities;
 use crate::{Error, Input};
 
-/// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and shows them to `each` in order, until
-/// that breaks off:
-/// the fastest way to derivatives along an input, because neighbouring values are solved side by side and nothing is kept.
+/// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and passes them to `each` in order until
+/// it breaks off. This is the fastest way to derivatives along an input, because neighbouring values are solved together and
+/// nothing is kept.
 ///
-/// Arguments as for [`sweep`](crate::sweep::sweep), which keeps its points and looks for critical states between
-/// them; states and modes are the same. Derivatives are those of [`sensitivities`](crate::sensitivity::sensitivities), or its error.
+/// The arguments are those of [`sweep`](crate::sweep::sweep), which keeps its points and looks for critical states between them;
+/// states and modes are identical. The derivatives, or the error, are those of
+/// [`sensitivities`](crate::sensitivity::sensitivities).
 ///
 /// # Errors
 /// [`Error::UnknownHandle`] for an input that the mechanism does not have.

@@ -1,4 +1,4 @@
-//! Sweeps of one input: each point starts from the equilibrium before it, and modes keep their identity.
+//! Sweeps of one input: each point starts from the previous equilibrium, and modes keep their identity.
 
 use core::ops::ControlFlow;
 
@@ -10,11 +10,10 @@ use crate::arguments::check_input;
 use crate::kernels::BatchKernels;
 use crate::{Error, Input};
 
-/// Solves equilibrium and modes at each of `values` of one input; the others keep their value in `u`.
+/// Solves equilibrium and modes at each of `values` of one input; the other inputs keep their values in `u`.
 ///
-/// The first point starts at `start`, each later one at the last equilibrium found. A point that fails carries its
-/// error and the sweep goes on. A sweep that follows stable equilibria passes from branch to branch by itself and reports
-/// the critical values on its way.
+/// The first point starts at `start`, each later one at the last equilibrium found. A point that fails carries its error and the
+/// sweep continues. A sweep that follows stable equilibria switches branches by itself and reports the critical values it passes.
 ///
 /// # Errors
 /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
@@ -37,8 +36,8 @@ pub fn sweep(
     Ok(Sweep { points, ..found })
 }
 
-/// As [`sweep`], but shows each point to `each`, in order and as soon as it is found, and keeps none: the result has the critical
-/// states only. The sweep ends where `each` breaks off.
+/// Like [`sweep`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result contains only
+/// the critical states. The sweep ends when `each` breaks off.
 ///
 /// # Errors
 /// As [`sweep`].

@@ -1,5 +1,5 @@
-//! Following one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes
-//! keep their identity.
+//! Follows one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes keep their
+//! identity.
 
 use super::points::SweepPoint;
 use crate::algebra::Vector;
@@ -12,21 +12,21 @@ use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters::setters;
 use crate::{Description, Equilibrium, Error, Input, Mode, Modes, Shared, Stability};
 
-/// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
+/// Assurance below which a mode counts as not recognised, and a smaller step is tried.
 const RECOGNISED: f64 = 0.8;
-/// How often a step may be halved.
+/// Maximum number of times a step may be halved.
 const HALVINGS: usize = 6;
 
-/// What is followed, and how.
+/// The kind of equilibrium and modes to follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Following {
-    /// Which equilibrium.
+    /// Which equilibrium to follow.
     pub policy: Policy,
-    /// Which modes; `None` for the family that leaves nothing out ([`Family::of`]).
+    /// Which modes to follow; `None` for the family that neglects nothing ([`Family::of`]).
     pub family: Option<Family>,
-    /// The vector instructions with which neighbouring values of a sweep are solved side by side where the mechanism allows
-    /// it; `None` solves each alone. Results are the same up to rounding.
+    /// The vector instructions used to solve neighbouring values of a sweep at once, where the mechanism allows it; `None` solves
+    /// each value by itself. Results agree up to rounding.
     pub vectors: Option<Instructions>,
 }
 
@@ -60,22 +60,22 @@ pub(crate) struct Tracker<'a> {
     policy: Policy,
     family: Family,
     vectors: Option<Instructions>,
-    /// Where the next solve starts.
+    /// Start of the next solve.
     from: Vector,
-    /// The way so far, which tells where it goes on.
+    /// The path so far, used to predict the next state.
     path: Path,
-    /// The first label that no mode has had: one that has ended does not lend its label to another.
+    /// The smallest label not yet used; labels of modes that have ended are not reused.
     unused: usize,
-    /// The last advance ended where the way before led, and no stiffness came near to zero: it passed no critical state.
+    /// Whether the last advance ended where the path so far predicted, with no stiffness near zero: it passed no critical state.
     pub(crate) smooth: bool,
-    /// The last point that has modes.
+    /// The last point with modes.
     pub(crate) last: Option<Box<SweepPoint>>,
-    /// What the next point is written over.
+    /// A buffer for the next point.
     spare: Option<Box<SweepPoint>>,
 }
 
 impl<'a> Tracker<'a> {
-    /// What the input is where it is set to a value: its deviation is added.
+    /// The actual input for a set value: its deviation is added.
     pub(crate) fn actual(&self, value: f64) -> f64 {
         value + self.mechanism.deviation(self.input.index(), &self.design)
     }
@@ -106,12 +106,12 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// Which modes are followed.
+    /// The family of the followed modes.
     pub(crate) fn family(&self) -> Family {
         self.family
     }
 
-    /// The inputs at a value of the one that varies.
+    /// All inputs when the varied one has this value.
     pub(super) fn inputs_at(&self, value: f64) -> Vector {
         let mut inputs = self.inputs.clone();
         if let Some(place) = inputs.get_mut(self.input.index()) {
@@ -120,8 +120,8 @@ impl<'a> Tracker<'a> {
         inputs
     }
 
-    /// Writes the equilibrium at a value of the input over `state`, from `from`, or from where the way leads if it is found there at
-    /// once: then true. Returns its general modes where its stability was judged by them.
+    /// Solves the equilibrium at a value of the input into `state`, starting from the prediction if that converges at once (returns
+    /// true), otherwise from `from`. Also returns its general modes if they were needed to judge its stability.
     fn equilibrium_into(
         &self,
         value: f64,
@@ -143,7 +143,7 @@ impl<'a> Tracker<'a> {
             .map_err(|failure| failure.explain(&point.description))
     }
 
-    /// A state and its modes, to be written over.
+    /// An empty state and its modes, to be overwritten.
     fn blank(&self) -> (Equilibrium, Modes) {
         (
             Equilibrium::blank(&self.description, &self.inputs, &self.design),
@@ -151,7 +151,7 @@ impl<'a> Tracker<'a> {
         )
     }
 
-    /// Equilibrium and modes at a value, near to others, in the order and with the labels of their modes.
+    /// Equilibrium and modes at a value near a known point, with the order and labels of that point's modes.
     pub(crate) fn near(
         &self,
         value: f64,
@@ -165,13 +165,13 @@ impl<'a> Tracker<'a> {
         Ok((equilibrium, modes))
     }
 
-    /// Whether values may be solved side by side, as far as is known before any of them.
+    /// Whether blocks of values may be solved at once, as far as can be told in advance.
     pub(super) fn side_by_side(&self) -> bool {
         let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
         wanted && self.vectors.is_some() && possible(&self.description, &KERNELS)
     }
 
-    /// What values are solved side by side in.
+    /// The workspace for solving blocks of values.
     pub(super) fn workspace<'m>(
         &self,
         memory: &'m mut Vec<Batch>,
@@ -182,8 +182,8 @@ impl<'a> Tracker<'a> {
         Workspace::new(memory, self.mechanism, values, with_slopes)
     }
 
-    /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
-    /// them one by one would find.
+    /// Solves the first of `values` as one block where the path so far is smooth. Returns how many of them, counted from the first,
+    /// agree with a one-by-one solution.
     pub(super) fn solve_block(
         &self,
         kernels: &dyn BatchKernels,
@@ -214,7 +214,7 @@ impl<'a> Tracker<'a> {
         workspace.solve((kernels, vectors), values, past, &shapes)
     }
 
-    /// The way goes on to the last of the first `number` states of a block, which is the last point already.
+    /// Extends the path to the last of the first `number` states of a block, which already is the last point.
     pub(super) fn commit(&mut self, block: &Block<'_>, number: usize) {
         for lane in number.saturating_sub(3)..number {
             let state = block.state_of(lane);
@@ -223,8 +223,8 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// Goes on to a value of the input; modes that are not recognised at once are followed in smaller steps. The point is
-    /// [`Self::last`]; one without modes comes back instead.
+    /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new point is
+    /// [`Self::last`]; a point without modes is returned instead.
     pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
         let (equilibrium, error) = match self.go(value) {
             Ok(None) => return None,
@@ -238,9 +238,9 @@ impl<'a> Tracker<'a> {
         })
     }
 
-    /// As [`Self::advance`]: a state whose modes fail comes back.
+    /// Like [`Self::advance`], but returns a state whose modes fail together with the error.
     fn go(&mut self, value: f64) -> Result<Option<(Box<SweepPoint>, Error)>, Error> {
-        // Where to go next, how often the way may still be halved, and what comes after it.
+        // The next value, how often its step may still be halved, and the values after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
         let mut smooth = true;
@@ -264,7 +264,7 @@ impl<'a> Tracker<'a> {
                 },
                 Err(error) => match after.pop() {
                     None => return Err(error),
-                    // Taken as it is, doubtful or not.
+                    // Accept this value, doubtful or not.
                     Some((place, _)) => (next, halvings) = (place, 0),
                 },
             }
@@ -298,7 +298,7 @@ impl<'a> Tracker<'a> {
                 && self.family == Family::Undamped
                 && even(modes.least_lambda(), found.least_lambda());
             let order = match_with_assurance(modes, found, &state.linear);
-            // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
+            // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
             let repeated = |r: usize| merged(found, r) || near_another(found, r, CLUSTER_GAP);
             let doubtful = order
                 .iter()
@@ -322,19 +322,19 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// Whether the least eigenvalues of two sets of undamped modes are positive and nearly the same.
+/// Whether the smallest eigenvalues of two sets of undamped modes are positive and nearly equal.
 pub(super) fn even(a: f64, b: f64) -> bool {
-    /// Share of the greater of the two that the lesser one keeps.
+    /// Minimum ratio of the smaller to the larger.
     const KEPT: f64 = 0.75;
     a.min(b) > 0.0 && a.min(b) >= KEPT * a.max(b)
 }
 
-/// How a step ended.
+/// The outcome of a step.
 enum Step {
-    /// At a state with modes: the last one.
+    /// Reached a state with modes: the last point.
     Arrived,
-    /// At a state without; what it has for modes is none.
+    /// Reached a state without modes; the modes stored in the point are invalid.
     WithoutModes(Box<SweepPoint>, Error),
-    /// Modes are not recognised; a value on the way.
+    /// Modes were not recognised; an intermediate value to try.
     TooFar(f64),
 }

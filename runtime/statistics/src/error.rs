@@ -1,84 +1,84 @@
-//! Everything that can go wrong.
+//! Errors.
 
 use crate::reliability::Closest;
 
-/// A constant of the program. By this name serde does not look for it in what is read.
+/// A constant of the program. The alias keeps serde from borrowing it from the input.
 type Word = &'static str;
 
-/// Why there is no answer.
+/// The reason why there is no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Error {
-    /// An argument or a setting makes no sense.
+    /// An argument or setting is invalid.
     #[error("{setting}: {reason}")]
     Setting {
-        /// Which one.
+        /// The setting.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
         setting: Word,
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
     /// Two lists that belong together differ in length.
     #[error("{found} {kind}, expected {expected}")]
     WrongLength {
-        /// What they are.
+        /// The kind of list.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
         kind: Word,
-        /// How many there are.
+        /// Its length.
         found: usize,
-        /// How many there should be.
+        /// The expected length.
         expected: usize,
     },
-    /// There is no element of this number.
+    /// There is no element with this index.
     #[error("there is no {kind} {index}: they are numbered from 0, and there are {number}")]
     BeyondLast {
-        /// What is counted.
+        /// The kind of element.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
         kind: Word,
-        /// The number that was asked for.
+        /// The index requested.
         index: u64,
-        /// How many there are.
+        /// The number of elements.
         number: u64,
     },
-    /// A number is not finite, or has become so.
+    /// A number is not finite, or became so in the computation.
     #[error("{kind} is not finite")]
     NotFinite {
-        /// What it is.
+        /// The quantity.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
         kind: Word,
     },
-    /// There are not enough of something.
+    /// There are too few of something.
     #[error("{found} {kind}, at least {needed} are needed")]
     TooFew {
-        /// Of what.
+        /// The kind of item.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
         kind: Word,
-        /// How many there are.
+        /// The number available.
         found: usize,
-        /// How many are needed.
+        /// The number needed.
         needed: usize,
     },
-    /// Something that should vary does not.
+    /// A quantity that should vary is constant.
     #[error("{what} never varies: leave it out, or sample it over a range")]
     Constant {
-        /// What it is.
+        /// The quantity.
         what: String,
     },
-    /// An input is a linear function of those before it.
+    /// An input is a linear function of the preceding ones.
     #[error("input {input} is a linear function of those before it: leave one of them out")]
     Dependent {
-        /// Which one.
+        /// Index of the input.
         input: usize,
     },
-    /// Samples were to be added twice.
+    /// Samples were added twice.
     #[error(
         "samples {start} to below {end} have been added already; split the samples into ranges that do not overlap"
     )]
     Overlap {
-        /// The first that is there twice.
+        /// The first sample that is duplicated.
         start: u64,
-        /// The first after it that is not.
+        /// The first one after it that is not.
         end: u64,
     },
     /// Partial results were gathered by different plans.
@@ -101,32 +101,32 @@ pub enum Error {
     /// There are no values, so nothing can be said about them.
     #[error("no values: add samples first")]
     NoValues,
-    /// A limit state has no value where it must have one.
+    /// A limit state has no value where one is needed.
     #[error("the limit state has no value {place}: {reason}")]
     NoLimitValue {
-        /// Where.
+        /// The place.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
         place: Word,
-        /// What the limit state said.
+        /// The reason given by the limit state.
         reason: String,
     },
-    /// No start of the search led to a point on the limit that is nearest to the origin. Either nothing fails within reach,
-    /// or the limit state is not smooth enough; then a looser tolerance or more restarts may help, or sampling.
+    /// No start of the search led to a point on the limit that is nearest to the origin. Either nothing fails within reach, or the
+    /// limit state is not smooth enough; a looser tolerance, more restarts or sampling may then help.
     #[error("no design point within {radius} standard deviations: {closest}")]
     NoDesignPoint {
-        /// How far from the origin the search went.
+        /// Distance from the origin to which the search went.
         radius: f64,
-        /// The best point that was found.
+        /// The best point found.
         closest: Box<Closest>,
     },
-    /// A formula of second order does not hold because the limit curves around the origin too much: `1 + hazard * curvature`
-    /// is not positive. Use importance sampling, or look for further design points.
+    /// A second-order formula does not apply because the limit curves too much around the origin: `1 + hazard * curvature` is not
+    /// positive. Use importance sampling, or look for further design points.
     #[error("{formula}: no value for curvature {curvature} at beta = {beta}")]
     Curvature {
-        /// Whose formula.
+        /// The formula.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
         formula: Word,
-        /// The principal curvature at fault, in 1.
+        /// The principal curvature at fault, dimensionless.
         #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
         curvature: f64,
         /// The reliability index.

@@ -1,4 +1,4 @@
-//! Integrals over an interval: sixteen points of Gauss and Legendre on each of some panels.
+//! Integrals over an interval: 16-point Gauss-Legendre rules on a number of panels.
 
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -8,7 +8,7 @@ use gauss_quad::GaussLegendre;
 static RULE: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(NonZeroUsize::new(16).unwrap_or(NonZeroUsize::MIN)));
 
-/// Gives each point with its weight.
+/// Passes each point and its weight to `give`.
 pub(crate) fn points((low, high): (f64, f64), panels: usize, mut give: impl FnMut(f64, f64)) {
     let half = 0.5 * (high - low) / panels as f64;
     for panel in 0..panels {

@@ -1,5 +1,5 @@
-//! Random variables, the points to sample them at, and what is learnt from samples: all that tolerance analysis needs to
-//! know of chance, apart from mechanisms.
+//! Random variables, points at which to sample them, and statistics of samples: everything stochastic that tolerance analysis
+//! needs, independent of mechanisms.
 //!
 //! Functions take slices of numbers in any consistent units.
 

@@ -1,11 +1,11 @@
-//! The standard normal distribution, with tails of full relative accuracy.
+//! The standard normal distribution, with full relative accuracy in the tails.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
 
 use libm::erfc;
 use statrs::function::erf::erfc_inv;
 
-/// Density at `z`.
+/// Probability density at `z`.
 #[must_use]
 pub fn density(z: f64) -> f64 {
     (-0.5 * z * z).exp() / (2.0 * PI).sqrt()
@@ -29,7 +29,7 @@ pub fn ln_upper(z: f64) -> f64 {
     }
 }
 
-/// Density over `P(Z > z)`.
+/// Hazard function: density divided by `P(Z > z)`.
 #[must_use]
 pub fn hazard(z: f64) -> f64 {
     if z < FAR {
@@ -40,11 +40,12 @@ pub fn hazard(z: f64) -> f64 {
     }
 }
 
-/// Beyond this probabilities are no normal doubles.
+/// Beyond this, probabilities are not normal floating-point numbers.
 const FAR: f64 = 37.0;
 
-/// The `z` below which a probability lies; infinite for 0 and 1, NaN for what is no probability. To be accurate for a probability near
-/// one, negate what belongs to its complement.
+/// The `z` below which the given probability lies; infinite for 0 and 1, NaN outside [0, 1].
+///
+/// For full accuracy at a probability near one, negate the quantile of its complement.
 ///
 /// ```
 /// use eigentol_statistics::normal::{cdf, quantile};
@@ -102,7 +103,8 @@ mod tests {
         assert!(quantile(1.5).is_nan() && quantile(f64::NAN).is_nan());
     }
 
-    /// On both sides of where the form changes: from the left by the derivative of the logarithm, the negative hazard.
+    /// Checked on both sides of the point where the formula changes: to its left by the derivative of the logarithm, the negative
+    /// hazard.
     #[test]
     fn far_tails_continue() {
         let (below, above) = (FAR - 1e-3, FAR + 1e-3);
@@ -116,7 +118,7 @@ mod tests {
     fn quantile_inverts_cdf() {
         for k in -370..=80 {
             let z = 0.1 * f64::from(k);
-            // Near one a probability has no digits left for z.
+            // Near one, a probability has no digits left for z.
             let lost = 1e-15 + f64::EPSILON / density(z.max(0.0)) * cdf(z);
             assert!(
                 (quantile(cdf(z)) - z).abs() <= lost + 4e-15 * z.abs(),

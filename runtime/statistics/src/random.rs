@@ -1,12 +1,12 @@
-//! Random numbers that are a function of seed, stream and index alone, so that any of them can be drawn on any machine.
+//! Random numbers that depend only on seed, stream and index, so that any of them can be generated on any machine.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Words of 32 bits of a number.
+/// Number of 32-bit words per number.
 const WORDS: u128 = 2;
 
-/// The numbers of one stream of the generator ChaCha8, in sequence.
+/// The numbers of one stream of the ChaCha8 generator, in sequence.
 ///
 /// ```
 /// use eigentol_statistics::random::RandomNumbers;
@@ -19,7 +19,7 @@ const WORDS: u128 = 2;
 pub struct RandomNumbers(ChaCha8Rng);
 
 impl RandomNumbers {
-    /// The numbers of a stream from its beginning.
+    /// The numbers of a stream from its start.
     #[must_use]
     pub fn new(seed: u64, stream: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -27,7 +27,7 @@ impl RandomNumbers {
         Self(random)
     }
 
-    /// The same from number `index` on.
+    /// The numbers of a stream from number `index` on.
     #[must_use]
     pub fn starting_at(seed: u64, stream: u64, index: u128) -> Self {
         let mut numbers = Self::new(seed, stream);
@@ -41,18 +41,18 @@ impl RandomNumbers {
         self.0.next_u64()
     }
 
-    /// The next number as a fraction: at least 0, below 1.
+    /// The next number as a fraction in [0, 1).
     pub fn fraction(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * 2.0_f64.powi(-53)
     }
 
-    /// The next number as a probability: strictly between 0 and 1.
+    /// The next number as a probability in (0, 1).
     pub fn probability(&mut self) -> f64 {
         probability(self.bits())
     }
 }
 
-/// A probability strictly between 0 and 1 of 64 random bits, an odd multiple of `2^-53`.
+/// Converts 64 random bits to a probability strictly between 0 and 1, an odd multiple of `2^-53`.
 #[must_use]
 pub fn probability(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) * 2.0_f64.powi(-52)

@@ -1,10 +1,10 @@
-//! Inversion of the moment generating function on a turned ray, for characteristic functions that fall too slowly for the
-//! trapezoidal rule on the axis: `m` squares without slope fall as `t^(-m/2)`.
+//! Inverts the moment generating function along a tilted ray, for characteristic functions that decay too slowly for the
+//! trapezoidal rule on the axis: with `m` squares without slope they decay as `t^(-m/2)`.
 //!
-//! `P(X > y) = 1/(2 pi i) int e^(K(s) - s y) ds / s` along any path from below to above that passes the origin on its right.
-//! On the two rays `s = r e^(+-i theta)` it becomes `theta/pi + 1/pi int_0^inf Im e^(K(s) - s y) dr / r`. All singularities of
-//! `K` lie on the real axis (at `1/nu_j`), so a ray tilted from the imaginary axis to either side meets none; of the two
-//! the one on which the integrand stays smaller is taken. With `r = e^w` it is analytic in a strip about the real `w` at every scale of the
+//! `P(X > y) = 1/(2 pi i) int e^(K(s) - s y) ds / s` along any path from below to above that passes to the right of the origin. On
+//! the two rays `s = r e^(+-i theta)` it becomes `theta/pi + 1/pi int_0^inf Im e^(K(s) - s y) dr / r`. All singularities of `K` lie
+//! on the real axis (at `1/nu_j`), so a ray tilted from the imaginary axis to either side meets none; the one on which the
+//! integrand stays smaller is used. With `r = e^w` the integrand is analytic in a strip about the real `w` at every scale of the
 //! curvatures, and the trapezoidal rule in `w` converges exponentially (Trefethen and Weideman, SIAM Review 56, 2014).
 
 use core::f64::consts::PI;
@@ -14,20 +14,20 @@ use nalgebra::Complex;
 use super::Estimate;
 use super::terms::Terms;
 
-/// Angle between ray and imaginary axis. The normal term falls on rays within `PI / 4` of the axis.
+/// Angle between the ray and the imaginary axis. The normal term decays on rays within `PI / 4` of the axis.
 const TILT: f64 = PI / 8.0;
-/// Logarithm of a modulus that counts as nothing.
+/// Logarithm of a modulus that is negligible.
 const NOTHING: f64 = -42.0;
-/// Greatest logarithm of the modulus: beyond, cancellation takes more digits than the result may lose.
+/// Maximum logarithm of the modulus: beyond it, cancellation costs more digits than the result may lose.
 const LARGEST: f64 = 10.0;
-/// First step in `w`.
+/// Initial step in `w`.
 const STEP: f64 = 0.25;
 const HALVINGS: usize = 6;
-/// Step of the search for the end of the ray, and where it gives up.
+/// Step of the search for the end of the ray, and the value of `w` where it gives up.
 const STRIDE: f64 = 0.125;
 const FARTHEST: f64 = 300.0;
 
-/// `P(from < X < to)`; `None` when no ray serves.
+/// `P(from < X < to)`; `None` if neither ray is suitable.
 pub(super) fn between(terms: &Terms, from: f64, to: f64) -> Option<Estimate> {
     let (from, to) = (beyond(terms, from)?, beyond(terms, to)?);
     Some(Estimate {
@@ -53,18 +53,18 @@ fn beyond(terms: &Terms, y: f64) -> Option<Estimate> {
     ray.integrate(terms, y)
 }
 
-/// A ray on which the integrand falls, and the part of it that matters.
+/// A ray on which the integrand decays, and its significant part.
 struct Ray {
     angle: f64,
     start: f64,
     end: f64,
-    /// Greatest logarithm of the integrand's modulus.
+    /// Largest logarithm of the integrand's modulus.
     largest: f64,
 }
 
 impl Ray {
     fn new(terms: &Terms, y: f64, angle: f64) -> Option<Self> {
-        // The integrand is `r` times at most some `1 + |y|` near the origin.
+        // Near the origin the integrand is `r` times at most about `1 + |y|`.
         let start = NOTHING - (1.0 + y.abs()).ln();
         let mut ray = Self {
             angle,
@@ -88,7 +88,7 @@ impl Ray {
         }
     }
 
-    /// Halves the step until the sum stays.
+    /// Integrates with the step halved until the sum no longer changes.
     fn integrate(&self, terms: &Terms, y: f64) -> Option<Estimate> {
         let mut step = STEP;
         let (mut sum, mut noise) = self.sum(terms, y, 0.0, step);
@@ -110,7 +110,7 @@ impl Ray {
         estimate.error.is_finite().then_some(estimate)
     }
 
-    /// Sum of the integrand over `start + offset + k step`, and of the rounding errors in it.
+    /// Sum of the integrand over `start + offset + k step`, and of its rounding errors.
     fn sum(&self, terms: &Terms, y: f64, offset: f64, step: f64) -> (f64, f64) {
         let (mut sum, mut noise) = (0.0, 0.0);
         let points = ((self.end - self.start) / step).ceil() as usize;
@@ -126,12 +126,12 @@ impl Ray {
     }
 }
 
-/// Whether the arc from `s = e^(w + i angle)` back to the imaginary axis, along which the modulus only falls, adds nothing:
-/// then what lies beyond may be left out, on the ray as well.
+/// Whether the arc from `s = e^(w + i angle)` back to the imaginary axis, along which the modulus only decreases, contributes
+/// nothing: then everything beyond may be neglected, on the ray as well.
 fn can_return(terms: &Terms, y: f64, angle: f64, w: f64) -> bool {
     const POINTS: usize = 8;
     let nothing = |s| exponent(terms, y, s).0.re < NOTHING + 4.0;
-    // The axis itself, exactly: a rounded angle would let a large `s y` grow.
+    // Use the axis itself, exactly: a rounded angle would let a large `s y` grow.
     nothing(Complex::new(0.0, w.exp()))
         && (1..POINTS).all(|k| {
             let part = k as f64 / POINTS as f64;
@@ -140,7 +140,7 @@ fn can_return(terms: &Terms, y: f64, angle: f64, w: f64) -> bool {
         })
 }
 
-/// `K(s) - s y`, and the size of its summands.
+/// `K(s) - s y`, and the magnitude of its terms.
 fn exponent(terms: &Terms, y: f64, s: Complex<f64>) -> (Complex<f64>, f64) {
     let (log, size) = terms.log_generating(s);
     (log - s * y, size + (s * y).norm())

@@ -1,19 +1,19 @@
-//! Inversion of the characteristic function by the trapezoidal rule, with proven bounds of both its errors.
+//! Inverts the characteristic function by the trapezoidal rule, with proven bounds on both its errors.
 //!
-//! `P(X < y) = 1/2 - sum_k Im(phi(t_k) e^(-i t_k y)) / (pi (k + 1/2))`, `t_k = (k + 1/2) step` (Gil-Pelaez 1951 made
-//! discrete by Davies, Biometrika 60, 1973, and Applied Statistics 29, 1980, AS 155; the integral for quadratic forms is
-//! Imhof's, Biometrika 48, 1961).
+//! `P(X < y) = 1/2 - sum_k Im(phi(t_k) e^(-i t_k y)) / (pi (k + 1/2))`, `t_k = (k + 1/2) step` (Gil-Pelaez 1951, discretised by
+//! Davies, Biometrika 60, 1973, and Applied Statistics 29, 1980, AS 155; for quadratic forms the integral is Imhof's, Biometrika
+//! 48, 1961).
 
 use core::f64::consts::{LN_2, PI};
 
 use super::Estimate;
 use super::terms::{Square, Terms};
 
-/// Probability left outside of the range in which the rule does not repeat itself, by Chernoff's bound.
+/// Probability outside the period of the rule, by Chernoff's bound.
 const ALIASING: f64 = 1e-14;
-/// Most terms of a rule that counts as short.
+/// Maximum number of terms of a short rule.
 const SHORT: usize = 2000;
-/// Terms of a rule that does not get there.
+/// Number of terms used when a short rule does not suffice.
 const LONG: usize = 50_000;
 
 /// Spacing and number of terms for one sum of squares.
@@ -42,7 +42,7 @@ impl Rule {
         }
     }
 
-    /// Whether what the sum leaves out is as small as the rest of its errors.
+    /// Whether the truncation error is as small as the other errors of the sum.
     pub(super) fn is_short(&self) -> bool {
         self.terms <= SHORT
     }
@@ -75,7 +75,7 @@ impl Rule {
     }
 }
 
-/// Least number up to `limit` that is enough, when `limit` is and every number above an enough one is too.
+/// Smallest sufficient number up to `limit`, assuming that `limit` suffices and so does every number above a sufficient one.
 fn fewest(limit: usize, enough: impl Fn(usize) -> bool) -> usize {
     let (mut low, mut high) = (0, limit);
     while high - low > 1 {
@@ -99,7 +99,7 @@ fn characteristic(terms: &Terms, t: f64) -> (f64, f64) {
     (log_modulus(terms, t).exp(), phase)
 }
 
-/// Logarithm of the modulus of the characteristic function; it falls with `t`.
+/// Logarithm of the modulus of the characteristic function; it decreases with `t`.
 fn log_modulus(terms: &Terms, t: f64) -> f64 {
     let normal = terms.normal * t;
     let squares = terms.squares.iter().map(|&Square { c, nu }| {
@@ -109,8 +109,8 @@ fn log_modulus(terms: &Terms, t: f64) -> f64 {
     -0.5 * normal * normal - squares.sum::<f64>()
 }
 
-/// Bound of the sum beyond `t`: the modulus falls, so that each octave of `int |phi| dt / (pi t)` is at most `ln 2 / pi`
-/// of its value at the low end.
+/// Bound on the sum beyond `t`. The modulus decreases, so each octave of `int |phi| dt / (pi t)` is at most `ln 2 / pi` times its
+/// value at the low end.
 fn left_out(terms: &Terms, t: f64) -> f64 {
     const OCTAVES: usize = 400;
     let mut sum = 0.0;
@@ -126,7 +126,7 @@ fn left_out(terms: &Terms, t: f64) -> f64 {
     sum * LN_2 / PI
 }
 
-/// A distance that `X` (`side` 1) or `-X` (`side` -1) exceeds with a probability of at most [`ALIASING`]: for any `u > 0`,
+/// A distance that `X` (`side` 1) or `-X` (`side` -1) exceeds with probability at most [`ALIASING`]: for any `u > 0`,
 /// `P(X > K'(u)) <= exp(K(u) - u K'(u))`.
 fn reach(terms: &Terms, side: f64) -> f64 {
     let bound = ALIASING.ln();
@@ -134,7 +134,7 @@ fn reach(terms: &Terms, side: f64) -> f64 {
         .squares
         .iter()
         .fold(0.0, |most: f64, square| most.max(side * square.nu));
-    // u = limit x / (1 + x), or u = x without a limit: any x > 0 is allowed.
+    // u = limit x / (1 + x), or u = x without a limit; any x > 0 is admissible.
     let at = |x: f64| {
         let u = if most > 0.0 { x / (1.0 + x) / most } else { x };
         real_cumulants(terms, side, u)
@@ -162,7 +162,7 @@ fn reach(terms: &Terms, side: f64) -> f64 {
     at(high).1
 }
 
-/// `K(u)`, `K'(u)` of `side X`, and `u`.
+/// `K(u)` and `K'(u)` of `side X`, and `u`.
 fn real_cumulants(terms: &Terms, side: f64, u: f64) -> (f64, f64, f64) {
     let variance = terms.normal * terms.normal;
     let (mut value, mut slope) = (0.5 * variance * u * u, variance * u);

@@ -1,13 +1,13 @@
-//! The probability of an interval, by the method that suits the terms.
+//! Probability of an interval, by the method that suits the terms.
 
 use super::terms::Terms;
 use super::{Estimate, contour, davies, normal_cdf, single};
 
-/// Error beyond which a second method is asked.
+/// Error above which a second method is tried.
 const ACCEPTED: f64 = 1e-11;
 
 impl Terms {
-    /// `P(from < X < to)`, by a closed form where there is one.
+    /// `P(from < X < to)`, in closed form where one exists.
     pub(in crate::second_order) fn between(&self, from: f64, to: f64) -> Estimate {
         if from >= to {
             return Estimate {
@@ -22,7 +22,7 @@ impl Terms {
         }
     }
 
-    /// Without any square: the normal distribution.
+    /// The normal distribution, when there are no squares.
     fn straight(&self, from: f64, to: f64) -> Estimate {
         let (from, to) = (from / self.normal, to / self.normal);
         Estimate {
@@ -31,8 +31,8 @@ impl Terms {
         }
     }
 
-    /// The trapezoidal rule where it is short, with its proven bound; otherwise the turned ray; the better of the two
-    /// where neither is good.
+    /// The trapezoidal rule where it is short, with its proven bound; otherwise the tilted ray. If neither is good, the better of
+    /// the two.
     fn inverted(&self, from: f64, to: f64) -> Estimate {
         let rule = davies::Rule::new(self);
         if rule.is_short() {
@@ -54,7 +54,7 @@ mod tests {
     use super::super::terms::Square;
     use super::*;
 
-    /// Standard deviation 1, five or more variables of every sign: both inversions apply, and share no formula but the
+    /// With standard deviation 1 and five or more variables of either sign both inversions apply, and they share no formula but the
     /// terms.
     #[test]
     fn both_inversions_agree() {

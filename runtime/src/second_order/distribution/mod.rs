@@ -1,5 +1,5 @@
-//! The distribution of a quadratic form. In normal variables exactly: its normal form and three ways to its probabilities; in others
-//! from the form at many points.
+//! The distribution of a quadratic form. For normal variables it is exact: a normal form and three ways to compute its
+//! probabilities. For other variables it comes from the form evaluated at many points.
 
 mod contour;
 mod davies;

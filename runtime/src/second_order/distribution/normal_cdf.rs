@@ -1,4 +1,4 @@
-//! The standard normal distribution, with tails of full relative accuracy.
+//! The standard normal distribution, with full relative accuracy in the tails.
 
 use core::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -9,7 +9,7 @@ pub(in crate::second_order) fn upper(z: f64) -> f64 {
     0.5 * erfc(z * FRAC_1_SQRT_2)
 }
 
-/// `P(from < Z < to)`, from the nearer tails, so that a small value loses no digits to a large one.
+/// `P(from < Z < to)`, computed from the nearer tails so that a small value loses no digits to a large one.
 pub(in crate::second_order) fn between(from: f64, to: f64) -> f64 {
     if from >= to {
         0.0
@@ -22,7 +22,7 @@ pub(in crate::second_order) fn between(from: f64, to: f64) -> f64 {
     }
 }
 
-/// Rounding error of [`between`] from an end at `z` that is itself known to `slack`.
+/// Rounding error of [`between`] due to an end at `z` that is itself uncertain by `slack`.
 pub(super) fn end_error(z: f64, slack: f64) -> f64 {
     if z.is_infinite() {
         return 0.0;
@@ -30,7 +30,7 @@ pub(super) fn end_error(z: f64, slack: f64) -> f64 {
     density(z) * (slack + 2.0 * f64::EPSILON * z.abs()) + 2.0 * f64::EPSILON * upper(z.abs())
 }
 
-/// Density at `z`.
+/// Probability density at `z`.
 pub(in crate::second_order) fn density(z: f64) -> f64 {
     (-0.5 * z * z).exp() / (2.0 * PI).sqrt()
 }
@@ -48,7 +48,7 @@ mod tests {
 
     #[test]
     fn tails_keep_their_digits() {
-        // Values of 50-digit arithmetic.
+        // Reference values from 50-digit arithmetic.
         near(upper(5.0), 2.866_515_718_791_939e-7);
         near(upper(10.0), 7.619_853_024_160_526e-24);
         near(upper(30.0), 4.906_713_927_148_187e-198);

@@ -1,5 +1,5 @@
-//! The distribution of a second-order model in variables that are not normal, from the model at many points: scrambled Sobol' points,
-//! some randomisations of them, whose differences tell the error.
+//! The distribution of a second-order model in variables that are not normal, from the model at many scrambled Sobol' points. The
+//! differences between several randomisations give the error.
 
 use eigentol_statistics::sequence::Sequence;
 use eigentol_statistics::{Joint, normal};
@@ -11,14 +11,14 @@ use crate::second_order::Quadratic;
 
 const RANDOMISATIONS: u64 = 8;
 const POINTS: u64 = 4096;
-/// Standard errors that an error stands for.
+/// Number of standard errors reported as the error.
 const ERRORS: f64 = 3.0;
 
-/// Values of a model less its nominal value, those of each randomisation in increasing order.
+/// Values of a model minus its nominal value, sorted within each randomisation.
 pub(in crate::second_order) struct Sampled(Vec<Vec<f64>>);
 
 impl Sampled {
-    /// The model at points of `joint`, which was made for these nominal values.
+    /// Evaluates the model at points of `joint`, which was built for the same nominal values.
     pub(in crate::second_order) fn new(
         model: &Quadratic,
         joint: &Joint,
@@ -50,7 +50,7 @@ impl Sampled {
         Ok(Self(all))
     }
 
-    /// Variance, skewness and excess kurtosis about this mean.
+    /// Variance, skewness and excess kurtosis about `mean`.
     pub(in crate::second_order) fn moments(&self, mean: f64) -> (f64, f64, f64) {
         let values = || self.0.iter().flatten().map(|value| value - mean);
         let count = values().count() as f64;
@@ -63,7 +63,7 @@ impl Sampled {
         (variance, power(3), power(4) - 3.0)
     }
 
-    /// Probability of values between two, less the nominal value.
+    /// Probability of an interval of values, measured from the nominal value.
     pub(in crate::second_order) fn between(&self, low: f64, high: f64) -> Estimate {
         let share = |values: &Vec<f64>| {
             let below = values.partition_point(|value| *value < low);
@@ -74,7 +74,7 @@ impl Sampled {
         let count = shares.len() as f64;
         let value = shares.iter().sum::<f64>() / count;
         let squares: f64 = shares.iter().map(|share| (share - value).powi(2)).sum();
-        // Randomisations that agree may all miss what is rarer than a few points.
+        // Even randomisations that agree may all miss an event rarer than a few points.
         let resolution = ERRORS / (count * POINTS as f64);
         Estimate {
             value,

@@ -1,9 +1,9 @@
-//! One variable: the event is at most two intervals of it.
+//! A single variable: the event consists of at most two intervals.
 
 use super::terms::Square;
 use super::{Estimate, normal_cdf};
 
-/// `P(from < c z + nu z^2 / 2 < to)` with `nu` not zero.
+/// `P(from < c z + nu z^2 / 2 < to)` for nonzero `nu`.
 pub(super) fn between(square: Square, from: f64, to: f64) -> Estimate {
     if square.nu < 0.0 {
         let mirrored = Square {
@@ -12,7 +12,7 @@ pub(super) fn between(square: Square, from: f64, to: f64) -> Estimate {
         };
         return between(mirrored, -to, -from);
     }
-    // The parabola opens upwards: it lies below `to` inside the outer pair, below `from` inside the inner pair.
+    // The parabola opens upwards: it is below `to` between the outer pair and below `from` between the inner pair.
     let outer = Pair::of(square, to);
     let inner = Pair::of(square, from);
     let value = match (&outer, &inner) {
@@ -30,16 +30,16 @@ pub(super) fn between(square: Square, from: f64, to: f64) -> Estimate {
     }
 }
 
-/// Where the parabola takes a value, in ascending order.
+/// The two points where the parabola takes a value, in ascending order.
 struct Pair {
     left: f64,
     right: f64,
-    /// By which part rounding moves them: much near the vertex, where the two meet.
+    /// Their relative uncertainty due to rounding: large near the vertex, where the two meet.
     slack: f64,
 }
 
 impl Pair {
-    /// `None` when the upward parabola lies above.
+    /// `None` if the upward parabola lies above the level everywhere.
     fn of(Square { c, nu }: Square, level: f64) -> Option<Self> {
         if level == f64::INFINITY {
             return Some(Self {
@@ -151,7 +151,7 @@ mod tests {
         assert!(at.error < 1e-7);
         let slight = between(Square { c: 1.0, nu: 1e-12 }, 0.5, 1.0);
         assert!(slight.error < 1e-15);
-        // A far tail is known to its own digits.
+        // A far tail is accurate to its own digits.
         let far = between(square, 60.0, f64::INFINITY);
         assert!(far.error < 1e-12 * far.value);
     }

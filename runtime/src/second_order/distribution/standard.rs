@@ -1,4 +1,4 @@
-//! The second-order model over independent standard normal variables, on numbers about 1.
+//! The second-order model in independent standard normal variables, scaled so that its coefficients are about 1.
 
 use crate::Error;
 use crate::second_order::quadratic::{ModelMoments, Quadratic, beyond_range};
@@ -6,7 +6,7 @@ use crate::tolerance::Tolerances;
 
 /// `f - f0 = scale (a^T z + z^T B z / 2)`, `z ~ N(0, I)`; the largest element of `a` and `B` is about 1.
 pub(in crate::second_order) struct Standard {
-    /// SI value of one unit of the numbers below; zero when nothing varies.
+    /// SI value of one unit of the coefficients below; zero if nothing varies.
     pub(super) scale: f64,
     /// `a`, from `L^T S`.
     pub(super) linear: Vec<f64>,
@@ -49,7 +49,7 @@ impl Standard {
         Ok(standard)
     }
 
-    /// Takes the largest element out as the scale.
+    /// Moves the largest coefficient into the scale.
     fn rescale(&mut self) -> Result<(), Error> {
         let parts = self.linear.iter().chain(&self.quadratic);
         let size = parts.fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -70,7 +70,7 @@ impl Standard {
     fn correlate(&mut self, root: &[f64]) {
         let n = self.linear.len();
         let half = transposed_product(root, &self.quadratic, n);
-        // (C^T B) is transposed by the symmetry of B: C^T (C^T B)^T = C^T B C.
+        // C^T B can be transposed because B is symmetric: C^T (C^T B)^T = C^T B C.
         self.quadratic = transposed_product(root, &transposed(&half, n), n);
         self.linear = (0..n)
             .map(|i| (0..n).map(|k| root[k * n + i] * self.linear[k]).sum())
@@ -108,7 +108,7 @@ impl Standard {
     }
 }
 
-/// Product of three numbers that overflows or vanishes only when the result does.
+/// Product of three numbers that overflows or underflows only if the result does.
 fn product(mut factors: [f64; 3]) -> f64 {
     factors.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     factors[0] * factors[2] * factors[1]

@@ -4,7 +4,7 @@ use statrs::function::beta::{beta_reg, ln_beta};
 
 use crate::{Error, normal};
 
-/// Shapes for which the incomplete beta function of statrs keeps nine digits and more.
+/// Shapes for which the incomplete beta function of statrs is accurate to at least nine digits.
 const SHAPES: std::ops::RangeInclusive<f64> = 0.05..=1000.0;
 
 pub(super) fn check(shape: f64) -> Result<(), Error> {
@@ -21,7 +21,8 @@ pub(super) fn check(shape: f64) -> Result<(), Error> {
     })
 }
 
-/// The `x` below which as much lies as below the standard normal `z`; or, when the flag is set, `1 - x`, whichever is known to more digits.
+/// The `x` with the same probability below it as the standard normal `z`; if the flag is set, `1 - x` instead. Whichever is known
+/// to more digits is returned.
 pub(super) fn quantile((alpha, beta): (f64, f64), z: f64) -> (f64, bool) {
     let half = beta_reg(alpha, beta, 0.5);
     let probability = normal::cdf(z);
@@ -40,13 +41,13 @@ pub(super) fn slope((alpha, beta): (f64, f64), z: f64) -> f64 {
     };
     let ln_density = (alpha - 1.0) * ln_x + (beta - 1.0) * ln_rest - ln_beta(alpha, beta);
     let ln_normal = normal::density(0.0).ln() - 0.5 * z * z;
-    // Where the quantile underflows it does not move.
+    // Where the quantile underflows, it is constant.
     let slope = (ln_normal - ln_density).exp();
     if slope.is_finite() { slope } else { 0.0 }
 }
 
-/// The quantile in the lower half of the interval: Newton's method on the logarithms of both sides, whose graph is nearly a
-/// straight line there, kept between bounds by bisection.
+/// The quantile in the lower half of the interval: Newton's method on the logarithms of both sides, whose graph is nearly straight
+/// there, safeguarded by bisection.
 fn lower(alpha: f64, beta: f64, probability: f64) -> f64 {
     if probability == 0.0 {
         return 0.0;
@@ -61,7 +62,7 @@ fn lower(alpha: f64, beta: f64, probability: f64) -> f64 {
         let x = log_x.exp();
         let below = beta_reg(alpha, beta, x);
         if below <= 0.0 {
-            // The series: beyond what a double holds.
+            // The distribution function underflows: use the series.
             return start.exp();
         }
         let gap = below.ln() - target;

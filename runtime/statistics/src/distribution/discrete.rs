@@ -1,4 +1,4 @@
-//! One of some values.
+//! A discrete variable.
 
 use crate::{Error, normal};
 
@@ -51,7 +51,7 @@ impl Discrete {
     }
 
     pub(super) fn moments(&self) -> (f64, f64) {
-        // About a value, so that a common offset costs no digits.
+        // About one of the values, so that a common offset costs no digits.
         let about = self.values[self.values.len() / 2];
         let shift = self.sum(|value| value - about);
         let variance = self.sum(|value| (value - about - shift).powi(2));
@@ -67,14 +67,14 @@ impl Discrete {
         self.values[self.steps.partition_point(|step| *step < z)]
     }
 
-    /// Where it steps, and by how much.
+    /// The positions and heights of its steps.
     pub(super) fn jumps(&self) -> impl Iterator<Item = (f64, f64)> {
         let sizes = self.values.windows(2).map(|pair| pair[1] - pair[0]);
         self.steps.iter().copied().zip(sizes)
     }
 }
 
-/// The normal quantiles of the sums of weights, each from the nearer end.
+/// The normal quantiles of the cumulative weights, each summed from the nearer end.
 fn steps(weights: &[f64]) -> Vec<f64> {
     let running = |weights: &mut dyn Iterator<Item = &f64>| -> Vec<f64> {
         weights

@@ -1,18 +1,18 @@
-//! Variables as series in Hermite polynomials of a standard normal one, for covariances under a Gaussian copula.
+//! Expansions of variables in Hermite polynomials of a standard normal one, for covariances under a Gaussian copula.
 
 use super::{Distribution, Kind};
 use crate::legendre;
 use crate::normal;
 
-/// Terms of the series.
+/// Number of terms.
 const TERMS: usize = 120;
 
-/// `x(Z) = mean + sum_k a_k he_k(Z)`, `k` from 1, with Hermite polynomials of variance one. Two variables whose normal ones have the
-/// correlation `r` have the covariance `sum_k a_k b_k r^k` (Mehler 1866).
+/// `x(Z) = mean + sum_k a_k he_k(Z)`, `k` from 1, with Hermite polynomials of unit variance. If the normal variables behind two
+/// variables have correlation `r`, the covariance of the variables is `sum_k a_k b_k r^k` (Mehler 1866).
 #[derive(Clone, Debug)]
 pub(crate) struct Expansion {
     coefficients: Vec<f64>,
-    /// Root of the variance that the terms above leave.
+    /// Square root of the variance not covered by the terms.
     rest: f64,
 }
 
@@ -20,7 +20,7 @@ impl Expansion {
     pub(crate) fn of(variable: &Distribution) -> Self {
         let coefficients = match &variable.kind {
             _ if variable.is_normal() => vec![variable.sigma],
-            // By parts: a_k = E[x'(Z) he_(k-1)(Z)] / sqrt(k).
+            // Integration by parts: a_k = E[x'(Z) he_(k-1)(Z)] / sqrt(k).
             Kind::Discrete(discrete) => {
                 let mut sums = vec![0.0; TERMS];
                 for (step, size) in discrete.jumps() {
@@ -45,8 +45,8 @@ impl Expansion {
         }
     }
 
-    /// Covariance of two variables whose normal ones have the correlation `r`. What the series leaves out counts as if it were a term
-    /// of the next order: exact for variables of one distribution at `r` of 1.
+    /// Covariance of two variables whose normal variables have correlation `r`. The remainder of the series is treated as a term of
+    /// the next order; the result is then exact for variables of the same distribution at `r = 1`.
     pub(crate) fn covariance(&self, other: &Self, r: f64) -> f64 {
         let mut power = 1.0;
         let mut sum = 0.0;

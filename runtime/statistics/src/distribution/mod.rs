@@ -1,4 +1,4 @@
-//! Distributions of one variable.
+//! Distributions of a single variable.
 
 mod beta;
 mod discrete;
@@ -68,18 +68,18 @@ enum Kind {
 }
 
 impl Distribution {
-    /// A value that does not vary.
+    /// A constant value.
     ///
     /// # Errors
-    /// [`Error::Setting`] for one that is not finite.
+    /// [`Error::Setting`] if it is not finite.
     pub fn constant(value: f64) -> Result<Self, Error> {
         Self::normal(value, 0.0)
     }
 
-    /// Normal.
+    /// Normal distribution.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a negative standard deviation or what is not finite.
+    /// [`Error::Setting`] for a negative standard deviation or numbers that are not finite.
     pub fn normal(mean: f64, sigma: f64) -> Result<Self, Error> {
         finite(&[mean])?;
         not_negative(sigma)?;
@@ -90,10 +90,10 @@ impl Distribution {
         })
     }
 
-    /// Lognormal, by the mean and the standard deviation of the variable itself.
+    /// Lognormal distribution, given the mean and standard deviation of the variable itself.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a mean that is not positive, a negative standard deviation or what is not finite.
+    /// [`Error::Setting`] for a mean that is not positive, a negative standard deviation or numbers that are not finite.
     pub fn lognormal(mean: f64, sigma: f64) -> Result<Self, Error> {
         positive("mean of a lognormal variable", mean)?;
         not_negative(sigma)?;
@@ -108,10 +108,10 @@ impl Distribution {
         })
     }
 
-    /// Weibull in two parameters, `P(X > x) = exp(-(x / scale)^shape)`.
+    /// Two-parameter Weibull distribution, `P(X > x) = exp(-(x / scale)^shape)`.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a shape or a scale that is not positive, and shapes outside 0.05 to 1e8.
+    /// [`Error::Setting`] for a shape or scale that is not positive, and for shapes outside 0.05 to 1e8.
     pub fn weibull(shape: f64, scale: f64) -> Result<Self, Error> {
         positive("scale of a Weibull variable", scale)?;
         let (mean, sigma) = weibull::unit_moments(shape)?;
@@ -122,10 +122,10 @@ impl Distribution {
         })
     }
 
-    /// Weibull in two parameters, by mean and standard deviation.
+    /// Two-parameter Weibull distribution, given mean and standard deviation.
     ///
     /// # Errors
-    /// As [`Self::weibull`] for a mean that is not positive, and where no shape within the limits belongs to their ratio.
+    /// As [`Self::weibull`] for a mean that is not positive, or if no shape within its limits has this ratio of the two.
     pub fn weibull_by_moments(mean: f64, sigma: f64) -> Result<Self, Error> {
         positive("mean of a Weibull variable", mean)?;
         not_negative(sigma)?;
@@ -136,12 +136,13 @@ impl Distribution {
         Self::weibull(shape, mean / weibull::unit_moments(shape)?.0)
     }
 
-    /// A normal variable of this mean and standard deviation, values outside the limits sorted out. Either limit may be infinite.
-    /// [`Self::mean`] and [`Self::sigma`] are those of what is left.
+    /// Normal distribution with this mean and standard deviation, truncated to the limits, either of which may be infinite.
+    ///
+    /// [`Self::mean`] and [`Self::sigma`] are those after truncation.
     ///
     /// # Errors
-    /// [`Error::Setting`] for limits that are not in order, leave less than 1e-300 of the probability, or belong to no positive
-    /// standard deviation.
+    /// [`Error::Setting`] if the limits are not in order or leave less than 1e-300 of the probability, or if the standard deviation
+    /// is not positive.
     pub fn truncated_normal(mean: f64, sigma: f64, (low, high): (f64, f64)) -> Result<Self, Error> {
         finite(&[mean])?;
         ordered(low, high)?;
@@ -159,7 +160,7 @@ impl Distribution {
         })
     }
 
-    /// Every value between the limits as probable as any other.
+    /// Uniform distribution between the limits.
     ///
     /// # Errors
     /// [`Error::Setting`] for limits that are not finite or not in order.
@@ -173,7 +174,7 @@ impl Distribution {
         })
     }
 
-    /// Density falling in straight lines from the peak to both limits.
+    /// Triangular distribution, with the density falling linearly from the peak to both limits.
     ///
     /// # Errors
     /// [`Error::Setting`] for numbers that are not finite or not in order.
@@ -194,11 +195,11 @@ impl Distribution {
         })
     }
 
-    /// Beta between limits, with density `x^(alpha - 1) (1 - x)^(beta - 1)` over them.
+    /// Beta distribution between limits, with density `x^(alpha - 1) (1 - x)^(beta - 1)` over them.
     ///
     /// # Errors
-    /// [`Error::Setting`] for limits that are not finite or not in order, and shapes outside 0.05 to 1000: beyond, a normal variable
-    /// is as good.
+    /// [`Error::Setting`] for limits that are not finite or not in order, and for shapes outside 0.05 to 1000; beyond that, a
+    /// normal distribution is as good.
     pub fn beta((alpha, beta): (f64, f64), (low, high): (f64, f64)) -> Result<Self, Error> {
         finite(&[low, high])?;
         ordered(low, high)?;
@@ -216,10 +217,10 @@ impl Distribution {
         })
     }
 
-    /// One of some values, each with a probability or a weight; they are divided by their sum.
+    /// Discrete distribution over values with probabilities or weights; these are divided by their sum.
     ///
     /// # Errors
-    /// [`Error::Setting`] for no value, values that are not finite, and weights that are negative, not finite or all zero.
+    /// [`Error::Setting`] if there are no values, values that are not finite, or weights that are negative, not finite or all zero.
     pub fn discrete(values: &[(f64, f64)]) -> Result<Self, Error> {
         let discrete = Discrete::new(values)?;
         let (mean, sigma) = discrete.moments();
@@ -230,17 +231,18 @@ impl Distribution {
         })
     }
 
-    /// One of the values that were measured, each as probable as any other. Its standard deviation is that of the values about
-    /// their mean, with the number of values as divisor.
+    /// Empirical distribution: each of the measured values is equally probable.
+    ///
+    /// The standard deviation uses the number of values as divisor.
     ///
     /// # Errors
-    /// [`Error::Setting`] for no value, or one that is not finite.
+    /// [`Error::Setting`] if there are no values, or one is not finite.
     pub fn empirical(data: &[f64]) -> Result<Self, Error> {
         let values: Vec<(f64, f64)> = data.iter().map(|value| (*value, 1.0)).collect();
         Self::discrete(&values)
     }
 
-    /// What it is called: `normal`, `uniform`, ...; `constant` where nothing varies.
+    /// Name of the distribution: `normal`, `uniform`, ...; `constant` if nothing varies.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match &self.kind {
@@ -268,7 +270,7 @@ impl Distribution {
         self.sigma
     }
 
-    /// Least and greatest possible value; infinite where there is none.
+    /// Smallest and largest possible value; infinite if unbounded.
     #[must_use]
     pub fn support(&self) -> (f64, f64) {
         match &self.kind {
@@ -290,19 +292,19 @@ impl Distribution {
         }
     }
 
-    /// Whether it is normal, or a constant.
+    /// Whether it is normal or a constant.
     #[must_use]
     pub fn is_normal(&self) -> bool {
         matches!(self.kind, Kind::Normal) || self.sigma == 0.0
     }
 
-    /// Whether it has a density, so that its quantiles are a smooth function; not of discrete values.
+    /// Whether it has a density, so that its quantiles are a smooth function; false for discrete values.
     #[must_use]
     pub fn is_continuous(&self) -> bool {
         !matches!(self.kind, Kind::Discrete(_)) || self.sigma == 0.0
     }
 
-    /// The value below which a probability lies; NaN for what is no probability.
+    /// The value below which the given probability lies; NaN outside [0, 1].
     #[must_use]
     pub fn quantile(&self, probability: f64) -> f64 {
         let z = normal::quantile(probability);

@@ -12,7 +12,7 @@ impl Distribution {
             _ if self.sigma == 0.0 => 0.0,
             Kind::Normal | Kind::Uniform { .. } => 0.0,
             Kind::Triangular { low, peak, high } => {
-                // By the distances from the peak: the third moment is one of them cubed when the other is zero.
+                // In terms of the distances from the peak: if one is zero, the third moment is the cube of the other.
                 let (below, above) = (peak - low, high - peak);
                 let third = (above - below) * (2.0 * below + above) * (below + 2.0 * above) / 270.0;
                 third / self.sigma.powi(3)
@@ -21,8 +21,9 @@ impl Distribution {
         }
     }
 
-    /// Fourth central moment over the fourth power of the standard deviation, less the 3 of a normal variable. Zero for a
-    /// constant.
+    /// Excess kurtosis: fourth central moment over the fourth power of the standard deviation, minus the 3 of a normal variable.
+    ///
+    /// Zero for a constant.
     #[must_use]
     pub fn excess_kurtosis(&self) -> f64 {
         match &self.kind {
@@ -34,7 +35,7 @@ impl Distribution {
         }
     }
 
-    /// Central moment of an order over that power of the standard deviation.
+    /// Central moment of an order over the same power of the standard deviation.
     fn standardised(&self, order: i32) -> f64 {
         let power = |value: f64| ((value - self.mean) / self.sigma).powi(order);
         if let Kind::Discrete(discrete) = &self.kind {

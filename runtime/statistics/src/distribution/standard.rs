@@ -4,7 +4,7 @@ use super::{Distribution, Kind, beta};
 use crate::normal;
 
 impl Distribution {
-    /// The value that is as probable to be exceeded as the standard normal `z`: increasing, and accurate in both tails.
+    /// The value with the same probability of being exceeded as the standard normal `z`: increasing, and accurate in both tails.
     #[must_use]
     pub fn from_normal(&self, z: f64) -> f64 {
         if self.sigma == 0.0 {
@@ -38,7 +38,7 @@ impl Distribution {
                 } else {
                     let left = (normal::cdf(-z) * width * above).sqrt();
                     if z < 0.0 {
-                        // `high - left`, from the peak, near which it may be.
+                        // `high - left`, computed from the peak, which may be near.
                         peak + above * (probability * width - below) / (above + left)
                     } else {
                         high - left
@@ -53,7 +53,7 @@ impl Distribution {
         }
     }
 
-    /// Derivative of [`Self::from_normal`]; zero for discrete values, which are steps.
+    /// Derivative of [`Self::from_normal`]; zero for discrete values, where the function is a step function.
     #[must_use]
     pub fn slope_from_normal(&self, z: f64) -> f64 {
         if self.sigma == 0.0 {

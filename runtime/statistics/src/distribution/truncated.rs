@@ -1,4 +1,4 @@
-//! The standard normal distribution between limits.
+//! The truncated standard normal distribution.
 
 use crate::legendre;
 use crate::{Error, normal};
@@ -11,15 +11,15 @@ pub(super) struct Interval {
     low: f64,
     #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
     high: f64,
-    /// The limits change sign, so that most of the probability is on the left of zero.
+    /// Whether the limits are mirrored, because most of the probability lies left of zero.
     mirrored: bool,
-    /// `P(Z > low)` and `P(Z > high)`, `low` not left of where most lies.
+    /// `P(Z > low)` and `P(Z > high)`, with the limits after mirroring.
     above: (f64, f64),
 }
 
 impl Interval {
     pub(super) fn new(low: f64, high: f64) -> Result<Self, Error> {
-        // In the right tail differences of `P(Z > z)` keep their digits.
+        // In the right tail, differences of `P(Z > z)` keep their digits.
         let mirrored = low + high < 0.0;
         let (from, to) = if mirrored { (-high, -low) } else { (low, high) };
         let above = (normal::cdf(-from), normal::cdf(-to));
@@ -43,7 +43,7 @@ impl Interval {
         (self.low, self.high)
     }
 
-    /// The value as probable to be exceeded within the interval as `z` is without limits.
+    /// The value with the same probability of being exceeded within the interval as `z` has without limits.
     pub(super) fn quantile(&self, z: f64) -> f64 {
         let (below, beyond) = if self.mirrored {
             (normal::cdf(-z), normal::cdf(z))
@@ -51,7 +51,7 @@ impl Interval {
             (normal::cdf(z), normal::cdf(-z))
         };
         let (most, least) = self.above;
-        // A mean of both ends, so that neither is lost beside the other.
+        // A weighted mean of both ends, so that neither loses its digits to the other.
         let above = most * beyond + least * below;
         let value = -normal::quantile(above);
         let value = if self.mirrored { -value } else { value };
@@ -65,9 +65,9 @@ impl Interval {
         share * (0.5 * (value * value - z * z)).exp()
     }
 
-    /// Mean and standard deviation, by quadrature: closed forms cancel where the limits are close together.
+    /// Mean and standard deviation, by quadrature: closed forms suffer cancellation if the limits are close together.
     pub(super) fn moments(&self) -> (f64, f64) {
-        // What lies farther out from the nearest possible value than this has less than a part in 10^18.
+        // Values farther than this from the nearest possible value have less than a part in 10^18.
         const REACH: f64 = 9.5;
         let nearest = 0.0_f64.clamp(self.low, self.high);
         let (low, high) = (

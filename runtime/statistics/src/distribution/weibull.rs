@@ -1,4 +1,4 @@
-//! Moments of the Weibull distribution of scale one.
+//! Moments of the Weibull distribution with unit scale.
 
 use statrs::function::gamma::ln_gamma;
 
@@ -22,7 +22,7 @@ pub(super) fn unit_moments(shape: f64) -> Result<(f64, f64), Error> {
     Ok((mean, mean * log_ratio(shape).exp_m1().sqrt()))
 }
 
-/// The shape whose standard deviation is this fraction of the mean.
+/// The shape for which the standard deviation is this fraction of the mean.
 pub(super) fn shape(variation: f64) -> Result<f64, Error> {
     let target = (variation * variation).ln_1p();
     let (mut low, mut high) = (SHAPES.start().ln(), SHAPES.end().ln());
@@ -35,7 +35,7 @@ pub(super) fn shape(variation: f64) -> Result<f64, Error> {
         let of = |log_shape| f64::exp_m1(ratio(log_shape)).sqrt();
         return Err(beyond(of(high), of(low)));
     }
-    // The ratio falls as the shape grows.
+    // The ratio decreases as the shape grows.
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
@@ -50,7 +50,7 @@ pub(super) fn shape(variation: f64) -> Result<f64, Error> {
     Ok((0.5 * (low + high)).exp())
 }
 
-/// `ln (E X^2 / (E X)^2) = ln Gamma(1 + 2 e) - 2 ln Gamma(1 + e)` with `e = 1 / shape`, by the series of `ln Gamma` where the two
+/// `ln (E X^2 / (E X)^2) = ln Gamma(1 + 2 e) - 2 ln Gamma(1 + e)` with `e = 1 / shape`, from the series of `ln Gamma` where the two
 /// nearly cancel: `sum zeta(n) (-e)^n (2^n - 2) / n`, `n` from 2.
 fn log_ratio(shape: f64) -> f64 {
     let e = 1.0 / shape;
@@ -66,7 +66,7 @@ fn log_ratio(shape: f64) -> f64 {
     sum
 }
 
-/// Riemann's zeta function of an integer from 2 on: a sum with the tail by Euler and Maclaurin.
+/// Riemann's zeta function for an integer of at least 2: a partial sum with an Euler-Maclaurin tail.
 fn zeta(n: u32) -> f64 {
     const FIRST: i32 = 40;
     let s = f64::from(n);

@@ -1,9 +1,9 @@
-//! Correlations of the normal variables behind others.
+//! Correlations of the normal variables underlying others.
 
 use crate::distribution::Expansion;
 use crate::{Distribution, Error};
 
-/// The correlations of the normal variables that give the variables these linear ones.
+/// Correlations of the underlying normal variables for which the variables have the given linear correlations.
 pub(super) fn normal_correlation(
     variables: &[Distribution],
     correlation: &[f64],
@@ -44,7 +44,7 @@ pub(super) fn normal_correlation(
     Ok(found)
 }
 
-/// The argument in [-1, 1] at which an increasing function has a value, or the values at both ends.
+/// The argument in [-1, 1] at which an increasing function takes a value; otherwise the values at both ends.
 fn solve(of: impl Fn(f64) -> f64, wanted: f64) -> Result<f64, (f64, f64)> {
     const ROUNDING: f64 = 1e-9;
     let ends = (of(-1.0), of(1.0));

@@ -1,15 +1,16 @@
-//! Factors of correlation matrices.
+//! Factorisation of correlation matrices.
 
 use crate::Error;
 
-/// What rounding may have left in a correlation.
+/// Tolerance for rounding errors in a correlation.
 const ROUNDING: f64 = 1e-10;
 
-/// Lower triangular factor, row by row, of a correlation matrix of `size` rows, row by row. A variable that is a combination of those
-/// before it has a zero pivot.
+/// Lower triangular factor (row by row) of a correlation matrix of `size` rows (row by row).
+///
+/// A variable that is a combination of the preceding ones has a zero pivot.
 ///
 /// # Errors
-/// [`Error::WrongLength`] for another number of entries, [`Error::Setting`] for a matrix that is not symmetric and positive
+/// [`Error::WrongLength`] for a wrong number of entries, [`Error::Setting`] if the matrix is not symmetric and positive
 /// semidefinite with ones on its diagonal.
 pub fn semidefinite_factor(matrix: &[f64], size: usize) -> Result<Vec<f64>, Error> {
     if matrix.len() != size * size {

@@ -1,4 +1,4 @@
-//! Several variables together: distributions of each, and how they depend on each other.
+//! Joint distributions: the distribution of each variable and the dependence between them.
 
 mod copula;
 mod factor;
@@ -9,9 +9,9 @@ use crate::{Distribution, Error};
 use copula::normal_correlation;
 pub use factor::semidefinite_factor;
 
-/// Several random variables: what each is distributed like, and their linear correlations, through a Gaussian copula: each is an
-/// increasing function of a standard normal variable, and these are jointly normal (the model of Nataf; P.-L. Liu and A. Der Kiureghian,
-/// Probabilistic Engineering Mechanics 1986).
+/// Random variables with given distributions and linear correlations, joined by a Gaussian copula: each is an increasing function
+/// of a standard normal variable, and these are jointly normal (the Nataf model; P.-L. Liu and A. Der Kiureghian, Probabilistic
+/// Engineering Mechanics 1986).
 ///
 /// ```
 /// use eigentol_statistics::{Distribution, Joint};
@@ -38,12 +38,12 @@ pub struct Joint {
 struct Dependence {
     /// Linear correlations, row by row.
     correlation: Vec<f64>,
-    /// Lower factor of the correlations of the normal variables, row by row.
+    /// Lower triangular factor of the correlations of the underlying normal variables, row by row.
     factor: Vec<f64>,
 }
 
 impl Joint {
-    /// Variables that know nothing of each other.
+    /// Independent variables.
     #[must_use]
     pub fn independent(variables: Vec<Distribution>) -> Self {
         Self {
@@ -52,12 +52,12 @@ impl Joint {
         }
     }
 
-    /// Variables with these linear correlations, row by row. Those of the normal variables behind them follow.
+    /// Variables with these linear correlations, row by row; those of the underlying normal variables are computed from them.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for a matrix of another size; [`Error::Setting`] for one that is not symmetric, has not ones on its
-    /// diagonal or is not positive semidefinite, for a correlation that two such variables cannot have, and where no jointly normal
-    /// variables have all of them.
+    /// [`Error::WrongLength`] for a matrix of the wrong size; [`Error::Setting`] for a matrix that is not symmetric, lacks ones on
+    /// its diagonal or is not positive semidefinite, for a correlation that two such variables cannot have, and if no jointly
+    /// normal variables have all of them.
     pub fn correlated(variables: Vec<Distribution>, correlation: &[f64]) -> Result<Self, Error> {
         let count = variables.len();
         let mut factor = semidefinite_factor(correlation, count)?;
@@ -86,7 +86,7 @@ impl Joint {
         self.variables.len()
     }
 
-    /// Whether there is no variable.
+    /// Whether there are no variables.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.variables.is_empty()
@@ -104,7 +104,7 @@ impl Joint {
         self.variables.iter().all(Distribution::is_normal)
     }
 
-    /// Whether none depends on another.
+    /// Whether the variables are independent of each other.
     #[must_use]
     pub fn is_independent(&self) -> bool {
         self.dependence.is_none()
@@ -113,7 +113,7 @@ impl Joint {
     /// Covariance of two variables.
     ///
     /// # Panics
-    /// For an index beyond the variables.
+    /// If an index is out of range.
     #[must_use]
     pub fn covariance(&self, i: usize, j: usize) -> f64 {
         let own = if i == j { 1.0 } else { 0.0 };
@@ -122,30 +122,31 @@ impl Joint {
         correlation * self.variables[i].sigma() * self.variables[j].sigma()
     }
 
-    /// Element of the lower triangular factor that makes the normal variables behind these of independent ones.
+    /// Element of the lower triangular factor that generates the underlying normal variables from independent ones.
     ///
     /// # Panics
-    /// For an index beyond the variables.
+    /// If an index is out of range.
     #[must_use]
     pub fn normal_factor(&self, i: usize, j: usize) -> f64 {
         let own = if i == j { 1.0 } else { 0.0 };
         (self.dependence.as_ref()).map_or(own, |all| all.factor[i * self.len() + j])
     }
 
-    /// Writes the values that belong to independent standard normal numbers, one for each variable.
+    /// Writes the values of the variables for independent standard normal numbers, one per variable.
     ///
     /// # Panics
-    /// For lists of another length.
+    /// If a list has the wrong length.
     pub fn from_normal(&self, z: &[f64], values: &mut [f64]) {
         for (i, (value, variable)) in values.iter_mut().zip(&self.variables).enumerate() {
             *value = variable.from_normal(self.own_normal(i, z));
         }
     }
 
-    /// Writes the derivative of a function by the independent standard normal numbers at `z`, given that by the variables.
+    /// Transforms the derivatives of a function with respect to the variables into those with respect to the independent standard
+    /// normal numbers at `z`.
     ///
     /// # Panics
-    /// For lists of another length.
+    /// If a list has the wrong length.
     pub fn gradient_by_normal(&self, z: &[f64], by_variable: &[f64], by_normal: &mut [f64]) {
         by_normal.fill(0.0);
         for (i, (slope, variable)) in by_variable.iter().zip(&self.variables).enumerate() {
@@ -162,7 +163,7 @@ impl Joint {
         }
     }
 
-    /// The standard normal variable that variable `i` is a function of.
+    /// The standard normal variable underlying variable `i`.
     fn own_normal(&self, i: usize, z: &[f64]) -> f64 {
         match &self.dependence {
             None => z[i],

@@ -1,9 +1,9 @@
-//! Reading: what cannot be is refused.
+//! Deserialisation with validation.
 
 use super::{Dependence, Joint};
 use crate::Distribution;
 
-/// [`Joint`] as it was read.
+/// [`Joint`] as read, before validation.
 #[derive(serde::Deserialize)]
 pub(super) struct Unchecked {
     variables: Vec<Distribution>,

@@ -4,25 +4,25 @@ use nalgebra::DMatrix;
 
 use crate::Error;
 
-/// The largest rule: beyond it weights become too small for floats.
+/// The largest rule: beyond it, weights underflow.
 const MAX_NODES: usize = 256;
 
-/// A quadrature rule for the standard normal density: the mean of `f(z)` is about the sum of `weights[i] f(nodes[i])`.
+/// A quadrature rule for the standard normal density: the mean of `f(z)` is approximately the sum of `weights[i] f(nodes[i])`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
-    /// Ascending, symmetric about 0.
+    /// The nodes, ascending and symmetric about 0.
     pub nodes: Vec<f64>,
-    /// Their weights, positive, of sum 1.
+    /// Their weights, which are positive and sum to 1.
     pub weights: Vec<f64>,
 }
 
-/// The Gauss-Hermite rule of so many nodes, exact for polynomials of degree `2 nodes - 1`.
+/// The Gauss-Hermite rule with `nodes` nodes, exact for polynomials of degree `2 nodes - 1`.
 ///
-/// The starting values are the eigenvalues of the Jacobi matrix (Golub and Welsch, Math. Comp. 23, 1969), improved by Newton's
-/// method; the weights follow from the orthonormal polynomials there, which keeps the smallest accurate too.
+/// The starting values are the eigenvalues of the Jacobi matrix (Golub and Welsch, Math. Comp. 23, 1969), refined by Newton's
+/// method. The weights follow from the orthonormal polynomials at the nodes, which keeps even the smallest accurate.
 ///
 /// # Errors
-/// [`Error::Setting`] without any node or beyond 256.
+/// [`Error::Setting`] for zero nodes or more than 256.
 ///
 /// ```
 /// use eigentol_statistics::quadrature::gauss_hermite;
@@ -60,7 +60,7 @@ pub fn gauss_hermite(nodes: usize) -> Result<Rule, Error> {
     Ok(rule)
 }
 
-/// Multiplication by `x` in terms of the orthonormal polynomials: `x p_k = sqrt(k+1) p_(k+1) + sqrt(k) p_(k-1)`.
+/// Multiplication by `x` in the basis of the orthonormal polynomials: `x p_k = sqrt(k+1) p_(k+1) + sqrt(k) p_(k-1)`.
 fn jacobi(nodes: usize) -> DMatrix<f64> {
     DMatrix::from_fn(nodes, nodes, |i, j| {
         if i.abs_diff(j) == 1 {
@@ -79,7 +79,7 @@ fn node_near(start: f64, n: usize) -> (f64, f64) {
         let (p, before) = orthonormal(node, n);
         node -= p / (slope * before);
     }
-    // What rounding leaves of the step moves the weight: d ln w / dx = -2 x.
+    // The rounding left in the step affects the weight: d ln w / dx = -2 x.
     let (p, before) = orthonormal(node, n);
     let step = -p / (slope * before);
     let weight = (1.0 - 2.0 * node * step) / (n as f64 * before * before);

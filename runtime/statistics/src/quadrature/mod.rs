@@ -1,5 +1,5 @@
-//! Means of functions of independent standard normal variables, by quadrature: few points for smooth functions of few
-//! variables. Grids tell how many points they have before any is made, and hand them out one by one.
+//! Means of functions of independent standard normal variables by quadrature: few points for smooth functions of few variables.
+//! Grids report their number of points in advance and generate them one by one.
 
 mod gauss_hermite;
 mod polynomial;
@@ -23,9 +23,9 @@ pub use tensor::{TensorGrid, TensorWalk};
 /// A point of a grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node<'a> {
-    /// Standard normal values, one for each dimension.
+    /// Standard normal values, one per dimension.
     pub point: &'a [f64],
-    /// Its weight. The sum over all points is 1.
+    /// Its weight. The weights of all points sum to 1.
     pub weight: f64,
 }
 

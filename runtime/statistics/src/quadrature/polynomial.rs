@@ -1,4 +1,4 @@
-//! Polynomials cut behind a power of their variable.
+//! Polynomials truncated at a given degree.
 
 /// Coefficients of `1, x, ..., x^degree`.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ impl Truncated {
         result
     }
 
-    /// Divided by `1 - x`.
+    /// The polynomial divided by `1 - x`.
     pub(super) fn summed(mut self) -> Self {
         let mut sum = 0.0;
         for coefficient in &mut self.0 {
@@ -41,7 +41,7 @@ impl Truncated {
         self
     }
 
-    /// The coefficients of `x^k` and of the power below.
+    /// The coefficients of `x^k` and of the next lower power.
     pub(super) fn pair(&self, k: usize) -> (f64, f64) {
         (self.0[k], if k == 0 { 0.0 } else { self.0[k - 1] })
     }

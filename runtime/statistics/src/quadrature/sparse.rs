@@ -1,9 +1,9 @@
-//! Smolyak's sparse grids of Gauss-Hermite rules, every point once.
+//! Smolyak's sparse grids of Gauss-Hermite rules, with every point once.
 //!
-//! Level `l` of one variable is the rule with `2 g + 1` nodes, `g = ceil(l / 2)`: just enough for degree `2 l + 1`. Rules of
-//! different size share the node 0 and no other, so that a point tells which rules it belongs to, but for its zeros. With
-//! Smolyak's coefficients `(-1)^(L-T) C(d-1, L-T)` of the products whose levels add up to `T`, the weight of a point with `s`
-//! coordinates other than zero is the product of their weights and the coefficient of `x^(L-t)`, `t` the sum of their `2 g - 1`, in
+//! In one variable, level `l` is the rule with `2 g + 1` nodes, `g = ceil(l / 2)`: just enough for degree `2 l + 1`. Rules of
+//! different size share only the node 0, so the nonzero coordinates of a point tell which rules it belongs to. The products whose
+//! levels sum to `T` have Smolyak's coefficients `(-1)^(L-T) C(d-1, L-T)`. The weight of a point with `s` nonzero coordinates is
+//! therefore the product of their weights and the coefficient of `x^(L-t)`, where `t` is the sum of their `2 g - 1`, in
 //!
 //! ```text
 //! (1-x)^(d-1) (1+x)^s Z(x)^(d-s),   Z(x) = sum over l of x^l (weight of 0 in level l)
@@ -30,29 +30,29 @@ use crate::Error;
 pub struct SparseGrid {
     pub(super) dimensions: usize,
     pub(super) level: usize,
-    /// Nodes other than 0 and their weights, by `g - 1`.
+    /// Nonzero nodes and their weights, indexed by `g - 1`.
     pub(super) rules: Vec<Vec<(f64, f64)>>,
-    /// By number of coordinates other than zero and `L - t`.
+    /// Indexed by the number of nonzero coordinates; the coefficients are indexed by `L - t`.
     pub(super) factors: Vec<Truncated>,
     points: u64,
 }
 
-/// The mean of a function and how far the level below is from it.
+/// The mean of a function and its difference from the next lower level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Integral {
     /// The mean, in the unit of the function.
     pub value: f64,
-    /// The difference to the grid of one level less, which belongs to the same points: an estimate of the error of that one, and
-    /// commonly a generous one of the error of `value`. At level 0 nothing is below: the value itself.
+    /// The difference from the grid of the next lower level, which uses the same points: an estimate of the error of that grid, and
+    /// usually an overestimate of the error of `value`. At level 0 there is no lower level, and this is the value itself.
     pub difference: f64,
 }
 
 impl SparseGrid {
-    /// In so many dimensions, of this level. Level 0 is the origin alone.
+    /// A grid in `dimensions` dimensions of the given level. Level 0 is the origin alone.
     ///
     /// # Errors
-    /// [`Error::Setting`] without any dimension or if there are more than 2^64 points.
+    /// [`Error::Setting`] for zero dimensions or more than 2^64 points.
     pub fn new(dimensions: usize, level: usize) -> Result<Self, Error> {
         let setting = |setting, reason: &str| Error::Setting {
             setting,
@@ -80,17 +80,17 @@ impl SparseGrid {
         })
     }
 
-    /// Coordinates of a point.
+    /// Number of coordinates of a point.
     pub fn dimensions(&self) -> usize {
         self.dimensions
     }
 
-    /// Points of the grid.
+    /// Number of points of the grid.
     pub fn points(&self) -> u64 {
         self.points
     }
 
-    /// Walks along the points. Weights of both signs cancel: sum them up in a [`CompensatedSum`].
+    /// Iterates over the points. Weights of both signs cancel: use a [`CompensatedSum`].
     pub fn walk(&self) -> SparseWalk<'_> {
         SparseWalk::new(self)
     }
@@ -114,7 +114,7 @@ impl SparseGrid {
     }
 }
 
-/// `(1-x^2)^s ((1-x) Z)^(d-s) / (1-x)` for each `s`, which is the polynomial above with smaller numbers on the way.
+/// `(1-x^2)^s ((1-x) Z)^(d-s) / (1-x)` for each `s`: the polynomial above with smaller intermediate numbers.
 fn factors(dimensions: usize, level: usize, centres: &[f64]) -> Vec<Truncated> {
     let mut zero = vec![1.0];
     zero.extend((1..=level).map(|l| centres[l.div_ceil(2)] - centres[(l - 1).div_ceil(2)]));
@@ -128,9 +128,9 @@ fn factors(dimensions: usize, level: usize, centres: &[f64]) -> Vec<Truncated> {
         .collect()
 }
 
-/// Points that have a weight in this level or the one below.
+/// Number of points with a weight in this level or the next lower one.
 fn count(dimensions: usize, level: usize, factors: &[Truncated]) -> Option<u64> {
-    // Nodes of one coordinate by 2 g - 1.
+    // Numbers of nodes of one coordinate, by 2 g - 1.
     let nodes: Vec<u128> = (0..=level)
         .map(|t| if t % 2 == 1 { t as u128 + 1 } else { 0 })
         .collect();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::tests::moment;
 use super::*;
 
-/// Levels of all variables with a given sum.
+/// All combinations of levels with a given sum.
 fn levels(sum: usize, dimensions: usize) -> Vec<Vec<usize>> {
     if dimensions == 1 {
         return vec![vec![sum]];
@@ -18,7 +18,7 @@ fn levels(sum: usize, dimensions: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Smolyak's formula as it stands: products of rules, weights of equal points added.
+/// Smolyak's formula taken literally: products of rules, adding weights of equal points.
 fn smolyak(dimensions: usize, level: usize) -> BTreeMap<Vec<u64>, f64> {
     let mut grid = BTreeMap::new();
     for below in 0..dimensions.min(level + 1) {
@@ -67,7 +67,8 @@ fn sparse_grids_are_smolyaks() {
     }
 }
 
-/// As many as the nested grids of Heiss and Winschel (J. Econometrics 144, 2008, table 1) up to their accuracy level 4.
+/// The point counts equal those of the nested grids of Heiss and Winschel (J. Econometrics 144, 2008, table 1) up to their accuracy
+/// level 4.
 #[test]
 fn sparse_grids_are_small() {
     let points = |d, level| SparseGrid::new(d, level).unwrap().points();
@@ -82,7 +83,7 @@ fn sparse_grids_are_small() {
     assert_eq!(points(400, 2), 2 * 400 * 400 + 1);
 }
 
-/// All monomials of total degree `2 level + 1` in few variables, and the product of `level + 1` squares, which is the first that
+/// All monomials of total degree `2 level + 1` in few variables, and the product of `level + 1` squares, the first monomial that
 /// the grid misses.
 #[test]
 fn sparse_grids_are_exact_up_to_their_total_degree() {
@@ -115,7 +116,7 @@ fn sparse_grids_are_exact_up_to_their_total_degree() {
     }
 }
 
-/// The moduli of the weights have a sum of about ten thousand: added up one by one, they would leave an error above 1e-10.
+/// The magnitudes of the weights sum to about ten thousand: plain summation would leave an error above 1e-10.
 #[test]
 fn sums_stay_accurate_in_many_dimensions() {
     let grid = SparseGrid::new(60, 3).unwrap();
@@ -132,7 +133,7 @@ fn sums_stay_accurate_in_many_dimensions() {
     assert!((sum - 1.0_f64).abs() > 1e-10, "{sum}");
 }
 
-/// The mean of `exp(a . z)` is `exp(a . a / 2)`; the difference to the level below exceeds the error.
+/// The mean of `exp(a . z)` is `exp(a . a / 2)`; the difference from the next lower level exceeds the error.
 #[test]
 fn smooth_functions_converge() {
     let a = [0.3, -0.2, 0.1, 0.25];

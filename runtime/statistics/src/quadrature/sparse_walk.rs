@@ -1,38 +1,38 @@
-//! Point after point of a sparse grid, none of them stored.
+//! Iteration over a sparse grid without storing its points.
 
 use super::SparseGrid;
 
 /// A point of a sparse grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SparseNode<'a> {
-    /// Standard normal values, one for each dimension.
+    /// Standard normal values, one per dimension.
     pub point: &'a [f64],
-    /// Its weight, possibly negative. The sum over all points is 1.
+    /// Its weight, possibly negative. The weights of all points sum to 1.
     pub weight: f64,
-    /// Its weight in the grid of one level less, zero if it is not in there.
+    /// Its weight in the grid of the next lower level; zero if it is not part of it.
     pub coarse_weight: f64,
 }
 
-/// Walks along a [`SparseGrid`].
+/// Iterates over a [`SparseGrid`].
 #[derive(Clone, Debug)]
 pub struct SparseWalk<'a> {
     grid: &'a SparseGrid,
     started: bool,
-    /// Coordinates other than zero, by dimension.
+    /// Nonzero coordinates, by dimension.
     active: Vec<Active>,
-    /// What their rules leave of the level.
+    /// Remainder of the level after their rules.
     left: usize,
     point: Vec<f64>,
 }
 
-/// A coordinate at a node other than zero.
+/// A coordinate at a nonzero node.
 #[derive(Clone, Copy, Debug)]
 struct Active {
     dimension: usize,
-    /// The rule has `2 g + 1` nodes.
+    /// Size of its rule, which has `2 g + 1` nodes.
     g: usize,
     node: usize,
-    /// Product of the weights up to here.
+    /// Product of the weights of the coordinates up to this one.
     weight: f64,
 }
 
@@ -47,7 +47,7 @@ impl<'a> SparseWalk<'a> {
         }
     }
 
-    /// The next point and its weights. `None` behind the last one.
+    /// The next point and its weights; `None` after the last one.
     pub fn next_point(&mut self) -> Option<SparseNode<'_>> {
         loop {
             if self.started && !self.advance() {
@@ -66,7 +66,7 @@ impl<'a> SparseWalk<'a> {
         }
     }
 
-    /// Goes on in depth first: one more coordinate, else the next node, rule or dimension of the last one.
+    /// Advances depth first: adds a coordinate, otherwise moves the last one to its next node, rule or dimension.
     fn advance(&mut self) -> bool {
         let behind = self.active.last().map_or(0, |last| last.dimension + 1);
         if self.push(behind, 1, 0) {
@@ -85,7 +85,7 @@ impl<'a> SparseWalk<'a> {
         false
     }
 
-    /// Sets a coordinate to a node, if there is one and the level allows its rule.
+    /// Sets a coordinate to a node, if the node exists and the level allows its rule.
     fn push(&mut self, dimension: usize, g: usize, node: usize) -> bool {
         let Some(left) = self.left.checked_sub(2 * g - 1) else {
             return false;

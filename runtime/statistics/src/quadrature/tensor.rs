@@ -3,8 +3,9 @@
 use super::{CompensatedSum, Node, Rule, finite, gauss_hermite};
 use crate::Error;
 
-/// Every combination of the nodes of one rule for each dimension: exact for polynomials of degree `2 nodes - 1` in each
-/// variable. Worth its points in few dimensions only.
+/// Every combination of the nodes of one rule per dimension: exact for polynomials of degree `2 nodes - 1` in each variable.
+///
+/// Efficient only in few dimensions.
 ///
 /// ```
 /// use eigentol_statistics::quadrature::TensorGrid;
@@ -22,11 +23,10 @@ pub struct TensorGrid {
 }
 
 impl TensorGrid {
-    /// With so many nodes by dimension.
+    /// A grid with the given number of nodes in each dimension.
     ///
     /// # Errors
-    /// [`Error::Setting`] without any dimension, if a rule does not exist (see [`gauss_hermite`]) or if there are more than
-    /// 2^64 points.
+    /// [`Error::Setting`] for zero dimensions, if a rule does not exist (see [`gauss_hermite`]) or for more than 2^64 points.
     pub fn new(nodes: &[usize]) -> Result<Self, Error> {
         let setting = |reason: &str| Error::Setting {
             setting: "nodes",
@@ -45,17 +45,17 @@ impl TensorGrid {
         })
     }
 
-    /// Coordinates of a point.
+    /// Number of coordinates of a point.
     pub fn dimensions(&self) -> usize {
         self.rules.len()
     }
 
-    /// Points of the grid.
+    /// Number of points of the grid.
     pub fn points(&self) -> u64 {
         self.points
     }
 
-    /// Walks along the points from point `first` on; the last coordinate changes first.
+    /// Iterates over the points, starting at point `first`; the last coordinate changes fastest.
     pub fn from(&self, first: u64) -> TensorWalk<'_> {
         let mut rest = first;
         let mut places: Vec<usize> = (self.rules.iter().rev())
@@ -91,13 +91,13 @@ impl TensorGrid {
     }
 }
 
-/// Walks along a [`TensorGrid`].
+/// Iterates over a [`TensorGrid`].
 #[derive(Clone, Debug)]
 pub struct TensorWalk<'a> {
     rules: &'a [Rule],
     left: u64,
-    /// Of the next point: its nodes, the first dimension that differs from the point before, its coordinates, and the products
-    /// of the weights of the first dimensions.
+    /// For the next point: its nodes, the first dimension that differs from the previous point, its coordinates, and the products
+    /// of the weights of the leading dimensions.
     places: Vec<usize>,
     changed: usize,
     point: Vec<f64>,
@@ -105,7 +105,7 @@ pub struct TensorWalk<'a> {
 }
 
 impl TensorWalk<'_> {
-    /// The next point and its weight. `None` behind the last one.
+    /// The next point and its weight; `None` after the last one.
     pub fn next_point(&mut self) -> Option<Node<'_>> {
         self.left.checked_sub(1).map(|left| {
             self.update();

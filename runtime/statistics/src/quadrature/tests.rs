@@ -1,4 +1,4 @@
-//! Rules against reference values, grids against moments of the normal distribution.
+//! Checks rules against reference values, and grids against moments of the normal distribution.
 
 use super::*;
 
@@ -10,8 +10,8 @@ pub(super) fn moment(exponent: u32) -> f64 {
     (1..exponent).step_by(2).map(f64::from).product()
 }
 
-/// Nodes, node, weight: computed with 50 digits from the three-term recurrence (mpmath). Scaled by `sqrt(1/2)` and `sqrt(pi)`
-/// those of 10 nodes are in Abramowitz and Stegun, table 25.10.
+/// Number of nodes, node and weight, computed with 50 digits from the three-term recurrence (mpmath). Scaled by `sqrt(1/2)` and
+/// `sqrt(pi)`, those of 10 nodes are in Abramowitz and Stegun, table 25.10.
 const REFERENCE: [(usize, f64, f64); 17] = [
     (10, 0.48493570751549764, 0.34464233493201907),
     (10, 1.4659890943911582, 0.13548370298026774),
@@ -48,7 +48,7 @@ fn rules_agree_with_reference_values() {
     }
 }
 
-/// Moments up to the degree of exactness; the next one differs by `n!` (the norm of the Hermite polynomial).
+/// Moments up to the degree of exactness are exact; the next one differs by `n!` (the norm of the Hermite polynomial).
 #[test]
 fn rules_are_exact_up_to_their_degree() {
     for nodes in (1..=40).chain([64, 128, 256]) {

@@ -1,4 +1,4 @@
-//! A limit state whose evaluations are counted and checked.
+//! A limit state that counts and checks its evaluations.
 
 use core::cell::{Cell, RefCell};
 
@@ -6,17 +6,17 @@ use super::limit_state::{LimitState, LimitValue};
 use super::vector::norm;
 use crate::Error;
 
-/// How often a limit state was asked.
+/// Number of evaluations of a limit state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Evaluations {
     /// Evaluations of value and gradient.
     pub total: usize,
-    /// Those of them without a value, or with one that is not finite.
+    /// Evaluations that gave no value, or one that is not finite.
     pub without_value: usize,
 }
 
-/// Only finite values and gradients of the right length come through.
+/// Passes on only finite values and gradients of the right length.
 pub(super) struct Counted<'a> {
     limit: &'a dyn Asked,
     dimension: usize,
@@ -25,7 +25,7 @@ pub(super) struct Counted<'a> {
     reason: RefCell<String>,
 }
 
-/// A limit state whatever its error: what searches it is compiled once.
+/// A limit state with its error type erased, so that searches are compiled only once.
 trait Asked {
     fn evaluate(&self, z: &[f64]) -> Result<LimitValue, String>;
     fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, String>>;
@@ -63,7 +63,7 @@ impl<'a> Counted<'a> {
         self.dimension
     }
 
-    /// Value and gradient at `z`, if there are any.
+    /// Value and gradient at `z`, if they exist.
     pub(super) fn evaluate(&self, z: &[f64]) -> Option<LimitValue> {
         self.total.set(self.total.get() + 1);
         let found = match self.limit.evaluate(z) {
@@ -86,7 +86,7 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Exact second derivatives at `z`, if the limit state knows them.
+    /// Exact second derivatives at `z`, if the limit state provides them.
     pub(super) fn hessian(&self, z: &[f64]) -> Result<Option<Vec<Vec<f64>>>, Error> {
         let place = "at the design point";
         let reason = |reason: String| Error::NoLimitValue { place, reason };
@@ -112,7 +112,7 @@ impl<'a> Counted<'a> {
         Ok(Some(hessian))
     }
 
-    /// The error that there is no value at this place.
+    /// The error for a missing value at this place.
     pub(super) fn no_value(&self, place: &'static str) -> Error {
         let reason = self.reason.borrow().clone();
         Error::NoLimitValue { place, reason }

@@ -1,4 +1,4 @@
-//! What fails where: a function of independent standard normal variables that is not positive in failure.
+//! Limit states: functions of independent standard normal variables that are not positive in failure.
 
 use core::fmt::Display;
 
@@ -12,12 +12,12 @@ pub struct LimitValue {
     pub gradient: Vec<f64>,
 }
 
-/// A limit state `g(z)` of independent standard normal variables `z`: failure where `g(z) <= 0`.
+/// A limit state `g(z)` of independent standard normal variables `z`; failure is `g(z) <= 0`.
 ///
-/// It may have no value somewhere, because what it describes does not exist there; it then says why. Searches step back
-/// from such points and samplers count them; none of them takes them for failures or for safe.
+/// It may have no value somewhere, because the quantity it describes does not exist there; it then gives the reason. Searches step
+/// back from such points and samplers count them; neither treats them as failures or as safe.
 pub trait LimitState {
-    /// Why there is no value.
+    /// The reason why there is no value.
     type Error: Display;
 
     /// Number of variables.
@@ -27,14 +27,14 @@ pub trait LimitState {
     ///
     /// # Errors
     ///
-    /// If there is none at `z`.
+    /// If there is no value at `z`.
     fn evaluate(&self, z: &[f64]) -> Result<LimitValue, Self::Error>;
 
     /// The value alone, for sampling.
     ///
     /// # Errors
     ///
-    /// If there is none at `z`.
+    /// If there is no value at `z`.
     fn value(&self, z: &[f64]) -> Result<f64, Self::Error> {
         Ok(self.evaluate(z)?.value)
     }
@@ -65,7 +65,7 @@ impl<L: LimitState + ?Sized> LimitState for &L {
     }
 }
 
-/// A limit state made of a closure for value and gradient.
+/// A limit state defined by a closure for value and gradient.
 #[derive(Clone, Copy, Debug)]
 pub struct LimitFunction<F> {
     dimension: usize,
@@ -76,7 +76,7 @@ impl<F, E> LimitFunction<F>
 where
     F: Fn(&[f64]) -> Result<LimitValue, E>,
 {
-    /// A limit state of `dimension` variables.
+    /// Creates a limit state with `dimension` variables.
     pub fn new(dimension: usize, function: F) -> Self {
         Self {
             dimension,
@@ -84,7 +84,7 @@ where
         }
     }
 
-    /// The same with exact second derivatives, row by row.
+    /// Adds exact second derivatives, row by row.
     pub fn with_hessian<H>(self, hessian: H) -> LimitFunctionWithHessian<F, H>
     where
         H: Fn(&[f64]) -> Result<Vec<Vec<f64>>, E>,
@@ -112,7 +112,7 @@ where
     }
 }
 
-/// A limit state made of two closures, one of them for the second derivatives.
+/// A limit state defined by two closures, one of them for the second derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct LimitFunctionWithHessian<F, H> {
     limit: LimitFunction<F>,

@@ -1,18 +1,18 @@
-//! Samples of independent standard normal variables: sample `k` is a function of seed, stream and `k` alone.
+//! Samples of independent standard normal variables: sample `k` depends only on seed, stream and `k`.
 
 use crate::normal::quantile;
 use crate::random::RandomNumbers;
 
-/// Draws samples in sequence from a given one on.
+/// Generates samples in sequence, starting at a given one.
 pub(super) struct NormalSamples {
     random: RandomNumbers,
     sample: Vec<f64>,
 }
 
 impl NormalSamples {
-    /// Prepares to draw sample `first` of this many variables and its successors.
+    /// Prepares to generate samples of this many variables, starting at sample `first`.
     pub(super) fn new(seed: u64, stream: u64, first: u64, dimension: usize) -> Self {
-        // One for each variable, and one for the choice that comes with each sample.
+        // One number per variable, and one for the choice that accompanies each sample.
         let numbers = dimension as u128 + 1;
         Self {
             random: RandomNumbers::starting_at(seed, stream, u128::from(first) * numbers),
@@ -25,7 +25,7 @@ impl NormalSamples {
         self.next_with_choice().1
     }
 
-    /// The next sample, and a number uniform in (0, 1) that is independent of it.
+    /// The next sample, and an independent number uniform in (0, 1).
     pub(super) fn next_with_choice(&mut self) -> (f64, &[f64]) {
         let choice = self.random.probability();
         for value in &mut self.sample {
@@ -51,7 +51,7 @@ mod tests {
         }
     }
 
-    /// Kolmogorov's distance of 20,000 values from the normal distribution; 1.95 / sqrt(n) is exceeded once in a thousand.
+    /// Kolmogorov distance of 20,000 values from the normal distribution; 1.95 / sqrt(n) is exceeded once in a thousand.
     #[test]
     fn samples_are_normal() {
         let mut samples = NormalSamples::new(5, 0, 0, 2);

@@ -1,12 +1,15 @@
-//! Where to evaluate a model for its variance-based indices.
+//! Evaluation points of a model for its variance-based indices.
 
 use crate::Error;
 use crate::sequence::{Cursor, Sequence};
 
-/// The design of Saltelli et al. (Comput. Phys. Commun. 181, 2010, table 1): each row of two independent samples `A` and `B` of
-/// `d` inputs makes `d + 2` points: the row of `A`, that of `B`, and for each input `i` that of `A` with input `i` of `B`.
+/// The design of Saltelli et al. (Comput. Phys. Commun. 181, 2010, table 1).
 ///
-/// Evaluation `k` is of row `k / (d + 2)`, in this order. Inputs are probabilities: apply the quantile functions of the inputs.
+/// Each row of two independent samples `A` and `B` of `d` inputs gives `d + 2` points: the row of `A`, that of `B`, and for each
+/// input `i` the row of `A` with input `i` taken from `B`.
+///
+/// Evaluation `k` belongs to row `k / (d + 2)`, in this order. Inputs are probabilities: apply the quantile functions of the
+/// inputs.
 ///
 /// ```
 /// use eigentol_statistics::sensitivity::{Bootstrap, Estimator, SaltelliDesign, sobol_indices};
@@ -30,10 +33,11 @@ pub struct SaltelliDesign {
 }
 
 impl SaltelliDesign {
-    /// Of so many points of a sequence, the first half of whose coordinates belongs to `A`, the second to `B`.
+    /// Creates a design from the first `rows` points of a sequence; the first half of the coordinates belongs to `A`, the second to
+    /// `B`.
     ///
     /// # Errors
-    /// [`Error::Setting`] if the dimensions are odd in number, if the sequence has fewer points, or without any row.
+    /// [`Error::Setting`] if the number of dimensions is odd, if the sequence has fewer points, or for zero rows.
     pub fn new(sequence: Sequence, rows: u64) -> Result<Self, Error> {
         let dimensions = sequence.dimensions();
         let setting = |setting, reason| Err(Error::Setting { setting, reason });
@@ -48,12 +52,12 @@ impl SaltelliDesign {
         Ok(Self { sequence, rows })
     }
 
-    /// Inputs of the model.
+    /// Number of inputs of the model.
     pub fn inputs(&self) -> usize {
         self.sequence.dimensions() / 2
     }
 
-    /// Evaluations of the model: `rows (inputs + 2)`.
+    /// Number of evaluations of the model: `rows (inputs + 2)`.
     pub fn evaluations(&self) -> u64 {
         self.rows * self.blocks()
     }
@@ -61,7 +65,7 @@ impl SaltelliDesign {
     /// Writes the inputs of evaluation `k`.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] if there is not one place for each input, [`Error::BeyondLast`] if there is no evaluation `k`.
+    /// [`Error::WrongLength`] if `into` does not have one place per input, [`Error::BeyondLast`] if there is no evaluation `k`.
     pub fn point(&self, k: u64, into: &mut [f64]) -> Result<(), Error> {
         if into.len() != self.inputs() {
             return Err(Error::WrongLength {
@@ -81,7 +85,7 @@ impl SaltelliDesign {
         })
     }
 
-    /// Walks along the evaluations from number `first` on.
+    /// Iterates over the evaluations, starting at number `first`.
     pub fn from(&self, first: u64) -> DesignWalk<'_> {
         let first = first.min(self.evaluations());
         DesignWalk {
@@ -94,17 +98,17 @@ impl SaltelliDesign {
         }
     }
 
-    /// Evaluations in a row.
+    /// Number of evaluations per row.
     fn blocks(&self) -> u64 {
         self.inputs() as u64 + 2
     }
 }
 
-/// Walks along a [`SaltelliDesign`].
+/// Iterates over a [`SaltelliDesign`].
 #[derive(Clone, Debug)]
 pub struct DesignWalk<'a> {
     rows: Cursor<'a>,
-    /// `A` and `B`, one behind the other.
+    /// `A` and `B`, concatenated.
     row: Option<Vec<f64>>,
     blocks: u64,
     next: u64,
@@ -113,7 +117,7 @@ pub struct DesignWalk<'a> {
 }
 
 impl DesignWalk<'_> {
-    /// The inputs of the next evaluation. `None` behind the last one.
+    /// The inputs of the next evaluation; `None` after the last one.
     pub fn next_point(&mut self) -> Option<&[f64]> {
         if self.next >= self.end {
             return None;

@@ -1,4 +1,4 @@
-//! The design against its definition.
+//! Checks the design against its definition.
 
 use super::SaltelliDesign;
 use crate::sequence::Sequence;

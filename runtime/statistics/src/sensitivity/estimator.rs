@@ -1,22 +1,23 @@
 //! Estimators of first-order and total indices from the values of the Saltelli design.
 
-/// How to estimate the indices of an input from the values `a` of the rows of `A`, `b` of `B` and `c` of `A` with that input of `B`.
+/// Estimates the indices of an input from the values `a` of the rows of `A`, `b` of `B`, and `c` of `A` with that input taken from `B`.
+///
 /// `V` is the variance of all `a` and `b`, `m` their mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Estimator {
-    /// First order `mean((b - m) (c - a)) / V` (Saltelli et al. 2010, table 2 b), total `mean((a - c)^2) / 2 V` (table 2 f). Small
-    /// indices of first order have small errors.
+    /// First order `mean((b - m) (c - a)) / V` (Saltelli et al. 2010, table 2 b), total `mean((a - c)^2) / 2 V` (table 2 f).
+    /// Accurate for small first-order indices.
     Saltelli,
-    /// First order `1 - mean((b - c)^2) / 2 V` (Jansen 1999), total as in `Saltelli`. Large indices of first order have small errors.
+    /// First order `1 - mean((b - c)^2) / 2 V` (Jansen 1999), total as in `Saltelli`. Accurate for large first-order indices.
     #[default]
     Jansen,
-    /// Correlation coefficients: first order that of `b` and `c`, total one less that of `a` and `c` (Martinez 2011; Baudin et al.,
-    /// SAMO 2016).
+    /// Correlation coefficients: first order is that of `b` and `c`, total is one minus that of `a` and `c` (Martinez 2011; Baudin
+    /// et al., SAMO 2016).
     Martinez,
 }
 
-/// Sums over rows of the values of an input.
+/// Sums of the values of an input over rows.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sums {
     n: f64,
@@ -32,7 +33,7 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds a row so many times.
+    /// Adds a row `times` times.
     pub(super) fn add(&mut self, times: f64, [a, b, c]: [f64; 3]) {
         self.n += times;
         self.a += times * a;
@@ -74,7 +75,7 @@ impl Sums {
         })
     }
 
-    /// Of `c` with another value, by the sums of that, its square and its product with `c`.
+    /// Correlation of `c` with another value, given the sums of that value, its square and its product with `c`.
     fn correlation(&self, [x, xx, xc]: [f64; 3]) -> Option<f64> {
         let n = self.n;
         let spread = |x: f64, xx: f64| {
@@ -86,7 +87,7 @@ impl Sums {
     }
 }
 
-/// Whether a variance is more than rounding of the mean square it is a difference of.
+/// Whether a variance exceeds the rounding error of the mean square from which it was computed as a difference.
 fn varies(variance: f64, square: f64) -> bool {
     variance > 1e-13 * square
 }

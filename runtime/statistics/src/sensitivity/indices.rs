@@ -1,24 +1,24 @@
-//! Variance-based indices with intervals by the bootstrap.
+//! Variance-based indices with bootstrap confidence intervals.
 
 use super::estimator::{Estimator, Sums};
 use crate::Error;
 use crate::random::RandomNumbers;
 
-/// How to find confidence intervals: by the percentiles of estimates from rows drawn with replacement (Efron 1979; Archer,
-/// Saltelli and Sobol', J. Stat. Comput. Simul. 58, 1997). For quasi-random rows the intervals are too wide.
+/// Settings of the bootstrap: confidence intervals are percentiles of estimates from rows drawn with replacement (Efron 1979;
+/// Archer, Saltelli and Sobol', J. Stat. Comput. Simul. 58, 1997). For quasi-random rows the intervals are too wide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bootstrap {
-    /// Samples drawn.
+    /// Number of resamples.
     pub resamples: usize,
-    /// Probability with which an interval holds its index, between 0 and 1.
+    /// Probability that an interval contains its index, between 0 and 1.
     pub confidence: f64,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl Default for Bootstrap {
-    /// 200 samples, 95 per cent.
+    /// 200 resamples, 95 per cent.
     fn default() -> Self {
         Self {
             resamples: 200,
@@ -32,39 +32,39 @@ impl Default for Bootstrap {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
-    /// The estimate, which an error may carry out of 0 to 1.
+    /// The estimate; errors may move it outside 0 to 1.
     pub value: f64,
-    /// Where the confidence interval begins.
+    /// Lower end of the confidence interval.
     pub lower: f64,
-    /// Where it ends.
+    /// Upper end of the confidence interval.
     pub upper: f64,
 }
 
-/// How the variance of a model is shared out among its inputs (Sobol' 1993; Homma and Saltelli 1996).
+/// Apportions the variance of a model to its inputs (Sobol' 1993; Homma and Saltelli 1996).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SobolIndices {
-    /// By input: the part of the variance that goes if this input is known.
+    /// First-order index of each input: the fraction of the variance that vanishes if this input is known.
     pub first: Vec<Estimate>,
-    /// By input: the part that stays if all others are known.
+    /// Total index of each input: the fraction of the variance that remains if all other inputs are known.
     pub total: Vec<Estimate>,
-    /// Of the values of both samples, in their unit.
+    /// Mean of the values of both samples, in their unit.
     pub mean: f64,
-    /// Of the values of both samples, in the square of their unit.
+    /// Variance of the values of both samples, in the square of their unit.
     pub variance: f64,
-    /// Rows that all this comes from.
+    /// Number of rows used.
     pub rows: usize,
-    /// Rows that were left out because a value is missing. Unless they are few, the indices are those of a part of the inputs.
+    /// Number of rows omitted because a value is missing. Unless they are few, the indices describe only part of the input space.
     pub dropped: usize,
 }
 
-/// First-order and total indices of independent inputs from the values of a [`SaltelliDesign`](super::SaltelliDesign), in its
-/// order, `None` where the model has no value.
+/// First-order and total indices of independent inputs from the values of a [`SaltelliDesign`](super::SaltelliDesign) in its order,
+/// with `None` where the model has no value.
 ///
 /// # Errors
-/// - [`Error::WrongLength`] if the values are not `inputs + 2` for each row;
-/// - [`Error::NotFinite`] if a value is not;
-/// - [`Error::TooFew`] if fewer than two rows are complete, or without any input or resample;
+/// - [`Error::WrongLength`] if there are not `inputs + 2` values per row;
+/// - [`Error::NotFinite`] if a value is not finite;
+/// - [`Error::TooFew`] if fewer than two rows are complete, or for zero inputs or resamples;
 /// - [`Error::Constant`] if the values do not vary;
 /// - [`Error::Setting`] if the confidence is not between 0 and 1.
 pub fn sobol_indices(
@@ -118,7 +118,7 @@ pub fn sobol_indices(
     })
 }
 
-/// The values of the complete rows less about their mean, which keeps sums of squares accurate.
+/// The values of the complete rows minus approximately their mean, which keeps sums of squares accurate.
 struct Rows {
     inputs: usize,
     centre: f64,
@@ -160,7 +160,7 @@ impl Rows {
         self.values.len() / (self.inputs + 2)
     }
 
-    /// Sums over rows, each so many times.
+    /// Sums over rows, each counted `times` times.
     fn sums(&self, times: &[f64], input: usize) -> Sums {
         let mut sums = Sums::default();
         for (row, times) in self.values.chunks_exact(self.inputs + 2).zip(times) {
@@ -176,7 +176,7 @@ impl Rows {
     }
 }
 
-/// How often each row is among as many drawn with replacement.
+/// How often each row occurs among as many rows drawn with replacement.
 fn drawn(rows: usize, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = RandomNumbers::new(seed, stream);
     let mut times = vec![0.0; rows];
@@ -187,7 +187,7 @@ fn drawn(rows: usize, seed: u64, stream: u64) -> Vec<f64> {
     times
 }
 
-/// Of ascending values, by linear interpolation.
+/// Quantile of sorted values, by linear interpolation.
 fn quantile(sorted: &[f64], probability: f64) -> f64 {
     let place = probability * (sorted.len() - 1) as f64;
     let (below, above) = (place.floor(), place.ceil());

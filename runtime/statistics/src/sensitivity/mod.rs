@@ -1,7 +1,7 @@
-//! Which inputs the scatter of a result comes from.
+//! Attribution of the scatter of a result to its inputs.
 //!
-//! Variance-based indices hold for any model of independent inputs and cost `inputs + 2` evaluations for each row of a
-//! [`SaltelliDesign`]. Correlation and regression come from a plain random [`Sample`], and tell the truth about linear models, or
+//! Variance-based indices are valid for any model of independent inputs and cost `inputs + 2` evaluations for each row of a
+//! [`SaltelliDesign`]. Correlation and regression use a plain random [`Sample`]; they are reliable for linear models, or for
 //! monotonic ones after [`Sample::ranked`].
 
 mod design;

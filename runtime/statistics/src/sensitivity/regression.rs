@@ -6,27 +6,29 @@ use super::Sample;
 use super::indices::at_least;
 use crate::Error;
 
-/// The least diagonal element of the triangular factor, relative to the length of its column, that is not rounding.
+/// Smallest diagonal element of the triangular factor, relative to the length of its column, that is not rounding.
 const INDEPENDENT: f64 = 1e-10;
 
-/// The linear function of the inputs that fits the result best.
+/// The linear function of the inputs that best fits the result.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Regression {
-    /// By input: standard deviations of the result for one of the input (standardised regression coefficient, SRC).
+    /// For each input, the standardised regression coefficient (SRC): standard deviations of the result per standard deviation of
+    /// the input.
     pub coefficients: Vec<f64>,
-    /// By input: its correlation with the result after the linear effect of all others has been taken out of both (partial
-    /// correlation coefficient, PCC).
+    /// For each input, the partial correlation coefficient (PCC): its correlation with the result after removing the linear effect
+    /// of all other inputs from both.
     pub partial: Vec<f64>,
-    /// The part of the variance that the fit explains, between 0 and 1 (coefficient of determination).
+    /// Coefficient of determination: the fraction of the variance that the fit explains, between 0 and 1.
     pub determination: f64,
 }
 
 impl Sample {
-    /// Fits the result by least squares. Coefficients tell the importance of inputs if the determination is near 1.
+    /// Fits the result by least squares. The coefficients indicate the importance of inputs if the determination is near 1.
     ///
     /// # Errors
-    /// [`Error::TooFew`] without two more rows than inputs, [`Error::Dependent`] if an input is a linear function of others.
+    /// [`Error::TooFew`] unless there are at least two more rows than inputs, [`Error::Dependent`] if an input is a linear function
+    /// of others.
     pub fn regression(&self) -> Result<Regression, Error> {
         let (rows, inputs) = (self.rows(), self.columns.len());
         at_least("rows with a result", rows, inputs + 2)?;
@@ -45,7 +47,7 @@ impl Sample {
 
         let determination = projected.norm_squared().min(1.0);
         let partial = |i: usize| {
-            // b / sqrt(b^2 + C (1 - R^2)), C the diagonal element of the inverse of the correlation matrix.
+            // b / sqrt(b^2 + C (1 - R^2)), where C is the diagonal element of the inverse of the correlation matrix.
             let b: f64 = coefficients[i];
             let unexplained = inverse.row(i).norm_squared() * (1.0 - determination);
             let length = (b * b + unexplained).sqrt();

@@ -1,9 +1,9 @@
-//! Correlation of a result with inputs that were sampled at random.
+//! Correlation of a result with randomly sampled inputs.
 
 use super::indices::at_least;
 use crate::Error;
 
-/// Inputs and result of a random sample, without the rows that have no result.
+/// Inputs and results of a random sample, excluding the rows without a result.
 ///
 /// ```
 /// use eigentol_statistics::sensitivity::Sample;
@@ -18,19 +18,19 @@ use crate::Error;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Sample {
-    /// By input, of mean 0 and length 1.
+    /// One column per input, with mean 0 and length 1.
     pub(super) columns: Vec<Vec<f64>>,
     pub(super) result: Vec<f64>,
     dropped: usize,
 }
 
 impl Sample {
-    /// Of inputs by row and results, `None` where the model has none.
+    /// Creates a sample from inputs by row and results, `None` where the model has none.
     ///
     /// # Errors
-    /// - [`Error::WrongLength`] if the rows differ in length or the results in number;
-    /// - [`Error::NotFinite`] if an input or a result is not;
-    /// - [`Error::TooFew`] if fewer than three rows have a result, or without any input;
+    /// - [`Error::WrongLength`] if the rows differ in length, or if their number differs from that of the results;
+    /// - [`Error::NotFinite`] if an input or a result is not finite;
+    /// - [`Error::TooFew`] if fewer than three rows have a result, or for zero inputs;
     /// - [`Error::Constant`] if an input or the result does not vary.
     pub fn new(inputs: &[Vec<f64>], results: &[Option<f64>]) -> Result<Self, Error> {
         let length = |kind, found, expected| {
@@ -66,17 +66,17 @@ impl Sample {
         })
     }
 
-    /// Rows with a result.
+    /// Number of rows with a result.
     pub fn rows(&self) -> usize {
         self.result.len()
     }
 
-    /// Rows without a result.
+    /// Number of rows without a result.
     pub fn dropped(&self) -> usize {
         self.dropped
     }
 
-    /// The correlation coefficient of the result with each input (Pearson), between -1 and 1.
+    /// Pearson correlation coefficient of the result with each input, between -1 and 1.
     pub fn pearson(&self) -> Vec<f64> {
         let product = |column: &Vec<f64>| {
             let terms = column.iter().zip(&self.result);
@@ -85,13 +85,14 @@ impl Sample {
         self.columns.iter().map(product).collect()
     }
 
-    /// That of the ranks (Spearman): 1 for any increasing function.
+    /// Spearman rank correlation coefficient of the result with each input: 1 for any increasing function.
     pub fn spearman(&self) -> Vec<f64> {
         self.ranked().pearson()
     }
 
-    /// The sample with ranks instead of numbers, equal numbers at the mean of their ranks. The regression of ranks gives what is
-    /// known as SRRC and PRCC.
+    /// The sample with ranks in place of numbers; equal numbers share the mean of their ranks.
+    ///
+    /// Its regression gives the coefficients known as SRRC and PRCC.
     pub fn ranked(&self) -> Self {
         let ranked = |values: &Vec<f64>| centred(ranks(values));
         Self {
@@ -117,7 +118,7 @@ fn standardised(values: Vec<f64>, what: impl FnOnce() -> String) -> Result<Vec<f
     ))
 }
 
-/// Of mean 0 and length 1. The values are not all equal.
+/// Scales to mean 0 and length 1. The values must not all be equal.
 fn centred(mut values: Vec<f64>) -> Vec<f64> {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     values.iter_mut().for_each(|value| *value -= mean);

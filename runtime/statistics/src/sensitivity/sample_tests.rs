@@ -1,4 +1,4 @@
-//! Correlation and regression against exact linear models, hand calculation and their definitions.
+//! Checks correlation and regression against exact linear models, hand calculation and their definitions.
 
 use super::*;
 use crate::Error;
@@ -10,7 +10,7 @@ fn inputs(rows: u64, dimensions: usize) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = (0..rows)
         .filter_map(|_| walk.next_point().map(<[f64]>::to_vec))
         .collect();
-    // Correlated ones.
+    // Correlated inputs.
     rows.iter_mut().for_each(|row| row[1] += 0.7 * row[0]);
     rows
 }
@@ -40,7 +40,7 @@ fn linear_models_are_found_exactly() {
     assert!((regression.determination - 1.0).abs() < 1e-12);
 }
 
-/// Against x = 1, 2, 3, 4 and y = 1, 3, 2, 6: the sums of products are 7 of 5 and 14.
+/// For x = 1, 2, 3, 4 and y = 1, 3, 2, 6 the sum of products is 7, the sums of squares are 5 and 14.
 #[test]
 fn correlations_by_hand() {
     let inputs = [1.0_f64, 2.0, 3.0, 4.0].map(|x| vec![x, -x, x.exp()]);
@@ -58,7 +58,7 @@ fn correlations_by_hand() {
     assert!((equal.spearman()[0] - 4.5 / (4.5 * 5.0_f64).sqrt()).abs() < 1e-14);
 }
 
-/// The partial correlation is the correlation of what is left of input and result after the regression on the others.
+/// The partial correlation is that of the residuals of input and result after regression on the other inputs.
 #[test]
 fn partial_correlations_are_those_of_residuals() {
     let inputs = inputs(40, 3);
@@ -82,7 +82,7 @@ fn partial_correlations_are_those_of_residuals() {
     assert!((regression.determination - (1.0 - left * left)).abs() < 1e-12);
 }
 
-/// Of a fit with a constant, by Gram and Schmidt, twice.
+/// Residuals of a fit with a constant, by Gram-Schmidt applied twice.
 fn residuals(inputs: &[Vec<f64>], results: &[f64]) -> Vec<f64> {
     let mut basis: Vec<Vec<f64>> = vec![vec![1.0; results.len()]];
     basis.extend((0..inputs[0].len()).map(|j| inputs.iter().map(|row| row[j]).collect()));

@@ -1,4 +1,4 @@
-//! Indices against closed forms and against their definitions.
+//! Checks indices against closed forms and against their definitions.
 
 use std::f64::consts::PI;
 
@@ -43,7 +43,8 @@ fn assert_indices(f: impl Fn(&[f64]) -> f64, first: &[f64], total: &[f64], toler
     }
 }
 
-/// Ishigami and Homma (1990) with a = 7, b = 0.1; the indices as in Saltelli et al., Sensitivity Analysis (2000).
+/// The function of Ishigami and Homma (1990) with a = 7, b = 0.1; the indices are as in Saltelli et al., Sensitivity Analysis
+/// (2000).
 fn ishigami(u: &[f64]) -> f64 {
     let [x, y, z] = [0, 1, 2].map(|i| PI * (2.0 * u[i] - 1.0));
     x.sin() + 7.0 * y.sin().powi(2) + 0.1 * z.powi(4) * x.sin()
@@ -101,7 +102,7 @@ fn linear_models() {
     assert_indices(f, &shares, &shares, 2e-3);
 }
 
-/// The formulas as they are published, sum by sum, from values that mean nothing.
+/// The published formulas, sum by sum, for arbitrary values.
 #[test]
 fn estimators_are_the_published_ones() {
     let values = evaluate(&quasi_random(3, 57), |u| {
@@ -191,7 +192,7 @@ fn rows_with_a_missing_value_are_dropped_and_counted() {
 }
 
 proptest! {
-    /// Units and their zero are arbitrary.
+    /// The indices do not depend on unit or zero of the result.
     #[test]
     fn indices_have_no_unit(scale in 1e-9..1e9_f64, shift in -1e3..1e3_f64) {
         let values = evaluate(&quasi_random(3, 32), ishigami);

@@ -1,4 +1,4 @@
-//! Random bits that are a function of a key and a number, and how they become a number in the open unit interval.
+//! Random bits that depend only on a key and a number, and their conversion to a number in the open unit interval.
 
 use crate::random::RandomNumbers;
 
@@ -10,14 +10,14 @@ pub(super) fn hash(key: u64, word: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Independent keys, as many as asked for.
+/// Generates `number` independent keys.
 pub(super) fn keys(seed: u64, stream: u64, number: usize) -> Vec<u64> {
     let mut random = RandomNumbers::new(seed, stream);
     (0..number).map(|_| random.bits()).collect()
 }
 
-/// A binary fraction of 64 digits, the last one taken as one, cut to the 53 digits of a float: inside the open interval, and
-/// never moved upwards out of the dyadic interval it lies in.
+/// Converts 64 binary digits to a fraction, with the last digit set and the result truncated to the 53 digits of a float. It lies
+/// inside the open interval, and is never moved upwards out of its dyadic interval.
 pub(super) fn open_unit(bits: u64) -> f64 {
     let bits = bits | 1;
     let excess = 11_u32.saturating_sub(bits.leading_zeros());

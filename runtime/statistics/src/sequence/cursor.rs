@@ -1,10 +1,10 @@
-//! Point after point.
+//! Sequential iteration over points.
 
 use super::random::draw;
 use super::{Kind, Sequence};
 use crate::random::RandomNumbers;
 
-/// Walks along a [`Sequence`]: see [`Sequence::from`].
+/// Iterates over a [`Sequence`]: see [`Sequence::from`].
 #[derive(Clone, Debug)]
 pub struct Cursor<'a> {
     sequence: &'a Sequence,
@@ -13,7 +13,7 @@ pub struct Cursor<'a> {
     point: Vec<f64>,
 }
 
-/// What a point leaves for the next one.
+/// Data that one point leaves for the next.
 #[derive(Clone, Debug)]
 enum State {
     Random(Box<RandomNumbers>),
@@ -37,7 +37,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next point: its coordinates, strictly between 0 and 1. `None` behind the last one.
+    /// Coordinates of the next point, strictly between 0 and 1; `None` after the last one.
     pub fn next_point(&mut self) -> Option<&[f64]> {
         let k = self.next;
         if k >= self.sequence.points {

@@ -1,18 +1,18 @@
 //! Primitive polynomials and initial direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2635-2654, 2008), set
-//! new-joe-kuo-6, and the direction numbers that follow from them.
+//! new-joe-kuo-6, and the direction numbers derived from them.
 
 use super::scrambling::DIGITS;
 
-/// Of dimensions 2 and following, one in a line: the coefficients `a` of the polynomial, then `m_1` to `m_s`.
+/// One line per dimension, from the second on: the coefficients `a` of the polynomial, then `m_1` to `m_s`.
 const TABLE: &str = include_str!("joe_kuo_2008.txt");
 
-/// Dimensions in the table.
+/// Number of dimensions in the table.
 pub(super) const MAX_DIMENSIONS: usize = 2048;
 
 /// Direction numbers of a dimension: binary fractions of [`DIGITS`] digits.
 pub(super) type Directions = [u64; DIGITS as usize];
 
-/// Direction numbers of the first dimensions.
+/// Direction numbers of the leading dimensions.
 pub(super) fn directions(dimensions: usize) -> Vec<Directions> {
     let mut all = Vec::with_capacity(dimensions);
     all.push(core::array::from_fn(|i| 1 << (DIGITS as usize - 1 - i)));
@@ -20,7 +20,7 @@ pub(super) fn directions(dimensions: usize) -> Vec<Directions> {
     all
 }
 
-/// Polynomial and initial numbers by dimension, from the second on.
+/// Polynomial and initial numbers of each dimension, from the second on.
 fn rows() -> impl Iterator<Item = (u64, Vec<u64>)> {
     TABLE.lines().map(|line| {
         let mut numbers = line.split_whitespace().flat_map(str::parse);
@@ -49,7 +49,7 @@ fn extend(a: u64, m: &[u64]) -> Directions {
 mod tests {
     use super::*;
 
-    /// `x` to a power, modulo a polynomial of a degree over the field of two elements.
+    /// A power of `x` modulo a polynomial of the given degree over the field with two elements.
     fn power(exponent: u64, polynomial: u64, degree: usize) -> u64 {
         let reduce = |x: u64| {
             if x >> degree & 1 == 1 {
@@ -94,7 +94,7 @@ mod tests {
         power(order, polynomial, degree) == 1 && !prime_factors(order).iter().any(smaller)
     }
 
-    /// The polynomials are all primitive ones, by degree and coefficients: found anew.
+    /// The polynomials are all the primitive ones, in order of degree and coefficients; found here independently.
     #[test]
     fn polynomials_are_the_primitive_ones_in_order() {
         let found = (1..)
@@ -112,9 +112,9 @@ mod tests {
         }
     }
 
-    /// Sobol's property A holds up to dimension 1111 (Joe and Kuo 2008): the first digits of the first `d` direction numbers
-    /// of the first `d` dimensions form a regular matrix over the field of two elements, for every `d`. A wrong digit in the
-    /// table breaks this with a probability of one half.
+    /// Sobol's property A holds up to dimension 1111 (Joe and Kuo 2008): for every `d`, the first digits of the first `d` direction
+    /// numbers of the first `d` dimensions form a regular matrix over the field with two elements. A wrong digit in the table
+    /// breaks this with a probability of one half.
     #[test]
     fn property_a_holds_up_to_dimension_1111() {
         const DIMENSIONS: usize = 1111;

@@ -3,12 +3,12 @@
 use super::bits::{hash, keys, open_unit};
 use super::permutation::Permutation;
 
-/// In each dimension every stratum `p/n..(p+1)/n` holds one point, anywhere inside.
+/// In each dimension, every stratum `p/n..(p+1)/n` contains one point at a random place.
 #[derive(Clone, Debug)]
 pub(super) struct LatinHypercube {
     points: u64,
     permutation: Permutation,
-    /// By dimension: of the permutation and of the place in the stratum.
+    /// Two per dimension: for the permutation and for the place in the stratum.
     keys: Vec<u64>,
 }
 
@@ -29,7 +29,7 @@ impl LatinHypercube {
     }
 }
 
-/// A number in a stratum of so many. Rounding of the quotient must not carry it across an edge.
+/// A number in one of `strata` strata. Rounding of the quotient must not carry it across an edge.
 fn inside(stratum: u64, strata: u64, bits: u64) -> f64 {
     let n = strata as f64;
     let edge = n * 2.0_f64.powi(-51);

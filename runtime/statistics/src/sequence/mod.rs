@@ -1,13 +1,13 @@
-//! Point sets in the open unit cube, to sample at.
+//! Point sets in the open unit cube, for sampling.
 //!
-//! Point `k` is a function of the settings, the seed, the stream and `k` alone, with the same bits on every machine: a set can
-//! be shared out in any way. Point sets of different streams are independent, so that the spread of a mean over a few streams
-//! says how accurate the mean is.
+//! Point `k` depends only on the settings, the seed, the stream and `k`, and has the same bits on every machine, so a set can be
+//! divided in any way. Point sets of different streams are independent, so the scatter of a mean over a few streams shows how
+//! accurate the mean is.
 //!
 //! | points | error of a mean over `n` points |
 //! | --- | --- |
-//! | [`Sequence::random`] | `n^-1/2`, whatever is averaged |
-//! | [`Sequence::latin_hypercube`] | the same without the part that is a sum of functions of one variable each |
+//! | [`Sequence::random`] | `n^-1/2` for any function |
+//! | [`Sequence::latin_hypercube`] | as for random points, without the part that is a sum of functions of one variable each |
 //! | [`Sequence::sobol`] | nearly `n^-3/2` for a smooth function of few variables |
 
 mod bits;
@@ -32,7 +32,7 @@ use sobol::Sobol;
 
 pub use cursor::Cursor;
 
-/// A set of points in the open unit cube of some dimension.
+/// A point set in the open unit cube of some dimension.
 ///
 /// ```
 /// use eigentol_statistics::sequence::Sequence;
@@ -66,10 +66,10 @@ enum Kind {
 }
 
 impl Sequence {
-    /// Independent points of the generator ChaCha8.
+    /// Independent random points from the ChaCha8 generator.
     ///
     /// # Errors
-    /// [`Error::Setting`] without any dimension.
+    /// [`Error::Setting`] for zero dimensions.
     pub fn random(dimensions: usize, seed: u64, stream: u64) -> Result<Self, Error> {
         let random = Random {
             dimensions,
@@ -79,11 +79,11 @@ impl Sequence {
         Self::new(dimensions, u64::MAX, || Kind::Random(random))
     }
 
-    /// A Latin hypercube sample of so many points (McKay, Beckman and Conover, Technometrics 21, 1979): in each dimension,
-    /// every interval `p/n..(p+1)/n` holds one of the `n` points, at a random place.
+    /// A Latin hypercube sample of `points` points (McKay, Beckman and Conover, Technometrics 21, 1979): in each dimension, every
+    /// interval `p/n..(p+1)/n` contains one of the `n` points, at a random place.
     ///
     /// # Errors
-    /// [`Error::Setting`] without any dimension, without any point or beyond 2^32 points.
+    /// [`Error::Setting`] for zero dimensions, zero points or more than 2^32 points.
     pub fn latin_hypercube(
         dimensions: usize,
         points: u64,
@@ -101,16 +101,16 @@ impl Sequence {
         })
     }
 
-    /// The first 2^36 points of the Sobol' sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008)
-    /// and nested uniform scrambling (Owen 1995). Take `2^m` points from a multiple of `2^m` on: only they are balanced.
+    /// The first 2^36 points of the Sobol' sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008) and
+    /// nested uniform scrambling (Owen 1995). Use `2^m` points starting at a multiple of `2^m`: only such sets are balanced.
     ///
     /// # Errors
-    /// [`Error::Setting`] without any dimension or beyond 2048.
+    /// [`Error::Setting`] for zero or more than 2048 dimensions.
     pub fn sobol(dimensions: usize, seed: u64, stream: u64) -> Result<Self, Error> {
         Self::new_sobol(dimensions, || Sobol::scrambled(dimensions, seed, stream))
     }
 
-    /// The same without scrambling. Each coordinate is 2^-37 greater than in the literature, where the first point is 0.
+    /// The Sobol' sequence without scrambling. Each coordinate is 2^-37 larger than in the literature, where the first point is 0.
     ///
     /// # Errors
     /// Those of [`Sequence::sobol`].
@@ -144,12 +144,12 @@ impl Sequence {
         })
     }
 
-    /// Coordinates of a point.
+    /// Number of coordinates of a point.
     pub fn dimensions(&self) -> usize {
         self.dimensions
     }
 
-    /// Points in the set: those of a Latin hypercube, 2^36 of a Sobol' sequence, `u64::MAX` random ones.
+    /// Number of points in the set: that of a Latin hypercube, 2^36 for a Sobol' sequence, `u64::MAX` for random points.
     pub fn points(&self) -> u64 {
         self.points
     }
@@ -157,7 +157,7 @@ impl Sequence {
     /// Writes the coordinates of point `k`, strictly between 0 and 1.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] if there is not one place for each dimension, [`Error::BeyondLast`] if there is no point `k`.
+    /// [`Error::WrongLength`] if `into` does not have one place per dimension, [`Error::BeyondLast`] if there is no point `k`.
     pub fn point(&self, k: u64, into: &mut [f64]) -> Result<(), Error> {
         if into.len() != self.dimensions {
             return Err(Error::WrongLength {
@@ -181,7 +181,7 @@ impl Sequence {
         Ok(())
     }
 
-    /// Walks along the points from point `first` on, faster than one by one.
+    /// Iterates over the points, starting at point `first`; faster than computing them individually.
     pub fn from(&self, first: u64) -> Cursor<'_> {
         Cursor::new(self, first)
     }

@@ -1,11 +1,11 @@
-//! Sobol' points in elementary intervals.
+//! Checks Sobol' points in elementary intervals.
 
 use proptest::prelude::*;
 
 use super::Sequence;
 use super::tests::points;
 
-/// Every elementary interval of volume `2^(t-m)` holds `2^t` of `2^m` points.
+/// Every elementary interval of volume `2^(t-m)` contains `2^t` of `2^m` points.
 fn is_net(points: &[Vec<f64>], m: u32, t: u32) -> bool {
     let dimensions = points[0].len();
     let balanced = |digits: &[u32]| {
@@ -24,7 +24,7 @@ fn is_net(points: &[Vec<f64>], m: u32, t: u32) -> bool {
         .all(|digits| balanced(digits))
 }
 
-/// All ways to share a number of digits out among dimensions.
+/// All ways to distribute a number of digits among dimensions.
 fn shares(digits: u32, dimensions: usize) -> Vec<Vec<u32>> {
     if dimensions == 1 {
         return vec![vec![digits]];
@@ -37,8 +37,8 @@ fn shares(digits: u32, dimensions: usize) -> Vec<Vec<u32>> {
     (0..=digits).flat_map(with).collect()
 }
 
-/// The quality parameter of the Sobol' sequence is the sum of the degrees of the polynomials less one each (Sobol' 1967): the
-/// degrees are 0, 1, 2, 3, 3, and the first dimension counts as degree 1.
+/// The quality parameter of the Sobol' sequence is the sum of (degree - 1) over its polynomials (Sobol' 1967): the degrees are 0,
+/// 1, 2, 3, 3, and the first dimension counts as degree 1.
 #[test]
 fn points_form_nets() {
     for (dimensions, t) in [(1, 0), (2, 0), (3, 1), (4, 3), (5, 5)] {

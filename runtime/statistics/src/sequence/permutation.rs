@@ -1,21 +1,21 @@
-//! Pseudo-random permutations without a table: any element alone.
+//! Pseudo-random permutations without a table, evaluated one element at a time.
 
 use super::bits::hash;
 
-/// Permutations of the numbers below `n`, one for each key: a Feistel network on the next power of two, walked until the
-/// result is below `n` (Black and Rogaway, CT-RSA 2002), then a rotation, which makes the image of each number uniform.
+/// Permutations of the numbers below `n`, one per key: a Feistel network on the next power of two, iterated until the result is
+/// below `n` (Black and Rogaway, CT-RSA 2002), then a rotation, which makes the image of each number uniform.
 #[derive(Clone, Debug)]
 pub(super) struct Permutation {
     n: u64,
-    /// Digits in the lower and the upper half.
+    /// Number of digits in the lower and the upper half.
     halves: (u32, u32),
-    /// Half rounds of the network. Four are secure on large sets (Luby and Rackoff 1988); with twelve, the permutations of six
-    /// numbers are noticeably not equally frequent.
+    /// Number of half-rounds of the network. Four are secure on large sets (Luby and Rackoff 1988); with twelve, the permutations
+    /// of six numbers are still noticeably unequal in frequency.
     rounds: u64,
 }
 
 impl Permutation {
-    /// Of the numbers below `n`, at most 2^32 and at least one.
+    /// Permutations of the numbers below `n`, which must be between 1 and 2^32.
     pub(super) fn new(n: u64) -> Self {
         let digits = u64::BITS - (n - 1).leading_zeros();
         let low = digits / 2;
@@ -26,7 +26,7 @@ impl Permutation {
         }
     }
 
-    /// The image of `k`, which is below `n`.
+    /// The image of `k`, which must be below `n`.
     pub(super) fn image(&self, key: u64, k: u64) -> u64 {
         let mut image = self.network(key, k);
         while image >= self.n {
@@ -65,7 +65,7 @@ mod tests {
         }
     }
 
-    /// Chi squared of the number of keys by permutation: mean one per degree of freedom.
+    /// Chi squared of the number of keys per permutation: mean one per degree of freedom.
     #[test]
     fn all_permutations_of_small_sets_are_equally_frequent() {
         for (n, permutations) in [(2, 2), (3, 6), (4, 24), (5, 120), (6, 720)] {
@@ -91,7 +91,7 @@ mod tests {
         }
     }
 
-    /// Where two neighbours go, in tenths of the set: chi squared over the hundred cells.
+    /// Images of two neighbours, in tenths of the set: chi squared over the hundred cells.
     #[test]
     fn neighbours_part() {
         for n in [250, 1000, 10_000, 1 << 20] {
@@ -102,7 +102,7 @@ mod tests {
                 let tenth = |k| (permutation.image(hash(5, key), k) * 10 / n) as usize;
                 counts[10 * tenth(n / 2) + tenth(n / 2 + 1)] += 1.0;
             }
-            // Two numbers in the same tenth are rarer: the set has one number less for the second.
+            // Two numbers in the same tenth are rarer: one fewer number is left for the second.
             let (same, other) = (0.1 * (n as f64 / 10.0 - 1.0), 0.01 * n as f64);
             let squares: f64 = (counts.iter().enumerate())
                 .map(|(cell, count)| {

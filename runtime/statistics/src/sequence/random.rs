@@ -3,7 +3,7 @@
 use super::bits::open_unit;
 use crate::random::RandomNumbers;
 
-/// Points of ChaCha8: coordinate `j` of point `k` is number `k d + j` of the stream.
+/// Points from ChaCha8: coordinate `j` of point `k` is number `k d + j` of the stream.
 #[derive(Clone, Debug)]
 pub(super) struct Random {
     pub(super) dimensions: usize,
@@ -12,7 +12,7 @@ pub(super) struct Random {
 }
 
 impl Random {
-    /// The numbers from those of point `k` on.
+    /// The generator, positioned at point `k`.
     pub(super) fn at(&self, k: u64) -> RandomNumbers {
         let index = u128::from(k) * self.dimensions as u128;
         RandomNumbers::starting_at(self.seed, self.stream, index)

@@ -1,15 +1,14 @@
-//! Nested uniform scrambling (Owen 1995): digit by digit, each digit is flipped or not at random, depending on the digits
-//! before it.
+//! Nested uniform scrambling (Owen 1995): each digit is flipped or not at random, depending on the preceding digits.
 
 use super::bits::hash;
 
-/// Binary digits that are scrambled: no two of the first `2^DIGITS` points of a Sobol' sequence agree in all of them.
+/// Number of binary digits that are scrambled: no two of the first `2^DIGITS` points of a Sobol' sequence agree in all of them.
 pub(super) const DIGITS: u32 = 36;
 
-/// Digits that share one hash: its 63 flips belong to the nodes of a binary tree of this depth.
+/// Number of digits that share one hash: its 63 flips belong to the nodes of a binary tree of this depth.
 const BLOCK: u32 = 6;
 
-/// Scrambles a binary fraction of [`DIGITS`] digits and appends random ones up to 64. The points being distinct, these are
+/// Scrambles a binary fraction of [`DIGITS`] digits and appends random digits up to 64. Because the points are distinct, these are
 /// independent, as the scrambled digits of a longer fraction would be.
 pub(super) fn scramble(key: u64, digits: u64) -> u64 {
     let mut scrambled = 0;
@@ -47,7 +46,7 @@ mod tests {
         }
     }
 
-    /// The flips of any two nodes are independent and even: counts over keys within four standard deviations.
+    /// The flips of any two nodes are independent and fair: counts over keys are within four standard deviations.
     #[test]
     fn flips_are_even_and_independent() {
         let keys = 4096;

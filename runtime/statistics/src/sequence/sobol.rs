@@ -1,4 +1,4 @@
-//! The Sobol' sequence (Sobol' 1967) in the order of Gray code (Antonov and Saleev 1979).
+//! The Sobol' sequence (Sobol' 1967) in Gray-code order (Antonov and Saleev 1979).
 
 use super::bits::{keys, open_unit};
 use super::direction_numbers::{Directions, directions};
@@ -8,7 +8,7 @@ use super::scrambling::{DIGITS, scramble};
 #[derive(Clone, Debug)]
 pub(super) struct Sobol {
     directions: Vec<Directions>,
-    /// Of the scrambling of each dimension.
+    /// Scrambling key of each dimension.
     keys: Option<Vec<u64>>,
 }
 
@@ -37,7 +37,7 @@ impl Sobol {
         self.directions.iter().map(sum).collect()
     }
 
-    /// From the digits of point `k` to those of the next: one direction number. The last point has no next one.
+    /// Advances from the digits of point `k` to those of the next, using one direction number. The last point has no successor.
     pub(super) fn advance(&self, k: u64, digits: &mut [u64]) {
         let changed = (k + 1).trailing_zeros() as usize;
         for (digits, directions) in digits.iter_mut().zip(&self.directions) {
@@ -45,7 +45,7 @@ impl Sobol {
         }
     }
 
-    /// The point of these digits. Without scrambling it is moved into the middle of the cell that they describe.
+    /// Writes the point with these digits. Without scrambling it is moved to the centre of the cell that the digits describe.
     pub(super) fn write(&self, digits: &[u64], into: &mut [f64]) {
         match &self.keys {
             Some(keys) => {

@@ -1,4 +1,4 @@
-//! Point sets against what defines them, and against integrals of known value.
+//! Checks point sets against their definitions and against known integrals.
 
 use proptest::prelude::*;
 
@@ -38,8 +38,8 @@ fn points_are_addressable() {
     }
 }
 
-/// One point over many streams: its coordinates, those of the next stream and those of another seed. All pairs are
-/// uncorrelated and all are uniform, within four standard deviations.
+/// One point over many streams: its coordinates, those of the next stream and those of another seed. All are uniform and all pairs
+/// are uncorrelated, within four standard deviations.
 #[test]
 fn streams_seeds_and_dimensions_are_independent() {
     let streams = 4000;
@@ -85,7 +85,7 @@ fn every_stratum_holds_one_point_of_a_latin_hypercube() {
     }
 }
 
-/// Far out and in large samples the stratum is the permuted number still.
+/// Even far out in large samples, the stratum is the permuted number.
 #[test]
 fn strata_of_large_samples_are_distinct() {
     let n = 1 << 32;
@@ -99,7 +99,7 @@ fn strata_of_large_samples_are_distinct() {
     assert_eq!(strata.len(), 20_000);
 }
 
-/// In the example of Joe and Kuo's program `sobol.cc`.
+/// Published in the example of Joe and Kuo's program `sobol.cc`.
 #[test]
 fn first_points_are_the_published_ones() {
     let published = [
@@ -120,7 +120,7 @@ fn first_points_are_the_published_ones() {
     }
 }
 
-/// The exponent with which the error falls, and the last error: root of the mean square over independent randomisations.
+/// The exponent with which the error decreases, and the last error: root mean square over independent randomisations.
 fn order(sequence: impl Fn(u64, u64) -> Sequence, f: impl Fn(&[f64]) -> f64, exact: f64) -> f64 {
     let rmse = |n: u64| {
         let streams = 64;
@@ -199,7 +199,7 @@ fn settings_are_checked() {
     assert_eq!(points(&sobol, (1 << 36) - 2, 10).len(), 2);
 }
 
-/// The bits are part of the interface: whoever stored results finds them again.
+/// The bits are part of the interface, so that stored results can be reproduced.
 #[test]
 fn bits_are_fixed() {
     let bits = all_kinds(2, 5, 6).map(|s| points(&s, 3, 1)[0][1].to_bits());

@@ -6,19 +6,19 @@ use num_complex::Complex64;
 use serde::de::{DeserializeOwned, Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A number that every format can write.
+/// A number in a form that every format can write.
 #[derive(Clone, Copy, Debug)]
 pub struct Number(pub f64);
 
-/// What consists of such numbers.
+/// A type composed of such numbers.
 pub trait Exact: Sized {
-    /// The same in a form that every format can write.
+    /// Its serialised form, which every format can write.
     type Written: Serialize + DeserializeOwned;
 
-    /// To be written.
+    /// Converts to the serialised form.
     fn written(&self) -> Self::Written;
 
-    /// As it was read.
+    /// Converts from the serialised form.
     fn read(written: Self::Written) -> Self;
 }
 

@@ -1,11 +1,11 @@
-//! Words that are constants of the program, in errors: `#[serde(with = "word")]`.
+//! Serialisation of error words that are constants of the program: `#[serde(with = "word")]`.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
 use serde::{Deserialize, Deserializer, Serializer};
 
-/// Those that were read, each kept once as long as the program runs.
+/// Words read so far, each kept once for the lifetime of the program.
 static READ: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
 
 /// # Errors

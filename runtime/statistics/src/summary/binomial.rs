@@ -1,11 +1,11 @@
-//! Ranks of values between which a quantile of their distribution lies.
+//! Ranks of the values between which a quantile of their distribution lies.
 
 use crate::Error;
 
-/// Weights below this share of the greatest are left out.
+/// Weights below this fraction of the largest are omitted.
 const NEGLIGIBLE: f64 = 1e-40;
 
-/// Ranks from 0 on, and the probability that the quantile lies between the values that have them.
+/// Ranks, from 0, and the probability that the quantile lies between the values with these ranks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ranks {
     pub(super) lower: u64,
@@ -13,9 +13,9 @@ pub(super) struct Ranks {
     pub(super) coverage: f64,
 }
 
-/// The number `B` of values below the `p`-quantile is binomial. The quantile is above the value of rank `k` (from 0) if `B > k`
-/// and below it if `B <= k`; either fails with at most half of what is left of the confidence (David and Nagaraja, Order
-/// Statistics, 3rd edition, section 7.1). `None` if there are not enough values for that.
+/// The number `B` of values below the `p`-quantile is binomial. The quantile is above the value of rank `k` (from 0) if `B > k` and
+/// below it if `B <= k`; each of the two fails with at most half of `1 - confidence` (David and Nagaraja, Order Statistics, 3rd
+/// edition, section 7.1). `None` if there are too few values.
 pub(super) fn ranks(count: u64, p: f64, confidence: f64) -> Result<Option<Ranks>, Error> {
     check_inside("p", p)?;
     check_inside("confidence", confidence)?;
@@ -25,7 +25,7 @@ pub(super) fn ranks(count: u64, p: f64, confidence: f64) -> Result<Option<Ranks>
     let (first, weights) = weights(count, p);
     let total: f64 = weights.iter().sum();
     let most = 0.5 * (1.0 - confidence) * total;
-    // How many weights may be left out, and their sum.
+    // How many weights may be omitted, and their sum.
     let leave = |weights: &mut dyn Iterator<Item = &f64>| {
         let (mut left, mut sum) = (0, 0.0);
         for weight in weights {
@@ -38,7 +38,7 @@ pub(super) fn ranks(count: u64, p: f64, confidence: f64) -> Result<Option<Ranks>
     };
     let (low, low_sum) = leave(&mut weights.iter());
     let (high, high_sum) = leave(&mut weights.iter().rev());
-    // `B <= lower` and `B >= upper + 1` are what is left out.
+    // `B <= lower` and `B >= upper + 1` are omitted.
     let lower = (first + low).checked_sub(1);
     let upper = first + weights.len() as u64 - 1 - high;
     Ok(lower.filter(|_| upper < count).map(|lower| Ranks {
@@ -48,8 +48,8 @@ pub(super) fn ranks(count: u64, p: f64, confidence: f64) -> Result<Option<Ranks>
     }))
 }
 
-/// Multiples of the probabilities of a binomial number, from the first that is not negligible to the last: by their ratios, from
-/// the most probable outwards.
+/// Binomial probabilities up to a common factor, from the first that is not negligible to the last; computed from their ratios,
+/// from the most probable outwards.
 fn weights(count: u64, p: f64) -> (u64, Vec<f64>) {
     let odds = p / (1.0 - p);
     let most_probable = (((count as f64 + 1.0) * p) as u64).min(count);

@@ -1,4 +1,4 @@
-//! Numbers are written as their bits: many readers of decimal text miss the last one.
+//! Numbers are serialised as their bits, because many readers of decimal text lose the last one.
 
 pub(super) mod one {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

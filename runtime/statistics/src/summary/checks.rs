@@ -1,4 +1,4 @@
-//! What arguments have in common.
+//! Checks of arguments.
 
 use super::LARGEST;
 use crate::Error;
@@ -11,7 +11,7 @@ pub(super) fn check_below(setting: &'static str, index: usize, count: usize) -> 
     Err(Error::Setting { setting, reason })
 }
 
-/// Refuses what is not a number of at most [`LARGEST`] in magnitude.
+/// Rejects NaN and values above [`LARGEST`] in magnitude.
 pub(super) fn check_number(setting: &'static str, value: f64) -> Result<(), Error> {
     if value.abs() <= LARGEST {
         return Ok(());

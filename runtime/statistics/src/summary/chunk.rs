@@ -1,4 +1,4 @@
-//! Samples that are summed as one.
+//! Chunks of samples that are summed as a unit.
 
 use std::ops::Range;
 
@@ -7,10 +7,10 @@ use super::mask::{CHUNK, Mask};
 use super::plan::Plan;
 use crate::Error;
 
-/// Number of samples of all chunks.
+/// Number of samples in all chunks together.
 const END: u64 = 1 << 60;
 
-/// Splits a range of samples where chunks end.
+/// Splits a range of samples at the boundaries of chunks.
 ///
 /// ```
 /// use eigentol_statistics::summary::chunks;
@@ -30,35 +30,36 @@ pub fn chunks(samples: Range<u64>) -> impl Iterator<Item = Range<u64>> {
     })
 }
 
-/// The values of some samples of one chunk, quantity by quantity. A sample need not have every quantity: a mode that does not
-/// oscillate has no frequency.
+/// The values of some samples of one chunk, ordered by quantity.
+///
+/// A sample need not have every quantity: a mode that does not oscillate has no frequency.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chunk {
     pub(super) index: u64,
     pub(super) covered: Mask,
-    /// Of each quantity and sample of the chunk.
+    /// Values by quantity and sample of the chunk.
     #[cfg_attr(feature = "serde", serde(with = "super::bits::many"))]
     pub(super) values: Vec<f64>,
     /// For each quantity, which samples have it.
     pub(super) present: Vec<Mask>,
-    /// How many samples had each outcome.
+    /// Number of samples with each outcome.
     pub(super) outcomes: Vec<u64>,
 }
 
 impl Chunk {
-    /// Room for these samples, which lie in one chunk. No sample has any quantity yet.
+    /// Creates an empty chunk for these samples, which must lie in one chunk. No sample has any quantity yet.
     ///
     /// # Errors
     ///
-    /// The range is empty, reaches into another chunk, see [`chunks`], or ends beyond `2^60`.
+    /// If the range is empty, crosses a chunk boundary (see [`chunks`]) or ends beyond `2^60`.
     pub fn new(plan: &Plan, samples: Range<u64>) -> Result<Self, Error> {
         let mut chunk = Self::empty(plan, 0);
         chunk.restart(samples)?;
         Ok(chunk)
     }
 
-    /// Without samples.
+    /// A chunk without samples.
     pub(super) fn empty(plan: &Plan, index: u64) -> Self {
         Self {
             index,
@@ -69,7 +70,7 @@ impl Chunk {
         }
     }
 
-    /// Forgets everything, to be used for other samples.
+    /// Discards all contents, for reuse with other samples.
     ///
     /// # Errors
     ///
@@ -92,11 +93,11 @@ impl Chunk {
         Ok(())
     }
 
-    /// Sets a quantity of a sample, `None` if the sample does not have it.
+    /// Sets a quantity of a sample; `None` if the sample does not have it.
     ///
     /// # Errors
     ///
-    /// There is no such sample or quantity in this chunk. Whether the value is a number is asked when the chunk is added.
+    /// If there is no such sample or quantity in this chunk. The value itself is checked when the chunk is added.
     pub fn set(&mut self, sample: u64, quantity: usize, value: Option<f64>) -> Result<(), Error> {
         check_below("quantity", quantity, self.present.len())?;
         let place = (sample % CHUNK as u64) as usize;
@@ -112,11 +113,11 @@ impl Chunk {
         Ok(())
     }
 
-    /// Sets a quantity of all samples, in order, at once.
+    /// Sets a quantity of all samples at once, in order.
     ///
     /// # Errors
     ///
-    /// There is no such quantity, or there are not as many values as samples.
+    /// If there is no such quantity, or if the number of values differs from that of samples.
     pub fn set_all(&mut self, quantity: usize, values: &[f64]) -> Result<(), Error> {
         check_below("quantity", quantity, self.present.len())?;
         let start = self.covered.places().next().unwrap_or_default();
@@ -135,12 +136,13 @@ impl Chunk {
         Ok(())
     }
 
-    /// Sets a quantity of some neighbouring samples, `first` and those after it, at most 64: of those that have it, by the bits of
-    /// `having` from the lowest on.
+    /// Sets a quantity of at most 64 consecutive samples, starting at `first`.
+    ///
+    /// Bits of `having`, from the lowest on, tell which of them have it.
     ///
     /// # Errors
     ///
-    /// There is no such quantity, or not all of these are samples of this chunk.
+    /// If there is no such quantity, or if some of these samples are not in this chunk.
     #[inline]
     pub fn set_some(
         &mut self,
@@ -165,25 +167,25 @@ impl Chunk {
         Ok(())
     }
 
-    /// Counts an outcome of so many samples.
+    /// Adds `samples` to the count of an outcome.
     ///
     /// # Errors
     ///
-    /// There is no such outcome.
+    /// If there is no such outcome.
     pub fn count(&mut self, outcome: usize, samples: u64) -> Result<(), Error> {
         check_below("outcome", outcome, self.outcomes.len())?;
         self.outcomes[outcome] += samples;
         Ok(())
     }
 
-    /// The values of a quantity at all places of the chunk, and which are there.
+    /// The values of a quantity at all places of the chunk, and a mask of those present.
     #[inline(always)]
     pub(super) fn column(&self, quantity: usize) -> Option<(&[f64; CHUNK], Mask)> {
         let (columns, _) = self.values.as_chunks::<CHUNK>();
         Some((columns.get(quantity)?, *self.present.get(quantity)?))
     }
 
-    /// Takes over the samples of another part of the same chunk, but not what is counted.
+    /// Takes the samples of another part of the same chunk, but not the counts of outcomes.
     pub(super) fn join(&mut self, other: &Self) {
         self.covered = self.covered.or(other.covered);
         let (to, _) = self.values.as_chunks_mut::<CHUNK>();
@@ -196,7 +198,7 @@ impl Chunk {
         }
     }
 
-    /// The ranges of samples that are covered.
+    /// The ranges of samples covered.
     pub(super) fn samples(&self) -> impl Iterator<Item = Range<u64>> {
         let first = self.index * CHUNK as u64;
         self.covered.places().map(move |place| {

@@ -1,10 +1,11 @@
-//! Covariance of two quantities, in pieces that merge.
+//! Covariance of two quantities, in mergeable form.
 
 use super::lanes;
 use super::mean::Mean;
 
-/// Of the samples that have both of two quantities: count, means, sums of the squares and of the product of the deviations from
-/// them. Merging follows Pébay (2008), equation 3.1, as [`super::Moments`] does.
+/// Statistics of the samples that have both quantities: count, means, and sums of the squares and products of the deviations from them.
+///
+/// Merging follows Pébay (2008), equation 3.1, like that of [`super::Moments`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Comoments {
@@ -22,7 +23,7 @@ fn centre(values: &[f64]) -> f64 {
 }
 
 impl Comoments {
-    /// Of pairs of values; of the longer slice the rest is left out.
+    /// Computes them for pairs of values; excess values of the longer slice are ignored.
     #[must_use]
     pub fn of(first: &[f64], second: &[f64]) -> Self {
         let count = first.len().min(second.len());
@@ -41,7 +42,7 @@ impl Comoments {
         }
     }
 
-    /// Adds the pairs of another.
+    /// Adds the pairs of another instance.
     pub fn merge(&mut self, other: &Self) {
         if other.count == 0 {
             return;

@@ -1,4 +1,4 @@
-//! What is reported of two quantities together.
+//! Reported statistics of a pair of quantities.
 
 use super::Comoments;
 
@@ -15,12 +15,12 @@ pub struct Covariance {
     pub sigmas: Option<[f64; 2]>,
     /// Covariance with divisor `count - 1`, in the product of both units; `None` for a single sample.
     pub covariance: Option<f64>,
-    /// Correlation by Pearson, between -1 and 1; `None` where either does not vary.
+    /// Pearson correlation, between -1 and 1; `None` if either does not vary.
     pub correlation: Option<f64>,
 }
 
 impl Covariance {
-    /// `None` without samples that have both.
+    /// `None` if no sample has both.
     #[must_use]
     pub fn of(comoments: &Comoments) -> Option<Self> {
         let Comoments {

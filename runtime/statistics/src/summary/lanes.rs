@@ -11,7 +11,7 @@ fn total(lanes: &Lanes) -> f64 {
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
-/// The sum of the deviations from `pivot`, the least and the greatest value. The last two of no values are infinite.
+/// The sum of the deviations from `pivot`, and the smallest and largest values, which are infinite for an empty slice.
 #[inline(always)]
 pub(super) fn sum_and_range(values: &[f64], pivot: f64) -> (f64, f64, f64) {
     let (mut sums, mut least, mut greatest) = (
@@ -22,7 +22,7 @@ pub(super) fn sum_and_range(values: &[f64], pivot: f64) -> (f64, f64, f64) {
     let (blocks, rest) = values.as_chunks::<LANES>();
     let mut add = |k: usize, value: f64| {
         sums[k] += value - pivot;
-        // `f64::min` leaves open which of two zeros it returns.
+        // `f64::min` does not specify which of two zeros it returns.
         least[k] = if value < least[k] { value } else { least[k] };
         greatest[k] = if value > greatest[k] {
             value
@@ -47,7 +47,7 @@ pub(super) fn sum_and_range(values: &[f64], pivot: f64) -> (f64, f64, f64) {
     (total(&sums), least, greatest)
 }
 
-/// The sum of the values.
+/// The sum of the deviations from `pivot`.
 pub(super) fn sum_from(values: &[f64], pivot: f64) -> f64 {
     let mut sums = [0.0; LANES];
     let (blocks, rest) = values.as_chunks::<LANES>();
@@ -86,7 +86,7 @@ pub(super) fn powers(values: &[f64], centre: f64) -> [f64; 4] {
     sums.each_ref().map(total)
 }
 
-/// The sums of the deviations `x` and `y` from their centres, of `x^2`, `y^2` and `x y`.
+/// The sums of the deviations `x` and `y` from their centres, and of `x^2`, `y^2` and `x y`.
 pub(super) fn products(values: [&[f64]; 2], centres: [f64; 2]) -> [f64; 5] {
     let mut sums = [[0.0; LANES]; 5];
     let (first, first_rest) = values[0].as_chunks::<LANES>();

@@ -1,13 +1,13 @@
-//! Some of the samples of a chunk.
+//! Subsets of the samples of a chunk.
 
 use std::ops::Range;
 
-/// Number of samples that are summed as one. Chunk `c` has samples `256 c` to below `256 (c + 1)`.
+/// Number of samples summed as a unit. Chunk `c` has samples `256 c` to below `256 (c + 1)`.
 pub const CHUNK: usize = 256;
 
 const WORDS: usize = CHUNK / 64;
 
-/// A bit for each sample of a chunk.
+/// One bit per sample of a chunk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Mask([u64; WORDS]);
@@ -48,7 +48,7 @@ impl Mask {
         Self(std::array::from_fn(|k| self.0[k] | other.0[k]))
     }
 
-    /// The bits of places from `start` on in the word of that place and in the next one.
+    /// Distributes bits for the places from `start` on over the word of that place and the next one.
     #[inline]
     fn words(start: usize, bits: u64) -> [(usize, u64); 2] {
         let (word, shift) = (start / 64, start % 64);
@@ -58,13 +58,13 @@ impl Mask {
         ]
     }
 
-    /// So many bits from the lowest on.
+    /// The lowest `count` bits set.
     #[inline]
     fn first(count: usize) -> u64 {
         u64::MAX.checked_shr(64 - count.min(64) as u32).unwrap_or(0)
     }
 
-    /// Whether all of some places from `start` on are there, at most 64.
+    /// Whether all of `count` places (at most 64) from `start` on are present.
     #[inline]
     pub(super) fn has_all(&self, start: usize, count: usize) -> bool {
         let has = |(word, among): (usize, u64)| {
@@ -75,7 +75,7 @@ impl Mask {
         count <= 64 && words.into_iter().all(has)
     }
 
-    /// Sets some places from `start` on, at most 64, to bits from the lowest on.
+    /// Sets `count` places (at most 64) from `start` on to the lowest bits of `bits`.
     #[inline]
     pub(super) fn put(&mut self, start: usize, count: usize, bits: u64) {
         let among = Self::words(start, Self::first(count));
@@ -103,7 +103,7 @@ impl Mask {
         })
     }
 
-    /// The values at these places, side by side: `values` themselves or a part of `room`.
+    /// The values at these places, packed: `values` itself or a part of `room`.
     #[inline(always)]
     pub(super) fn select<'a>(
         self,

@@ -1,7 +1,7 @@
-//! A mean to twice the digits of a number: the mean of values that are large and close together is needed to better than their
-//! last digit, or their spread is lost in merging.
+//! A mean in double-double precision: if values are large and close together, their mean is needed more accurately than to its last
+//! digit, or merging loses their spread.
 
-/// The sum `high + low`, of which `high` is the nearest number.
+/// The sum `high + low`, where `high` is the nearest number to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Mean {
@@ -17,7 +17,7 @@ impl Mean {
         Self::sum(value, step)
     }
 
-    /// Exact (Knuth 1969, two-sum).
+    /// Exact sum (Knuth 1969, two-sum).
     fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let part = high - a;

@@ -1,9 +1,9 @@
-//! Summary statistics of samples in one pass, in memory that does not grow with their number.
+//! One-pass summary statistics of samples, in memory that does not grow with their number.
 //!
-//! The result is the same bits for any split of the samples into ranges, any order of merging and any number of threads:
-//! samples have an index, [`CHUNK`] neighbours are summed as one in a fixed order, and the sums of neighbouring chunks meet in
-//! a binary tree over the index of the chunk. Whatever was added where, each sum of the tree is of the same samples in the
-//! same order. What is counted in integers, such as the buckets of a [`Sketch`], needs no tree.
+//! The result has the same bits for any split of the samples into ranges, any order of merging and any number of threads. Samples
+//! have an index; [`CHUNK`] consecutive samples are summed as a unit in a fixed order, and the sums of neighbouring chunks are
+//! combined in a binary tree over the chunk index. However they were added, each sum in the tree therefore covers the same samples
+//! in the same order. Integer counts, such as the buckets of a [`Sketch`], need no tree.
 //!
 //! ```
 //! # fn main() -> Result<(), eigentol_statistics::Error> {

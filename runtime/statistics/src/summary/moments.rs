@@ -1,12 +1,12 @@
-//! Mean and central moments of values, in pieces that merge.
+//! Mean and central moments of values, in mergeable form.
 
 use super::lanes;
 use super::mean::Mean;
 
-/// Magnitude of the largest value that is taken: sums and means of such values are finite.
+/// Maximum magnitude of a value: sums and means of such values are finite.
 pub const LARGEST: f64 = 1e300;
 
-/// Count, mean, sums of the second to fourth powers of the deviations from it, least and greatest value.
+/// Count, mean, sums of the second to fourth powers of the deviations from it, and smallest and largest value.
 ///
 /// Merging follows Pébay, "Formulas for robust, one-pass parallel computation of covariances and arbitrary-order statistical
 /// moments", SAND2008-6212 (2008), equations 1.5 and 2.1 with `p` up to 4, and Chan, Golub and LeVeque (1979).
@@ -29,7 +29,7 @@ pub struct Moments {
     pub(super) third: f64,
     #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) fourth: f64,
-    /// Zero without values.
+    /// Zero if there are no values.
     #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) min: f64,
     #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
@@ -37,8 +37,9 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Of these values, in two passes: their mean, then their deviations from it. They should be numbers of at most
-    /// [`LARGEST`] in magnitude; others leave statistics that are not there.
+    /// Computes the moments of values in two passes: their mean, then their deviations from it.
+    ///
+    /// The values should be numbers of at most [`LARGEST`] in magnitude; others make the statistics unavailable.
     #[must_use]
     #[inline(always)]
     pub fn of(values: &[f64]) -> Self {
@@ -49,7 +50,7 @@ impl Moments {
         let (sum, min, max) = lanes::sum_and_range(values, pivot);
         let centre = pivot + sum / n;
         let [s1, s2, s3, s4] = lanes::powers(values, centre);
-        // What rounding left between the centre and the mean.
+        // Difference between centre and mean due to rounding.
         let r = s1 / n;
         Self {
             count: values.len() as u64,
@@ -62,7 +63,7 @@ impl Moments {
         }
     }
 
-    /// Of so many values that are all the same.
+    /// Moments of `count` equal values.
     #[must_use]
     pub fn of_equal(value: f64, count: u64) -> Self {
         let one = Self::of(&[value]);
@@ -72,7 +73,7 @@ impl Moments {
         Self { count, ..one }
     }
 
-    /// Adds the values of another.
+    /// Adds the values of another instance.
     pub fn merge(&mut self, other: &Self) {
         if other.count == 0 {
             return;
@@ -113,7 +114,7 @@ impl Moments {
         self.count
     }
 
-    /// Mean, in the unit of the values; `None` without values.
+    /// Mean, in the unit of the values; `None` if there are no values.
     #[must_use]
     pub fn mean(&self) -> Option<f64> {
         (self.count > 0).then_some(self.mean.high)

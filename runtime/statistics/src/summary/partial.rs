@@ -1,4 +1,4 @@
-//! What is known of some samples.
+//! Partial results.
 
 use std::ops::Range;
 
@@ -9,21 +9,23 @@ use super::tree::{Node, Tree};
 use super::{Comoments, Covariance, LARGEST, Moments, Sketch, Statistics, ranges};
 use crate::Error;
 
-/// What is known of the samples that were added, of any set of ranges. Two of the same samples are equal to the last bit, however
-/// they came about. A contiguous range takes memory that grows with the logarithm of its length.
+/// Statistics of the samples added so far, from any set of ranges.
+///
+/// Two instances of the same samples are equal to the last bit, however they were built. A contiguous range needs memory that grows
+/// with the logarithm of its length.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Partial {
     pub(super) plan: Plan,
     pub(super) tree: Tree,
-    /// Chunks of which samples are missing, in order.
+    /// Incomplete chunks, in order.
     pub(super) fragments: Vec<Chunk>,
     pub(super) sketches: Vec<Option<Sketch>>,
     pub(super) outcomes: Vec<u64>,
 }
 
 impl Partial {
-    /// Of no samples.
+    /// A result without samples.
     #[must_use]
     pub fn new(plan: Plan) -> Self {
         Self {
@@ -35,7 +37,7 @@ impl Partial {
         }
     }
 
-    /// What is learnt from the samples.
+    /// The plan: which statistics are gathered.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -45,9 +47,9 @@ impl Partial {
     ///
     /// # Errors
     ///
-    /// Some of them have been added, the chunk is of another plan, or a value is no number of at most [`LARGEST`] in magnitude.
-    /// Nothing has been added then.
-    // Inlined, so that it takes the vector instructions of its caller.
+    /// If some of the samples were already added, the chunk has another plan, or a value is NaN or above [`LARGEST`] in magnitude.
+    /// In that case nothing is added.
+    // Inlined, so that it uses the vector instructions of its caller.
     #[inline(always)]
     pub fn add(&mut self, chunk: &Chunk) -> Result<(), Error> {
         if chunk.present.len() != self.plan.quantities()
@@ -77,11 +79,11 @@ impl Partial {
         Ok(())
     }
 
-    /// Adds all samples of another.
+    /// Adds all samples of another partial result.
     ///
     /// # Errors
     ///
-    /// Both have some samples in common, or they are of different plans. Nothing has been added then.
+    /// If both have samples in common, or if they have different plans. In that case nothing is added.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
         if self.plan != other.plan {
             return Err(Error::OtherPlan);
@@ -106,7 +108,7 @@ impl Partial {
         Ok(())
     }
 
-    /// The ranges of samples that were added, in order and apart.
+    /// The ranges of samples added, sorted and disjoint.
     #[must_use]
     pub fn ranges(&self) -> Vec<Range<u64>> {
         let nodes = self.tree.nodes.iter().map(Node::samples);
@@ -116,13 +118,13 @@ impl Partial {
         ranges::joined(all)
     }
 
-    /// The ranges of samples in `whole` that have not been added, in order.
+    /// The ranges of samples in `whole` that are missing, in order.
     #[must_use]
     pub fn missing(&self, whole: Range<u64>) -> Vec<Range<u64>> {
         ranges::missing(&self.ranges(), whole)
     }
 
-    /// How many samples had each outcome.
+    /// Number of samples with each outcome.
     #[must_use]
     pub fn outcomes(&self) -> &[u64] {
         &self.outcomes
@@ -132,7 +134,7 @@ impl Partial {
     ///
     /// # Errors
     ///
-    /// There is no such quantity.
+    /// If there is no such quantity.
     pub fn moments(&self, quantity: usize) -> Result<Moments, Error> {
         self.plan.check(quantity)?;
         let mut all = Moments::default();
@@ -144,13 +146,13 @@ impl Partial {
     ///
     /// # Errors
     ///
-    /// There is no such quantity.
+    /// If there is no such quantity.
     pub fn statistics(&self, quantity: usize) -> Result<Option<Statistics>, Error> {
         let moments = self.moments(quantity)?;
         Ok(Statistics::of(&moments, self.sketches[quantity].clone()))
     }
 
-    /// Statistics of all quantities; `None` of those that no sample has.
+    /// Statistics of all quantities; `None` for those that no sample has.
     #[must_use]
     pub fn into_statistics(mut self) -> Vec<Option<Statistics>> {
         let mut all = vec![Moments::default(); self.plan.quantities()];
@@ -169,16 +171,16 @@ impl Partial {
     ///
     /// # Errors
     ///
-    /// It was not asked for in the plan.
+    /// If the plan does not include it.
     pub fn covariance(&self, first: usize, second: usize) -> Result<Option<Covariance>, Error> {
         Ok(Covariance::of(&self.comoments(first, second)?))
     }
 
-    /// What the covariance of two quantities is made of, to merge with that of other samples.
+    /// The sums behind the covariance of two quantities, for merging with those of other samples.
     ///
     /// # Errors
     ///
-    /// It was not asked for in the plan.
+    /// If the plan does not include it.
     pub fn comoments(&self, first: usize, second: usize) -> Result<Comoments, Error> {
         let pair = (first.min(second), first.max(second));
         let Ok(place) = self.plan.pairs.binary_search(&pair) else {
@@ -199,7 +201,7 @@ impl Partial {
         Ok(all)
     }
 
-    /// The parts of the sums: whole chunks in their order, then the others in theirs.
+    /// The parts of the sums: complete chunks in order, then incomplete ones in order.
     fn fold(&self, mut add: impl FnMut(&Node)) {
         self.tree.nodes.iter().for_each(&mut add);
         for chunk in &self.fragments {
@@ -248,7 +250,7 @@ impl Partial {
     }
 }
 
-/// Which value of the chunk is not a number.
+/// The error for an invalid value in the chunk.
 fn not_a_number(chunk: &Chunk) -> Error {
     let mut values = (0..chunk.present.len()).flat_map(|k| {
         let column = chunk.column(k).into_iter();

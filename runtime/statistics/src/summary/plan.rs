@@ -1,23 +1,24 @@
-//! What is to be learnt from samples.
+//! Plans: which statistics to gather.
 
 use super::Sketch;
 use super::checks::check_below;
 use crate::Error;
 
-/// What is to be learnt from samples that have so many quantities each. Moments of each quantity always are; what is not asked
-/// for costs nothing.
+/// The statistics to gather from samples with a given number of quantities.
+///
+/// Moments of each quantity are always included; anything not requested costs nothing.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plan {
-    /// For each quantity an empty sketch, where one was asked for.
+    /// For each quantity an empty sketch, if requested.
     pub(super) sketches: Vec<Option<Sketch>>,
-    /// In order; the first of a pair is the lesser.
+    /// Sorted; the first of a pair is the smaller.
     pub(super) pairs: Vec<(usize, usize)>,
     pub(super) outcomes: usize,
 }
 
 impl Plan {
-    /// The moments of each of so many quantities.
+    /// A plan for the moments of `quantities` quantities.
     #[must_use]
     pub fn new(quantities: usize) -> Self {
         Self {
@@ -33,23 +34,23 @@ impl Plan {
         self.sketches.len()
     }
 
-    /// Also the distribution of a quantity, for quantiles and histograms: a [`Sketch`] about `reference`, such as the nominal
+    /// Adds the distribution of a quantity, for quantiles and histograms: a [`Sketch`] about `reference`, such as the nominal
     /// value, for deviations of the order of `scale`, both in the unit of the quantity.
     ///
     /// # Errors
     ///
-    /// There is no such quantity, `reference` is not a number, or `scale` is not a positive one.
+    /// If there is no such quantity, `reference` is not a number, or `scale` is not a positive number.
     pub fn sketch(mut self, quantity: usize, reference: f64, scale: f64) -> Result<Self, Error> {
         self.check(quantity)?;
         self.sketches[quantity] = Some(Sketch::new(reference, scale)?);
         Ok(self)
     }
 
-    /// Also the covariances of each of `firsts` with each of `seconds`, over the samples that have both.
+    /// Adds the covariances of each of `firsts` with each of `seconds`, over the samples that have both.
     ///
     /// # Errors
     ///
-    /// There is no such quantity.
+    /// If there is no such quantity.
     pub fn covariances(mut self, firsts: &[usize], seconds: &[usize]) -> Result<Self, Error> {
         for &first in firsts {
             for &second in seconds {
@@ -65,7 +66,7 @@ impl Plan {
         Ok(self)
     }
 
-    /// Also how many samples had each of so many outcomes.
+    /// Adds counts of samples for each of `outcomes` outcomes.
     #[must_use]
     pub fn outcomes(mut self, outcomes: usize) -> Self {
         self.outcomes = outcomes;

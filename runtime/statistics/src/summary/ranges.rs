@@ -1,8 +1,8 @@
-//! Ranges of samples, in order and apart.
+//! Sorted, disjoint ranges of samples.
 
 use std::ops::Range;
 
-/// Joins neighbours; empty ranges fall away.
+/// Joins adjacent ranges and drops empty ones.
 pub(super) fn joined(ranges: impl IntoIterator<Item = Range<u64>>) -> Vec<Range<u64>> {
     let mut joined: Vec<Range<u64>> = Vec::new();
     for range in ranges.into_iter().filter(|range| !range.is_empty()) {
@@ -14,7 +14,7 @@ pub(super) fn joined(ranges: impl IntoIterator<Item = Range<u64>>) -> Vec<Range<
     joined
 }
 
-/// The first samples that both have.
+/// The first samples that both contain.
 pub(super) fn overlap(first: &[Range<u64>], second: &[Range<u64>]) -> Option<Range<u64>> {
     let (mut i, mut j) = (0, 0);
     while let (Some(a), Some(b)) = (first.get(i), second.get(j)) {
@@ -27,7 +27,7 @@ pub(super) fn overlap(first: &[Range<u64>], second: &[Range<u64>]) -> Option<Ran
     None
 }
 
-/// What of `whole` is not in any of the ranges.
+/// The parts of `whole` that are not in any of the ranges.
 pub(super) fn missing(ranges: &[Range<u64>], whole: Range<u64>) -> Vec<Range<u64>> {
     let mut missing = Vec::new();
     let mut start = whole.start;

@@ -1,4 +1,4 @@
-//! Reading a partial result: what cannot be is refused.
+//! Deserialisation of a partial result, with validation.
 
 use super::chunk::Chunk;
 use super::mask::CHUNK;
@@ -10,7 +10,7 @@ use super::tree::{Node, Tree};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-/// A [`Partial`] as it was read.
+/// A [`Partial`] as read, before validation.
 #[derive(serde::Deserialize)]
 struct Unchecked {
     plan: Plan,

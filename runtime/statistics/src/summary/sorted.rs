@@ -1,4 +1,4 @@
-//! Exact quantiles of values that are kept.
+//! Exact quantiles of stored values.
 
 use super::binomial;
 use super::checks::check_number;
@@ -20,7 +20,7 @@ use crate::Error;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sorted(Vec<f64>);
 
-/// An interval that has a quantile of the distribution with some probability.
+/// A confidence interval of a quantile of the distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -29,17 +29,17 @@ pub struct Interval {
     pub lower: f64,
     /// Upper end.
     pub upper: f64,
-    /// Probability that the quantile lies between them, at least the confidence asked for: of a continuous distribution just this,
-    /// of others this or more.
+    /// Probability that the quantile lies between the ends, at least the confidence requested: exact for a continuous distribution,
+    /// a lower bound for others.
     pub coverage: f64,
 }
 
 impl Sorted {
-    /// Sorts the values; their order makes no difference.
+    /// Sorts the values; their original order does not matter.
     ///
     /// # Errors
     ///
-    /// One of them is not a number.
+    /// If one of them is NaN.
     pub fn new(mut values: Vec<f64>) -> Result<Self, Error> {
         for &value in &values {
             check_number("values to sort", value)?;
@@ -54,12 +54,12 @@ impl Sorted {
         &self.0
     }
 
-    /// The quantile for the share `p`, between 0 and 1: linear between the values of ranks about `(count - 1) p` (Hyndman and Fan
-    /// 1996, definition 7, the default of R and NumPy).
+    /// The quantile for the fraction `p`, between 0 and 1: linear interpolation between the values with ranks next to
+    /// `(count - 1) p` (Hyndman and Fan 1996, definition 7, the default of R and NumPy).
     ///
     /// # Errors
     ///
-    /// `p` is not between 0 and 1, or there are no values.
+    /// If `p` is not between 0 and 1, or if there are no values.
     pub fn quantile(&self, p: f64) -> Result<f64, Error> {
         let (rank, part) = place(self.0.len() as u64, p)?;
         let lower = self.0[rank as usize];
@@ -67,11 +67,11 @@ impl Sorted {
         Ok(lower + part * (upper - lower))
     }
 
-    /// The share of the values that are at most `value`.
+    /// The fraction of the values that are at most `value`.
     ///
     /// # Errors
     ///
-    /// There are no values.
+    /// If there are no values.
     pub fn cdf(&self, value: f64) -> Result<f64, Error> {
         if self.0.is_empty() {
             return Err(Error::NoValues);
@@ -80,14 +80,15 @@ impl Sorted {
         Ok(below as f64 / self.0.len() as f64)
     }
 
-    /// An interval that has the `p`-quantile of the distribution the values were drawn from, independently, with at least this
-    /// confidence, whatever the distribution: between two of the values, by the binomial distribution of how many lie below the
-    /// quantile (David and Nagaraja, Order Statistics, 3rd edition, section 7.1). Either end fails with at most half of what the
-    /// confidence leaves. `None` if there are not enough values.
+    /// A distribution-free confidence interval for the `p`-quantile of the distribution from which the values were drawn independently.
+    ///
+    /// Its ends are two of the values, chosen from the binomial distribution of the number of values below the quantile (David and
+    /// Nagaraja, Order Statistics, 3rd edition, section 7.1). Each end fails with at most half of `1 - confidence`. `None` if there
+    /// are too few values.
     ///
     /// # Errors
     ///
-    /// `p` or `confidence` is not strictly between 0 and 1.
+    /// If `p` or `confidence` is not strictly between 0 and 1.
     pub fn quantile_interval(&self, p: f64, confidence: f64) -> Result<Option<Interval>, Error> {
         let ranks = binomial::ranks(self.0.len() as u64, p, confidence)?;
         Ok(ranks.map(|ranks| Interval {
@@ -98,7 +99,7 @@ impl Sorted {
     }
 }
 
-/// The rank below `(count - 1) p`, from 0 on, and what is left.
+/// The integer part of `(count - 1) p`, a rank from 0, and the fraction.
 pub(super) fn place(count: u64, p: f64) -> Result<(u64, f64), Error> {
     if !(0.0..=1.0).contains(&p) {
         let reason = format!("{p} is not between 0 and 1");

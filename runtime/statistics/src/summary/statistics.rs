@@ -1,4 +1,4 @@
-//! What is reported of one quantity.
+//! Reported statistics of a single quantity.
 
 use super::{Estimate, Interval, Moments, Sketch};
 use crate::Error;
@@ -16,30 +16,32 @@ pub struct Statistics {
     pub standard_error: Option<f64>,
     /// Standard deviation with divisor `count - 1`; `None` for a single value.
     pub sigma: Option<f64>,
-    /// Standard error of `sigma`, from the fourth moment, whatever the distribution: the variance of `sigma^2` is
-    /// `(m4 - (n - 3) / (n - 1) sigma^4) / n` (Rao, Linear Statistical Inference, 2nd edition, section 6h). `None` for a single value
-    /// and for values that are all the same.
+    /// Standard error of `sigma`, from the fourth moment, for any distribution: the variance of `sigma^2` is
+    /// `(m4 - (n - 3) / (n - 1) sigma^4) / n` (Rao, Linear Statistical Inference, 2nd edition, section 6h). `None` for a single
+    /// value and if all values are equal.
     pub sigma_error: Option<f64>,
-    /// Skewness without bias for normal values, `G1` of Joanes and Gill (1998); `None` below three values and for values that are
-    /// all the same.
+    /// Skewness, unbiased for normal values: `G1` of Joanes and Gill (1998); `None` for fewer than three values and if all values
+    /// are equal.
     pub skewness: Option<f64>,
-    /// Standard error that `skewness` has for normal values (Cramér 1946, section 29.3); another is a sign of another distribution.
+    /// Standard error of `skewness` for normal values (Cramér 1946, section 29.3); a much larger skewness indicates another
+    /// distribution.
     pub skewness_error: Option<f64>,
-    /// Kurtosis beyond the 3 of a normal distribution, without bias for normal values, `G2` of Joanes and Gill (1998); `None` below
-    /// four values and for values that are all the same.
+    /// Excess kurtosis over the 3 of a normal distribution, unbiased for normal values: `G2` of Joanes and Gill (1998); `None` for
+    /// fewer than four values and if all values are equal.
     pub excess_kurtosis: Option<f64>,
-    /// Standard error that `excess_kurtosis` has for normal values.
+    /// Standard error of `excess_kurtosis` for normal values.
     pub kurtosis_error: Option<f64>,
-    /// Least value.
+    /// Smallest value.
     pub min: f64,
-    /// Greatest value.
+    /// Largest value.
     pub max: f64,
     sketch: Option<Sketch>,
 }
 
 impl Statistics {
-    /// From moments, and from a sketch of the same values for quantiles. `None` without values. What is too large to compute is
-    /// `None` as well.
+    /// Computes statistics from moments, and from a sketch of the same values for quantiles.
+    ///
+    /// `None` if there are no values; a statistic too large to compute is also `None`.
     #[must_use]
     pub fn of(moments: &Moments, sketch: Option<Sketch>) -> Option<Self> {
         let mean = moments.mean().filter(|mean| mean.is_finite())?;
@@ -55,7 +57,7 @@ impl Statistics {
         let sigma = given(2, (second / (n - 1.0)).sqrt());
         let skewness = third / second / second.sqrt() * n.sqrt();
         let kurtosis = n * (fourth / second / second) - 3.0;
-        // (m4 / sigma^4 - (n - 3) / (n - 1)) / n is the variance of sigma^2, over sigma^4.
+        // (m4 / sigma^4 - (n - 3) / (n - 1)) / n is the variance of sigma^2, divided by sigma^4.
         let share = (n - 1.0) / n;
         let variance = given(
             2,
@@ -87,7 +89,7 @@ impl Statistics {
         })
     }
 
-    /// Of a value that all of so many samples have; `None` without samples.
+    /// Statistics of a value shared by `count` samples; `None` if there are no samples.
     #[must_use]
     pub fn of_equal(value: f64, count: u64) -> Option<Self> {
         let mut sketch = Sketch::new(value, 1.0).ok()?;
@@ -96,26 +98,26 @@ impl Statistics {
         Self::of(&moments, Some(sketch))
     }
 
-    /// The distribution, if the plan asked for it.
+    /// The distribution, if the plan includes it.
     #[must_use]
     pub fn sketch(&self) -> Option<&Sketch> {
         self.sketch.as_ref()
     }
 
-    /// The quantile for the share `p`, between 0 and 1; see [`Sketch::quantile`].
+    /// The quantile for the fraction `p`, between 0 and 1; see [`Sketch::quantile`].
     ///
     /// # Errors
     ///
-    /// `p` is not between 0 and 1, or the plan has no sketch of this quantity.
+    /// If `p` is not between 0 and 1, or if the plan has no sketch of this quantity.
     pub fn quantile(&self, p: f64) -> Result<Estimate, Error> {
         self.distribution()?.quantile(p)
     }
 
-    /// An interval that has the quantile of the distribution behind the samples; see [`Sketch::quantile_interval`].
+    /// A confidence interval for the quantile of the underlying distribution; see [`Sketch::quantile_interval`].
     ///
     /// # Errors
     ///
-    /// `p` or `confidence` is not strictly between 0 and 1, or the plan has no sketch of this quantity.
+    /// If `p` or `confidence` is not strictly between 0 and 1, or if the plan has no sketch of this quantity.
     pub fn quantile_interval(&self, p: f64, confidence: f64) -> Result<Option<Interval>, Error> {
         self.distribution()?.quantile_interval(p, confidence)
     }

@@ -1,5 +1,4 @@
-//! Sums of chunks in a binary tree over the index of the chunk, of which those nodes are kept that are no longer part of a
-//! larger one.
+//! Sums of chunks in a binary tree over the chunk index; only nodes that have not yet been merged into a larger one are kept.
 
 use std::ops::Range;
 
@@ -8,7 +7,7 @@ use super::mask::CHUNK;
 use super::plan::Plan;
 use super::{Comoments, Moments};
 
-/// Sums of `2^level` chunks from `start`, a multiple of their number.
+/// Sums of `2^level` chunks, starting at `start`, a multiple of that number.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Node {
@@ -19,7 +18,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    /// Of what there is of a chunk.
+    /// The sums over the samples present in a chunk.
     #[inline(always)]
     pub(super) fn of(chunk: &Chunk, plan: &Plan) -> Self {
         let (mut room, mut second_room) = ([0.0; CHUNK], [0.0; CHUNK]);
@@ -62,7 +61,7 @@ impl Node {
     }
 }
 
-/// Nodes in order, no two of them halves of the same.
+/// Nodes in order, no two of which are halves of the same parent.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Tree {
@@ -70,7 +69,7 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// Adds a node that overlaps with none.
+    /// Adds a node that does not overlap with any other.
     pub(super) fn insert(&mut self, node: Node) {
         let mut at = self.nodes.partition_point(|other| other.start < node.start);
         self.nodes.insert(at, node);
@@ -82,7 +81,7 @@ impl Tree {
         }
     }
 
-    /// Where the left of two halves is, one of which is the node at `at`; `None` unless both are there.
+    /// Position of the left of two halves, one of which is the node at `at`; `None` unless both are present.
     fn left_half(&self, at: usize) -> Option<usize> {
         let node = self.nodes.get(at)?;
         let is_right = node.start >> node.level & 1 == 1;

@@ -1,16 +1,16 @@
-//! Bulges that push the limit away from design points that are known (Der Kiureghian and Dakessian 1998, *Multiple design
-//! points in first and second-order reliability*, Structural Safety 20, equations 12 to 16).
+//! Bulges that push the limit away from known design points (Der Kiureghian and Dakessian 1998, *Multiple design points in first
+//! and second-order reliability*, Structural Safety 20, equations 12 to 16).
 
 use super::design_point::DesignPoint;
 use crate::reliability::limit_state::LimitValue;
 use crate::reliability::vector::{add_scaled, dot};
 
-/// Radius of a bulge in parts of `beta`.
+/// Radius of a bulge as a fraction of `beta`.
 const RADIUS: f64 = 1.1;
-/// How far a bulge shifts the limit along its normal, in parts of `beta`.
+/// Shift of the limit along its normal due to a bulge, as a fraction of `beta`.
 const SHIFT: f64 = 0.75;
 
-/// `height (1 - |z - centre|^2 / radius^2)^2` inside of the radius.
+/// `height (1 - |z - centre|^2 / radius^2)^2` inside the radius.
 pub(super) struct Bulge {
     centre: Vec<f64>,
     height: f64,
@@ -18,7 +18,7 @@ pub(super) struct Bulge {
 }
 
 impl Bulge {
-    /// The bulge over a design point, if that is not the origin. Where the origin fails, it is a hollow.
+    /// The bulge at a design point, unless that is the origin. If the origin fails, the bulge is negative.
     pub(super) fn over(found: &DesignPoint) -> Option<Self> {
         if found.beta == 0.0 {
             return None;
@@ -80,7 +80,7 @@ mod tests {
                 let difference = (added(&ahead).value - added(&behind).value) / 2e-5;
                 assert!((added(&z).gradient[i] - difference).abs() < 1e-7);
             }
-            // A linear limit is shifted by its part of beta: on the normal it is zero there.
+            // A linear limit is shifted by that fraction of beta: there it vanishes on the normal.
             let beyond = [0.6 * beta * (1.0 - SHIFT), 0.8 * beta * (1.0 - SHIFT)];
             assert!((added(&beyond).value - 5.0 * SHIFT * beta).abs() < 1e-12);
             assert_eq!(added(&[-0.2 * beta, -0.2 * beta]).value, 0.0);

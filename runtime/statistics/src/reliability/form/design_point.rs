@@ -7,11 +7,11 @@ use crate::reliability::counted::Evaluations;
 use crate::reliability::limit_state::LimitValue;
 use crate::reliability::vector::{add_scaled, dot, norm, scaled, unit};
 
-/// How far a point is from being a design point. The unit of the limit state does not matter.
+/// Deviation of a point from a design point. It does not depend on the unit of the limit state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residuals {
-    /// `|g| / |grad g| / max(1, |z|)`: distance from the limit, to first order.
+    /// `|g| / |grad g| / max(1, |z|)`: first-order distance from the limit.
     pub limit: f64,
     /// `|z - beta n| / max(1, |z|)`, where `n` is the direction towards failure and `|beta| = |z|`: angle between the point
     /// and the normal of the limit.
@@ -19,21 +19,21 @@ pub struct Residuals {
 }
 
 impl Residuals {
-    /// The greater one.
+    /// The larger of the two.
     pub fn largest(&self) -> f64 {
         self.limit.max(self.direction)
     }
 }
 
-/// The point nearest to a design point that a search came across.
+/// The point closest to being a design point that a search found.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Closest {
     /// Its coordinates.
     pub point: Vec<f64>,
-    /// The limit state there.
+    /// Value of the limit state.
     pub value: f64,
-    /// What keeps it from being a design point; none where the gradient is zero.
+    /// Its residuals as a design point; `None` if the gradient is zero.
     pub residuals: Option<Residuals>,
     /// Evaluations of the whole search.
     pub evaluations: Evaluations,
@@ -58,7 +58,7 @@ impl fmt::Display for Closest {
     }
 }
 
-/// A design point: the point of the limit nearest to the origin, at least in its neighbourhood.
+/// A design point: the point of the limit nearest to the origin, at least locally.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DesignPoint {
@@ -68,13 +68,13 @@ pub struct DesignPoint {
     pub beta: f64,
     /// Unit vector towards failure, `-grad g / |grad g|`; `z* = beta n`.
     pub direction: Vec<f64>,
-    /// Length of the gradient of the limit state, in its unit.
+    /// Length of the gradient of the limit state, in the unit of the latter.
     pub gradient_norm: f64,
-    /// How exactly `z*` is a design point.
+    /// Accuracy of `z*` as a design point.
     pub residuals: Residuals,
 }
 
-/// Derivatives by a parameter of the limit state.
+/// Derivatives with respect to a parameter of the limit state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FormSensitivity {
@@ -85,24 +85,24 @@ pub struct FormSensitivity {
 }
 
 impl DesignPoint {
-    /// Probability of failure to first order, `Phi(-beta)`.
+    /// First-order failure probability, `Phi(-beta)`.
     pub fn probability(&self) -> f64 {
         normal::cdf(-self.beta)
     }
 
-    /// Its natural logarithm, also where the probability is below the least number.
+    /// Natural logarithm of the probability, valid even if the probability underflows.
     pub fn ln_probability(&self) -> f64 {
         normal::ln_upper(self.beta)
     }
 
-    /// Importance factors: the part of the variance of the linearised limit state that each variable causes. Their sum is 1.
+    /// Importance factors: the fraction of the variance of the linearised limit state due to each variable. They sum to 1.
     pub fn importance_factors(&self) -> Vec<f64> {
         self.direction.iter().map(|n| n * n).collect()
     }
 
-    /// Derivatives by a parameter of the limit state, of its partial derivative `dg/dtheta` at the design point, in the unit
-    /// of the limit state per unit of the parameter: `d beta / d theta = (dg/dtheta) / |grad g|` (Ditlevsen and Madsen 1996,
-    /// *Structural Reliability Methods*, section 8.2).
+    /// Derivatives with respect to a parameter of the limit state, given the partial derivative `dg/dtheta` at the design point (in
+    /// the unit of the limit state per unit of the parameter): `d beta / d theta = (dg/dtheta) / |grad g|` (Ditlevsen and Madsen
+    /// 1996, *Structural Reliability Methods*, section 8.2).
     pub fn sensitivity(&self, limit_by_parameter: f64) -> FormSensitivity {
         let beta = limit_by_parameter / self.gradient_norm;
         FormSensitivity {
@@ -112,16 +112,16 @@ impl DesignPoint {
     }
 }
 
-/// A point where the limit state is known.
+/// A point at which the limit state has been evaluated.
 #[derive(Clone, Debug)]
 pub(super) struct Iterate {
     pub(super) point: Vec<f64>,
     pub(super) limit: LimitValue,
-    /// Nothing where the gradient is zero.
+    /// `None` if the gradient is zero.
     slope: Option<Slope>,
 }
 
-/// The limit state near a point, to first order.
+/// First-order expansion of the limit state at a point.
 #[derive(Clone, Debug)]
 pub(super) struct Slope {
     pub(super) direction: Vec<f64>,

@@ -16,22 +16,22 @@ use super::counted::{Counted, Evaluations};
 use super::limit_state::LimitState;
 use crate::Error;
 
-/// The nearest design point, and what it took to find it.
+/// The nearest design point, and the evaluations used to find it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FormResult {
     /// The design point nearest to the origin.
     pub design_point: DesignPoint,
-    /// How often the limit state was asked.
+    /// Number of evaluations of the limit state.
     pub evaluations: Evaluations,
 }
 
-/// The design point nearest to the origin, of all that a search from the origin and restarts in random directions find.
+/// Finds the design point nearest to the origin, by a search from the origin and restarts in random directions.
 ///
 /// # Errors
 ///
-/// If a setting makes no sense, if the limit state has no value at the origin, or if no start leads to a design point:
-/// [`Error::NoDesignPoint`] then tells the best point, for example where nothing fails at all.
+/// If a setting is invalid, if the limit state has no value at the origin, or if no start leads to a design point:
+/// [`Error::NoDesignPoint`] then contains the best point, for example if nothing fails at all.
 ///
 /// # Examples
 ///
@@ -60,8 +60,8 @@ pub fn form<L: LimitState>(limit: &L, settings: &FormSettings) -> Result<FormRes
     })
 }
 
-/// The design points of several failure regions: those that [`form`] comes across, and those that a search finds after
-/// bulges have been put over the known ones (Der Kiureghian and Dakessian 1998), until it finds no other.
+/// Finds the design points of several failure regions: those found by [`form`], then those found after placing bulges at the known
+/// ones (Der Kiureghian and Dakessian 1998), until no more are found.
 ///
 /// # Errors
 ///

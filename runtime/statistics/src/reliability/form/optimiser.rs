@@ -1,4 +1,4 @@
-//! Sequential quadratic programming where the iteration does not converge: where the limit is strongly curved.
+//! Sequential quadratic programming for strongly curved limits, where the iteration does not converge.
 
 use core::cell::RefCell;
 
@@ -8,17 +8,17 @@ use super::design_point::Iterate;
 use super::search::Search;
 use crate::reliability::vector::norm;
 
-/// The library counts in 32 bits.
+/// The library uses a 32-bit counter.
 const EVALUATIONS: usize = i32::MAX as usize;
 
-/// The best point on the way of minimising `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for
-/// sequential quadratic programming*), from a start on. Points without a value have an infinite objective; the line search
-/// then halves its step.
+/// Minimises `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for sequential quadratic programming*) from
+/// a starting point, and returns the best point visited. Points without a value have an infinite objective; the line search then
+/// halves its step.
 pub(super) fn minimise(search: &Search, start: Iterate) -> Iterate {
     let Some(slope) = start.slope() else {
         return start;
     };
-    // In units of z, and negative where wanted.
+    // In units of z, with the sign such that feasible points are negative.
     let scale = search.sign / slope.norm;
     let tolerance = search.settings.tolerance;
     let radius = search.settings.radius;
@@ -47,7 +47,7 @@ pub(super) fn minimise(search: &Search, start: Iterate) -> Iterate {
                 *entry = scale * slope;
             }
         }
-        // On the limit is far enough: without this the rounding of g would decide what counts as feasible.
+        // On the limit is sufficient: otherwise rounding of g would decide feasibility.
         let value = scale * found.limit.value;
         if value.abs() < 0.1 * tolerance {
             0.0
@@ -60,7 +60,7 @@ pub(super) fn minimise(search: &Search, start: Iterate) -> Iterate {
         xtol_rel: 0.1 * tolerance,
         ..StopTols::default()
     };
-    // Whatever it ends with: what counts are the residuals of the best point.
+    // However the optimiser ends, only the residuals of the best point count.
     let _ = minimize(
         objective,
         &first,
@@ -73,7 +73,7 @@ pub(super) fn minimise(search: &Search, start: Iterate) -> Iterate {
     progress.into_inner().best
 }
 
-/// Objective and limit are asked for at the same point one after the other.
+/// Caches the last evaluation, because objective and limit are queried at the same point one after the other.
 struct Progress {
     last_point: Vec<f64>,
     last: Option<Iterate>,

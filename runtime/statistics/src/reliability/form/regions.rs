@@ -1,4 +1,4 @@
-//! Several starts, several design points.
+//! Multiple starts and multiple design points.
 
 use super::bulge::Bulge;
 use super::design_point::{DesignPoint, Iterate};
@@ -13,16 +13,16 @@ use crate::reliability::vector::{add_scaled, distance, dot, norm, scaled, unit};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FailureRegions {
-    /// The design points, the nearest to the origin first; at least one.
+    /// The design points, nearest to the origin first; at least one.
     pub design_points: Vec<DesignPoint>,
-    /// Whether the search ended because it found no other region, not because the wished number was reached.
+    /// Whether the search ended because it found no further region, rather than at the maximum number.
     pub exhausted: bool,
-    /// How often the limit state was asked.
+    /// Number of evaluations of the limit state.
     pub evaluations: Evaluations,
 }
 
-/// How far beside a point a search restarts to see whether it comes back, in parts of its distance from the origin. A point
-/// that is nearest along some directions only (Rackwitz: `1 + beta kappa < 0`) is left by that.
+/// Distance from a point, as a fraction of its distance from the origin, at which a search restarts to see whether it returns. This
+/// escapes from points that are nearest along some directions only (Rackwitz: `1 + beta kappa < 0`).
 const NUDGE: f64 = 0.05;
 
 pub(super) fn by_restarts(
@@ -45,12 +45,12 @@ struct Regions<'a> {
     search: Search<'a>,
     random: NormalSamples,
     found: Vec<DesignPoint>,
-    /// The best of the points that are no design points.
+    /// The best of the points that are not design points.
     best: Iterate,
 }
 
 impl<'a> Regions<'a> {
-    /// Searches from the origin.
+    /// Starts with a search from the origin.
     fn start(limit: &'a Counted<'a>, settings: &'a FormSettings) -> Result<Self, Error> {
         settings.check()?;
         let dimension = limit.dimension();
@@ -92,8 +92,8 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// Searches where known design points are no longer on the limit, from the origin and from opposite to the last one.
-    /// Says whether there was another one.
+    /// Searches with the known design points pushed off the limit, from the origin and from the point opposite to the last one.
+    /// Returns whether another one was found.
     fn search_behind_bulges(&mut self) -> bool {
         self.search.bulges = self.found.iter().filter_map(Bulge::over).collect();
         let opposite = self.found.last().map(|last| scaled(-1.0, &last.point));
@@ -114,7 +114,7 @@ impl<'a> Regions<'a> {
         self.found.len() > before
     }
 
-    /// Searches from a start, checks what comes out of it, and keeps it if it is new.
+    /// Searches from a starting point, checks the result, and keeps it if it is new.
     fn visit(&mut self, start: &[f64]) {
         if self.is_full() {
             return;
@@ -145,7 +145,7 @@ impl<'a> Regions<'a> {
         self.found.iter().all(far)
     }
 
-    /// The point itself, or what a search from beside it finds if that is nearer to the origin.
+    /// The point itself, or the result of a search from next to it if that is nearer to the origin.
     fn nudged(&mut self, point: DesignPoint) -> DesignPoint {
         let random = self.random_direction();
         let along = dot(&random, &point.direction);

@@ -1,4 +1,4 @@
-//! The search for a design point from one start.
+//! The search for a design point from a single start.
 
 use super::bulge::Bulge;
 use super::design_point::Iterate;
@@ -7,10 +7,10 @@ use super::settings::FormSettings;
 use crate::reliability::counted::Counted;
 use crate::reliability::vector::{add_scaled, dot, norm};
 
-/// The optimiser stores dense matrices; beyond this many variables only the iteration is tried.
+/// The optimiser stores dense matrices; with more variables only the iteration is tried.
 const OPTIMISER_VARIABLES: usize = 1000;
 
-/// The limit state of a search, with bulges where no further design points are wanted.
+/// The limit state of a search, with bulges at design points that are already known.
 pub(super) struct Search<'a> {
     pub(super) limit: &'a Counted<'a>,
     pub(super) settings: &'a FormSettings,
@@ -28,7 +28,7 @@ impl Search<'_> {
         Some(Iterate::new(z.to_vec(), limit, self.sign))
     }
 
-    /// The best point on the way from a start, if the limit state has a value at the start or between it and the origin.
+    /// The best point visited from a start, provided that the limit state has a value at the start or between it and the origin.
     pub(super) fn from(&self, start: &[f64]) -> Option<Iterate> {
         let mut start = start.to_vec();
         let mut at_start = self.at(&start);
@@ -52,9 +52,9 @@ impl Search<'_> {
             && norm(&iterate.point) <= self.settings.radius
     }
 
-    /// The improved iteration of Hasofer, Lind, Rackwitz and Fiessler (Zhang and Der Kiureghian 1995, *Two improved
-    /// algorithms for reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit
-    /// function `|z|^2 / 2 + c |g|` falls. Gives the best point on its way.
+    /// The improved Hasofer-Lind-Rackwitz-Fiessler iteration (Zhang and Der Kiureghian 1995, *Two improved algorithms for
+    /// reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit function
+    /// `|z|^2 / 2 + c |g|` decreases. Returns the best point visited.
     fn iterate(&self, start: Iterate) -> Iterate {
         let mut best = start.clone();
         let mut current = start;

@@ -1,27 +1,28 @@
-//! How to search for design points.
+//! Settings of the search for design points.
 
 use crate::Error;
 
-/// How to search for design points.
+/// Settings of the search for design points.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FormSettings {
-    /// Greatest residual of a design point, both of the limit and of the direction; see [`super::Residuals`].
+    /// Maximum residual of a design point, for both limit and direction; see [`super::Residuals`].
     pub tolerance: f64,
     /// Steps of the Hasofer-Lind-Rackwitz-Fiessler iteration before the general optimiser takes over.
     pub iterations: usize,
-    /// Evaluations that the general optimiser may take from one start; zero goes without it.
+    /// Maximum number of evaluations of the general optimiser from one start; zero disables it.
     pub optimiser_evaluations: usize,
-    /// Starts in random directions and their opposites, besides the one at the origin. Each costs about as much as that.
+    /// Number of starts in random directions and their opposites, in addition to the one at the origin. Each costs about as much as
+    /// that.
     pub restarts: usize,
     /// Seed of the random directions.
     pub seed: u64,
-    /// Design points farther from the origin, in standard deviations, are not looked for.
+    /// Maximum distance of design points from the origin, in standard deviations.
     pub radius: f64,
-    /// Design points nearer to each other than this part of their distance from the origin (or of 1, if that is less) are
-    /// one failure region.
+    /// Design points whose mutual distance is below this fraction of their distance from the origin (or of 1, if that is larger)
+    /// belong to one failure region.
     pub separation: f64,
-    /// Greatest number of failure regions.
+    /// Maximum number of failure regions.
     pub regions: usize,
 }
 

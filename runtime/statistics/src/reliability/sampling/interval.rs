@@ -1,4 +1,4 @@
-//! Confidence intervals of a probability of which a number of samples is known.
+//! Confidence intervals for a probability estimated from a number of samples.
 
 use statrs::function::beta::checked_beta_reg;
 
@@ -15,8 +15,8 @@ pub struct Interval {
     pub upper: f64,
 }
 
-/// The score interval (Wilson 1927, *Probable inference, the law of succession, and statistical inference*): covers the
-/// probability with about the wished confidence.
+/// The score interval (Wilson 1927, *Probable inference, the law of succession, and statistical inference*): covers the probability
+/// with approximately the given confidence.
 ///
 /// # Errors
 ///
@@ -42,8 +42,8 @@ pub fn wilson(failures: u64, samples: u64, confidence: f64) -> Result<Interval, 
     Ok(Interval { lower, upper })
 }
 
-/// The exact interval (Clopper and Pearson 1934, *The use of confidence or fiducial limits*): covers the probability with
-/// at least the wished confidence, also where nothing failed.
+/// The exact interval (Clopper and Pearson 1934, *The use of confidence or fiducial limits*): covers the probability with at least
+/// the given confidence, even if nothing failed.
 ///
 /// # Errors
 ///
@@ -87,7 +87,7 @@ fn check(failures: u64, samples: u64, confidence: f64) -> Result<(), Error> {
     Err(Error::Setting { setting, reason })
 }
 
-/// Quantile of the beta distribution by bisection of its distribution function.
+/// Quantile of the beta distribution, by bisection of its distribution function.
 fn beta_quantile(a: f64, b: f64, probability: f64) -> Result<f64, Error> {
     let (mut left, mut right) = (0.0_f64, 1.0_f64);
     loop {
@@ -128,7 +128,7 @@ mod tests {
         }
     }
 
-    /// The interval of Clopper and Pearson of 10 in 100 by its definition: binomial tails of 2.5 %.
+    /// The Clopper-Pearson interval of 10 in 100 by its definition: binomial tails of 2.5 %.
     #[test]
     fn binomial_tails() {
         let Interval { lower, upper } = clopper_pearson(10, 100, 0.95).unwrap();

@@ -1,4 +1,4 @@
-//! Probabilities of failure by sampling: plain Monte Carlo, and importance sampling around design points.
+//! Failure probabilities by sampling: plain Monte Carlo, and importance sampling around design points.
 
 mod interval;
 mod proposal;
@@ -14,29 +14,29 @@ use super::limit_state::LimitState;
 use super::random::NormalSamples;
 use crate::Error;
 
-/// What counts as failure where there are several limit states.
+/// The meaning of failure for several limit states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Failure {
-    /// One of them fails: a series system, requirements that must all be met.
+    /// Any limit state fails: a series system, whose requirements must all be met.
     Any,
-    /// All of them fail: a parallel system.
+    /// All limit states fail: a parallel system.
     All,
 }
 
-/// Which samples to draw, and when to stop.
+/// Which samples to draw and when to stop.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SamplingSettings {
     /// Seed of all samples.
     pub seed: u64,
-    /// Samples of different streams of a seed are independent.
+    /// Stream; samples of different streams of a seed are independent.
     pub stream: u64,
-    /// Greatest number of samples.
+    /// Maximum number of samples.
     pub samples: u64,
-    /// Samples between two looks at the coefficient of variation.
+    /// Number of samples between checks of the coefficient of variation.
     pub batch: u64,
-    /// Sampling stops at this coefficient of variation of the probability; zero draws all samples.
+    /// Target coefficient of variation of the probability, at which sampling stops; zero draws all samples.
     pub coefficient_of_variation: f64,
 }
 
@@ -55,38 +55,38 @@ impl Default for SamplingSettings {
 /// Fewer failures say nothing about the coefficient of variation.
 const FAILURES: u64 = 10;
 
-/// Sums of squares of weights stay finite. Only samples so far on the safe side of a far design point weigh more that none
-/// of them will ever fail.
+/// Limit that keeps sums of squared weights finite. Only samples so far on the safe side of a distant design point that none of
+/// them will ever fail have larger weights.
 const GREATEST_LN_WEIGHT: f64 = 300.0;
 
-/// A probability of failure from samples.
+/// A failure probability estimated from samples.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SampledProbability {
-    /// Probability of failure. Samples without a value do not count as failures.
+    /// Failure probability. Samples without a value do not count as failures.
     pub probability: Estimate,
-    /// Natural logarithm of the probability, also where that is below the least number; none without failures.
+    /// Natural logarithm of the probability, valid even if the probability underflows; `None` without failures.
     pub ln_probability: Option<f64>,
-    /// Standard error in parts of the probability; none without failures.
+    /// Standard error relative to the probability; `None` without failures.
     pub coefficient_of_variation: Option<f64>,
-    /// Whether the wished coefficient of variation was reached.
+    /// Whether the target coefficient of variation was reached.
     pub reached: bool,
-    /// Samples that were drawn.
+    /// Number of samples drawn.
     pub samples: u64,
-    /// Those of them that failed.
+    /// Number of samples that failed.
     pub failures: u64,
-    /// Those of them of which the limit states have no value that would decide.
+    /// Number of samples whose limit states lack the value needed to decide.
     pub without_value: u64,
-    /// Probability of having no such value.
+    /// Probability that the deciding value is missing.
     pub probability_without_value: Estimate,
-    /// Derivatives of the probability of failure by the mean of each standard normal variable, by the score function
+    /// Derivatives of the failure probability with respect to the mean of each standard normal variable, from the score function
     /// (Rubinstein 1986, *The score function approach for sensitivity analysis*): `E[1(failure) z_i]`.
     pub by_mean: Vec<Estimate>,
-    /// Derivatives by the standard deviation of each: `E[1(failure) (z_i^2 - 1)]`.
+    /// Derivatives with respect to the standard deviation of each variable: `E[1(failure) (z_i^2 - 1)]`.
     pub by_sigma: Vec<Estimate>,
 }
 
-/// Draws samples and asks limit states of them.
+/// Draws samples and evaluates limit states at them.
 #[derive(Clone, Debug)]
 pub struct Sampler<'a, L> {
     limits: &'a [L],
@@ -100,7 +100,7 @@ impl<'a, L: LimitState> Sampler<'a, L> {
     ///
     /// # Errors
     ///
-    /// If there is none, if their number of variables is not that of the proposal, or if a setting makes no sense.
+    /// If there are no limit states, if their number of variables differs from that of the proposal, or if a setting is invalid.
     pub fn new(
         limits: &'a [L],
         failure: Failure,
@@ -141,7 +141,7 @@ impl<'a, L: LimitState> Sampler<'a, L> {
         })
     }
 
-    /// The sums over samples `range`, each of which is a function of seed, stream and its number alone.
+    /// The sums over samples `range`, each of which depends only on seed, stream and its number.
     pub fn sums(&self, range: Range<u64>) -> SampleSums {
         let SamplingSettings { seed, stream, .. } = *self.settings;
         let dimension = self.proposal.dimension();
@@ -162,7 +162,7 @@ impl<'a, L: LimitState> Sampler<'a, L> {
         sums
     }
 
-    /// Whether the system fails, if that can be told.
+    /// Whether the system fails, if it can be told.
     fn fails(&self, z: &[f64]) -> Option<bool> {
         let decides = self.failure == Failure::Any;
         let mut unknown = false;
@@ -177,7 +177,7 @@ impl<'a, L: LimitState> Sampler<'a, L> {
         (!unknown).then_some(!decides)
     }
 
-    /// What sums of any ranges say.
+    /// The estimate from sums over any ranges.
     pub fn estimate(&self, sums: &SampleSums) -> SampledProbability {
         let ln_scale = self.proposal.ln_scale();
         let scale = ln_scale.exp();
@@ -206,7 +206,7 @@ impl<'a, L: LimitState> Sampler<'a, L> {
         }
     }
 
-    /// Draws batch after batch until the wished coefficient of variation or the greatest number of samples is reached.
+    /// Draws batches until the target coefficient of variation or the maximum number of samples is reached.
     ///
     /// # Examples
     ///

@@ -1,4 +1,4 @@
-//! Where samples are drawn from.
+//! The distribution from which samples are drawn.
 
 use crate::Error;
 use crate::reliability::form::DesignPoint;
@@ -21,12 +21,13 @@ impl Proposal {
         }
     }
 
-    /// Densities at the design points, in half by equal parts and in half by their probabilities of first order. A design
-    /// point of a failing origin stands for the origin: there failure is not rare.
+    /// Densities at the design points, weighted half equally and half by their first-order probabilities.
+    ///
+    /// If the origin fails, a design point is replaced by the origin, because failure is not rare there.
     ///
     /// # Errors
     ///
-    /// If there is no design point, or if they have different numbers of coordinates.
+    /// If there are no design points, or if they have different numbers of coordinates.
     pub fn around(design_points: &[DesignPoint]) -> Result<Self, Error> {
         let largest = design_points
             .iter()
@@ -49,11 +50,11 @@ impl Proposal {
         )
     }
 
-    /// Densities at any centres, with weights in any unit.
+    /// Densities at arbitrary centres, with weights in any unit.
     ///
     /// # Errors
     ///
-    /// If there is none, if they have different numbers of coordinates, or if a number is not finite or a weight is not
+    /// If there are no centres, if they have different numbers of coordinates, or if a number is not finite or a weight is not
     /// positive.
     pub fn mixture(centres: Vec<Vec<f64>>, weights: Vec<f64>) -> Result<Self, Error> {
         let wrong = |setting, reason: &str| {
@@ -96,14 +97,14 @@ impl Proposal {
         self.centres[0].len()
     }
 
-    /// Logarithm of a typical ratio of the densities: weights are reckoned relative to it, so that their squares neither
-    /// overflow nor underflow.
+    /// Logarithm of a typical density ratio: weights are computed relative to it, so that their squares neither overflow nor
+    /// underflow.
     pub(super) fn ln_scale(&self) -> f64 {
         let halves = self.centres.iter().map(|c| -0.5 * dot(c, c));
         halves.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Draws a sample; gives it with the logarithm of its weight, the ratio of the standard normal density to this one.
+    /// Draws a sample and returns the logarithm of its weight, the ratio of the standard normal density to this one.
     pub(super) fn draw(&self, samples: &mut NormalSamples, z: &mut [f64]) -> f64 {
         let (choice, sample) = samples.next_with_choice();
         let mut sum = 0.0;

@@ -1,4 +1,4 @@
-//! What is kept of samples: sums, which can be joined.
+//! Sums over samples, which can be joined.
 
 /// An estimate with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -6,7 +6,7 @@
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// Its standard deviation over repetitions with other seeds, itself estimated.
+    /// Its estimated standard deviation over repetitions with other seeds.
     pub standard_error: f64,
 }
 
@@ -29,7 +29,7 @@ impl Moments {
         self.squares += other.squares;
     }
 
-    /// The mean of `samples` values, those that were not added being zero.
+    /// The mean of `samples` values, of which those not added are zero.
     pub(super) fn mean(&self, samples: u64) -> Estimate {
         let n = samples as f64;
         let value = self.sum / n;
@@ -42,7 +42,7 @@ impl Moments {
     }
 }
 
-/// Sums over a range of samples. Ranges that are joined in the same order give the same bits, whoever computed them.
+/// Sums over a range of samples. Ranges joined in the same order give the same bits, wherever they were computed.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SampleSums {
@@ -51,7 +51,7 @@ pub struct SampleSums {
     pub(super) without_value: u64,
     pub(super) weights: Moments,
     pub(super) weights_without_value: Moments,
-    /// Derivatives by the mean and by the standard deviation of each variable.
+    /// Derivatives with respect to the mean and to the standard deviation of each variable.
     pub(super) by_mean: Vec<Moments>,
     pub(super) by_sigma: Vec<Moments>,
 }
@@ -99,12 +99,12 @@ impl SampleSums {
         }
     }
 
-    /// Samples that were drawn.
+    /// Number of samples drawn.
     pub fn samples(&self) -> u64 {
         self.samples
     }
 
-    /// Samples that failed.
+    /// Number of samples that failed.
     pub fn failures(&self) -> u64 {
         self.failures
     }

@@ -1,4 +1,4 @@
-//! The second-order reliability method: the limit as a paraboloid at its design point.
+//! The second-order reliability method: the limit approximated by a paraboloid at its design point.
 
 mod curvature;
 mod paraboloid;
@@ -9,7 +9,7 @@ use super::limit_state::LimitState;
 use crate::Error;
 use crate::normal;
 
-/// The paraboloid that touches and osculates the limit at a design point.
+/// The osculating paraboloid of the limit at a design point.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sorm {
@@ -18,12 +18,12 @@ pub struct Sorm {
     evaluations: Evaluations,
 }
 
-/// Fits a paraboloid at a design point: from exact second derivatives where the limit state knows them, else from central
-/// differences of its gradient in the tangent plane, which take two evaluations per variable but one.
+/// Fits a paraboloid at a design point, from exact second derivatives if the limit state provides them, otherwise from central
+/// differences of its gradient in the tangent plane. The latter take two evaluations for each variable but one.
 ///
 /// # Errors
 ///
-/// If the limit state has no value near the design point, or if its matrix of second derivatives has another size.
+/// If the limit state has no value near the design point, or if its matrix of second derivatives has the wrong size.
 ///
 /// # Examples
 ///
@@ -61,23 +61,24 @@ pub fn sorm<L: LimitState>(limit: &L, at: &DesignPoint) -> Result<Sorm, Error> {
 }
 
 impl Sorm {
-    /// Principal curvatures of the limit in 1, ascending, one less than there are variables. Positive ones make the region
-    /// of failure smaller.
+    /// Principal curvatures of the limit (dimensionless), ascending, one fewer than there are variables.
+    ///
+    /// Positive ones make the failure region smaller.
     pub fn curvatures(&self) -> &[f64] {
         &self.curvatures
     }
 
-    /// How often the limit state was asked.
+    /// Number of evaluations of the limit state.
     pub fn evaluations(&self) -> Evaluations {
         self.evaluations
     }
 
-    /// `Phi(-beta) prod (1 + beta kappa_i)^(-1/2)`, right in the limit of great `beta` (Breitung 1984, *Asymptotic
+    /// `Phi(-beta) prod (1 + beta kappa_i)^(-1/2)`, asymptotically exact for large `beta` (Breitung 1984, *Asymptotic
     /// approximations for multinormal integrals*, J. Eng. Mech. 110).
     ///
     /// # Errors
     ///
-    /// [`Error::Curvature`] where `beta kappa <= -1`.
+    /// [`Error::Curvature`] if `beta kappa <= -1`.
     pub fn breitung(&self) -> Result<f64, Error> {
         self.product("Breitung", |side| side.beta)
     }
@@ -87,7 +88,7 @@ impl Sorm {
     ///
     /// # Errors
     ///
-    /// [`Error::Curvature`] where `psi kappa <= -1`.
+    /// [`Error::Curvature`] if `psi kappa <= -1`.
     pub fn hohenbichler_rackwitz(&self) -> Result<f64, Error> {
         self.product("Hohenbichler and Rackwitz", |side| {
             normal::hazard(side.beta)
@@ -99,7 +100,7 @@ impl Sorm {
     ///
     /// # Errors
     ///
-    /// [`Error::Curvature`] where `beta kappa <= -1`: the design point is not the nearest point of the paraboloid then.
+    /// [`Error::Curvature`] if `beta kappa <= -1`: the design point is then not the nearest point of the paraboloid.
     pub fn tvedt(&self) -> Result<f64, Error> {
         const FORMULA: &str = "Tvedt";
         let side = self.far_side();
@@ -136,7 +137,7 @@ impl Sorm {
         }
     }
 
-    /// The same limit as seen from the origin: what is beyond it fails if the origin is safe, and is safe if it fails.
+    /// The same limit with the roles of safe and failing sides exchanged if the origin fails.
     fn far_side(&self) -> Self {
         if self.beta >= 0.0 {
             return self.clone();

@@ -4,16 +4,16 @@ use core::f64::consts::PI;
 
 use num_complex::Complex64;
 
-/// Intervals of the trapezoidal rule, at most.
+/// Maximum number of intervals of the trapezoidal rule.
 const INTERVALS: usize = 1_000_000;
 
-/// `P(Z > beta + sum kappa_i Y_i^2 / 2)` of independent standard normal variables for positive `beta`, by inversion of the
-/// moment generating function (Tvedt 1990, *Distribution of quadratic forms in normal space*, J. Eng. Mech. 116):
+/// `P(Z > beta + sum kappa_i Y_i^2 / 2)` for independent standard normal variables and positive `beta`, by inversion of the moment
+/// generating function (Tvedt 1990, *Distribution of quadratic forms in normal space*, J. Eng. Mech. 116):
 ///
 /// `Q = beta - Z + sum kappa_i Y_i^2 / 2` has `E exp(s Q) = exp(beta s + s^2/2) prod (1 - s kappa_i)^(-1/2)`, and
-/// `P(Q < 0) = -1/(2 pi i) integral of E exp(s Q) / s` along a vertical line between the pole at 0 and the first branch
-/// point to the left of it. Through the saddle point the integrand does not oscillate where it matters, and the trapezoidal
-/// rule converges exponentially. Nothing if the line has no room.
+/// `P(Q < 0) = -1/(2 pi i) integral of E exp(s Q) / s` along a vertical line between the pole at 0 and the first branch point to
+/// the left of it. Through the saddle point the integrand does not oscillate where it is significant, and the trapezoidal rule
+/// converges exponentially. `None` if there is no room for the line.
 pub(super) fn probability_beyond(beta: f64, curvatures: &[f64]) -> Option<f64> {
     let branch = curvatures
         .iter()
@@ -34,7 +34,7 @@ pub(super) fn probability_beyond(beta: f64, curvatures: &[f64]) -> Option<f64> {
         let t = k as f64 * step;
         let value = (ln_integrand(t) - at_saddle).exp();
         sum += value.re;
-        // The rest of the integrand falls at least as fast as exp(-t^2/2).
+        // The rest of the integrand decays at least as fast as exp(-t^2/2).
         if value.norm() < 1e-18 {
             let probability = (at_saddle + (sum * step / PI).ln()).exp();
             return probability.is_finite().then_some(probability);
@@ -43,7 +43,7 @@ pub(super) fn probability_beyond(beta: f64, curvatures: &[f64]) -> Option<f64> {
     None
 }
 
-/// Where `K(s) - ln(-s)` is least between the branch point and 0, `K` being the cumulant generating function; convex.
+/// The minimum of `K(s) - ln(-s)`, which is convex, between the branch point and 0; `K` is the cumulant generating function.
 fn saddle_point(beta: f64, curvatures: &[f64], branch: f64) -> f64 {
     let derivative = |s: f64| {
         let factors = curvatures
@@ -76,7 +76,7 @@ mod tests {
     use crate::legendre::composite;
     use crate::normal;
 
-    /// The same by conditioning on one curved variable.
+    /// The same probability by conditioning on one curved variable.
     fn by_conditioning(beta: f64, kappa: f64) -> f64 {
         composite((-10.0, 10.0), 40, |y| {
             normal::density(y) * normal::cdf(-beta - 0.5 * kappa * y * y)

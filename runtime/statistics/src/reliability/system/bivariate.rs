@@ -6,14 +6,14 @@ use crate::Error;
 use crate::legendre::composite;
 use crate::normal::{cdf, ln_upper};
 
-/// Panels over the region that counts.
+/// Number of panels over the significant region.
 const PANELS: usize = 16;
-/// What lies this far below the greatest value of a logarithm does not count.
+/// Values this far below the maximum of a logarithm are negligible.
 const NEGLIGIBLE: f64 = 45.0;
 
-/// `P(X > h and Y > k)` of two standard normal variables with correlation `correlation` in [-1, 1], with relative accuracy
-/// also where it is far in the tail: the integral of `phi(x) Phi((r x - k) / sqrt(1 - r^2))` from `h` on, whose integrand is
-/// log-concave. Thresholds are in standard deviations.
+/// `P(X > h and Y > k)` for two standard normal variables with the given `correlation` in [-1, 1], with relative accuracy even far
+/// in the tail. It is the integral of `phi(x) Phi((r x - k) / sqrt(1 - r^2))` from `h` on, whose integrand is log-concave.
+/// Thresholds are in standard deviations.
 ///
 /// # Errors
 ///
@@ -38,7 +38,7 @@ pub fn probability_above(h: f64, k: f64, correlation: f64) -> Result<f64, Error>
     Ok(both_above(h, k, correlation))
 }
 
-/// The same of arguments that make sense.
+/// [`probability_above`] for valid arguments.
 pub(super) fn both_above(h: f64, k: f64, correlation: f64) -> f64 {
     let (h, k) = if h >= k { (h, k) } else { (k, h) };
     let rest = (1.0 - correlation) * (1.0 + correlation);
@@ -57,7 +57,7 @@ pub(super) fn both_above(h: f64, k: f64, correlation: f64) -> f64 {
         boundary(&counts, highest, h)
     };
     let end = boundary(&counts, highest, highest + 40.0);
-    // The second factor rises from 0 to 1 within a few sigma of this.
+    // The second factor rises from 0 to 1 within a few sigma of this value.
     let rise = k / correlation;
     let width = 8.0 * sigma / correlation.abs();
     let mut breaks = vec![start, highest, end];
@@ -88,7 +88,7 @@ fn perfectly_correlated(h: f64, k: f64, correlation: f64) -> f64 {
     }
 }
 
-/// Where a concave function on `x >= least` is greatest, by golden section.
+/// The maximum of a concave function on `x >= least`, by golden section.
 fn maximum(f: &impl Fn(f64) -> f64, least: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let (mut left, mut right) = (least, least.max(0.0) + 40.0);
@@ -106,7 +106,7 @@ fn maximum(f: &impl Fn(f64) -> f64, least: f64) -> f64 {
     if f(least) >= f(left) { least } else { left }
 }
 
-/// Where on the way from a point that counts to one that does not the last counts.
+/// The boundary of the significant region between a point inside and one outside.
 fn boundary(counts: &impl Fn(f64) -> bool, inside: f64, outside: f64) -> f64 {
     let (mut inside, mut outside) = (inside, outside);
     for _ in 0..40 {
@@ -156,7 +156,8 @@ mod tests {
         }
     }
 
-    /// `Phi(-h)^2` derivative by correlation is the bivariate density (Plackett 1954): integrated by correlation here.
+    /// The derivative of the probability with respect to the correlation is the bivariate density (Plackett 1954), integrated here
+    /// from zero correlation.
     #[test]
     fn plackett() {
         for (h, k, r) in [(2.5, 1.5, 0.6), (4.0, 5.0, -0.4), (5.0, 5.0, 0.8_f64)] {

@@ -1,25 +1,25 @@
-//! The Cholesky factor of a correlation matrix in the order that suits the integration of a box.
+//! The Cholesky factor of a correlation matrix, in an order that suits the integration over a box.
 
 use super::multinormal::Slice;
 use crate::Error;
 use crate::normal::density;
 use crate::reliability::sampling::Interval;
 
-/// Rows of the factor, the bounds in the same order, and what is zero but for rounding.
+/// Rows of the factor, the bounds in the same order, and the size of rounding errors.
 pub(super) struct Factor {
     pub(super) rows: Vec<Vec<f64>>,
     pub(super) bounds: Vec<Interval>,
     pub(super) rounding: f64,
 }
 
-/// Factorises so that each next variable is the one with the least conditional probability, given that those before it take
+/// Factorises such that each next variable is the one with the smallest conditional probability, given that the preceding ones take
 /// their conditional means (Gibson, Glasbey and Elston 1994; Genz and Bretz 2009, section 4.1.3).
 pub(super) fn factorise(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result<Factor, Error> {
     check(bounds, correlation)?;
     let number = bounds.len();
     let rounding = 1e-7;
     let mut order: Vec<usize> = (0..number).collect();
-    // Row by variable, filled column by column.
+    // One row per variable, filled column by column.
     let mut rows = vec![vec![0.0; number]; number];
     let mut means: Vec<f64> = Vec::new();
     for step in 0..number {

@@ -16,7 +16,7 @@ use super::vector::dot;
 use crate::Error;
 use crate::normal::cdf;
 
-/// Requirements by their reliability indices and the correlations of their linearised limit states.
+/// Requirements given by their reliability indices and the correlations of their linearised limit states.
 ///
 /// # Examples
 ///
@@ -35,17 +35,17 @@ use crate::normal::cdf;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FirstOrderSystem {
-    /// Descending by probability of failure.
+    /// In descending order of failure probability.
     betas: Vec<f64>,
     correlation: Vec<Vec<f64>>,
 }
 
 impl FirstOrderSystem {
-    /// A system of reliability indices, and the correlation matrix of the linearised limit states, row by row.
+    /// Creates a system from reliability indices and the correlation matrix of the linearised limit states, row by row.
     ///
     /// # Errors
     ///
-    /// If there is no requirement, if an index is not finite, if lengths differ, or if the matrix is not one of correlations.
+    /// If there are no requirements, if an index is not finite, if lengths differ, or if the matrix is not a correlation matrix.
     pub fn new(betas: Vec<f64>, correlation: Vec<Vec<f64>>) -> Result<Self, Error> {
         if let Some(wrong) = betas.iter().find(|beta| !beta.is_finite()) {
             return Err(Error::Setting {
@@ -64,11 +64,11 @@ impl FirstOrderSystem {
         })
     }
 
-    /// The system of these design points, one of each requirement, or several of one in a series system.
+    /// Creates a system from design points: one per requirement or, in a series system, several.
     ///
     /// # Errors
     ///
-    /// If there is none, or if they have different numbers of coordinates.
+    /// If there are none, or if they have different numbers of coordinates.
     pub fn of(design_points: &[DesignPoint]) -> Result<Self, Error> {
         let expected = design_points.first().map_or(0, |p| p.direction.len());
         if let Some(wrong) = design_points.iter().find(|p| p.direction.len() != expected) {
@@ -91,8 +91,8 @@ impl FirstOrderSystem {
         )
     }
 
-    /// Bounds of the probability that at least one requirement fails (Ditlevsen 1979, *Narrow reliability bounds for
-    /// structural systems*, J. Struct. Mech. 7), from the probabilities of pairs.
+    /// Bounds on the probability that at least one requirement fails (Ditlevsen 1979, *Narrow reliability bounds for structural
+    /// systems*, J. Struct. Mech. 7), from pairwise probabilities.
     pub fn series_bounds(&self) -> Interval {
         let (mut lower, mut upper) = (0.0, 0.0);
         for (i, (&beta, row)) in self.betas.iter().zip(&self.correlation).enumerate() {
@@ -109,12 +109,12 @@ impl FirstOrderSystem {
         }
     }
 
-    /// Probability that at least one requirement fails: of the first, or of the second but not the first, and so on, so that
+    /// Probability that at least one requirement fails: that the first fails, or the second but not the first, and so on, so that
     /// small probabilities keep their relative accuracy.
     ///
     /// # Errors
     ///
-    /// If a setting makes no sense.
+    /// If a setting is invalid.
     pub fn series_probability(&self, settings: &QuadratureSettings) -> Result<Estimate, Error> {
         let (mut value, mut variance) = (0.0, 0.0);
         for i in 0..self.betas.len() {
@@ -134,7 +134,7 @@ impl FirstOrderSystem {
     ///
     /// # Errors
     ///
-    /// If a setting makes no sense.
+    /// If a setting is invalid.
     pub fn all_met(&self, settings: &QuadratureSettings) -> Result<Estimate, Error> {
         let bounds: Vec<Interval> = self.betas.iter().map(|&beta| safe(beta)).collect();
         self.probability_of(&bounds, settings)
@@ -144,13 +144,13 @@ impl FirstOrderSystem {
     ///
     /// # Errors
     ///
-    /// If a setting makes no sense.
+    /// If a setting is invalid.
     pub fn parallel_probability(&self, settings: &QuadratureSettings) -> Result<Estimate, Error> {
         let bounds: Vec<Interval> = self.betas.iter().map(|&beta| failed(beta)).collect();
         self.probability_of(&bounds, settings)
     }
 
-    /// Of the first variables.
+    /// Probability of a box in the leading variables.
     fn probability_of(
         &self,
         bounds: &[Interval],

@@ -1,4 +1,4 @@
-//! The multinormal probability of a box.
+//! Multinormal probability of a box.
 
 use super::factor::{Factor, factorise};
 use crate::Error;
@@ -6,13 +6,13 @@ use crate::normal::{cdf, quantile};
 use crate::random::RandomNumbers;
 use crate::reliability::sampling::{Estimate, Interval};
 
-/// How finely to integrate.
+/// Settings of the integration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct QuadratureSettings {
-    /// Points of the lattice rule, each taken once for every shift.
+    /// Number of points of the lattice rule, all of which are used for every shift.
     pub points: usize,
-    /// Random shifts of the lattice; the standard error is that of their mean.
+    /// Number of random shifts of the lattice; the standard error is that of their mean.
     pub shifts: usize,
     /// Seed of the shifts.
     pub seed: u64,
@@ -40,15 +40,15 @@ impl QuadratureSettings {
     }
 }
 
-/// `P(a_i < X_i < b_i for all i)` of standard normal variables with this correlation matrix, by separation of variables
-/// (Genz 1992, *Numerical computation of multivariate normal probabilities*), the most restrictive variable first (Gibson,
-/// Glasbey and Elston 1994), on a randomly shifted lattice (Cranley and Patterson 1976). The matrix may be singular.
+/// `P(a_i < X_i < b_i for all i)` for standard normal variables with the given correlation matrix, by separation of variables (Genz
+/// 1992, *Numerical computation of multivariate normal probabilities*), the most restrictive variable first (Gibson, Glasbey and
+/// Elston 1994), on a randomly shifted lattice (Cranley and Patterson 1976). The matrix may be singular.
 ///
 /// Bounds are in standard deviations and may be infinite.
 ///
 /// # Errors
 ///
-/// If lengths differ, if a lower bound exceeds its upper one or is not a number, or if the matrix is not one of correlations.
+/// If lengths differ, if a lower bound exceeds its upper one or is NaN, or if the matrix is not a correlation matrix.
 ///
 /// # Examples
 ///
@@ -81,7 +81,7 @@ pub fn box_probability(
         let mut sum = 0.0;
         for k in 1..=settings.points {
             for ((x, generator), shift) in point.iter_mut().zip(&generators).zip(&shift) {
-                // Folded, the integrand is periodic (Baker's transformation).
+                // Folding makes the integrand periodic (baker's transformation).
                 let fraction = (k as f64 * generator + shift).fract();
                 *x = (2.0 * fraction - 1.0).abs();
             }
@@ -98,7 +98,7 @@ pub fn box_probability(
     })
 }
 
-/// Product of the conditional probabilities of each variable given a choice of those before it.
+/// Product of the conditional probabilities of each variable, given a choice of the preceding ones.
 fn integrand(factor: &Factor, point: &[f64]) -> f64 {
     let mut chosen: Vec<f64> = Vec::with_capacity(point.len());
     let mut product = 1.0;
@@ -106,7 +106,7 @@ fn integrand(factor: &Factor, point: &[f64]) -> f64 {
         let mean: f64 = row.iter().zip(&chosen).map(|(l, y)| l * y).sum();
         let sigma = row[chosen.len()];
         if sigma == 0.0 {
-            // The variable is a combination of those before it.
+            // The variable is a combination of the preceding ones.
             let slack = factor.rounding;
             if mean < bounds.lower - slack || mean > bounds.upper + slack {
                 return 0.0;
@@ -124,7 +124,7 @@ fn integrand(factor: &Factor, point: &[f64]) -> f64 {
     product
 }
 
-/// Part of a standard normal distribution, reckoned in the tail where it is small.
+/// A slice of the standard normal distribution, computed in the tail where it is small.
 pub(super) struct Slice {
     mirrored: bool,
     below: f64,
@@ -147,7 +147,7 @@ impl Slice {
         }
     }
 
-    /// The value below which this part of the slice lies.
+    /// The value below which the fraction `part` of the slice lies.
     fn quantile(&self, part: f64) -> f64 {
         let below = self.below + part * self.probability;
         let value = quantile(below.clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON));

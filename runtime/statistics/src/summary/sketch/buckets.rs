@@ -1,25 +1,25 @@
-//! Counts of deviations in buckets whose width is a share of the deviation.
+//! Counts of deviations in buckets whose width is proportional to the deviation.
 
-/// Bits of the fraction of a number that tell buckets apart.
+/// Number of fraction bits that distinguish buckets.
 const FRACTION: u32 = 8;
 const SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - FRACTION;
 
 /// Number of buckets between two powers of two.
 const OCTAVE: i32 = 1 << FRACTION;
 
-/// Deviations below `2^-24` of the scale, rounded down to a power of two, are not told apart.
+/// Deviations below `2^-24` of the scale, rounded down to a power of two, share one bucket.
 const SMALLEST_SHARE: i32 = 24;
 
-/// Exponent and leading digits of a magnitude, which count up with it.
+/// Exponent and leading digits of a magnitude; it increases with the magnitude.
 #[inline(always)]
 fn key(deviation: f64) -> i32 {
     (deviation.abs().to_bits() >> SHIFT) as i32
 }
 
-/// Where the buckets are. Place 0 is about the reference, place 1 the first one above it, place -1 the first below.
+/// Positions of the buckets. Place 0 contains the reference, place 1 is the first one above it, place -1 the first below.
 #[derive(Clone, Copy)]
 pub(super) struct Places {
-    /// The key of what place 0 no longer has.
+    /// The smallest key outside place 0.
     smallest: i32,
 }
 
@@ -37,7 +37,7 @@ impl Places {
         if deviation < 0.0 { -place } else { place }
     }
 
-    /// The least and the greatest deviation that a place has.
+    /// The smallest and largest deviation of a place.
     pub(super) fn edges(self, place: i32) -> (f64, f64) {
         let magnitude = |key: i32| f64::from_bits(u64::from(key.unsigned_abs()) << SHIFT);
         let inner = magnitude(self.smallest + place.abs() - 1);
@@ -53,8 +53,8 @@ impl Places {
 /// The counts of one octave of places.
 type Octave = Box<[u64; OCTAVE as usize]>;
 
-/// Counts by octaves of places, from the first to the last that has any. Octaves without values, most of those near the
-/// reference, take no memory.
+/// Counts by octaves of places, from the first nonempty one to the last. Empty octaves, such as most of those near the reference,
+/// take no memory.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -62,13 +62,13 @@ type Octave = Box<[u64; OCTAVE as usize]>;
     serde(into = "Vec<(i32, u64)>", try_from = "Vec<(i32, u64)>")
 )]
 pub(super) struct Buckets {
-    /// Which octave is the first.
+    /// Index of the first octave.
     first: i32,
     octaves: Vec<Option<Octave>>,
 }
 
 impl Buckets {
-    /// Makes room for the places from `least` to `greatest`.
+    /// Allocates the octaves for the places from `least` to `greatest`.
     pub(super) fn reach(&mut self, least: i32, greatest: i32) {
         let (first, last) = (least.div_euclid(OCTAVE), greatest.div_euclid(OCTAVE));
         if self.octaves.is_empty() {
@@ -85,13 +85,13 @@ impl Buckets {
         }
     }
 
-    /// Counts deviations at these places, for which there is room.
+    /// Counts deviations at these places, which must be allocated.
     #[inline(always)]
     pub(super) fn count(&mut self, places: &[i32]) {
         places.iter().for_each(|place| self.count_equal(*place, 1));
     }
 
-    /// Counts so many deviations at one place, for which there is room.
+    /// Counts `number` deviations at one place, which must be allocated.
     #[inline(always)]
     pub(super) fn count_equal(&mut self, place: i32, number: u64) {
         let octave = (place.div_euclid(OCTAVE) - self.first) as usize;
@@ -121,7 +121,7 @@ impl Buckets {
         }
     }
 
-    /// The places that have values and how many, in order.
+    /// The places with values and their counts, in order.
     pub(super) fn counted(&self) -> impl Iterator<Item = (i32, u64)> {
         let octaves = (self.first..).zip(&self.octaves);
         let counts = octaves.flat_map(|(octave, counts)| {
@@ -133,7 +133,7 @@ impl Buckets {
             .map(|(place, count)| (place, *count))
     }
 
-    /// The sum of all counts; `None` if these are not counts of the octaves from `least` to `greatest`.
+    /// The sum of all counts; `None` if the octaves are not those from `least` to `greatest`.
     #[cfg(feature = "serde")]
     pub(super) fn total(&self, least: i32, greatest: i32) -> Option<u64> {
         let mut expected = Self::default();
@@ -153,7 +153,7 @@ fn empty() -> Octave {
     Box::new([0; OCTAVE as usize])
 }
 
-/// Most are empty: those that have values are written.
+/// Only nonempty places are written, because most are empty.
 #[cfg(feature = "serde")]
 impl From<Buckets> for Vec<(i32, u64)> {
     fn from(buckets: Buckets) -> Self {
@@ -166,7 +166,7 @@ impl TryFrom<Vec<(i32, u64)>> for Buckets {
     type Error = &'static str;
 
     fn try_from(counted: Vec<(i32, u64)>) -> Result<Self, &'static str> {
-        // Of any two numbers.
+        // The limits for arbitrary numbers.
         let greatest = key(f64::MAX);
         let known = |place: i32| (-greatest..=greatest).contains(&place);
         if !counted

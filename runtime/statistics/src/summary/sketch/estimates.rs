@@ -1,33 +1,33 @@
-//! What a sketch tells of the distribution.
+//! Estimates of the distribution from a sketch.
 
 use super::Sketch;
 use crate::Error;
 use crate::summary::binomial;
 use crate::summary::sorted::{Interval, place};
 
-/// A number that is known to lie near `value`.
+/// An estimate with a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// What it would be from all values, sorted, is no farther from `value` than this.
+    /// The result computed from all values, sorted, differs from `value` by at most this.
     pub error: f64,
 }
 
-/// A distribution in bins of equal width from the least to the greatest value.
+/// A distribution in bins of equal width from the smallest to the largest value.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Histogram {
-    /// Where bins begin and end, one more than there are bins, in the unit of the values.
+    /// Edges of the bins, one more than there are bins, in the unit of the values.
     pub edges: Vec<f64>,
-    /// The share of the values in each bin, up to and with its upper edge; they sum to 1.
+    /// Fraction of the values in each bin, including its upper edge; they sum to 1.
     pub shares: Vec<f64>,
 }
 
-/// Values that are not told apart.
+/// Values that cannot be distinguished.
 struct Bucket {
     place: i32,
     lower: f64,
@@ -36,14 +36,15 @@ struct Bucket {
 }
 
 impl Sketch {
-    /// The quantile for the share `p`, between 0 and 1, with the definition of R (type 7) and NumPy: linear between the values of
-    /// ranks about `(count - 1) p`.
+    /// The quantile for the fraction `p`, between 0 and 1, as defined by R (type 7) and NumPy: linear interpolation between the
+    /// values with ranks next to `(count - 1) p`.
     ///
-    /// The error is at most `2^-8` of the deviation from the reference, or `2^-23` of the scale if that is more, and rounding.
+    /// Apart from rounding, the error is at most `2^-8` of the deviation from the reference, or `2^-23` of the scale if that is
+    /// larger.
     ///
     /// # Errors
     ///
-    /// `p` is not between 0 and 1, or there are no values.
+    /// If `p` is not between 0 and 1, or if there are no values.
     pub fn quantile(&self, p: f64) -> Result<Estimate, Error> {
         let (rank, part) = place(self.count, p)?;
         let [lower, upper] = [rank, rank + 1].map(|rank| self.at_rank(rank));
@@ -56,12 +57,12 @@ impl Sketch {
         })
     }
 
-    /// An interval that has the quantile of the distribution the values were drawn from with at least this confidence; see
-    /// [`crate::summary::Sorted::quantile_interval`]. The buckets widen it a little. `None` if there are not enough values.
+    /// A confidence interval for the quantile of the distribution from which the values were drawn, with at least this confidence;
+    /// see [`crate::summary::Sorted::quantile_interval`]. The buckets widen it slightly. `None` if there are too few values.
     ///
     /// # Errors
     ///
-    /// `p` or `confidence` is not strictly between 0 and 1.
+    /// If `p` or `confidence` is not strictly between 0 and 1.
     pub fn quantile_interval(&self, p: f64, confidence: f64) -> Result<Option<Interval>, Error> {
         let ranks = binomial::ranks(self.count, p, confidence)?;
         Ok(ranks.map(|ranks| {
@@ -74,11 +75,11 @@ impl Sketch {
         }))
     }
 
-    /// The share of the values that are at most `value`.
+    /// The fraction of the values that are at most `value`.
     ///
     /// # Errors
     ///
-    /// There are no values, or `value` is not a number.
+    /// If there are no values, or if `value` is not a number.
     pub fn cdf(&self, value: f64) -> Result<Estimate, Error> {
         if value.is_nan() {
             let reason = "NaN is not a number".to_owned();
@@ -117,11 +118,11 @@ impl Sketch {
         })
     }
 
-    /// The distribution in so many bins; in one if all values are the same.
+    /// The distribution in `bins` bins, or in a single one if all values are equal.
     ///
     /// # Errors
     ///
-    /// There are no values, or no bins.
+    /// If there are no values, or no bins.
     pub fn histogram(&self, bins: usize) -> Result<Histogram, Error> {
         if bins == 0 {
             let reason = "there must be at least one".to_owned();
@@ -146,7 +147,7 @@ impl Sketch {
         Ok(Histogram { edges, shares })
     }
 
-    /// The value of this rank, from 0 on; ranks beyond the last are the last.
+    /// The value with this rank, from 0; larger ranks give the last value.
     fn at_rank(&self, rank: u64) -> Estimate {
         let exact = |value| Estimate { value, error: 0.0 };
         if rank == 0 {
@@ -167,7 +168,7 @@ impl Sketch {
         let after = below - rank;
         let part = 1.0 - (after as f64 - 0.5) / bucket.count as f64;
         let value = bucket.lower + part * width;
-        // The edges are rounded, and so were the deviations.
+        // Both the edges and the deviations were rounded.
         let rounding = 2.0 * f64::EPSILON * (self.reference.abs() + value.abs());
         Estimate {
             value,
@@ -175,7 +176,7 @@ impl Sketch {
         }
     }
 
-    /// In the order of their values.
+    /// The buckets in the order of their values.
     fn buckets(&self) -> impl Iterator<Item = Bucket> {
         let places = self.places();
         self.buckets.counted().map(move |(place, count)| {

@@ -1,4 +1,4 @@
-//! The distribution of a quantity in counted buckets, whose widths are a fixed share of the deviation from a reference.
+//! The distribution of a quantity as counts in buckets, whose widths are a fixed fraction of the deviation from a reference.
 
 mod buckets;
 mod estimates;
@@ -11,15 +11,17 @@ use super::{Moments, lanes};
 use crate::Error;
 use buckets::{Buckets, Places};
 
-/// Counts of values in buckets of their deviation from a reference. The buckets are `2^-8` of the deviation wide, from `2^-24` of
-/// a scale on: near the reference they are narrow, far away they are wide. Values that scatter by one scale about the reference
-/// are told apart to less than 0.004 of that scale.
+/// Counts of values in buckets by their deviation from a reference.
 ///
-/// Counts are integers, so the result does not depend on the order of the values or of merging. Memory: 2 KiB for each power of
-/// two that has deviations, above or below; about 50 KiB for some thousand values that scatter about the reference, and never more
-/// than 9 MiB.
+/// The width of a bucket is `2^-8` of the deviation, down to `2^-24` of a scale: narrow near the reference, wide far away. Values
+/// that scatter by one scale about the reference are resolved to less than 0.004 of that scale.
 ///
-/// The buckets are those of HDR histograms and of DDSketch (Masson, Rim and Lee, 2019), at powers of two divided in equal parts.
+/// Counts are integers, so the result does not depend on the order of the values or of merging. Memory use is 2 KiB for each power
+/// of two with deviations, above or below the reference; about 50 KiB for a few thousand values scattered about the reference, and
+/// never more than 9 MiB.
+///
+/// The buckets are those of HDR histograms and of DDSketch (Masson, Rim and Lee, 2019), with powers of two divided into equal
+/// parts.
 ///
 /// ```
 /// # fn main() -> Result<(), eigentol_statistics::Error> {
@@ -42,7 +44,7 @@ pub struct Sketch {
     scale: f64,
     buckets: Buckets,
     count: u64,
-    /// Zero without values.
+    /// Zero if there are no values.
     #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     min: f64,
     #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
@@ -50,12 +52,13 @@ pub struct Sketch {
 }
 
 impl Sketch {
-    /// Of no values yet, about `reference` and for deviations from it of the order of `scale`, both in the unit of the values.
-    /// The result is as good for a `scale` that is some orders of magnitude off.
+    /// An empty sketch about `reference` for deviations of the order of `scale`, both in the unit of the values.
+    ///
+    /// The result is equally good if `scale` is wrong by a few orders of magnitude.
     ///
     /// # Errors
     ///
-    /// `reference` is not a number, or `scale` is not a positive one.
+    /// If `reference` is not a number, or `scale` is not a positive number.
     pub fn new(reference: f64, scale: f64) -> Result<Self, Error> {
         check_number("reference", reference)?;
         check_number("scale", scale)?;
@@ -80,7 +83,7 @@ impl Sketch {
     ///
     /// # Errors
     ///
-    /// One is not a number of at most [`LARGEST`](super::LARGEST) in magnitude. Nothing has been added then.
+    /// If one is NaN or above [`LARGEST`](super::LARGEST) in magnitude. In that case nothing is added.
     pub fn add(&mut self, values: &[f64]) -> Result<(), Error> {
         for &value in values {
             check_number("values of a sketch", value)?;
@@ -93,11 +96,11 @@ impl Sketch {
         Ok(())
     }
 
-    /// Adds the values of another.
+    /// Adds the values of another sketch.
     ///
     /// # Errors
     ///
-    /// It has another reference or scale.
+    /// If it has another reference or scale.
     pub fn merge(&mut self, other: &Self) -> Result<(), Error> {
         if (self.reference, self.scale) != (other.reference, other.scale) {
             return Err(Error::OtherPlan);
@@ -112,21 +115,21 @@ impl Sketch {
         self.count
     }
 
-    /// Values of at most [`LARGEST`](super::LARGEST), and their moments.
+    /// Adds values of at most [`LARGEST`](super::LARGEST) in magnitude, given their moments.
     #[inline(always)]
     pub(in crate::summary) fn add_checked(&mut self, values: &[f64], moments: &Moments) {
         self.include(moments.count, moments.min, moments.max);
         self.count_all(values);
     }
 
-    /// Values that are all the same, by their moments.
+    /// Adds equal values, given their moments.
     pub(in crate::summary) fn add_equal(&mut self, moments: &Moments) {
         self.include(moments.count, moments.min, moments.max);
         let place = self.place(moments.min);
         self.buckets.count_equal(place, moments.count);
     }
 
-    /// Another about the same reference.
+    /// Adds another sketch about the same reference.
     pub(in crate::summary) fn merge_checked(&mut self, other: &Self) {
         self.include(other.count, other.min, other.max);
         self.buckets.merge(&other.buckets);
@@ -136,7 +139,7 @@ impl Sketch {
         if count == 0 {
             return;
         }
-        // Adding zero turns -0 into 0: which of them is met first depends on the order.
+        // Adding zero turns -0 into 0: which of them comes first depends on the order.
         let (min, max) = (min + 0.0, max + 0.0);
         self.min = if self.count == 0 || min < self.min {
             min
@@ -153,11 +156,11 @@ impl Sketch {
             .reach(self.place(self.min), self.place(self.max));
     }
 
-    /// At most [`CHUNK`] values, which `min` and `max` include.
+    /// Counts at most [`CHUNK`] values, which lie between `min` and `max`.
     #[inline(always)]
     fn count_all(&mut self, values: &[f64]) {
         let all = self.places();
-        // Apart from counting, so that it can be vectorised.
+        // Separate from counting, so that it can be vectorised.
         let mut places = [0; CHUNK];
         for (place, value) in places.iter_mut().zip(values) {
             *place = all.of_deviation(value - self.reference);
@@ -176,7 +179,7 @@ impl Sketch {
 
 #[cfg(feature = "serde")]
 impl Sketch {
-    /// Whether it can have come about by adding values.
+    /// Whether it can result from adding values.
     pub(in crate::summary) fn is_consistent(&self) -> bool {
         let numbers = [self.reference, self.scale, self.min, self.max];
         numbers.iter().all(|number| number.abs() <= super::LARGEST)
