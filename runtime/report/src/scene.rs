@@ -73,7 +73,7 @@ fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
     };
     let round = |value: f64, step: f64| {
         let digits = (value / step).round() * step;
-        // What is not a multiple in decimals is the nearest number that is short.
+        // A multiple that is not exact in binary is rounded to a short decimal.
         format!("{digits:.6e}").parse().unwrap_or(digits)
     };
     let all = poses.iter().flat_map(|pose| {
