@@ -1,4 +1,4 @@
-//! The cheapest tolerances that meet requirements.
+//! Allocation of the cheapest tolerances that meet the requirements.
 
 use eigentol::allocation::{self, Choices, Cost, HalfWidth, Nominal};
 use eigentol::{Description, Unit};

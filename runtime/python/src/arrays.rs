@@ -1,4 +1,4 @@
-//! Results as arrays of numpy.
+//! Results as numpy arrays.
 
 use eigentol::Matrix;
 use numpy::{Element, PyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};

@@ -1,4 +1,4 @@
-//! A mechanism that is read from a text.
+//! A mechanism read from a text.
 
 use std::path::PathBuf;
 

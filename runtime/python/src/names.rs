@@ -1,4 +1,4 @@
-//! Names, and the nearest one to a name that does not exist.
+//! Names, and suggestions for unknown ones.
 
 use eigentol::{Description, Text};
 use eigentol_compiler::base::nearest::nearest;

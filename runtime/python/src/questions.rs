@@ -1,4 +1,4 @@
-//! What a study can be asked.
+//! The analyses of a study.
 
 use eigentol::equilibrium::Search;
 use eigentol::second_order::Band;

@@ -1,4 +1,4 @@
-//! How probable it is that requirements are met.
+//! Probabilities of meeting requirements.
 
 use eigentol::requirement::{self, Requirement, SamplingSettings};
 use pyo3::exceptions::PyTypeError;

@@ -1,4 +1,4 @@
-//! A number that a design gives, as a function of arrays of designs.
+//! A scalar response of the design, as a function of arrays of designs.
 
 use std::sync::Arc;
 
@@ -141,7 +141,7 @@ impl Study {
         };
         let nominal = self.ask(py, |study| {
             let solved = study.solve()?;
-            // What makes no sense is refused here.
+            // Inconsistent settings are rejected here.
             Responses::new(
                 study.mechanism(),
                 &solved.equilibrium,

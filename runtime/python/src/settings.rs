@@ -1,4 +1,4 @@
-//! What a study is set up with: keyword arguments by name.
+//! The settings of a study: keyword arguments by name.
 
 use eigentol::modes::Family;
 use eigentol::tolerance::Distribution;
@@ -83,7 +83,7 @@ pub(crate) fn study(
             study = set(study, &given)?;
         }
     }
-    // What makes no sense together is refused here, not at the first question.
+    // Inconsistent settings are rejected here, not at the first analysis.
     match study.tolerances() {
         Ok(_) => Ok(study),
         Err(error) => Err(raise(settings.py(), error)),

@@ -1,4 +1,4 @@
-//! Numbers and names as they come from Python.
+//! Numbers and names passed from Python.
 
 use eigentol::{Description, Error, Text, Unit};
 use eigentol_interpreter::{Mistakes, value};

@@ -1,4 +1,4 @@
-//! What moves modes and outputs.
+//! Sensitivities of modes and outputs.
 
 use eigentol::second_order::{EventCurvature, OutputCurvature, SecondDerivatives};
 use eigentol::sensitivity::{ModeSensitivity, Slopes};

@@ -1,4 +1,4 @@
-//! What all results have: text, tables, and HTML for notebooks.
+//! Features common to all results: text, tables, and HTML for notebooks.
 
 use std::fmt::Write;
 
