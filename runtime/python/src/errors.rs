@@ -128,7 +128,7 @@ pub(crate) fn new(py: Python<'_>, kind: Kind, message: String) -> PyErr {
     }
 }
 
-/// An exception that carries something.
+/// An exception with attached data.
 fn with<'py>(
     py: Python<'py>,
     error: PyErr,
