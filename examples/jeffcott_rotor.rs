@@ -1,9 +1,9 @@
-//! A heavy disk on an elastic shaft, with gyroscopic moments, damping at rest and damping that turns: Campbell diagram,
-//! critical speeds and limit of stability with their tolerances, and the risks at the running speed.
+//! A heavy disk on an elastic shaft with gyroscopic moments, stationary damping and rotating damping: Campbell diagram, critical speeds and
+//! stability limit with their tolerances, and the risks at the running speed.
 //!
-//! The machine runs above its critical speeds of first order. Two things can go wrong there: the backward whirl of the
-//! tilting disk, which the uneven seal lets the unbalance reach, may come within 10 % of the speed; and the damping of
-//! the shaft, which turns, may overcome that of the seal, which does not.
+//! The machine runs above its first-order critical speeds. Two things can go wrong there: the backward whirl of the tilting disk, which
+//! the unbalance can excite through the asymmetric seal, may come within 10 % of the speed; and the rotating damping of the shaft may
+//! overcome the stationary damping of the seal.
 //!
 //! `cargo run --release --example jeffcott_rotor`
 
@@ -78,10 +78,10 @@ mechanism! {
     }
 }
 
-/// Speeds of the figure around the running speed.
+/// Number of speeds in the figure around the running speed.
 const CLOSE: usize = 49;
 
-/// The whole example: `arguments` as on the command line, the summary to `out`, figures and CSV files to a directory.
+/// Runs the whole example: command-line `arguments`, summary to `out`, figures and CSV files to a directory.
 pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
     let about = "How tolerances move the critical speeds and the limit of stability of a rotor";
     let options = Options::parse("jeffcott_rotor", about, arguments)?;

@@ -1,5 +1,5 @@
-//! Two bars in series on a spinning shaft: the second example of the paper (section 6.2, figures 9 to 13, table 2), and
-//! beyond it what each of four independent dimensions contributes.
+//! Two bars in series on a spinning shaft: the second example of the paper (section 6.2, figures 9 to 13, table 2), extended by the
+//! contribution of each of four independent dimensions.
 //!
 //! `cargo run --release --example rotating_double_pendulum`
 
@@ -66,7 +66,7 @@ const PAPER: Paper = Paper {
     ratio: 1414.0,
 };
 
-/// The whole example: `arguments` as on the command line, the summary to `out`, figures and CSV files to a directory.
+/// Runs the whole example: command-line `arguments`, summary to `out`, figures and CSV files to a directory.
 pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
     let about = "How tolerances spread the frequencies of two spinning bars";
     let options = Options::parse("rotating_double_pendulum", about, arguments)?;

@@ -37,7 +37,7 @@ const PAPER: Paper = Paper {
     ratio: 1179.0,
 };
 
-/// The whole example: `arguments` as on the command line, the summary to `out`, figures and `sweep.csv` to a directory.
+/// Runs the whole example: command-line `arguments`, summary to `out`, figures and `sweep.csv` to a directory.
 pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
     let about = "How a tolerance of its length spreads the frequency of a spinning bar";
     let options = Options::parse("rotating_pendulum", about, arguments)?;

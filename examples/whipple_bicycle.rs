@@ -1,8 +1,7 @@
-//! The bicycle of Whipple (1899) with the parameters of the benchmark of Meijaard, Papadopoulos, Ruina and Schwab (Proc. R.
-//! Soc. A 463, 2007): at which speeds does it stay upright without hands, and how much do the tolerances of its 26
-//! parameters move these speeds?
+//! The bicycle of Whipple (1899) with the benchmark parameters of Meijaard, Papadopoulos, Ruina and Schwab (Proc. R. Soc. A 463, 2007): at
+//! which speeds is it stable without hands, and how much do the tolerances of its 26 parameters shift these speeds?
 //!
-//! Wheels roll without slip: seven coordinates, of which the road leaves lean and steer as speeds.
+//! The wheels roll without slip: of seven coordinates, the road leaves lean and steer as independent speeds.
 //!
 //! `cargo run --release --example whipple_bicycle`
 
@@ -94,10 +93,10 @@ mechanism! {
 
 /// Fastest speed, m/s.
 const FASTEST: f64 = 10.0;
-/// Slowest speed, m/s: at rest wheels that touch the road at one point have no direction to roll in.
+/// Slowest speed, m/s: at rest, a wheel with a single contact point has no rolling direction.
 const SLOWEST: f64 = 0.1;
 
-/// The whole example: `arguments` as on the command line, the summary to `out`, figures and CSV files to a directory.
+/// Runs the whole example: command-line `arguments`, summary to `out`, figures and CSV files to a directory.
 pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
     let about = "At which speeds a bicycle stays upright, and what tolerances do to them";
     let options = Options::parse("whipple_bicycle", about, arguments)?;
@@ -129,7 +128,7 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
     options.print_directory(out)
 }
 
-/// Some ten rows of the eigenvalues.
+/// About ten rows of the eigenvalues.
 fn table(campbell: &Campbell) -> Table {
     let labels = campbell.labels();
     let mut table = Table::new(
@@ -155,7 +154,7 @@ fn table(campbell: &Campbell) -> Table {
     table
 }
 
-/// A limit of stability, and the three variables that move it most.
+/// Prints a stability limit and the three variables that affect it most.
 fn limit(out: &mut dyn Write, what: &str, event: &EventTolerance) -> Result<(), Failure> {
     write!(out, "{what} {:.4} m/s", event.value)?;
     let Ok(spread) = &event.spread else {

@@ -1,4 +1,4 @@
-//! Compiles the declaration; writes the header.
+//! Compiles the declaration and writes the header.
 
 fn main() {
     eigentol_build::compile_for_c("double_pendulum.mechanism", "include/double_pendulum.h");

@@ -11,7 +11,7 @@ use crate::pictures::{Named, Sweeps};
 use crate::summary::{self, Paper};
 use crate::{Failure, Options, Question, Sweep, progress, record, speeds};
 
-/// Everything that is known about one question.
+/// All results for one question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
     /// Speeds at which something happens.
@@ -30,7 +30,7 @@ impl Analysis {
     /// Answers `question`.
     ///
     /// # Errors
-    /// Those that concern the whole sweep; a speed that fails is reported in the summary.
+    /// Errors that concern the whole sweep; a speed that fails is reported in the summary.
     pub fn run<M: Mechanism>(
         study: &Study<M>,
         question: &Question,
@@ -69,7 +69,7 @@ impl Analysis {
         })
     }
 
-    /// What figures are drawn from.
+    /// The data for the figures.
     pub fn sweeps(&self) -> Sweeps<'_> {
         Sweeps {
             curve: &self.curve,
@@ -79,7 +79,7 @@ impl Analysis {
         }
     }
 
-    /// Writes the sweep and the figures to the directory of the results.
+    /// Writes the sweep and the figures to the results directory.
     ///
     /// # Errors
     /// [`Failure::Output`].

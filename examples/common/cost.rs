@@ -1,9 +1,8 @@
 //! CPU time of the first-order analysis against Monte Carlo (tables 1 and 2 of the paper).
 //!
-//! Both run on the calling thread alone and their own CPU time is measured, so that neither a busy machine nor the
-//! number of threads changes the ratio; Monte Carlo takes its samples one by one, as the analysis takes its speeds. Both
-//! are the one call of [`Study`] that a user makes, and both look for the equilibrium of each speed from the start value of
-//! the study, as the paper does.
+//! Both run on the calling thread alone and their own CPU time is measured, so neither a busy machine nor the number of threads changes the
+//! ratio; Monte Carlo takes its samples one by one, as the analysis takes its speeds. Each is a single call to [`Study`], as a user would
+//! make it, and both search for the equilibrium of each speed from the start value of the study, as the paper does.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -14,10 +13,10 @@ use eigentol::{Mechanism, Study};
 
 use crate::Question;
 
-/// The first-order analysis is repeated until it took this long: one pass is too short to be measured.
+/// The first-order analysis is repeated for at least this long: a single pass is too short to measure.
 const MEASURABLE: Duration = Duration::from_millis(100);
 
-/// More samples than the paper's are not timed: they would only make the same comparison longer.
+/// Maximum number of samples timed, that of the paper: more would only prolong the same comparison.
 const MOST_SAMPLES: usize = 3000;
 
 /// CPU time for one tolerance over all speeds.
@@ -27,9 +26,9 @@ pub struct Cost {
     pub level: f64,
     /// One pass of equilibrium, modes, sensitivities and first-order spread at every speed.
     pub first_order: Duration,
-    /// How many passes were averaged.
+    /// The number of passes averaged.
     pub passes: u32,
-    /// Equilibrium, modes and all samples at every speed.
+    /// One pass of equilibrium, modes and all samples at every speed.
     pub monte_carlo: Duration,
     /// Samples at each speed.
     pub samples: usize,
@@ -41,7 +40,7 @@ impl Cost {
         self.monte_carlo.as_secs_f64() / self.first_order.as_secs_f64().max(1e-9)
     }
 
-    /// Measures one tolerance at all speeds; a speed that fails costs both what it costs.
+    /// Measures one tolerance at all speeds; the time spent on a failing speed counts for both methods.
     pub fn measure<M: Mechanism>(
         study: &Study<M>,
         question: &Question,

@@ -1,16 +1,16 @@
-//! Speeds at which something happens, with the tolerance that the design variables give them.
+//! Speeds at which events happen, and their tolerances due to the design variables.
 
 use eigentol::sweep::EventTolerance;
 use eigentol::{Error, Mechanism, Study};
 
 use crate::Question;
 
-/// A speed at which something happens.
+/// The speed of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// Nominal speed, rad/s.
     pub speed: f64,
-    /// Its standard deviation at the first tolerance of the question, rad/s; `None` where it has no derivative.
+    /// Its standard deviation under the question's first tolerance, rad/s; `None` if it has no derivative.
     pub sigma: Option<f64>,
 }
 
@@ -24,10 +24,10 @@ pub struct Events {
 }
 
 impl Events {
-    /// Looks for them over the range of the question.
+    /// Finds the events over the range of the question.
     ///
     /// # Errors
-    /// Those of [`Study::critical_tolerance`] and [`Study::crossing_tolerances`].
+    /// The errors of [`Study::critical_tolerance`] and [`Study::crossing_tolerances`].
     pub fn find<M: Mechanism>(study: &Study<M>, question: &Question) -> Result<Self, Error> {
         let (low, high) = question.range;
         let level = question.levels.first().copied().unwrap_or(0.0);

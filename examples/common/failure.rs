@@ -1,4 +1,4 @@
-//! Why an example ends early, and the exit code that tells a script so.
+//! Why an example ends early, and the exit code that reports it.
 
 use std::io;
 use std::path::PathBuf;
@@ -8,18 +8,18 @@ use eigentol_figures::Error;
 /// Why a run ended without its full result.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// The command line asks for help or makes no sense; the message is complete.
+    /// The command line asks for help or is invalid; the message is complete.
     #[error("{0}")]
     CommandLine(Box<clap::Error>),
     /// A file or directory of the results cannot be written.
     #[error("cannot write `{}`: {reason}: choose another directory with --out", path.display())]
     Output {
-        /// Which one.
+        /// The file or directory.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         reason: String,
     },
-    /// A question to the library failed as a whole; a single point that fails is reported in the summary instead.
+    /// An analysis failed as a whole; a single point that fails is reported in the summary instead.
     #[error(transparent)]
     Solver(#[from] eigentol::Error),
     /// There is nothing to draw, or it cannot be drawn.
@@ -30,7 +30,7 @@ pub enum Failure {
     Print(#[from] io::Error),
 }
 
-/// A file that cannot be written is one of the results.
+/// Any file that cannot be written is a result file.
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
@@ -44,8 +44,8 @@ impl From<Error> for Failure {
 }
 
 impl Failure {
-    /// 0 when nothing went wrong (help was asked for, or the reader of a pipe had enough), 2 when the command line or
-    /// the output directory is at fault, 1 otherwise.
+    /// 0 if nothing went wrong (help was requested, or the reader of a pipe has gone), 2 if the command line or the output directory is at
+    /// fault, 1 otherwise.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::CommandLine(error) if !error.use_stderr() => 0,

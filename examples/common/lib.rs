@@ -1,9 +1,8 @@
-//! What the examples share: the command line, the sweep over the speed, tables, figures and files.
+//! Code shared by the examples: the command line, the sweep over the speed, tables, figures and files.
 //!
-//! An example file declares its mechanism and says what it wants to know; how that is gathered, drawn and written is
-//! here, in the order of a run:
-//! [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`pictures`], [`record`], [`summary`]; for
-//! rotors [`options`], [`rotor`]. The crate `eigentol-figures` draws.
+//! An example file declares its mechanism and its question; this crate computes, draws and writes the answers. Its modules, in the order of
+//! a run: [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`pictures`], [`record`], [`summary`]; for rotors
+//! [`options`], [`rotor`]. Figures are drawn by the crate `eigentol-figures`.
 
 pub mod analysis;
 pub mod cost;

@@ -32,8 +32,8 @@ pub struct Options {
 }
 
 impl Options {
-    /// Reads the arguments of the example `name` and makes sure that its directory can be written, so that a mistake
-    /// shows before the work and not after it.
+    /// Parses the arguments of the example `name` and checks that its directory is writable, so that a mistake shows up before the
+    /// computation, not after it.
     ///
     /// # Errors
     /// [`Failure::CommandLine`] and [`Failure::Output`].
@@ -54,7 +54,7 @@ impl Options {
         Ok(options)
     }
 
-    /// Where a file of the results goes.
+    /// The path of a results file.
     pub fn file(&self, name: &str) -> PathBuf {
         self.directory().join(name)
     }
@@ -66,7 +66,7 @@ impl Options {
             .unwrap_or_else(|| Path::new("target").join(self.name))
     }
 
-    /// Says where the figures and CSV files are.
+    /// Prints where the figures and CSV files are.
     ///
     /// # Errors
     /// [`Failure::Print`].
@@ -89,7 +89,7 @@ impl Options {
             });
         }
         fs::create_dir_all(&directory).map_err(|error| refuse(directory, error))?;
-        // Appending nothing: an earlier result survives when this run is stopped.
+        // Append nothing, so that an earlier result survives if this run is stopped.
         let probe = self.file("sweep.csv");
         let mut opening = fs::OpenOptions::new();
         match opening.append(true).create(true).open(&probe) {

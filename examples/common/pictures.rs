@@ -1,4 +1,4 @@
-//! What the figures of the paper show, taken from a sweep.
+//! The figures of the paper, drawn from a sweep.
 
 use eigentol_figures::Figure;
 use eigentol_figures::figure::{Axis, Colour, Curve, ErrorBar, Mark, Panel, Point, Shape, Stroke};
@@ -6,12 +6,12 @@ use eigentol_figures::figure::{Axis, Colour, Curve, ErrorBar, Mark, Panel, Point
 use crate::question::percent;
 use crate::sweep::{Row, Spread, Sweep};
 
-/// What a figure is drawn from.
+/// The data for a figure.
 #[derive(Clone, Debug)]
 pub struct Sweeps<'a> {
-    /// Many speeds without Monte Carlo: the curves.
+    /// Many speeds without Monte Carlo, for the curves.
     pub curve: &'a Sweep,
-    /// The speeds with Monte Carlo: the markers.
+    /// The speeds with Monte Carlo, for the markers.
     pub sampled: &'a Sweep,
     /// Critical speed, rad/s.
     pub critical: f64,
@@ -19,7 +19,7 @@ pub struct Sweeps<'a> {
     pub caption: String,
 }
 
-/// A figure and the name of its file, without the ending.
+/// A figure and its file name without extension.
 pub type Named = (&'static str, Figure);
 
 /// Equilibrium angles from the axis.
@@ -57,8 +57,8 @@ pub fn frequencies(sweeps: &Sweeps<'_>, name: &'static str, title: &str) -> Name
     (name, sweeps.figure(title, "", vec![panel]))
 }
 
-/// How far sampled mean frequencies are from the nominal ones, which are the means at first order, with their standard errors; a
-/// panel for each mode.
+/// Difference between sampled mean frequencies and the nominal ones, which are the first-order means, with standard errors; one panel per
+/// mode.
 pub fn means(sweeps: &Sweeps<'_>, name: &'static str, title: &str) -> Named {
     let (count, samples) = (sweeps.curve.modes, sweeps.sampled.samples as f64);
     let panel = |mode: usize| {
@@ -84,8 +84,8 @@ pub fn means(sweeps: &Sweeps<'_>, name: &'static str, title: &str) -> Named {
     )
 }
 
-/// Standard deviation of one mode under the first `levels` tolerances; for one tolerance alone the paper's central
-/// differences are shown too.
+/// Standard deviation of one mode under the first `levels` tolerances; for a single tolerance, the paper's central differences are
+/// included.
 pub fn deviations(
     sweeps: &Sweeps<'_>,
     name: &'static str,
@@ -117,7 +117,7 @@ pub fn deviations(
     (name, sweeps.spread_figure(title, panel))
 }
 
-/// What each variable alone contributes to the standard deviation of one mode, under the first tolerance.
+/// The contribution of each variable alone to the standard deviation of one mode, under the first tolerance.
 pub fn contributions(sweeps: &Sweeps<'_>, name: &'static str, title: &str, mode: usize) -> Named {
     let mut panel = sweeps.panel("standard deviation of the frequency", "rad/s");
     let whole = sweeps.points(|row| row.spreads[0].first_order[mode].sigma);
@@ -142,7 +142,7 @@ pub fn contributions(sweeps: &Sweeps<'_>, name: &'static str, title: &str, mode:
 }
 
 impl Spread {
-    /// Standard deviation of `mode` when only variable number `variable` varies, at first order.
+    /// First-order standard deviation of `mode` when only variable `variable` varies.
     pub fn contribution(&self, mode: usize, variable: usize) -> Option<f64> {
         let share = self.shares[mode].get(variable)?;
         Some(share.max(0.0).sqrt() * self.first_order[mode].sigma?)
@@ -185,7 +185,7 @@ impl Sweeps<'_> {
         Figure::new(title, vec![self.caption.clone(), note.to_owned()], panels)
     }
 
-    /// A figure of standard deviations: high enough for what was sampled, not for the spike of first order.
+    /// A figure of standard deviations, scaled to the samples rather than to the spike of first order.
     fn spread_figure(&self, title: &str, mut panel: Panel) -> Figure {
         let sampled = panel.markers.iter().flat_map(|own| &own.points);
         let highest = sampled.fold(0.0, |most: f64, point| most.max(point[1]));

@@ -6,10 +6,10 @@ use std::process::ExitCode;
 
 use crate::Failure;
 
-/// What an example does: arguments (the program's name first) and where to print.
+/// The signature of an example: arguments (the program's name first) and where to print.
 pub type Run = fn(Vec<OsString>, &mut dyn Write) -> Result<(), Failure>;
 
-/// Runs an example as a program: messages go to standard error, a closed pipe is no error.
+/// Runs an example as a program: messages go to standard error; a closed pipe is not an error.
 pub fn program(run: Run) -> ExitCode {
     let mut out = io::BufWriter::new(io::stdout());
     let outcome = run(std::env::args_os().collect(), &mut out)
@@ -17,7 +17,7 @@ pub fn program(run: Run) -> ExitCode {
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;
     };
-    // Where even the message cannot be written, the exit code is all that is left to say.
+    // If even the message cannot be written, only the exit code remains.
     let _ = match &failure {
         Failure::CommandLine(error) => error.print(),
         Failure::Print(_) if failure.exit_code() == 0 => Ok(()),

@@ -1,4 +1,4 @@
-//! A bar on standard error while Monte Carlo runs; nothing when that is not a terminal.
+//! A progress bar on standard error while Monte Carlo runs; hidden if that is not a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 

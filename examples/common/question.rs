@@ -1,4 +1,4 @@
-//! What is asked of a mechanism: which input is swept, what varies, and by how much.
+//! The question asked of a mechanism: which input is swept, what varies, and by how much.
 
 use eigentol::{DesignVariable, Input, Mechanism, Study};
 
@@ -16,7 +16,7 @@ pub struct Question {
 }
 
 impl Question {
-    /// The study with tolerances of one level on the varied design variables and on no other.
+    /// The study with this tolerance level on the varied design variables only.
     pub fn varied_by<M: Mechanism>(&self, study: &Study<M>, level: f64) -> Study<M> {
         (0..study.design_values().len())
             .map(DesignVariable::new)
@@ -32,7 +32,7 @@ impl Question {
     }
 }
 
-/// A tolerance in percent, as in names of columns and in legends.
+/// A tolerance in percent, as used in column names and legends.
 pub fn percent(level: f64) -> String {
     format!("{}", (1e6 * level).round() / 1e4)
 }

@@ -1,4 +1,4 @@
-//! The sweep as a CSV file: SI units, full precision, an empty field for a number that does not exist.
+//! The sweep as a CSV file: SI units, full precision, undefined numbers as empty fields.
 
 use std::path::Path;
 
@@ -10,9 +10,9 @@ use crate::sweep::{Row, Spread, Sweep};
 
 /// Writes the sweep to `path`.
 ///
-/// Columns: the speed, the angles from the axis, the frequencies, then by tolerance and mode: first order (`sigma`,
-/// `mean`), Monte Carlo (`mc_`), central differences (`fd_`), shares of the variables where several vary; and by
-/// tolerance the samples that are not stable and the distance to the critical state in standard deviations.
+/// Columns: the speed, the angles from the axis, the frequencies; then for each tolerance and mode, first order (`sigma`, `mean`), Monte
+/// Carlo (`mc_`), central differences (`fd_`), and variance shares if several variables vary; and for each tolerance, the number of
+/// unstable samples and the distance to the critical state in standard deviations.
 ///
 /// # Errors
 /// [`Failure::Output`].
@@ -29,7 +29,7 @@ pub fn write(sweep: &Sweep, path: &Path) -> Result<(), Failure> {
     writer.flush().map_err(|error| refuse(error.into()))
 }
 
-/// The name of a column and where its value is, by mode under one tolerance.
+/// The name of a column and the function that gets its value, by mode under one tolerance.
 type Column = (&'static str, fn(&Spread, usize) -> Option<f64>);
 
 const BY_MODE: [Column; 5] = [
@@ -98,7 +98,7 @@ fn fields(sweep: &Sweep, row: &Row) -> Vec<String> {
     fields
 }
 
-/// The shortest text that reads back as the same number.
+/// The shortest text that restores the same number.
 pub(crate) fn field(value: Option<f64>) -> String {
     value
         .filter(|value| value.is_finite())

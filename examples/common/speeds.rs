@@ -1,4 +1,4 @@
-//! At which speeds to look: evenly over the range, and closer where the stiffness vanishes.
+//! The speeds of a sweep: evenly spaced over the range, and closer where the stiffness vanishes.
 
 /// Distances from the critical speed, relative to it, farthest first.
 const CLOSE: [f64; 4] = [0.02, 0.01, 0.004, 0.001];
@@ -18,7 +18,7 @@ pub fn around(count: usize, (low, high): (f64, f64), critical: f64) -> Vec<f64> 
     speeds
 }
 
-/// Speeds for a smooth curve: many, and ever denser towards `critical`, which itself is left out.
+/// Speeds for a smooth curve: many, and increasingly dense towards `critical`, which is itself excluded.
 pub fn dense((low, high): (f64, f64), critical: f64) -> Vec<f64> {
     let even = (0..=320).map(|k| low + (high - low) * f64::from(k) / 320.0);
     let close = (0..40).flat_map(|k| {

@@ -1,4 +1,4 @@
-//! What a run prints: events, tables by speed, what is doubtful or failed, CPU times.
+//! The printed summary of a run: events, tables by speed, doubtful or failed points, CPU times.
 
 use std::io::{self, Write};
 
@@ -11,24 +11,24 @@ use crate::question::percent;
 use crate::sweep::{Row, Sweep};
 use crate::table::{Table, number};
 
-/// What the paper says about an example.
+/// The paper's results for an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paper {
-    /// Speed at which frequency and drive speed meet, rad/s.
+    /// Speed at which a natural frequency equals the drive speed, rad/s.
     pub resonance: f64,
     /// Critical speed, rad/s.
     pub critical: f64,
-    /// CPU time of Monte Carlo divided by that of its sensitivity method.
+    /// CPU time of Monte Carlo divided by that of the paper's sensitivity method.
     pub ratio: f64,
 }
 
-/// Rows of a table by speed: more would not fit a screen.
+/// Maximum number of rows in a table by speed, to fit a screen.
 const ROWS: usize = 14;
 
-/// Prints the speeds at which something happens.
+/// Prints the speeds of the events.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn events(
     out: &mut dyn Write,
     sweep: &Sweep,
@@ -67,11 +67,10 @@ pub fn events(
     writeln!(out, "{table}")
 }
 
-/// Prints a selection of the rows of a sweep under its first tolerance; where several variables vary, mode by mode with
-/// what each of them contributes.
+/// Prints selected rows of a sweep under its first tolerance; if several variables vary, mode by mode with the contribution of each.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn by_speed(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
     let level = sweep.question.levels.first().copied().unwrap_or(0.0);
     writeln!(
@@ -137,18 +136,18 @@ fn table(sweep: &Sweep, modes: std::ops::Range<usize>) -> Table {
     table
 }
 
-/// Evenly chosen rows; the sweep is denser near the critical speed, and so is the choice.
+/// Selects rows evenly by index, and hence more densely near the critical speed, like the sweep.
 fn selected(sweep: &Sweep) -> impl Iterator<Item = &Row> {
     let last = sweep.rows.len().saturating_sub(1);
     let count = ROWS.min(sweep.rows.len());
     (0..count).filter_map(move |k| sweep.rows.get(k * last / (count.max(2) - 1)))
 }
 
-/// Prints where first order is not to be trusted, how many samples are not stable, how well the paper's central
-/// differences agree, and which points failed.
+/// Prints where first order cannot be trusted, how many samples are unstable, how well the paper's central differences agree, and which
+/// points failed.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn checks(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
     writeln!(out, "Checks")?;
     let drawn = sweep.samples * sweep.rows.len();
@@ -211,7 +210,7 @@ pub fn checks(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Greatest relative difference of the two first-order results under the first tolerance, where they are trusted.
+/// Largest relative difference between the two first-order results under the first tolerance, where they are trusted.
 fn worst_difference(sweep: &Sweep) -> Option<f64> {
     let spreads = sweep.rows.iter().filter_map(|row| row.spreads.first());
     spreads
@@ -225,7 +224,7 @@ fn worst_difference(sweep: &Sweep) -> Option<f64> {
 /// Prints the comparison of CPU times (tables 1 and 2 of the paper).
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn costs(
     out: &mut dyn Write,
     speeds: usize,

@@ -1,5 +1,5 @@
-//! The sweep over the speed: equilibrium, frequencies, first-order and sampled spread at every speed, as plain numbers
-//! for tables, files and figures.
+//! The sweep over the speed: equilibrium, frequencies, first-order and sampled spread at every speed, as plain numbers for tables, files
+//! and figures.
 
 use eigentol::sensitivity::{sensitivities, sensitivities_by_finite_difference};
 use eigentol::sweep::SweepPoint;
@@ -28,7 +28,7 @@ pub struct Sweep {
     pub rows: Vec<Row>,
 }
 
-/// One speed. A number that does not exist (no frequency, because a mode diverges) is `None`.
+/// Results at one speed; undefined numbers (no frequency, because a mode diverges) are `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
     /// Speed, rad/s.
@@ -39,11 +39,11 @@ pub struct Row {
     pub frequencies: Vec<Option<f64>>,
     /// One entry for each tolerance.
     pub spreads: Vec<Spread>,
-    /// What failed here.
+    /// The errors at this speed.
     pub troubles: Vec<String>,
 }
 
-/// What one tolerance does at one speed.
+/// The effect of one tolerance at one speed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spread {
     /// First order, by mode; its mean is the nominal frequency.
@@ -54,11 +54,11 @@ pub struct Spread {
     pub sampled: Vec<Moments>,
     /// Share of each varied variable in the variance, by mode.
     pub shares: Vec<Vec<f64>>,
-    /// Standard deviations to the critical state; `None` when infinite.
+    /// Distance to the critical state in standard deviations; `None` if infinite.
     pub distance: Option<f64>,
     /// Whether first order can be trusted here.
     pub trusted: bool,
-    /// Samples that are not stable, whatever the reason; `None` without Monte Carlo.
+    /// Number of samples that are not stable, whatever the reason; `None` without Monte Carlo.
     pub unstable: Option<usize>,
 }
 
@@ -72,10 +72,10 @@ pub struct Moments {
 }
 
 impl Sweep {
-    /// Asks `question` at `speeds`; with `sampling` also by Monte Carlo.
+    /// Answers `question` at `speeds`, with `sampling` also by Monte Carlo.
     ///
     /// # Errors
-    /// Only those that concern every point; a point that fails says so in its row.
+    /// Only errors that concern every point; a point that fails is reported in its row.
     pub fn run<M: Mechanism>(
         study: &Study<M>,
         question: &Question,
@@ -135,8 +135,7 @@ fn row<M: Mechanism>(
     match &point.modes {
         Ok(modes) => {
             row.frequencies = modes.frequencies().to_vec();
-            // Every speed and tolerance draws its own samples: with the same ones everywhere the error of one sample
-            // would look like a systematic one.
+            // Every speed and tolerance draws its own samples: shared samples would make random error look systematic.
             let first_stream = place * question.levels.len() as u64;
             for ((k, &level), stream) in question.levels.iter().enumerate().zip(first_stream..) {
                 let sampling = sampling.map(|sampling| sampling.clone().stream(stream));
@@ -180,8 +179,8 @@ impl Spread {
         }
     }
 
-    /// Fills in everything; what was found before an error stays. The samples come first, because they exist also at an
-    /// exactly critical state, which has no derivatives.
+    /// Fills in all results, keeping those found before an error. Samples come first because they also exist at an exactly critical state,
+    /// which has no derivatives.
     fn fill<M: Mechanism>(
         &mut self,
         question: &Question,

@@ -1,15 +1,15 @@
-//! Columns of text, aligned to the right.
+//! Right-aligned text columns.
 
 use std::fmt;
 
-/// A table: a head and rows.
+/// A table with a header and rows.
 #[derive(Clone, Debug)]
 pub struct Table {
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// A table with its head.
+    /// Creates a table with its header.
     pub fn new(head: impl IntoIterator<Item = String>) -> Self {
         Self {
             rows: vec![head.into_iter().collect()],
@@ -40,7 +40,7 @@ impl fmt::Display for Table {
     }
 }
 
-/// A number with fixed decimals, `-` where there is none; what rounds to zero has no sign.
+/// A number with fixed decimals, or `-` if missing; a value that rounds to zero has no sign.
 pub fn number(value: Option<f64>, decimals: usize) -> String {
     let Some(value) = value else {
         return "-".to_owned();

@@ -1,4 +1,4 @@
-//! The example in C: compiled, linked with the static library, and its numbers against those of the solvers.
+//! The C example: compiled, linked with the static library, and its numbers compared with those of the solvers.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ fn done(command: &mut Command) -> Output {
     output
 }
 
-/// Builds the static library with the dependencies of this workspace; where it is.
+/// Builds the static library with the dependencies of this workspace and returns its path.
 fn library() -> PathBuf {
     let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock");
     fs::copy(lock, folder().join("Cargo.lock")).unwrap();
@@ -41,7 +41,7 @@ fn library() -> PathBuf {
     target.join("release/libdouble_pendulum.a")
 }
 
-/// The lines `name number unit` of the program.
+/// Parses the lines `name number unit` printed by the program.
 fn numbers(output: &Output) -> BTreeMap<String, f64> {
     let text = String::from_utf8(output.stdout.clone()).unwrap();
     let line = |line: &str| {
@@ -52,7 +52,7 @@ fn numbers(output: &Output) -> BTreeMap<String, f64> {
     text.lines().map(line).collect()
 }
 
-/// The same from Rust.
+/// Computes the same numbers from Rust.
 fn expected() -> BTreeMap<String, f64> {
     let study = Study::new(Pendulum)
         .input(Pendulum::omega, 5.0)

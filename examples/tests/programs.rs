@@ -1,4 +1,4 @@
-//! The examples as programs: options, exit codes, files, and their numbers against closed forms.
+//! The examples as programs: options, exit codes, files, and their numbers compared with closed forms.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::BTreeMap;
@@ -33,7 +33,7 @@ const SINGLE: Run = rotating_pendulum::run;
 const DOUBLE: Run = rotating_double_pendulum::run;
 const ROTOR: Run = jeffcott_rotor::run;
 
-/// 3 g / 2 for a bar of 1 m: the square of the critical speed.
+/// The square of the critical speed of a 1 m bar: 3 g / 2.
 const W: f64 = 1.5 * 9.81;
 
 fn directory(name: &str) -> PathBuf {
@@ -42,7 +42,7 @@ fn directory(name: &str) -> PathBuf {
     path
 }
 
-/// Runs an example with `options` into a fresh directory; what it printed and where its files are.
+/// Runs an example with `options` in a fresh directory; returns its printed output and the directory of its files.
 fn run(example: Run, name: &str, options: &[&str]) -> (String, PathBuf) {
     let path = directory(name);
     let mut arguments: Vec<OsString> = vec![name.into()];
@@ -58,7 +58,7 @@ fn refused(example: Run, arguments: &[&str]) -> Failure {
     example(arguments.map(OsString::from).collect(), &mut io::sink()).unwrap_err()
 }
 
-/// A CSV file by column; every field that is not empty is a finite number.
+/// Reads a CSV file by columns; every non-empty field must be a finite number.
 fn columns(path: &Path) -> BTreeMap<String, Vec<Option<f64>>> {
     let mut reader = csv::Reader::from_path(path).unwrap();
     let head = reader.headers().unwrap().clone();

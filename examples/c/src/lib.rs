@@ -5,7 +5,7 @@ use core::panic::PanicInfo;
 
 include!(concat!(env!("OUT_DIR"), "/double_pendulum.rs"));
 
-/// Kernels do not panic; the language asks for this.
+/// Kernels do not panic, but the language requires a handler.
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
     loop {}

@@ -1,4 +1,4 @@
-//! Speeds at which something happens to a rotor: a frequency meets an order, or an oscillation begins or ceases to grow.
+//! Speeds at which a rotor has an event: a frequency meets an order, or an oscillation begins or ceases to grow.
 
 use eigentol::modes::{Whirl, whirls};
 use eigentol::sweep::crossing_tolerance;
@@ -8,7 +8,7 @@ use eigentol::{Complex, Error, Mechanism, Study};
 
 use super::RotorQuestion;
 
-/// What happens.
+/// The kind of event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Happening {
     /// A frequency is this multiple of the speed.
@@ -17,10 +17,10 @@ pub enum Happening {
     Onset,
 }
 
-/// Something that happens at a speed.
+/// An event at a speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorEvent {
-    /// What happens.
+    /// The kind of event.
     pub happening: Happening,
     /// Number of the mode along the Campbell diagram, from 0.
     pub mode: usize,
@@ -30,7 +30,7 @@ pub struct RotorEvent {
     pub s: Complex,
     /// How the mode whirls.
     pub whirl: Option<Whirl>,
-    /// How the design moves the speed, or why it has no derivative.
+    /// The sensitivity of the speed to the design, or why it has no derivative.
     pub spread: Result<Spread, Error>,
 }
 
@@ -40,7 +40,7 @@ impl RotorEvent {
         self.spread.as_ref().ok().map(|spread| spread.sigma)
     }
 
-    /// What happens, in words.
+    /// The event in words.
     pub fn name(&self) -> String {
         let mode = self.mode + 1;
         match self.happening {
@@ -50,10 +50,10 @@ impl RotorEvent {
     }
 }
 
-/// Everything that happens over the range of the question: the orders one by one, then the onsets.
+/// All events over the range of the question: the orders one by one, then the onsets.
 ///
 /// # Errors
-/// Those of [`Study::crossings`], [`Study::flutter_onsets`] and [`Study::tolerances`].
+/// The errors of [`Study::crossings`], [`Study::flutter_onsets`] and [`Study::tolerances`].
 pub fn find<M: Mechanism>(
     study: &Study<M>,
     question: &RotorQuestion,

@@ -1,4 +1,4 @@
-//! The neighbourhood of the running speed as a figure.
+//! A figure of the frequencies near the running speed.
 
 use eigentol::Campbell;
 use eigentol_figures::figure::{Colour, ErrorBar, Shape};
@@ -6,10 +6,10 @@ use eigentol_figures::{Error, Figure, Style, campbell};
 
 use super::{HZ, RPM, Risk, RotorQuestion};
 
-/// Frequencies near the running speed with their bands, the forbidden band with the probabilities that modes are in it, and the samples.
+/// Frequencies near the running speed with their bands, the forbidden band with the probability of each mode lying in it, and the samples.
 ///
 /// # Errors
-/// [`Error::Nothing`] where no mode oscillates.
+/// [`Error::Nothing`] if no mode oscillates.
 pub fn margin(
     question: &RotorQuestion,
     close: &Campbell,

@@ -1,7 +1,7 @@
-//! What a rotor is asked over its speed, and the answers: Campbell diagram ([`eigentol::Campbell`]), critical speeds and
-//! onsets of instability ([`events`]), risks at the running speed ([`risk`]); printed by [`tables`], written by [`record`].
+//! The analyses of a rotor over its speed: Campbell diagram ([`eigentol::Campbell`]), critical speeds and onsets of instability
+//! ([`events`]), risks at the running speed ([`risk`]); printed by [`tables`], written by [`record`].
 //!
-//! Engineers of rotating machinery count turns: speeds are shown in rpm, frequencies in Hz. Files are in SI units.
+//! As usual for rotating machinery, speeds are shown in rpm and frequencies in Hz. Files are in SI units.
 
 pub mod events;
 pub mod margin;
@@ -22,26 +22,26 @@ pub const RPM: f64 = PI / 30.0;
 /// One cycle per second, rad/s.
 pub const HZ: f64 = TAU;
 
-/// What is asked of a rotor.
+/// The question asked of a rotor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorQuestion {
-    /// The speed.
+    /// The speed input.
     pub speed: Input,
     /// Lowest and highest speed, rad/s.
     pub range: (f64, f64),
-    /// Speed at which the machine runs, rad/s.
+    /// Running speed of the machine, rad/s.
     pub running: f64,
-    /// Orders that excite it: multiples of the speed.
+    /// Excitation orders: multiples of the speed.
     pub orders: Vec<f64>,
-    /// Frequencies nearer to the running speed than this fraction of it are forbidden.
+    /// Fraction of the running speed within which frequencies are forbidden.
     pub margin: f64,
 }
 
 impl RotorQuestion {
-    /// The Campbell diagram at `count` speeds, evenly from `low` to `high`, rad/s.
+    /// The Campbell diagram at `count` evenly spaced speeds from `low` to `high`, rad/s.
     ///
     /// # Errors
-    /// Those of [`Study::campbell`].
+    /// The errors of [`Study::campbell`].
     pub fn campbell<M: Mechanism>(
         &self,
         study: &Study<M>,
@@ -60,7 +60,7 @@ impl RotorQuestion {
         Input::new(self.speed.index())
     }
 
-    /// Ends of the forbidden band at the running speed, rad/s.
+    /// Ends of the forbidden frequency band at the running speed, rad/s.
     pub fn band(&self) -> (f64, f64) {
         (
             self.running * (1.0 - self.margin),
@@ -69,7 +69,7 @@ impl RotorQuestion {
     }
 }
 
-/// The sense of a whirl as one letter, `-` where there is none.
+/// The sense of a whirl as one letter, `-` if there is no whirl.
 pub fn letter(whirl: Option<Whirl>) -> &'static str {
     match whirl.map(Whirl::sense) {
         Some(Sense::Forward) => "F",

@@ -1,4 +1,4 @@
-//! A rotor's results as CSV files: SI units, full precision, an empty field for a number that does not exist.
+//! A rotor's results as CSV files: SI units, full precision, undefined numbers as empty fields.
 
 use std::path::Path;
 
@@ -9,8 +9,10 @@ use super::events::{Happening, RotorEvent};
 use crate::Failure;
 use crate::record::field;
 
-/// Writes the points of a Campbell diagram: the speed, then by mode its frequency, growth, damping ratio, the standard
-/// deviations of frequency and damping ratio, and the ratio of its whirl (1 forward, -1 backward).
+/// Writes the points of a Campbell diagram to a CSV file.
+///
+/// Columns: the speed, then for each mode its frequency, growth, damping ratio, the standard deviations of frequency and damping ratio, and
+/// its whirl ratio (1 forward, -1 backward).
 ///
 /// # Errors
 /// [`Failure::Output`].
@@ -46,11 +48,13 @@ pub fn diagram(campbell: &Campbell, path: &Path) -> Result<(), Failure> {
     write(path, head, campbell.points.iter().map(row))
 }
 
-/// The name of a column and where its value is.
+/// The name of a column and the function that gets its value.
 type Column = (&'static str, fn(&CampbellMode) -> Option<f64>);
 
-/// Writes the events: what happens to which mode, the speed with its standard deviation, frequency, growth and whirl
-/// there, and the derivatives of the speed by the design variables called `names`.
+/// Writes the events to a CSV file.
+///
+/// Columns: the event and its mode, the speed with its standard deviation, frequency, growth and whirl there, and the derivatives of the
+/// speed with respect to the design variables `names`.
 ///
 /// # Errors
 /// [`Failure::Output`].

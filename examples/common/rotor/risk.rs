@@ -1,5 +1,5 @@
-//! What the tolerances do at the running speed: spread of every mode to second order, how probable it is that a frequency
-//! lies near the running speed or that the rotor is unstable, and the same from Monte Carlo.
+//! The effect of tolerances at the running speed: spread of every mode to second order, the probability that a frequency lies near the
+//! running speed or that the rotor is unstable, and the same by Monte Carlo.
 
 use eigentol::modes::Whirl;
 use eigentol::second_order::{Band, Quadratic, SecondOrderSpread};
@@ -9,15 +9,15 @@ use eigentol::{Complex, Error, Mechanism, Study};
 use super::RotorQuestion;
 use crate::progress;
 
-/// Samples held in memory at a time.
+/// Number of samples held in memory at a time.
 const BLOCK: usize = 1 << 14;
 
 /// The rotor at its running speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Risk {
-    /// One entry for each mode, ascending in the natural frequency.
+    /// One entry for each mode, by ascending natural frequency.
     pub modes: Vec<ModeRisk>,
-    /// Probability that the rotor is unstable: at first and second order that of its least damped mode.
+    /// Probability that the rotor is unstable; at first and second order, that its least damped mode is.
     pub unstable: Chance,
 }
 
@@ -26,13 +26,13 @@ pub struct Risk {
 pub struct ModeRisk {
     /// Nominal eigenvalue, 1/s.
     pub s: Complex,
-    /// How it whirls.
+    /// Its whirl.
     pub whirl: Option<Whirl>,
-    /// Its frequency to second order, rad/s; `None` where it has no derivatives of its own.
+    /// Its frequency to second order, rad/s; `None` if the mode has no derivatives of its own.
     pub frequency: Option<SecondOrderSpread>,
-    /// Its damping ratio to second order; `None` likewise.
+    /// Its damping ratio to second order; `None` if the mode has no derivatives of its own.
     pub damping_ratio: Option<SecondOrderSpread>,
-    /// Its frequency over all samples where it oscillates, rad/s.
+    /// Its frequency over all samples in which it oscillates, rad/s.
     pub sampled_frequency: Sampled,
     /// Its damping ratio over the same samples.
     pub sampled_damping_ratio: Sampled,
@@ -40,14 +40,14 @@ pub struct ModeRisk {
     pub in_band: Chance,
 }
 
-/// A probability by three ways; `None` where a mode has no derivatives of its own.
+/// A probability computed in three ways; the models give `None` if a mode has no derivatives of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Chance {
     /// At first order.
     pub first_order: Option<f64>,
-    /// Exact for the second-order model.
+    /// Exact probability of the second-order model.
     pub second_order: Option<f64>,
-    /// Samples for which it is so.
+    /// Number of samples that meet the condition.
     pub hits: usize,
     /// Number of samples.
     pub samples: usize,
@@ -99,10 +99,10 @@ impl Sampled {
 }
 
 impl Risk {
-    /// Asks at the running speed; the samples are those that `study` is set to take.
+    /// Assesses the rotor at its running speed, with the sampling settings of `study`.
     ///
     /// # Errors
-    /// Those of [`Study::modes`], [`Study::second_order`] and [`Study::monte_carlo`].
+    /// The errors of [`Study::modes`], [`Study::second_order`] and [`Study::monte_carlo`].
     pub fn assess<M: Mechanism>(
         study: &Study<M>,
         question: &RotorQuestion,
@@ -141,7 +141,7 @@ impl Risk {
         Ok(risk)
     }
 
-    /// Probability that the damping ratio of the least damped mode is negative, by its models.
+    /// Probability that the damping ratio of the least damped mode is negative, by the models of that mode.
     fn of_instability(&self, tolerances: &Tolerances) -> Chance {
         let models = self
             .modes

@@ -9,13 +9,13 @@ use super::risk::{Chance, Risk};
 use super::{HZ, RPM, RotorEvent, RotorQuestion, letter};
 use crate::table::{Table, number};
 
-/// Rows of the table of a diagram: more would not fit a screen.
+/// Maximum number of rows in the table of a diagram, to fit a screen.
 const ROWS: usize = 13;
 
 /// Prints a selection of the points of a Campbell diagram.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn diagram(out: &mut dyn Write, campbell: &Campbell) -> io::Result<()> {
     writeln!(
         out,
@@ -60,10 +60,10 @@ pub fn diagram(out: &mut dyn Write, campbell: &Campbell) -> io::Result<()> {
     Ok(())
 }
 
-/// Prints the events and what every tolerance does to them.
+/// Prints the events and the effect of every tolerance on them.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn events(
     out: &mut dyn Write,
     events: &[RotorEvent],
@@ -127,10 +127,10 @@ pub fn events(
     writeln!(out, "{table}")
 }
 
-/// Prints what the tolerances do at the running speed.
+/// Prints the effect of the tolerances at the running speed.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn risk(out: &mut dyn Write, risk: &Risk, question: &RotorQuestion) -> io::Result<()> {
     let samples = risk.unstable.samples;
     writeln!(
@@ -230,13 +230,13 @@ fn hertz(frequency: Option<f64>) -> String {
     number(frequency.map(|frequency| frequency / HZ), 2)
 }
 
-/// Three significant digits.
+/// Formats a value with three significant digits.
 fn significant(value: f64) -> String {
     let before = value.abs().log10().floor() as i32;
     number(Some(value), (2 - before).clamp(0, 9) as usize)
 }
 
-/// The first, the last and evenly between them.
+/// Selects the first and last items and evenly spaced ones between them.
 fn selected<T>(all: &[T]) -> impl Iterator<Item = &T> {
     let rows = ROWS.min(all.len());
     let place = move |row: usize| row * (all.len() - 1) / (rows - 1).max(1);

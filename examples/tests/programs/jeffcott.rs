@@ -1,5 +1,5 @@
-//! The rotor against equations written by hand: `det(s^2 M + s (C - i W G) + K - i W D) = 0` in displacements and slopes of
-//! the shaft, solved again for every design derivative; and against the closed forms of Jeffcott's rotor.
+//! The rotor compared with hand-written equations, `det(s^2 M + s (C - i W G) + K - i W D) = 0` in displacements and slopes of the shaft,
+//! solved again for every design derivative; and with the closed forms of Jeffcott's rotor.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use eigentol_figures::Style;
 use super::jeffcott_rotor::JeffcottRotor;
 use super::{columns, run};
 
-/// In the order of the declaration.
+/// Nominal design, in the order of the declaration.
 const DESIGN: [f64; 10] = [
     206e9, 0.030, 0.260, 0.320, 80e-6, 0.250, 0.030, 150e3, 250e3, 80.0,
 ];
@@ -21,7 +21,7 @@ const HALF_WIDTHS: [f64; 10] = [
     4.12e9, 1e-4, 1e-3, 1e-3, 24e-6, 2e-4, 2e-4, 30e3, 50e3, 24.0,
 ];
 
-/// What the design means: mass, moments of inertia across and along the axis, stiffness of the shaft.
+/// Physical parameters of the design: mass, moments of inertia across and along the axis, stiffness of the shaft.
 struct Rotor {
     mass: f64,
     across: f64,
@@ -54,7 +54,7 @@ fn determinant(design: [f64; 10], speed: f64, s: Complex) -> Complex {
     let [k11, k12, k22] = rotor.shaft;
     let mut d = [[Complex::new(0.0, 0.0); 4]; 4];
     for (i, j, k) in [(0, 0, k11), (0, 2, k12), (2, 0, k12), (2, 2, k22)] {
-        // Material damping sees rates in the turning frame: z' - i W z.
+        // Material damping acts on rates in the rotating frame: z' - i W z.
         d[i][j] += k * (1.0 + lag * s);
         d[i + 1][j + 1] += k * (1.0 + lag * s);
         d[i][j + 1] += k * lag * speed;
@@ -90,7 +90,7 @@ fn eliminate(mut d: [[Complex; 4]; 4]) -> Complex {
     product
 }
 
-/// Newton's method in two unknowns, with differences for slopes.
+/// Newton's method in two unknowns, with finite-difference slopes.
 fn solve(start: [f64; 2], equation: impl Fn([f64; 2]) -> Complex) -> [f64; 2] {
     let mut at = start;
     for _ in 0..20 {
@@ -132,7 +132,7 @@ fn every_mode_solves_the_equations_written_by_hand() {
             let solved = solve([growth, frequency], |[growth, frequency]| {
                 determinant(DESIGN, speed, Complex::new(growth, frequency))
             });
-            // Gravity tilts the disk by 3e-4: its square is what the equations by hand leave out.
+            // Gravity tilts the disk by 3e-4; the hand-written equations neglect its square.
             let size = frequency.hypot(growth);
             let error = (solved[1] - frequency).hypot(solved[0] - growth) / size;
             assert!(error < 3e-7, "mode {mode} at {speed}: {error:e}");
@@ -142,7 +142,7 @@ fn every_mode_solves_the_equations_written_by_hand() {
                 -growth / size,
                 1e-12,
             );
-            // Rotors whirl forward at rising, backward at falling frequencies.
+            // Frequencies rise with forward whirl and fall with backward whirl.
             if row > 0 {
                 let before = columns[&format!("frequency_{mode}")][row - 1].unwrap();
                 let whirl = value("whirl").unwrap();
@@ -189,7 +189,7 @@ fn every_event_and_its_derivatives_are_those_of_the_equations_written_by_hand() 
             printed.contains(&format!("{:.2}", frequency / HZ)),
             "{printed}"
         );
-        // One unknown is the speed, the other what the event leaves open: the growth, or the frequency.
+        // The unknowns are the speed and the quantity the event leaves free: the growth or the frequency.
         let order = row["order"].parse::<f64>().ok();
         let open = order.map_or(frequency, |_| number("growth"));
         let solved = |design: [f64; 10]| {
@@ -212,7 +212,7 @@ fn every_event_and_its_derivatives_are_those_of_the_equations_written_by_hand() 
             };
             let slope = (moved(1.0) - moved(-1.0)) / (2.0 * step);
             let found = number(&format!("by_{}", info.name));
-            // Relative to what a relative change does to the speed itself.
+            // Error relative to the effect of a relative change on the speed itself.
             let error = (found - slope).abs() * DESIGN[j] / speed;
             assert!(
                 error < 1e-6,
@@ -225,13 +225,13 @@ fn every_event_and_its_derivatives_are_those_of_the_equations_written_by_hand() 
     }
 }
 
-/// A CSV file by row.
+/// Reads a CSV file by rows.
 fn fs_table(path: &std::path::Path) -> Vec<std::collections::BTreeMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).unwrap();
     reader.deserialize().map(Result::unwrap).collect()
 }
 
-/// The disk in the middle and the seal the same all around: displacement and tilt part, and both have closed forms.
+/// With the disk in the middle and an isotropic seal, displacement and tilt decouple, and both have closed forms.
 #[test]
 fn the_plain_rotor_has_the_closed_forms_of_jeffcott() {
     type Plain = JeffcottRotor;
@@ -363,7 +363,7 @@ fn monte_carlo_confirms_the_risks_whatever_the_threads() {
     let out = [0, 1, 3].map(|mode| risk.modes[mode].in_band.hits);
     assert_eq!(out, [0, 0, 0]);
 
-    // In the figure each mode has one bar of the samples, and the one mode that can be in the band its probability.
+    // In the figure each mode has one bar for the samples, and the one mode that can enter the band shows its probability.
     let study = Study::new(JeffcottRotor);
     let close = question.campbell(&study, (2400.0 * RPM, 3600.0 * RPM), 5);
     let figure = margin(&question, &close.unwrap(), &risk, Style::default()).unwrap();

@@ -1,4 +1,4 @@
-//! The bicycle against the published benchmark (Meijaard, Papadopoulos, Ruina and Schwab 2007).
+//! The bicycle compared with the published benchmark (Meijaard, Papadopoulos, Ruina and Schwab 2007).
 
 use std::fs;
 

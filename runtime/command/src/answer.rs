@@ -1,4 +1,4 @@
-//! An answer: results as what people read, as tables, or as documents.
+//! An answer: results as readable text, tables or documents.
 
 use std::fmt::Display;
 
@@ -7,13 +7,13 @@ use eigentol_tables::{Table, csv, json, parquet};
 
 use crate::failure::Failure;
 
-/// The results of a question; that which answers it comes first.
+/// The results of a question; the one that answers it comes first.
 pub(crate) struct Answer {
     form: Form,
     results: Vec<Written>,
 }
 
-/// In which form results are written.
+/// The format in which results are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
     Text,
@@ -23,16 +23,16 @@ pub(crate) enum Form {
 }
 
 impl Form {
-    /// Whether it is one table.
+    /// Whether the format holds a single table.
     pub(crate) fn has_rows(self) -> bool {
         matches!(self, Self::Csv | Self::Parquet)
     }
 }
 
-/// A result in its form.
+/// A formatted result.
 struct Written {
     kind: &'static str,
-    /// As text or as a document.
+    /// The result as text or as a document.
     text: String,
     tables: Vec<Table>,
     aside: bool,
@@ -66,7 +66,7 @@ impl Answer {
         Ok(())
     }
 
-    /// Adds a result that as text is only shown where it is asked for, because another says what is in it.
+    /// Adds a result whose text is shown only on request, because another result already includes it.
     pub(crate) fn add_aside<R: Display + eigentol_tables::Answer>(
         &mut self,
         result: &R,
@@ -78,7 +78,8 @@ impl Answer {
         Ok(())
     }
 
-    /// The answer in its form: as text all results that are not aside or the one of this kind, otherwise that one or the first.
+    /// The formatted answer: as text, the result of this kind or else all results not set aside; otherwise the result of this kind or the
+    /// first.
     pub(crate) fn written(
         &self,
         kind: Option<&str>,
@@ -103,7 +104,7 @@ impl Answer {
     }
 }
 
-/// The one of this name, or the first where none is named.
+/// The item with this name, or the first if no name is given.
 fn named<'a, T>(
     what: &str,
     all: &'a [T],
@@ -126,8 +127,8 @@ fn named<'a, T>(
     })
 }
 
-/// The one that is called so, or the only one whose name begins so; letters of either case, and `_`, `-` and spaces are one: the
-/// library's `first_order` is the first of the words `first-order tolerances`.
+/// The item with exactly this name, or the only one whose name begins with it. Case is ignored, and `_`, `-` and spaces are equivalent: the
+/// library's `first_order` matches `first-order tolerances`.
 fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) -> Option<&'a T> {
     let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
     let name = plain(name);

@@ -45,7 +45,7 @@ pub(crate) enum Color {
 }
 
 impl Color {
-    /// What is asked for on a command line that could not be read.
+    /// The setting requested on a command line that could not be parsed.
     fn asked() -> Self {
         let arguments: Vec<String> = (std::env::args_os())
             .map(|own| own.to_string_lossy().into_owned())
@@ -61,7 +61,7 @@ impl Color {
         known.unwrap_or(Self::Auto)
     }
 
-    /// Whether a text is coloured that is written to a terminal, or not.
+    /// Whether to colour text, given whether it is written to a terminal.
     pub(crate) fn on(self, terminal: bool) -> bool {
         // https://no-color.org
         let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
@@ -73,7 +73,7 @@ impl Color {
     }
 }
 
-/// Adds to what is wrong with a command line the option that a value was meant for.
+/// Adds to a command-line error the option for which a value was probably meant.
 pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
     let given = match error.get(ContextKind::InvalidArg) {
         Some(ContextValue::String(given)) if error.kind() == ErrorKind::UnknownArgument => given,
@@ -102,7 +102,7 @@ pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Prints what is wrong with a command line, or the help that was asked for.
+/// Prints a command-line error, or the requested help.
 pub(crate) fn explain(error: &clap::Error) {
     let terminal = match error.use_stderr() {
         true => io::stderr().is_terminal(),
@@ -112,7 +112,7 @@ pub(crate) fn explain(error: &clap::Error) {
         true => error.render().ansi().to_string(),
         false => error.render().to_string(),
     };
-    // Where nobody reads it, there is nothing more to say.
+    // If the output is closed, there is nothing more to say.
     let _ = match error.use_stderr() {
         true => io::stderr().write_all(text.as_bytes()),
         false => io::stdout().write_all(text.as_bytes()),
@@ -139,7 +139,7 @@ enum Command {
 }
 
 impl Arguments {
-    /// Does what was asked for; messages go to standard error.
+    /// Runs the command; messages go to standard error.
     pub(crate) fn run(self) -> ExitCode {
         let color = self.color;
         let code = match interrupt::watch().and_then(|()| self.command.run(color)) {

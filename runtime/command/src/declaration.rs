@@ -1,4 +1,4 @@
-//! The file with a declaration.
+//! The declaration file.
 
 use std::fs;
 use std::io::{self, Read as _};
@@ -11,7 +11,7 @@ use eigentol_interpreter::Interpreted;
 use crate::failure::Failure;
 use crate::mistake::Mistake;
 
-/// A declaration as it was read.
+/// The text of a declaration.
 pub(crate) struct Declaration {
     /// Path as the user wrote it.
     pub(crate) name: String,
@@ -19,7 +19,7 @@ pub(crate) struct Declaration {
 }
 
 impl Declaration {
-    /// Reads a file, or standard input where the path is `-`.
+    /// Reads a file, or standard input if the path is `-`.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let failure = |source| Failure::read(path, source);
         if path.as_os_str() == "-" {
@@ -33,13 +33,13 @@ impl Declaration {
         Ok(Self { name, text })
     }
 
-    /// What the compiler makes of it.
+    /// Compiles the declaration.
     pub(crate) fn compiled(&self) -> Result<Compilation, Failure> {
         compile_text(&self.text, Limits::default())
             .map_err(|mistakes| self.refused(mistakes.iter().map(Mistake::from).collect()))
     }
 
-    /// The mechanism that it declares.
+    /// The declared mechanism.
     pub(crate) fn mechanism(&self) -> Result<Interpreted, Failure> {
         Ok(Interpreted::new(&self.compiled()?))
     }

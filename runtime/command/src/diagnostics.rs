@@ -1,4 +1,4 @@
-//! Messages as rustc draws them.
+//! Messages in the style of rustc.
 
 use std::fmt::Display;
 use std::io::{IsTerminal as _, Write as _, stderr};
@@ -30,25 +30,25 @@ pub(crate) fn say(failure: &Failure, color: Color) {
     write(&text);
 }
 
-/// Writes what may be a mistake in a declaration to standard error.
+/// Writes a warning about a declaration to standard error.
 pub(crate) fn warn(declaration: &Declaration, warning: &Mistake, color: Color) {
     let Declaration { name, text } = declaration;
     let warning = drawn(Level::WARNING, name, text, warning, &renderer(color));
     write(&format!("{warning}\n"));
 }
 
-/// Writes to standard error why the answer is not all that was hoped for.
+/// Writes to standard error why the answer is negative or incomplete.
 pub(crate) fn say_no(word: &str, reason: &str, color: Color) {
     let group = Group::with_title(Level::WARNING.with_name(word).primary_title(reason));
     write(&renderer(color).render(&[group]));
 }
 
-/// Writes a remark to standard error.
+/// Writes a note to standard error.
 pub(crate) fn note(note: &impl Display) {
     write(&format!("note: {note}"));
 }
 
-/// Where standard error cannot be written to, nobody can be told.
+/// If standard error cannot be written to, nothing can be reported.
 fn write(text: &str) {
     let _ = writeln!(stderr(), "{text}");
 }
@@ -69,7 +69,7 @@ fn title(message: &str, help: Option<&str>, renderer: &Renderer) -> String {
     renderer.render(&[group])
 }
 
-/// A mistake under the line that has it.
+/// Draws a mistake below its source line.
 fn drawn(
     level: Level<'_>,
     name: &str,
@@ -87,11 +87,11 @@ fn drawn(
     renderer.render(&[group])
 }
 
-/// The bytes between two places that count lines and characters from 1.
+/// The byte range between two positions, whose lines and characters count from 1.
 fn bytes(source: &str, mistake: &Mistake) -> Range<usize> {
     let start = byte(source, mistake.start);
     let end = byte(source, mistake.end);
-    // At the end of a text there is nothing to point at but its last character.
+    // At the end of the text, only its last character can be marked.
     let start = start.min(source.trim_end().len().saturating_sub(1));
     let start = (0..=start).rev().find(|&at| source.is_char_boundary(at));
     let start = start.unwrap_or(0);

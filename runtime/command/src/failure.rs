@@ -1,4 +1,4 @@
-//! Everything that can go wrong, each with what to do about it and an exit code.
+//! All failures, each with advice and an exit code.
 
 use std::fmt::Display;
 use std::io;
@@ -19,7 +19,7 @@ pub(crate) enum Failure {
     Write { path: PathBuf, source: io::Error },
     #[error("cannot write to standard output: {0}")]
     Print(io::Error),
-    /// Drawn in the text.
+    /// Drawn in the source text.
     #[error("`{name}` has {} {}", .mistakes.len(), plural(.mistakes.len(), "mistake", "mistakes"))]
     Declaration {
         name: String,
@@ -57,12 +57,12 @@ pub(crate) enum Failure {
     Table(#[from] eigentol_tables::Error),
     #[error("{0}")]
     Figure(#[from] eigentol_figures::Error),
-    /// The reader of a pipe has gone: no failure.
+    /// The reader of a pipe has gone; not a failure.
     #[error("nobody reads the output")]
     NobodyReads,
 }
 
-/// 1 where the analysis says no, 2 for a wrong command line, 3 for a bad file.
+/// Exit code 1 if the analysis says no, 2 for a wrong command line, 3 for a bad file.
 impl Failure {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
@@ -95,7 +95,7 @@ impl Failure {
         }
     }
 
-    /// What to do about it.
+    /// Advice on how to fix it.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Usage(_, help) | Self::Value { help, .. } => help.clone(),
@@ -110,13 +110,13 @@ impl Failure {
         Self::Usage(message.into(), Some(help.into()))
     }
 
-    /// A value that cannot be read, `place` as the user wrote it. One mistake is enough for one value.
+    /// An unreadable value; `place` is as the user wrote it. Only the first mistake is reported.
     pub(crate) fn value(place: impl Display, mistakes: &Mistakes) -> Self {
         let first = mistakes.iter().next();
         let message = first.map_or("", |mistake| &mistake.message);
         Self::Value {
             place: place.to_string(),
-            // A declaration would go on here with its next item.
+            // In a declaration, the next item would follow here.
             message: message.replace("expected `;`, found", "unexpected"),
             help: first.and_then(|mistake| mistake.help.clone()),
         }

@@ -1,4 +1,4 @@
-//! Ctrl-C: work that can stop half-way keeps what it has done, any other ends at once.
+//! Ctrl-C handling: interruptible work keeps its results, any other work ends at once.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,13 +6,13 @@ use std::sync::{Arc, LazyLock};
 
 use crate::failure::Failure;
 
-/// Exit code of a program that SIGINT has ended: 128 and the number of the signal.
+/// Exit code of a program ended by SIGINT: 128 plus the signal number.
 pub(crate) const INTERRUPTED: u8 = 130;
 
 static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 static STOPPABLE: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C ends the program with a message.
+/// Makes Ctrl-C end the program with a message.
 pub(crate) fn watch() -> Result<(), Failure> {
     ctrlc::set_handler(|| {
         let again = STOP.swap(true, Ordering::Relaxed);
@@ -24,7 +24,7 @@ pub(crate) fn watch() -> Result<(), Failure> {
     Ok(())
 }
 
-/// From now on the first Ctrl-C sets this flag, and the second one ends the program.
+/// Makes the first Ctrl-C set this flag and the second end the program.
 pub(crate) fn stop() -> Arc<AtomicBool> {
     STOPPABLE.store(true, Ordering::Relaxed);
     Arc::clone(&STOP)

@@ -1,4 +1,4 @@
-//! The command `eigentol`: a declaration in a file, a question, an answer. What it asks, the library answers.
+//! The command `eigentol`: reads a declaration from a file, runs an analysis of the library and prints the answer.
 
 mod answer;
 mod arguments;

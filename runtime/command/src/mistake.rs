@@ -1,10 +1,10 @@
-//! A mistake in a file, of whatever language, as it is drawn.
+//! A mistake in a file of any language, in the form that is drawn.
 
-/// What is wrong, where, and what to do. Lines and characters count from 1.
+/// What is wrong, where, and how to fix it. Lines and characters count from 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Mistake {
     pub(crate) start: (usize, usize),
-    /// Behind the last character.
+    /// One past the last character.
     pub(crate) end: (usize, usize),
     pub(crate) message: String,
     pub(crate) help: Option<String>,

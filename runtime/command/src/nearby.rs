@@ -1,4 +1,4 @@
-//! What a file that cannot be read may have been meant to be.
+//! Suggestions for a file that cannot be read.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use eigentol_compiler::base::nearest::nearest;
 
-/// Files that are named at most.
+/// Maximum number of files suggested.
 const NAMED: usize = 5;
 
-/// The files that may be meant: in a folder those that it has, otherwise the one whose name is nearest.
+/// The files that may be meant: for a folder its contents, otherwise the file with the nearest name.
 pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if why == ErrorKind::IsADirectory {
         let files = declarations(path);
@@ -25,7 +25,7 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if let Some(value) = path.to_str().filter(|own| own.contains('=')) {
         return Some(format!("a value stands behind its option: `--set {value}`"));
     }
-    // Without their endings, which would make any two names alike.
+    // Compared without extensions, which would make any two names look alike.
     let files = files(path.parent()?);
     let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
     let stems: Vec<String> = files.iter().filter_map(|file| stem(file)).collect();
@@ -36,7 +36,7 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     Some(format!("did you mean `{}`?", found.display()))
 }
 
-/// Some declarations of a folder, by name.
+/// A few declarations in a folder, by name.
 fn declarations(folder: &Path) -> Vec<PathBuf> {
     let mut found = files(folder);
     found.retain(|file| is_declaration(file));
@@ -44,7 +44,7 @@ fn declarations(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The files of a folder, declarations first and by name; none where it cannot be read.
+/// The files of a folder, declarations first, then by name; empty if the folder cannot be read.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let here = folder.as_os_str().is_empty();
     let read = fs::read_dir(if here { Path::new(".") } else { folder });

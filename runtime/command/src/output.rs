@@ -1,4 +1,4 @@
-//! In which form an answer is written.
+//! The output format of an answer.
 
 use std::io::{self, IsTerminal as _};
 
@@ -33,7 +33,7 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Refuses, before long work, a file that cannot be written, and what makes no sense.
+    /// Rejects unwritable files and inconsistent options before any long computation.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         let form = self.form();
         if self.table.is_some() && !form.has_rows() {
@@ -66,17 +66,17 @@ impl Output {
         }
     }
 
-    /// An answer to fill.
+    /// An empty answer in this format.
     pub(crate) fn answer(&self) -> Answer {
         Answer::new(self.form())
     }
 
-    /// Whether one table is asked for, that of this name.
+    /// Whether the table of this name is the only one requested.
     pub(crate) fn wants_table(&self, name: &str) -> bool {
         self.form().has_rows() && self.table.as_deref() == Some(name)
     }
 
-    /// The rows of the table that answers the question, to be written as they come; `None` where something else is asked for.
+    /// The rows of the table that answers the question, written as they arrive; `None` if something else is requested.
     pub(crate) fn rows<'a, T>(
         &'a self,
         (kind, table): (&str, &str),
@@ -94,7 +94,7 @@ impl Output {
         }
     }
 
-    /// Writes a text that has only one form.
+    /// Writes a text that has only one format.
     pub(crate) fn write_text(&self, text: &str) -> Result<(), Failure> {
         self.place.write(text)
     }

@@ -1,4 +1,4 @@
-//! Partial results of a run of samples: files that merge to the same bits as one run.
+//! Partial results of a sampling run: files that merge to a result bit-identical to a single run.
 
 use std::fs;
 use std::ops::Range;
@@ -10,7 +10,7 @@ use eigentol::tolerance::PartialMonteCarlo;
 
 use crate::failure::Failure;
 
-/// A part of a run: the third of 64, `3/64`.
+/// A part of a run: `3/64` is the third of 64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shard {
     number: u64,
@@ -37,11 +37,11 @@ impl Shard {
         count: 1,
     };
 
-    /// Its samples, of so many.
+    /// The range of its samples, out of `samples`.
     pub(crate) fn range(self, samples: u64) -> Range<u64> {
         let end = |number: u64| {
             let product = u128::from(samples) * u128::from(number) / u128::from(self.count);
-            // No more than the samples.
+            // At most the number of samples.
             u64::try_from(product).unwrap_or(samples)
         };
         end(self.number - 1)..end(self.number)
@@ -60,7 +60,7 @@ pub(crate) fn read(path: &Path) -> Result<PartialMonteCarlo, Failure> {
     })
 }
 
-/// Adds the part that was read from a file to others of its run.
+/// Merges a part read from a file with others of its run.
 pub(crate) fn add(
     all: &mut PartialMonteCarlo,
     path: &Path,
@@ -83,7 +83,7 @@ pub(crate) fn add(
     })
 }
 
-/// A partial result as the text of a file.
+/// Serialises a partial result as the text of a file.
 pub(crate) fn text(part: &PartialMonteCarlo) -> Result<String, Failure> {
     let text =
         serde_json::to_string(part).map_err(|error| eigentol_tables::Error::Write(error.into()))?;

@@ -36,7 +36,7 @@ impl Wording {
         !self.mode_names.is_empty() || self.frequency_unit.is_some()
     }
 
-    /// Words as the study file has them, and what the command line says wins.
+    /// Mode names and units from the study file, overridden by the command line.
     pub(crate) fn style(&self, question: &Question) -> Style {
         let names = match self.mode_names.is_empty() {
             true => &question.file.mode_names,
@@ -52,12 +52,12 @@ impl Wording {
 }
 
 impl Picture {
-    /// Whether a figure is asked for.
+    /// Whether a figure is requested.
     pub(crate) fn is_wanted(&self) -> bool {
         self.figure.is_some()
     }
 
-    /// Refuses, before long work, words without a figure, a file of another form or one that cannot be written.
+    /// Rejects, before any long computation, wording options without a figure, unknown file formats and unwritable files.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if self.figure.is_none() && self.wording.is_given() {
             let message = "names of modes and a unit of frequencies are for a figure";
@@ -71,12 +71,12 @@ impl Picture {
         Ok(())
     }
 
-    /// How the figure is drawn.
+    /// The style of the figure.
     pub(crate) fn style(&self, question: &Question) -> Style {
         self.wording.style(question).design_of(&question.study)
     }
 
-    /// Draws the figure that is asked for, if it is.
+    /// Draws the figure, if one is requested.
     pub(crate) fn draw(
         &self,
         figure: impl FnOnce() -> Result<Figure, eigentol_figures::Error>,

@@ -1,4 +1,4 @@
-//! Where text goes: standard output, or a file that is replaced when all of it is written.
+//! The destination of text: standard output, or a file that is replaced only once everything is written.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, IsTerminal as _, Write};
@@ -18,7 +18,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Refuses, before long work, a file that cannot be written.
+    /// Rejects an unwritable file before any long computation.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         match &self.output {
             Some(path) => (Target::of(path).check()).map_err(|source| Failure::write(path, source)),
@@ -26,7 +26,7 @@ impl Place {
         }
     }
 
-    /// Whether the answer appears in front of somebody.
+    /// Whether the answer goes to a terminal.
     pub(crate) fn is_terminal(&self) -> bool {
         self.output.is_none() && io::stdout().is_terminal()
     }
@@ -36,7 +36,7 @@ impl Place {
         self.write_bytes(text.as_bytes())
     }
 
-    /// Writes a text or other data.
+    /// Writes text or binary data.
     pub(crate) fn write_bytes(&self, content: &[u8]) -> Result<(), Failure> {
         let written = match &self.output {
             Some(path) => Target::of(path).write(content),
@@ -48,7 +48,7 @@ impl Place {
         written.map_err(|source| self.failure(source))
     }
 
-    /// Begins what is written as it comes.
+    /// Begins output that is written as it arrives.
     pub(crate) fn begin(&self) -> Result<(Unfinished, Begun), Failure> {
         let begun = match &self.output {
             Some(path) => Target::of(path).begin(),
@@ -57,7 +57,7 @@ impl Place {
         begun.map_err(|source| self.failure(source))
     }
 
-    /// What it means that writing has failed.
+    /// Interprets a write error.
     pub(crate) fn failure(&self, source: io::Error) -> Failure {
         match &self.output {
             Some(path) => Failure::write(path, source),
@@ -65,7 +65,7 @@ impl Place {
         }
     }
 
-    /// The file, if there is one.
+    /// The path of the file, if any.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.output.as_deref()
     }
@@ -85,10 +85,10 @@ fn printing(error: io::Error) -> Failure {
     }
 }
 
-/// What is written as it comes.
+/// Output that is written as it arrives.
 pub(crate) type Begun = Box<dyn Write + Send>;
 
-/// From where to where a file is moved when it is complete; unless it is, what was there stays.
+/// The temporary path and final path of a file; until it is complete, the existing file stays.
 pub(crate) struct Unfinished(Option<(PathBuf, PathBuf)>);
 
 impl Unfinished {
@@ -105,7 +105,7 @@ impl Unfinished {
 impl Drop for Unfinished {
     fn drop(&mut self) {
         if let Some((beside, _)) = &self.0 {
-            // What is left of it is of no use; that it stays is no other failure.
+            // The incomplete file is useless; failing to remove it is not another failure.
             let _ = fs::remove_file(beside);
         }
     }
@@ -113,7 +113,7 @@ impl Drop for Unfinished {
 
 /// A file to write.
 pub(crate) enum Target<'a> {
-    /// Written beside and moved into place, so that a failure leaves what was there.
+    /// Written next to its destination and moved into place, so that a failure keeps the existing file.
     File { path: &'a Path, beside: PathBuf },
     /// A device or a pipe.
     Device(&'a Path),
@@ -173,7 +173,7 @@ impl<'a> Target<'a> {
                 });
                 let moved = written.and_then(|()| fs::rename(beside, path));
                 if moved.is_err() {
-                    // What is left of it is of no use; that it stays is no other failure.
+                    // The incomplete file is useless; failing to remove it is not another failure.
                     let _ = fs::remove_file(beside);
                 }
                 moved

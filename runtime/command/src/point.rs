@@ -1,4 +1,4 @@
-//! The operating point and the tolerances of a command: of the declaration, then the study file, then the command line.
+//! The operating point and tolerances of a command, from the declaration, then the study file, then the command line.
 
 use std::path::PathBuf;
 
@@ -40,7 +40,7 @@ pub(crate) struct Point {
     sigma_level: Option<f64>,
 }
 
-/// A study with what a study file says beyond the operating point.
+/// A study, together with the study file's settings beyond the operating point.
 pub(crate) struct Question {
     pub(crate) study: Study<Interpreted>,
     pub(crate) file: StudyFile,
@@ -57,7 +57,7 @@ fn pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// A count: `10000` or `1e4`.
+/// Parses a count: `10000` or `1e4`.
 pub(crate) fn whole(text: &str) -> Result<usize, String> {
     let number = text.parse::<f64>().ok();
     let whole = number.filter(|own| own.fract() == 0.0 && (0.0..1e15).contains(own));
@@ -67,7 +67,7 @@ pub(crate) fn whole(text: &str) -> Result<usize, String> {
 }
 
 impl Point {
-    /// Reads the files and sets everything.
+    /// Reads the files and applies all settings.
     pub(crate) fn question(&self) -> Result<Question, Failure> {
         let file = match &self.study {
             Some(path) => StudyFile::read(path)?,
@@ -160,14 +160,14 @@ fn tolerate(
     } else {
         study.limits(parameter, value.abs() * lower, value.abs() * upper)
     };
-    // Without a law the declared one stays.
+    // Without a given law, the declared one stays.
     Ok(match law {
         Law::Normal => study,
         law => study.law(parameter, law),
     })
 }
 
-/// Sets correlations of pairs, of the design variables and after them the inputs that have a tolerance.
+/// Sets pairwise correlations of the design variables, followed by the inputs with tolerances.
 fn correlate(
     study: Study<Interpreted>,
     pairs: &[(String, String, f64)],
@@ -196,7 +196,7 @@ fn correlate(
     Ok(study.correlation(matrix))
 }
 
-/// The input or design variable of this name, and its unit.
+/// The input or design variable with this name, and its unit.
 pub(crate) fn parameter(
     study: &Study<Interpreted>,
     name: &str,
@@ -226,7 +226,7 @@ pub(crate) fn parameter(
     ))
 }
 
-/// The design variable of this name, and its unit.
+/// The design variable with this name, and its unit.
 pub(crate) fn design(
     study: &Study<Interpreted>,
     name: &str,
@@ -243,7 +243,7 @@ pub(crate) fn design(
     }
 }
 
-/// The input of this name, and its unit.
+/// The input with this name, and its unit.
 pub(crate) fn input(
     study: &Study<Interpreted>,
     name: &str,
@@ -279,7 +279,7 @@ fn coordinate(
     }
 }
 
-/// Nothing has this name; the nearest one is offered.
+/// Reports an unknown name and suggests the nearest one.
 pub(crate) fn unknown<'a>(
     description: &Description,
     kind: &str,
@@ -300,7 +300,7 @@ pub(crate) fn unknown<'a>(
     }
 }
 
-/// A value in a study file.
+/// Reads a value from a study file.
 pub(crate) fn written(place: &str, text: &Written, unit: &Unit) -> Result<f64, Failure> {
     let text = text.to_string();
     let refused = |mistakes| Failure::value(format!("{place} = \"{text}\""), &mistakes);

@@ -1,4 +1,4 @@
-//! A bar on standard error while something takes long; nothing where that is no terminal.
+//! A progress bar on standard error for long computations; hidden if that is not a terminal.
 
 use eigentol::Study;
 use eigentol_interpreter::Interpreted;
@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::interrupt;
 
-/// A bar of so many steps, or a count of steps of which nobody knows how many there will be.
+/// A bar with this number of steps, or a step counter if the number is unknown.
 pub(crate) fn bar(what: &'static str, steps: Option<u64>) -> ProgressBar {
     let (bar, template) = match steps {
         Some(steps) => (
@@ -22,7 +22,7 @@ pub(crate) fn bar(what: &'static str, steps: Option<u64>) -> ProgressBar {
     }
 }
 
-/// The study, its steps shown by a bar, and ended by Ctrl-C with what is done.
+/// A study that shows its steps on a bar, and that Ctrl-C ends with the work done so far.
 pub(crate) fn watched(study: Study<Interpreted>, bar: &ProgressBar) -> Study<Interpreted> {
     let own = bar.clone();
     study

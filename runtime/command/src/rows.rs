@@ -1,4 +1,4 @@
-//! Rows that are written as they are computed, so that memory does not grow with their number and what is done is not lost.
+//! Rows written as they are computed, so that memory use stays bounded and finished work is never lost.
 
 use std::time::{Duration, Instant};
 
@@ -8,17 +8,17 @@ use crate::answer::Form;
 use crate::failure::Failure;
 use crate::place::{Begun, Place, Unfinished};
 
-/// Things that a block of rows is made of: of CSV, which is read while it grows, and of Parquet, of which each block is a row group.
+/// Items per block of rows: small for CSV, which is read while it grows; large for Parquet, where each block is a row group.
 const CSV_BLOCK: usize = 256;
 const PARQUET_BLOCK: usize = 4096;
-/// How long a row of CSV waits for others.
+/// How long a CSV row may wait for others.
 const PATIENCE: Duration = Duration::from_millis(200);
 
-/// The rows of one table, of things of one kind.
+/// The rows of one table, made from items of one type.
 pub(crate) struct Rows<'a, T> {
     place: &'a Place,
     file: File,
-    // Behind the file: what is left is removed when it is closed.
+    // Declared after the file, so that leftovers are removed once it is closed.
     target: Unfinished,
     make: Make<'a, T>,
     waiting: Vec<T>,
@@ -26,7 +26,7 @@ pub(crate) struct Rows<'a, T> {
     written: Instant,
 }
 
-/// Makes the rows of some things.
+/// Makes the rows of some items.
 pub(crate) type Make<'a, T> = Box<dyn Fn(&[T]) -> Table + 'a>;
 
 enum File {
@@ -51,7 +51,7 @@ impl<'a, T> Rows<'a, T> {
         })
     }
 
-    /// Adds the rows of one thing.
+    /// Adds the rows of one item.
     pub(crate) fn add(&mut self, one: T) -> Result<(), Failure> {
         self.waiting.push(one);
         let full = match self.file {
@@ -64,7 +64,7 @@ impl<'a, T> Rows<'a, T> {
         }
     }
 
-    /// Writes the rest and puts the file into its place. Without any row there are headings only.
+    /// Writes the remaining rows and moves the file into place. Without rows, a file has only headings.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         self.write()?;
         let place = self.place;
@@ -76,7 +76,7 @@ impl<'a, T> Rows<'a, T> {
         (self.target.move_into_place()).map_err(|source| place.failure(source))
     }
 
-    /// Writes what waits, if anything does.
+    /// Writes the waiting rows, if any.
     pub(crate) fn write(&mut self) -> Result<(), Failure> {
         if self.waiting.is_empty() && self.begun {
             return Ok(());

@@ -1,4 +1,4 @@
-//! A study file: what is asked again and again, in TOML. Values and tolerances are text in the language's units.
+//! A study file: repeated settings, in TOML. Values and tolerances are text with the units of the language.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
@@ -10,11 +10,11 @@ use serde::Deserialize;
 
 use crate::failure::Failure;
 
-/// What a study file says.
+/// The settings of a study file.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StudyFile {
-    /// File with the declaration; in a study file relative to that.
+    /// File with the declaration, relative to the study file.
     pub(crate) mechanism: Option<PathBuf>,
     /// Values of inputs and design variables.
     #[serde(default)]
@@ -32,21 +32,21 @@ pub(crate) struct StudyFile {
     #[serde(default)]
     pub(crate) correlation: Vec<(String, String, f64)>,
     pub(crate) sigma_level: Option<f64>,
-    /// As after `--sweep`.
+    /// A range, as for `--sweep`.
     pub(crate) sweep: Option<String>,
     pub(crate) points: Option<usize>,
     pub(crate) orders: Option<Vec<f64>>,
-    /// As after `--mode-names`.
+    /// Names, as for `--mode-names`.
     #[serde(default)]
     pub(crate) mode_names: Vec<String>,
     pub(crate) frequency_unit: Option<FrequencyUnit>,
     pub(crate) samples: Option<usize>,
     pub(crate) seed: Option<u64>,
     pub(crate) stream: Option<u64>,
-    /// What the design has to meet.
+    /// The requirements on the design.
     #[serde(default)]
     pub(crate) require: Vec<Require>,
-    /// What `allocate` may choose.
+    /// The tolerances and nominal values that `allocate` may choose.
     #[serde(default)]
     pub(crate) choose: Vec<Choose>,
 }
@@ -79,34 +79,34 @@ pub(crate) enum FrequencyUnit {
     RadiansPerSecond,
 }
 
-/// A requirement: a quantity of a mode, an output or a value of an input at which something happens within limits, or outside of a band.
+/// A requirement: a mode quantity, an output, or the input value of an event must lie within limits or outside a band.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Require {
     /// Counted from 1.
     pub(crate) mode: Option<usize>,
-    /// Of a mode at the operating point; its frequency where nothing is said.
+    /// Quantity of a mode at the operating point; its frequency by default.
     pub(crate) quantity: Option<Quantity>,
     pub(crate) output: Option<String>,
-    /// Where the equilibrium loses its stiffness; a range as after `--sweep`.
+    /// Where the equilibrium loses its stiffness; a range, as for `--sweep`.
     pub(crate) critical: Option<String>,
     /// Where the frequency of the mode is `order` times the input.
     pub(crate) resonance: Option<String>,
-    /// Of a resonance; 1 where nothing is said.
+    /// Order of a resonance; 1 by default.
     pub(crate) order: Option<f64>,
     /// Where the mode begins to grow.
     pub(crate) flutter: Option<String>,
-    /// The equilibrium is stable.
+    /// The equilibrium must be stable.
     #[serde(default)]
     pub(crate) stable: bool,
     pub(crate) at_least: Option<Written>,
     pub(crate) at_most: Option<Written>,
     pub(crate) outside: Option<[Written; 2]>,
-    /// Greatest probability of failing it.
+    /// Maximum probability of violating the requirement.
     pub(crate) failure: f64,
 }
 
-/// What is required of a mode.
+/// The required quantity of a mode.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Quantity {
@@ -120,16 +120,16 @@ pub(crate) enum Quantity {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Choose {
-    /// Whose tolerance.
+    /// The variable whose tolerance may be chosen.
     pub(crate) tolerance: Option<String>,
-    /// Whose nominal value.
+    /// The variable whose nominal value may be chosen.
     pub(crate) nominal: Option<String>,
     pub(crate) least: Written,
     pub(crate) most: Written,
     pub(crate) cost: Option<Cost>,
 }
 
-/// `fixed + factor / T^power` of a half-width `T` in the declared unit.
+/// Cost `fixed + factor / T^power` of a half-width `T` in the declared unit.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Cost {

@@ -7,10 +7,10 @@ use eigentol_interpreter::{Interpreted, value};
 use crate::failure::Failure;
 use crate::point::{Question, input, whole};
 
-/// Points of a sweep unless said otherwise.
+/// Default number of points of a sweep.
 const POINTS: usize = 51;
 
-/// How a range is written.
+/// The syntax of a range.
 const HELP: &str = "write `--sweep speed=0..6000rpm`";
 
 /// Along what.
@@ -42,14 +42,14 @@ impl Sweep {
         found.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
     }
 
-    /// The range; `None` where neither the command line nor a study file has one.
+    /// The range; `None` if neither the command line nor a study file gives one.
     pub(crate) fn range_if_any(&self, question: &Question) -> Result<Option<Range>, Failure> {
         let text = self.sweep.as_ref().or(question.file.sweep.as_ref());
         text.map(|text| range(&question.study, text)).transpose()
     }
 }
 
-/// A range as it is written.
+/// Parses a range.
 pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Failure> {
     let parts = text
         .split_once('=')
@@ -81,7 +81,7 @@ impl Points {
     }
 }
 
-/// The low end of a range may leave its unit to the high end.
+/// Lets the low end of a range take its unit from the high end.
 fn with_unit_of(low: &str, high: &str) -> String {
     if low.trim().parse::<f64>().is_err() {
         return low.to_owned();

@@ -1,24 +1,24 @@
-//! What an analysis says of a mechanism.
+//! The verdict of an analysis on a mechanism.
 
 use eigentol::{Equilibrium, Modes};
 
-/// The answer behind the numbers.
+/// The verdict behind the numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Yes,
-    /// With the reason.
+    /// No, with the reason.
     No(String),
-    /// Ctrl-C came before the end; with how far it came.
+    /// Interrupted by Ctrl-C, with the progress made.
     Stopped(String),
 }
 
 impl Verdict {
-    /// Ctrl-C came after so many of the steps.
+    /// Interrupted by Ctrl-C after `done` of `wanted` steps.
     pub(crate) fn stopped(done: usize, wanted: usize, steps: &str) -> Self {
         Self::Stopped(format!("after {done} of {wanted} {steps}"))
     }
 
-    /// Whether a mechanism stays where it is and its modes do not grow.
+    /// Whether the equilibrium is stable and no mode grows.
     pub(crate) fn of(equilibrium: &Equilibrium, modes: &Modes) -> Self {
         if !equilibrium.stability.holds() {
             return Self::No(format!("the equilibrium is {}", equilibrium.stability));

@@ -1,11 +1,11 @@
-//! Lines below a figure.
+//! Caption lines below a figure.
 
 use eigentol::{Description, Input, Unit};
 
-/// More design variables than these make a caption that nobody reads.
+/// Maximum number of design variables in a caption; nobody reads more.
 const MOST: usize = 12;
 
-/// A number of five digits without needless zeros.
+/// A number with five digits, without trailing zeros.
 pub(crate) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -21,7 +21,7 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
-/// A value in its unit, which is zero where there is none.
+/// A value in its unit; unchanged if the unit's scale is zero.
 pub(crate) fn in_unit(value: f64, unit: &Unit) -> f64 {
     match unit.scale == 0.0 {
         true => value,
@@ -52,7 +52,7 @@ pub(crate) fn operating_point(d: &Description, inputs: &[f64], varied: Option<In
     }
 }
 
-/// `m = 3 kg, l = 1 m +/- 0.03 m`; nothing without design variables.
+/// `m = 3 kg, l = 1 m +/- 0.03 m`; empty without design variables.
 pub(crate) fn design(d: &Description, values: &[f64], half_widths: &[f64]) -> String {
     let each = d.design.iter().zip(values).enumerate();
     let mut parts: Vec<String> = each

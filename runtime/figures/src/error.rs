@@ -1,4 +1,4 @@
-//! What can go wrong with a figure.
+//! Errors of drawing and saving figures.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,26 +7,26 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The result has nothing that the figure shows.
+    /// The result has nothing that the figure could show.
     #[error("there is nothing to draw: {0}")]
     Nothing(String),
     /// The result has no such mode.
     #[error("there is no mode {number}: the result has {modes}", number = mode + 1)]
     UnknownMode {
-        /// Its position, from 0.
+        /// Its index, from 0.
         mode: usize,
-        /// How many there are.
+        /// The number of modes.
         modes: usize,
     },
-    /// A probability of the second-order model cannot be found.
+    /// A probability of the second-order model cannot be computed.
     #[error(transparent)]
     Solver(#[from] eigentol::Error),
-    /// The name of a file does not say in which form.
+    /// The file name has no known extension.
     #[error("`{}`: a figure is saved as {known}", path.display())]
     Ending {
         /// The file.
         path: PathBuf,
-        /// The endings that are known.
+        /// The known extensions.
         known: &'static str,
     },
     /// The file cannot be written.
@@ -34,7 +34,7 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The figure cannot be drawn.

@@ -1,4 +1,4 @@
-//! What the user says about a figure.
+//! The user's choices for a figure.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -8,7 +8,7 @@ use eigentol::{InputInfo, Kernels, Study};
 
 use crate::caption::{design, number};
 
-/// What the user says about a figure; [`Style::default`] says nothing.
+/// The user's choices for a figure; [`Style::default`] makes none.
 ///
 /// ```
 /// use eigentol_figures::Style;
@@ -36,13 +36,13 @@ enum Frequency {
 }
 
 impl Style {
-    /// A style whose captions have the design variables of a study with their tolerances.
+    /// A style whose captions list the design variables of a study with their tolerances.
     #[must_use]
     pub fn of<M: Kernels>(study: &Study<M>) -> Self {
         Self::default().design_of(study)
     }
 
-    /// Captions with the design variables of a study and their tolerances, as [`Style::of`] has them.
+    /// Lists the design variables of a study with their tolerances in captions, like [`Style::of`].
     #[must_use]
     pub fn design_of<M: Kernels>(self, study: &Study<M>) -> Self {
         let description = study.description();
@@ -52,22 +52,21 @@ impl Style {
         self.note(design(description, study.design_values(), half_widths))
     }
 
-    /// The title.
+    /// Sets the title.
     #[must_use]
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = Some(title.into());
         self
     }
 
-    /// Calls a mode by what it is, in place of its number. `label` is that of the mode, from 0: along an input the number of the
-    /// motion.
+    /// Names a mode, replacing its number. `label` counts from 0; along an input it is the number of the motion.
     #[must_use]
     pub fn name_mode(mut self, label: usize, name: impl Into<String>) -> Self {
         self.names.insert(label, name.into());
         self
     }
 
-    /// Names for the modes 0, 1, 2, ...
+    /// Names the modes 0, 1, 2, ...
     #[must_use]
     pub fn name_modes<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         let names = names.into_iter().map(Into::into);
@@ -75,49 +74,49 @@ impl Style {
         self
     }
 
-    /// Frequencies in Hz. Without a word they are in Hz along an input in rpm or Hz, and in rad/s otherwise.
+    /// Shows frequencies in Hz. By default they are in Hz along an input in rpm or Hz, and in rad/s otherwise.
     #[must_use]
     pub fn hertz(mut self) -> Self {
         self.frequency = Some(Frequency::Hertz);
         self
     }
 
-    /// Frequencies in rad/s.
+    /// Shows frequencies in rad/s.
     #[must_use]
     pub fn radians_per_second(mut self) -> Self {
         self.frequency = Some(Frequency::RadiansPerSecond);
         self
     }
 
-    /// The upper end of the first vertical axis, in its unit; of eigenvalues the lower end is its negative.
+    /// Sets the upper end of the first vertical axis, in its unit; for eigenvalues the lower end is its negative.
     #[must_use]
     pub fn highest(mut self, value: f64) -> Self {
         self.highest = Some(value).filter(|own| own.is_finite() && *own > 0.0);
         self
     }
 
-    /// The lower end of the first vertical axis of a Campbell diagram, in its unit: for a part of it.
+    /// Sets the lower end of the first vertical axis of a Campbell diagram, in its unit, to show part of it.
     #[must_use]
     pub fn lowest(mut self, value: f64) -> Self {
         self.lowest = Some(value).filter(|own| own.is_finite());
         self
     }
 
-    /// Bands as wide as they are, even where they cannot be seen.
+    /// Draws bands at true width, even if they are too narrow to see.
     #[must_use]
     pub fn true_width(mut self) -> Self {
         self.true_width = true;
         self
     }
 
-    /// A vertical line at a value of the horizontal axis, in its unit: the speed at which a machine runs.
+    /// Adds a vertical line at a value of the horizontal axis, in its unit, such as the running speed of a machine.
     #[must_use]
     pub fn mark(mut self, at: f64, label: impl Into<String>) -> Self {
         self.marks.push((at, label.into()));
         self
     }
 
-    /// A line of the caption.
+    /// Adds a line to the caption.
     #[must_use]
     pub fn note(mut self, line: impl Into<String>) -> Self {
         self.notes.push(line.into());
@@ -129,7 +128,7 @@ impl Style {
         self.title.clone().unwrap_or(otherwise)
     }
 
-    /// What a mode is called: its name, or `mode 1`.
+    /// The name of a mode, or `mode 1` if it has none.
     #[must_use]
     pub fn mode(&self, label: usize) -> String {
         let own = self.names.get(&label);
@@ -137,7 +136,7 @@ impl Style {
             .unwrap_or_else(|| format!("mode {}", label + 1))
     }
 
-    /// The name of a mode with the sense of its whirl.
+    /// The name of a mode with its whirl sense.
     pub(crate) fn whirling(&self, label: usize, sense: Option<Sense>) -> String {
         let name = self.mode(label);
         match sense {
@@ -148,7 +147,7 @@ impl Style {
         }
     }
 
-    /// What one rad/s is in the unit of frequencies, along an input or at a point, and the symbol of that.
+    /// The value of one rad/s in the unit of frequencies, along an input or at a point, and the symbol of that unit.
     #[must_use]
     pub fn frequency(&self, along: Option<&InputInfo>) -> (f64, &'static str) {
         let turning = |info: &InputInfo| matches!(&*info.unit.symbol, "rpm" | "Hz");

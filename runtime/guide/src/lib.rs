@@ -1,20 +1,20 @@
-//! Chapters on [`eigentol`]: from a pendulum to your own rotor.
+//! User guide to [`eigentol`]: from a pendulum to your own rotor.
 //!
-//! | chapter | what is in it |
+//! | chapter | contents |
 //! | --- | --- |
 //! | [From the pendulum to your own rotor](first_steps) | ten minutes with the command, then the same in Rust |
-//! | [How to declare what](declare) | a table from the words of other tools and of drawings to ours |
+//! | [How to declare what](declare) | a glossary from the terms of other tools and of drawings to ours |
 //! | [Reading a tolerance result](tolerances) | every column, and when not to trust first order |
-//! | [Distributions and requirements](requirements) | how parts scatter, how probable a good product is, the cheapest tolerances |
+//! | [Distributions and requirements](requirements) | how parts scatter, the probability of a good product, the cheapest tolerances |
 //! | [Closed loops](loops) | linkages, and which assembly is found |
 //! | [Rotors](rotors) | whirl, Campbell diagrams, critical speeds, instability |
 //! | [Theory](theory) | the equations, with the numbers of the paper |
 //! | [Embedding](embedding) | Python, C, build scripts, no standard library |
-//! | [Performance](performance) | measured, and where the numbers come from |
-//! | [Limits](limits) | what it does not do |
-//! | [한국어 요약](korean) | a summary of the paper's part in Korean |
+//! | [Performance](performance) | measurements, and where the numbers come from |
+//! | [Limits](limits) | what the library does not do |
+//! | [한국어 요약](korean) | a Korean summary of the paper's part |
 //!
-//! Every block of Rust is compiled and run. Every command of a shell is run, and what it prints is compared.
+//! Every Rust block is compiled and run. Every shell command is run and its output compared.
 
 #[doc = include_str!("first_steps.md")]
 pub mod first_steps {}

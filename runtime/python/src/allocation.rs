@@ -1,4 +1,4 @@
-//! The cheapest tolerances that meet requirements.
+//! Allocation of the cheapest tolerances that meet the requirements.
 
 use eigentol::allocation::{self, Choices, Cost, HalfWidth, Nominal};
 use eigentol::{Description, Unit};
@@ -11,7 +11,7 @@ use crate::results::result;
 use crate::study::Study;
 use crate::values::{List, number};
 
-/// Least and greatest half-width, and what it costs: fixed, factor, power.
+/// Minimum and maximum half-width, and its cost: fixed, factor, power.
 type Chosen<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, (f64, f64, f64));
 
 #[pymethods]
@@ -74,7 +74,7 @@ impl Study {
 }
 
 impl Study {
-    /// Position and unit among the design variables, tolerances of inputs after them.
+    /// Index and unit among the design variables, followed by the input tolerances.
     fn toleranced(&self, py: Python<'_>, of: &Description, name: &str) -> PyResult<(usize, Unit)> {
         let inputs = self.inner.deviating_inputs();
         let input = inputs

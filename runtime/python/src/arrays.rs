@@ -1,4 +1,4 @@
-//! Results as arrays of numpy.
+//! Results as numpy arrays.
 
 use eigentol::Matrix;
 use numpy::{Element, PyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};
@@ -15,7 +15,7 @@ pub(crate) fn vector<'py, T: Element>(
     PyArray::from_vec(py, values.into_iter().collect())
 }
 
-/// Numbers, NaN where there is none.
+/// Numbers, with NaN for missing ones.
 pub(crate) fn optional<'py>(
     py: Python<'py>,
     values: impl IntoIterator<Item = Option<f64>>,
@@ -35,7 +35,7 @@ pub(crate) fn matrix<'py, T: Element + Copy>(
     vector(py, matrix.as_flattened().iter().copied()).reshape(shape)
 }
 
-/// Rows of one length, `columns`, which says what it is where there are no rows.
+/// Rows of length `columns`, which must be given because there may be no rows.
 pub(crate) fn rows<'py, T: Element>(
     py: Python<'py>,
     columns: usize,
@@ -50,7 +50,7 @@ pub(crate) fn rows<'py, T: Element>(
     vector(py, all).reshape([count, columns])
 }
 
-/// Rows that may be missing: then they are NaN.
+/// Rows that may be missing, which become NaN.
 pub(crate) fn optional_rows<'py>(
     py: Python<'py>,
     columns: usize,

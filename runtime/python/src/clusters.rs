@@ -1,4 +1,4 @@
-//! Modes whose eigenvalues are equal, or so near that tolerances mix them.
+//! Modes whose eigenvalues are equal, or so close that tolerances mix them.
 
 use std::fmt;
 

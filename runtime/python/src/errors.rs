@@ -1,4 +1,4 @@
-//! What goes wrong, as exceptions.
+//! Errors as Python exceptions.
 
 use std::path::Path;
 
@@ -128,7 +128,7 @@ pub(crate) fn new(py: Python<'_>, kind: Kind, message: String) -> PyErr {
     }
 }
 
-/// An exception that carries something.
+/// An exception with attached data.
 fn with<'py>(
     py: Python<'py>,
     error: PyErr,
@@ -227,7 +227,7 @@ pub(crate) fn file(py: Python<'_>, error: ReadError) -> PyErr {
 /// A file that cannot be read.
 pub(crate) fn unreadable(path: &Path, source: &std::io::Error) -> PyErr {
     match source.raw_os_error() {
-        // With number, text and file Python chooses the kind: FileNotFoundError, PermissionError ...
+        // With error number, text and file, Python chooses the subclass: FileNotFoundError, PermissionError ...
         Some(number) => {
             let text = source.to_string();
             let text = text.split(" (os error").next().unwrap_or_default();

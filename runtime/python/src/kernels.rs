@@ -29,7 +29,7 @@ impl Mechanism {
         self.inner.description().coordinates.len()
     }
 
-    /// Refuses what the kernels answered outside of their domain.
+    /// Rejects kernel results evaluated outside their domain.
     fn finite<'a>(
         &self,
         py: Python<'_>,
@@ -48,7 +48,7 @@ impl Mechanism {
     }
 }
 
-/// Derivatives by unknowns, inputs and design variables.
+/// Derivatives with respect to unknowns, inputs and design variables.
 type ByVariable<'py> = (Array3<'py>, Array3<'py>, Array3<'py>);
 
 /// Arguments, all SI: `q` the unknowns (n), `inputs`, `design`, each a list in the order of the names, or a dictionary by name.

@@ -67,7 +67,7 @@ mod module {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        // Without it the first array would end the interpreter; so the import says what is missing.
+        // Without numpy the first array would abort the interpreter; importing it here reports what is missing.
         module.py().import("numpy")?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         crate::errors::add_to(module)

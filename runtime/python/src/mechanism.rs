@@ -1,4 +1,4 @@
-//! A mechanism that is read from a text.
+//! A mechanism read from a text.
 
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ pub(crate) struct Mechanism {
 }
 
 impl Mechanism {
-    /// The mechanism that a text declares.
+    /// Reads the mechanism declared in a text.
     pub(crate) fn read(py: Python<'_>, text: String) -> PyResult<Self> {
         match py.detach(|| Interpreted::from_text(&text)) {
             Ok(inner) => Ok(Self { inner, text }),

@@ -1,4 +1,4 @@
-//! The nonlinear motion as a function that integrators call.
+//! The nonlinear motion as a function for integrators.
 
 use eigentol::{Description, Error, Role, motion};
 use eigentol_interpreter::Interpreted;

@@ -1,9 +1,9 @@
-//! Names, and the nearest one to a name that does not exist.
+//! Names, and suggestions for unknown ones.
 
 use eigentol::{Description, Text};
 use eigentol_compiler::base::nearest::nearest;
 
-/// ``; did you mean `speed`?``, or nothing where no name is near.
+/// ``; did you mean `speed`?``, or nothing if no name is near.
 pub(crate) fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     match nearest(name, known) {
         Some(near) => format!("; did you mean `{near}`?"),

@@ -1,4 +1,4 @@
-//! Samples in parts, for many processes and machines.
+//! Sampling runs split into parts, for many processes and machines.
 
 use eigentol::tolerance::PartialMonteCarlo;
 use pyo3::prelude::*;

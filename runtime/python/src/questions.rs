@@ -1,4 +1,4 @@
-//! What a study can be asked.
+//! The analyses of a study.
 
 use eigentol::equilibrium::Search;
 use eigentol::second_order::Band;
@@ -22,7 +22,7 @@ use crate::spreads::{
 use crate::study::Study;
 use crate::values::{List, mode_number, not_finite, number, numbers};
 
-/// Questions without arguments.
+/// Analyses without arguments.
 macro_rules! questions {
     ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
         #[pymethods]
@@ -59,7 +59,7 @@ questions! {
 }
 
 impl Study {
-    /// An input, and two values of it, SI.
+    /// An input and the two ends of its range, SI.
     fn range(
         &self,
         py: Python<'_>,
@@ -72,7 +72,7 @@ impl Study {
         Ok((Input::new(place), low, high))
     }
 
-    /// An input, and values of it, SI.
+    /// An input and its values, SI.
     pub(crate) fn values(
         &self,
         py: Python<'_>,
@@ -103,7 +103,7 @@ impl Study {
         }
     }
 
-    /// Responses by name: tuples as `Study.response` takes them.
+    /// Responses by name, given as the tuples that `Study.response` takes.
     fn wanted(
         &self,
         given: Vec<Bound<'_, PyTuple>>,

@@ -1,4 +1,4 @@
-//! A study as one HTML file.
+//! A report of a study as one HTML file.
 
 use std::fs;
 use std::path::PathBuf;

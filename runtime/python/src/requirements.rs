@@ -1,4 +1,4 @@
-//! How probable it is that requirements are met.
+//! Probabilities of meeting requirements.
 
 use eigentol::requirement::{self, Requirement, SamplingSettings};
 use pyo3::exceptions::PyTypeError;
@@ -11,7 +11,8 @@ use crate::results::result;
 use crate::study::Study;
 use crate::values::not_finite;
 
-/// One requirement: "stable", or a response, a low and a high end, None for no end; "outside" before them for a forbidden band.
+/// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before the ends for a
+/// forbidden band.
 fn requirement(
     study: &eigentol::Study<eigentol_interpreter::Interpreted>,
     given: &Bound<'_, PyAny>,
@@ -51,7 +52,7 @@ fn requirement(
 
 type Ends<'py> = (Bound<'py, PyTuple>, Option<f64>, Option<f64>, bool);
 
-/// Response, low and high end, and whether it has to stay outside.
+/// Response, low and high end, and whether it must stay outside.
 fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
     if let Ok((response, low, high)) = given.extract() {
         return Ok((response, low, high, false));

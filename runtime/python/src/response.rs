@@ -1,4 +1,4 @@
-//! A number that a design gives, as a function of arrays of designs.
+//! A scalar response of the design, as a function of arrays of designs.
 
 use std::sync::Arc;
 
@@ -41,8 +41,8 @@ pub(crate) struct Response {
     text: String,
 }
 
-/// What is asked of a design: "frequency" and so on of a mode, ("output", name), ("critical", input, low, high), ("resonance", mode, input,
-/// low, high, order) or ("flutter", mode, input, low, high).
+/// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("critical", input, low, high), ("resonance", mode,
+/// input, low, high, order) or ("flutter", mode, input, low, high).
 pub(crate) fn wanted(
     study: &eigentol::Study<Interpreted>,
     what: &str,
@@ -98,7 +98,7 @@ pub(crate) fn wanted(
     }
 }
 
-/// The range of an input whose name is number `first` of what is given.
+/// The range of the input whose name is item `first` of the given tuple.
 fn range(
     study: &eigentol::Study<Interpreted>,
     given: &Bound<'_, PyTuple>,
@@ -141,7 +141,7 @@ impl Study {
         };
         let nominal = self.ask(py, |study| {
             let solved = study.solve()?;
-            // What makes no sense is refused here.
+            // Inconsistent settings are rejected here.
             Responses::new(
                 study.mechanism(),
                 &solved.equilibrium,
@@ -165,7 +165,7 @@ impl Study {
 }
 
 impl Response {
-    /// Asks about each design; `x` holds the variables.
+    /// Evaluates each design; `x` holds the variables.
     fn evaluate<R: Send>(
         &self,
         py: Python<'_>,

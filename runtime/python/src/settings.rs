@@ -1,4 +1,4 @@
-//! What a study is set up with: keyword arguments by name.
+//! The settings of a study: keyword arguments by name.
 
 use eigentol::modes::Family;
 use eigentol::tolerance::Distribution;
@@ -18,7 +18,7 @@ use crate::values::{List, number, numbers, refused, word, wrong_type};
 
 type Set = fn(Study<Interpreted>, &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>>;
 
-/// The settings, in the order in which they are made: what depends on values comes after them.
+/// The settings in the order of application: those that depend on values come after them.
 const SETTINGS: [(&str, Set); 17] = [
     ("inputs", inputs),
     ("design", design),
@@ -83,14 +83,14 @@ pub(crate) fn study(
             study = set(study, &given)?;
         }
     }
-    // What makes no sense together is refused here, not at the first question.
+    // Inconsistent settings are rejected here, not at the first analysis.
     match study.tolerances() {
         Ok(_) => Ok(study),
         Err(error) => Err(raise(settings.py(), error)),
     }
 }
 
-/// The settings of a study with others in their place; dictionaries by name are merged, name by name.
+/// The settings of a study updated with others; dictionaries are merged by name.
 pub(crate) fn merged<'py>(
     settings: &Bound<'py, PyDict>,
     others: &Bound<'py, PyDict>,
@@ -107,7 +107,7 @@ pub(crate) fn merged<'py>(
     Ok(all)
 }
 
-/// A copy that the caller's dictionaries no longer reach.
+/// A copy independent of the caller's dictionaries.
 pub(crate) fn copied<'py>(settings: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
     let all = settings.copy()?;
     for name in BY_NAME {
@@ -193,7 +193,7 @@ fn guess(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<
     })
 }
 
-/// What may have a tolerance, its unit and its value, SI.
+/// A parameter that may have a tolerance, with its unit and value, SI.
 fn parameter(
     study: &Study<Interpreted>,
     py: Python<'_>,
@@ -255,7 +255,7 @@ fn tolerate(
     }
 }
 
-/// Measured values of parameters, SI: they are varied as they were found.
+/// Sets measured values of parameters, SI; they vary as measured.
 fn measured(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
     each(study, given, "measured", |study, name, given| {
         let py = given.py();

@@ -1,4 +1,4 @@
-//! What tolerances do: results of first order, second order, sampling and propagation.
+//! The effect of tolerances: results of first order, second order, sampling and propagation.
 
 use eigentol::propagation::{self, Estimated, QUANTILES};
 use eigentol::second_order::{ModeSecondOrder, SecondOrderSpread};

@@ -16,7 +16,7 @@ use crate::mechanism::Mechanism;
 use crate::motion::Motion;
 use crate::settings;
 
-/// How often somebody who waits for an answer looks for Ctrl-C.
+/// Interval between checks for Ctrl-C while waiting for an answer.
 const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 
 /// A mechanism at one operating point, with tolerances and settings.
@@ -49,7 +49,7 @@ pub(crate) struct Study {
 }
 
 impl Study {
-    /// Asks a question; Python goes on in other threads meanwhile.
+    /// Runs an analysis while other Python threads continue.
     pub(crate) fn ask<R: Send>(
         &self,
         py: Python<'_>,
@@ -59,7 +59,7 @@ impl Study {
         found.map_err(|error| raise(py, error))
     }
 
-    /// As [`Self::ask`], for long work; Ctrl-C ends it, and is raised.
+    /// Runs a long analysis like [`Self::ask`]; Ctrl-C ends it and is raised.
     pub(crate) fn ask_stoppably<R: Send>(
         &self,
         py: Python<'_>,
@@ -69,7 +69,7 @@ impl Study {
         found.map_err(|error| raise(py, error))
     }
 
-    /// What a question gives; Ctrl-C ends it, and is raised.
+    /// Runs an analysis; Ctrl-C ends it and is raised.
     pub(crate) fn stoppably<R: Send>(
         &self,
         py: Python<'_>,

@@ -1,4 +1,4 @@
-//! Numbers and names as they come from Python.
+//! Numbers and names passed from Python.
 
 use eigentol::{Description, Error, Text, Unit};
 use eigentol_interpreter::{Mistakes, value};
@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyString};
 use crate::errors::{Kind, invalid, new, raise};
 use crate::names::did_you_mean;
 
-/// A finite number, SI: given as one, or as a text with a unit.
+/// A finite number, SI, given as a number or as text with a unit.
 pub(crate) fn number(given: &Bound<'_, PyAny>, unit: &Unit, name: &str) -> PyResult<f64> {
     let py = given.py();
     let what = format!("`{name}`");
@@ -34,13 +34,13 @@ pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
     invalid(py, format!("`{name}` is {value}: give a finite value"))
 }
 
-/// The number of a mode, from 0.
+/// The index of a mode, from 0.
 pub(crate) fn mode_number(py: Python<'_>, mode: i64) -> PyResult<usize> {
     let found = usize::try_from(mode);
     found.map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
 }
 
-/// A text that is no value.
+/// The exception for a text that is not a value.
 pub(crate) fn refused(py: Python<'_>, text: &str, mistakes: &Mistakes) -> PyErr {
     let each = mistakes.iter().map(|mistake| match &mistake.help {
         Some(help) => format!("{} ({help})", mistake.message),
@@ -58,7 +58,7 @@ pub(crate) fn wrong_type(given: &Bound<'_, PyAny>, name: &str) -> PyErr {
     ))
 }
 
-/// Something with a name and a unit.
+/// A quantity with a name and a unit.
 #[derive(Clone)]
 pub(crate) struct Quantity {
     pub(crate) name: Text,
@@ -90,7 +90,7 @@ impl List {
         }
     }
 
-    /// What values are when none are given, SI.
+    /// The default values, SI.
     fn usual(self, of: &Description) -> Vec<f64> {
         match self {
             Self::Coordinates => vec![0.0; of.coordinates.len()],
@@ -99,7 +99,7 @@ impl List {
         }
     }
 
-    /// Position and unit of what has this name.
+    /// Index and unit of the entry with this name.
     pub(crate) fn find(
         self,
         py: Python<'_>,
@@ -113,7 +113,7 @@ impl List {
         Err(unknown(py, of, self, name))
     }
 
-    /// A number for each, SI: from a dictionary of names, which changes the usual values, or from a list.
+    /// A value for each entry, SI: from a dictionary of names that overrides the defaults, or from a list.
     pub(crate) fn read(
         self,
         py: Python<'_>,
@@ -123,7 +123,7 @@ impl List {
         self.over(self.usual(of), py, of, given)
     }
 
-    /// The values given by name over these, or a list in their place.
+    /// Overrides these values by name, or replaces them by a list.
     fn over(
         self,
         mut values: Vec<f64>,
@@ -156,7 +156,7 @@ impl List {
         }
     }
 
-    /// A change of each, SI: zero for what is not named.
+    /// A change for each entry, SI; zero for names not given.
     pub(crate) fn changes(
         self,
         py: Python<'_>,
@@ -183,7 +183,7 @@ fn named<'a>(all: impl Iterator<Item = (&'a Text, &'a Unit)>) -> Vec<Quantity> {
     all.map(own).collect()
 }
 
-/// Nothing in the list has this name; it may be in another one.
+/// The exception for a name missing from this list; another list may have it.
 fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
     let all = [List::Coordinates, List::Inputs, List::Design];
     let other = all.into_iter().find(|other| {

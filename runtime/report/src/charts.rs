@@ -1,4 +1,4 @@
-//! Figures of a page. Their words are HTML; what is drawn is for the script.
+//! Figures of a page. Their text is HTML; the script draws the rest.
 
 use eigentol_figures::Figure;
 
@@ -6,7 +6,7 @@ use crate::Error;
 use crate::html::Html;
 use crate::words::sentence;
 
-/// A figure, or a sentence on why there is none.
+/// Writes a figure, or a sentence that explains why it is missing.
 ///
 /// # Errors
 /// [`Error::Data`].
@@ -35,10 +35,10 @@ pub(crate) fn chart(
     Ok(())
 }
 
-/// Several figures beside each other, where there is room.
+/// Writes several figures, side by side where there is room.
 ///
 /// # Errors
-/// As [`chart`].
+/// The errors of [`chart`].
 pub(crate) fn charts(
     html: &mut Html,
     figures: impl Iterator<Item = Result<Figure, eigentol_figures::Error>>,

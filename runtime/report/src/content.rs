@@ -1,4 +1,4 @@
-//! What a report says: every result of a study, or why there is none. From here on nothing depends on the type of the mechanism.
+//! The content of a report: every result of a study, or the reason it is missing. From here on nothing depends on the mechanism's type.
 
 use eigentol::branches::Branches;
 use eigentol::kernels::{PictureKernels, SummaryKernels};
@@ -15,23 +15,23 @@ use eigentol_figures::Style;
 use crate::Report;
 use crate::scene::{AMPLITUDE, frames};
 
-/// Everything that a page is made of.
+/// All the content of a page.
 pub(crate) struct Content {
     pub(crate) title: String,
     pub(crate) declaration: Option<String>,
     pub(crate) description: Description,
     pub(crate) setup: Setup,
-    /// Of figures that say all of what they rest on.
+    /// For figures that state all their assumptions.
     pub(crate) style: Style,
-    /// Of figures that stand below a sentence that says it.
+    /// For figures below a sentence that states their assumptions.
     pub(crate) brief_style: Style,
     pub(crate) equilibrium: Result<Equilibrium, Error>,
     pub(crate) modes: Result<Modes, Error>,
     pub(crate) pictures: Result<Pictures, Error>,
     pub(crate) outputs: Result<OutputTolerances, Error>,
-    /// `None` where nothing has a tolerance.
+    /// `None` if nothing has a tolerance.
     pub(crate) spread: Option<Spreads>,
-    /// `None` where no input is swept.
+    /// `None` if no input is swept.
     pub(crate) along: Option<Along>,
 }
 
@@ -40,36 +40,36 @@ pub(crate) struct Setup {
     pub(crate) inputs: Vec<f64>,
     pub(crate) design: Vec<f64>,
     pub(crate) tolerances: Tolerances,
-    /// Positions of the inputs whose tolerances follow those of the design variables.
+    /// Indices of the inputs with tolerances, which follow those of the design variables.
     pub(crate) deviating: Vec<usize>,
-    /// Of each tolerance.
+    /// One for each tolerance.
     pub(crate) distributions: Vec<Distribution>,
 }
 
-/// What there is to see.
+/// Data for the pictures.
 pub(crate) struct Pictures {
     pub(crate) scene: Scene,
-    /// Of the modes from the first on; large mechanisms have more of them.
+    /// The first modes only, for large mechanisms.
     pub(crate) modes: Vec<Result<ModePictures, Error>>,
 }
 
-/// What tolerances do.
+/// The effect of tolerances.
 pub(crate) struct Spreads {
     pub(crate) summary: Result<Summary, Error>,
     pub(crate) monte_carlo: Result<MonteCarlo, Error>,
 }
 
-/// What happens along an input.
+/// Results along an input.
 pub(crate) struct Along {
     pub(crate) campbell: Result<Campbell, Error>,
     pub(crate) branches: Result<Branches, Error>,
 }
 
 impl Content {
-    /// Asks the study everything.
+    /// Runs every analysis of the study.
     ///
     /// # Errors
-    /// A mistake of the caller: everything else is kept, to be said in its place.
+    /// Errors of the caller only; any other error is kept and reported in its place.
     pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(
         report: &Report<M>,
     ) -> Result<Self, Error> {
@@ -178,13 +178,13 @@ impl Along {
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         Ok(Self {
             campbell,
-            // No range, no branches: a sweep of one value, or of none, is no mistake.
+            // Without a range there are no branches: sweeping one value or none is not an error.
             branches: study.branches(input, low, high),
         })
     }
 }
 
-/// What an analysis refuses is an answer, a mistake of the caller is not.
+/// Separates errors of the caller from refusals of an analysis, which are answers.
 fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Error> {
     match found {
         Err(

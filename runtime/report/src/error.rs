@@ -1,13 +1,13 @@
-//! What can go wrong with a report.
+//! Errors of writing a report.
 
 use std::io;
 use std::path::PathBuf;
 
-/// Why a report was not written. What an analysis refuses is no error: the report says it in its place.
+/// Why a report was not written. A refusal of an analysis is not an error: the report states it in its place.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The study is set up wrongly: a handle of another mechanism, a value that is not finite, tolerances that make no sense.
+    /// The study is set up wrongly: a handle of another mechanism, a non-finite value, inconsistent tolerances.
     #[error(transparent)]
     Study(#[from] eigentol::Error),
     /// The file cannot be written.
@@ -15,10 +15,10 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: io::Error,
     },
-    /// A number or a text of the report has no form in JSON.
+    /// A number or text of the report cannot be represented in JSON.
     #[error("cannot write the data of the report: {0}")]
     Data(#[from] serde_json::Error),
 }

@@ -1,18 +1,18 @@
-//! HTML in which nothing from outside can become markup: whatever is not a constant of this crate is escaped on its way in.
+//! HTML generation that escapes everything except constants of this crate, so that no outside text can become markup.
 
 use std::fmt::Write as _;
 
-/// Attributes of an element: constant names, values from anywhere.
+/// Attributes of an element: constant names, arbitrary values.
 pub(crate) type Attributes<'a> = &'a [(&'static str, &'a str)];
 
-/// A piece of HTML that grows.
+/// A growing piece of HTML.
 #[derive(Default)]
 pub(crate) struct Html {
     out: String,
 }
 
 impl Html {
-    /// An element and what stands in it.
+    /// Writes an element and its content.
     pub(crate) fn element(
         &mut self,
         tag: &'static str,
@@ -24,18 +24,18 @@ impl Html {
         let _ = write!(self.out, "</{tag}>");
     }
 
-    /// An element with text.
+    /// Writes an element that contains only text.
     pub(crate) fn leaf(&mut self, tag: &'static str, attributes: Attributes<'_>, text: &str) {
         self.element(tag, attributes, |own| own.text(text));
     }
 
-    /// A paragraph.
+    /// Writes a paragraph.
     pub(crate) fn paragraph(&mut self, text: &str) {
         self.leaf("p", &[], text);
         self.out.push('\n');
     }
 
-    /// An opening tag; of elements that have no end it is all.
+    /// Writes an opening tag; void elements need nothing more.
     pub(crate) fn open(&mut self, tag: &'static str, attributes: Attributes<'_>) {
         let _ = write!(self.out, "<{tag}");
         for (name, value) in attributes {
@@ -46,7 +46,7 @@ impl Html {
         self.out.push('>');
     }
 
-    /// Text from anywhere.
+    /// Writes arbitrary text, escaped.
     pub(crate) fn text(&mut self, text: &str) {
         for character in text.chars() {
             match character {
@@ -61,13 +61,13 @@ impl Html {
         }
     }
 
-    /// Markup of this crate.
+    /// Writes constant markup of this crate.
     pub(crate) fn constant(&mut self, markup: &'static str) {
         self.out.push_str(markup);
     }
 
-    /// Data for the scripts of the page. Inside of a script element no character is escaped and `<` may end it: JSON writes that
-    /// as an escape of its own.
+    /// Writes data for the scripts of the page. Inside a script element no HTML escape applies and `<` may end it, so `<` is written as a
+    /// JSON escape.
     pub(crate) fn data(&mut self, kind: &str, json: &str) {
         self.open(
             "script",

@@ -5,7 +5,7 @@ use crate::html::Html;
 use crate::words::operating_point;
 use crate::{Error, sections};
 
-/// Scripts, each after those it builds on. In one module, so that none of their names is global.
+/// Scripts in dependency order, joined into one module so that none of their names is global.
 const SCRIPTS: [&str; 9] = [
     include_str!("../assets/svg.js"),
     include_str!("../assets/axes.js"),
@@ -18,10 +18,10 @@ const SCRIPTS: [&str; 9] = [
     include_str!("../assets/page.js"),
 ];
 
-/// Nothing is loaded, from nowhere, whatever a text in the page may say.
+/// Forbids loading anything, whatever text the page contains.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
 
-/// The text of the file.
+/// The text of the HTML file.
 ///
 /// # Errors
 /// [`Error::Data`].

@@ -1,4 +1,4 @@
-//! What a report is asked for.
+//! The settings of a report.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use eigentol_figures::Style;
 use crate::content::Content;
 use crate::{Error, page};
 
-/// A report of a study: what it asks of the study, and how it is headed.
+/// A report of a study: the analyses it runs and its heading.
 ///
 /// ```
 /// use eigentol::{Study, mechanism};
@@ -47,7 +47,7 @@ pub struct Report<M> {
 }
 
 impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
-    /// A report of a study as it is set up: its operating point, tolerances, samples and seed.
+    /// A report of a study as set up: its operating point, tolerances, samples and seed.
     #[must_use]
     pub fn new(study: &Study<M>) -> Self {
         Self {
@@ -67,15 +67,15 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
         self
     }
 
-    /// Shows the text that declares the mechanism.
+    /// Includes the declaration of the mechanism.
     #[must_use]
     pub fn declaration(mut self, text: impl Into<String>) -> Self {
         self.declaration = Some(text.into());
         self
     }
 
-    /// Follows equilibria, modes and their spread along an input, at these values, ascending or descending. Branches are followed
-    /// from the least to the greatest of them.
+    /// Follows equilibria, modes and their spread along an input at these values, ascending or descending. Branches are followed from the
+    /// lowest to the highest value.
     #[must_use]
     pub fn sweep(mut self, input: Input<M>, values: &[impl Into<Value> + Copy]) -> Self {
         let values = values.iter().map(|&value| value.into()).collect();
@@ -83,14 +83,14 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
         self
     }
 
-    /// Marks where a frequency is this many times the input of the sweep: engine orders.
+    /// Marks where a frequency is one of these multiples of the swept input: engine orders.
     #[must_use]
     pub fn orders(mut self, orders: &[f64]) -> Self {
         self.orders = orders.to_vec();
         self
     }
 
-    /// Says what the modes are called and which unit frequencies have, in figures and sentences. Tables keep numbers and rad/s.
+    /// Sets mode names and the unit of frequencies for figures and sentences. Tables keep numbers and rad/s.
     #[must_use]
     pub fn style(mut self, style: Style) -> Self {
         self.style = style;
@@ -111,10 +111,10 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
         self
     }
 
-    /// The report as the text of an HTML file, which loads nothing.
+    /// Returns the report as a self-contained HTML file, which loads nothing.
     ///
     /// # Errors
-    /// [`Error::Study`] where the study is set up wrongly. What an analysis refuses is no error: the report says it in its place.
+    /// [`Error::Study`] if the study is set up wrongly. A refusal of an analysis is not an error: the report states it in its place.
     pub fn html(&self) -> Result<String, Error> {
         page::html(&Content::of(self)?)
     }
@@ -122,7 +122,7 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     /// Writes the report to a file.
     ///
     /// # Errors
-    /// As [`Report::html`]; [`Error::Write`].
+    /// The errors of [`Report::html`]; [`Error::Write`].
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let path = path.as_ref();
         let written = fs::write(path, self.html()?);

@@ -1,4 +1,4 @@
-//! What the view in 3-D is drawn from: a scene, and of each mode its poses along one period.
+//! Data for the 3-D view: a scene, and the poses of each mode over one period.
 
 use std::f64::consts::TAU;
 
@@ -10,27 +10,27 @@ use serde::Serialize;
 use crate::content::Pictures;
 use crate::words::{capital, number};
 
-/// Most poses of all modes together: they are the bulk of the file.
+/// Maximum number of poses over all modes; they make up most of the file.
 const POSES: usize = 14_000;
-/// Poses along one period. Between them the view goes in straight lines.
+/// Number of poses per period. The view interpolates linearly between them.
 const MOST_FRAMES: usize = 24;
 const LEAST_FRAMES: usize = 8;
 
-/// How far the farthest place moves in a mode, as a fraction of the size of the mechanism.
+/// Largest displacement in a mode, as a fraction of the size of the mechanism.
 pub(crate) const AMPLITUDE: f64 = 0.12;
 
-/// How many modes are animated, each with how many poses of every body.
+/// The number of animated modes, and the number of poses of every body in each.
 pub(crate) fn frames(bodies: usize, modes: usize) -> (usize, usize) {
     let poses = POSES / bodies.max(1);
     let frames = (poses / modes.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
     (modes.min(poses / frames), frames)
 }
 
-/// A scene with its modes, for the script.
+/// A scene with its modes, passed to the script.
 #[derive(Serialize)]
 pub(crate) struct View<'a> {
     scene: &'a Scene,
-    /// Which way is up.
+    /// The upward direction.
     up: [f64; 3],
     modes: Vec<Motion>,
 }
@@ -39,7 +39,7 @@ pub(crate) struct View<'a> {
 struct Motion {
     title: String,
     about: String,
-    /// Of each phase the poses of all bodies: twelve numbers each, position and rows of the rotation.
+    /// For each phase, the poses of all bodies: twelve numbers each, position and rows of the rotation.
     frames: Vec<Vec<f64>>,
 }
 
@@ -64,7 +64,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// Four decimals of the size are more than a screen shows.
+/// Flattens poses and rounds them to four decimals of the size, finer than a screen can show.
 fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
     let step = if size > 0.0 {
         10_f64.powf(size.log10().floor() - 4.0)
@@ -73,7 +73,7 @@ fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
     };
     let round = |value: f64, step: f64| {
         let digits = (value / step).round() * step;
-        // What is not a multiple in decimals is the nearest number that is short.
+        // A multiple that is not exact in binary is rounded to a short decimal.
         format!("{digits:.6e}").parse().unwrap_or(digits)
     };
     let all = poses.iter().flat_map(|pose| {

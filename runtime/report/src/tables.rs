@@ -1,4 +1,4 @@
-//! Tables of a page: six digits to read, all digits and all columns to copy.
+//! Tables of a page: shown with six digits, copied with all digits and all columns.
 
 use eigentol_tables::{Column, Table, Values};
 
@@ -6,11 +6,11 @@ use crate::Error;
 use crate::html::Html;
 use crate::words::{is_rounding, number};
 
-/// Rows that are shown; the others are only copied.
+/// Maximum number of rows shown; the others are available only by copying.
 const ROWS: usize = 24;
 
-/// A table with the columns of these names, or with all that are not empty where none are named. What is not shown is said, and
-/// copied.
+/// Writes a table with the named columns, or with all non-empty ones if none are named. Columns and rows left out are mentioned and
+/// included in the copy.
 ///
 /// # Errors
 /// [`Error::Data`].
@@ -60,7 +60,7 @@ pub(crate) fn table(
     Ok(())
 }
 
-/// What the copy has and the page has not.
+/// Describes what the copy contains beyond the page.
 fn left_out(rows: usize, columns: usize) -> String {
     let rows = rows.saturating_sub(ROWS);
     let count = |count: usize, what: &str| match count {
@@ -93,7 +93,7 @@ fn head(html: &mut Html, columns: &[&Column]) {
     });
 }
 
-/// A number that is rounding beside `largest` is shown as zero.
+/// Writes a cell; a number within rounding error relative to `largest` is shown as zero.
 fn cell(html: &mut Html, values: &Values, row: usize, largest: f64) {
     let text = match values {
         Values::Numbers(all) => all[row].map(|own| match is_rounding(own, largest) {

@@ -1,13 +1,13 @@
-//! Numbers and names as people read them.
+//! Human-readable numbers and names.
 
 use eigentol::{Description, Unit};
 
-/// A number with six significant digits, in scientific form where that is shorter to read.
+/// A number with six significant digits, in scientific notation where that is shorter.
 pub(crate) fn number(value: f64) -> String {
     digits(value, 6)
 }
 
-/// A number with so many significant digits, at least one.
+/// A number with `count` significant digits, at least one.
 pub(crate) fn digits(value: f64, count: usize) -> String {
     let size = value.abs();
     if value == 0.0 {
@@ -17,22 +17,22 @@ pub(crate) fn digits(value: f64, count: usize) -> String {
     if !(1e-3..1e6).contains(&size) {
         return trimmed(&scientific);
     }
-    // Of the rounded number: 0.99999 has one digit before the point.
+    // The exponent of the rounded number: 0.99999 has one digit before the point.
     let exponent = scientific.rsplit('e').next();
     let exponent: i32 = exponent.and_then(|own| own.parse().ok()).unwrap_or(0);
     let decimals = (count as i32 - 1 - exponent).clamp(0, 9) as usize;
     trimmed(&format!("{value:.decimals$}"))
 }
 
-/// What is below this part of the largest beside it is rounding.
+/// Values below this fraction of the largest are rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether a number is nothing but rounding beside the largest of its kind.
+/// Whether a number is only rounding error relative to the largest of its kind.
 pub(crate) fn is_rounding(value: f64, largest: f64) -> bool {
     value.abs() <= ROUNDING * largest.abs()
 }
 
-/// Without the zeros that end a fraction.
+/// Removes trailing zeros of a fraction.
 fn trimmed(text: &str) -> String {
     let (digits, power) = match text.split_once('e') {
         Some((digits, power)) => (digits, format!("e{power}")),
@@ -62,14 +62,14 @@ pub(crate) fn operating_point(d: &Description, inputs: &[f64]) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
-/// With a capital as the first letter.
+/// Capitalises the first letter.
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().into_iter().flat_map(char::to_uppercase);
     first.collect::<String>() + letters.as_str()
 }
 
-/// A sentence: the first letter a capital, a full stop at the end.
+/// Makes a sentence: capital first letter, full stop at the end.
 pub(crate) fn sentence(text: &str) -> String {
     let text = text.trim();
     let stop = if text.ends_with(['.', '?', '!']) {

@@ -1,4 +1,4 @@
-//! What a document can hold.
+//! The results that a document can hold.
 
 use eigentol::allocation::Allocation;
 use eigentol::branches::{Branch, Branches};
@@ -26,10 +26,10 @@ use crate::Tables;
 
 /// A result that a document can hold.
 pub trait Answer: Tables + Serialize + DeserializeOwned {
-    /// What kind of result it is, as documents call it.
+    /// The kind of result, as named in documents.
     const KIND: &'static str;
 
-    /// What it belongs to; nothing of an empty list.
+    /// The mechanism and operating point the result belongs to; `None` for an empty list.
     fn subject(&self) -> Option<Subject<'_>>;
 }
 
@@ -38,9 +38,9 @@ pub trait Answer: Tables + Serialize + DeserializeOwned {
 pub struct Subject<'a> {
     /// The mechanism.
     pub description: &'a Shared<Description>,
-    /// Its inputs, SI; empty where the result does not know them.
+    /// Its inputs, SI; empty if the result does not record them.
     pub inputs: &'a [f64],
-    /// The one that varies.
+    /// The input that varies.
     pub varied: Option<Input>,
 }
 
@@ -207,7 +207,7 @@ impl Tables for Vec<Option<Whirl>> {
     }
 }
 
-/// The whirl of each mode. It does not say of which mechanism it is: the modes do.
+/// The whirl of each mode. It does not record the mechanism; the modes do.
 impl Answer for Vec<Option<Whirl>> {
     const KIND: &'static str = "whirls";
 

@@ -1,14 +1,14 @@
-//! Tables as CSV files (RFC 4180): a line of headings `name [unit]`, then a line for each row; commas, and quotes where they are needed.
+//! Tables as CSV files (RFC 4180): a heading line of `name [unit]`, then one line per row; comma-separated, quoted where necessary.
 //!
-//! Numbers are written with the digits that give back the same number. A cell is empty where there is no number or word; `true` and
-//! `false` are answers. The operating point stands in every row, in the last columns, so that files of several points can be
-//! joined and read by any program without knowing of comments.
+//! Numbers are written with enough digits to restore them exactly. Missing values are empty cells; yes/no values are `true` and `false`.
+//! The last columns repeat the operating point in every row, so files of several points can be concatenated and read by programs that do
+//! not understand comments.
 
 use std::io::{Read, Write};
 
 use crate::{Column, Error, Table, Values};
 
-/// Writes rows to one file as they come.
+/// Writes rows to a single file as they arrive.
 ///
 /// ```
 /// use eigentol_tables::Table;
@@ -30,7 +30,7 @@ pub struct Writer<W: Write> {
 }
 
 impl<W: Write> Writer<W> {
-    /// Nothing is written yet.
+    /// Creates a writer; nothing is written yet.
     pub fn new(file: W) -> Self {
         let file = csv::Writer::from_writer(file);
         Self {
@@ -39,10 +39,10 @@ impl<W: Write> Writer<W> {
         }
     }
 
-    /// Writes the rows of a table, and the headings before the first.
+    /// Writes the rows of a table, preceded by the headings if it is the first.
     ///
     /// # Errors
-    /// [`Error::Write`]; [`Error::OtherColumns`] if the headings are not those of the rows before; [`Error::Lengths`].
+    /// [`Error::Write`]; [`Error::OtherColumns`] if the headings differ from the previous rows; [`Error::Lengths`].
     pub fn write(&mut self, table: &Table) -> Result<(), Error> {
         table.check()?;
         let headings: Vec<String> = table.columns.iter().map(Column::heading).collect();
@@ -66,7 +66,7 @@ impl<W: Write> Writer<W> {
         self.file.flush().map_err(Error::Write)
     }
 
-    /// Writes what is still in memory and gives the file back.
+    /// Flushes buffered rows and returns the file.
     ///
     /// # Errors
     /// [`Error::Write`].
@@ -87,7 +87,7 @@ pub fn write(table: &Table, file: impl Write) -> Result<(), Error> {
     writer.finish().map(drop)
 }
 
-/// A table as text.
+/// Returns a table as text.
 ///
 /// # Errors
 /// [`Error::Lengths`].
@@ -97,12 +97,14 @@ pub fn to_string(table: &Table) -> Result<String, Error> {
     Ok(String::from_utf8_lossy(&text).into_owned())
 }
 
-/// Reads a table back. A file does not say what kind its columns are: a column is one of whole numbers, numbers or answers if every
-/// cell that is not empty is one, otherwise of words; a column of empty cells has numbers.
+/// Reads a table back, inferring the kind of each column.
+///
+/// A column holds whole numbers, numbers or yes/no values if all its non-empty cells parse as such, and words otherwise; a column of empty
+/// cells holds numbers.
 ///
 /// # Errors
-/// [`Error::Read`]; [`Error::Malformed`] with the line that has another number of cells than there are headings, or no end, as the last
-/// line of a file that was cut off. Where it was cut off between two lines, CSV cannot tell.
+/// [`Error::Read`]; [`Error::Malformed`] with the number of a line that has a different cell count from the headings, or that has no line
+/// end, like the last line of a truncated file. Truncation between two lines cannot be detected in CSV.
 pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(Error::Read)?;
@@ -161,7 +163,7 @@ pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
 
 fn cell(values: &Values, row: usize) -> String {
     match values {
-        // Debug has the shortest digits that give back the number, and exponents where these are shorter.
+        // Debug prints the shortest digits that restore the number, with an exponent where that is shorter.
         Values::Numbers(own) => own[row].map_or_else(String::new, |value| format!("{value:?}")),
         Values::Whole(own) => own[row].map_or_else(String::new, |value| value.to_string()),
         Values::Texts(own) => own[row].clone().unwrap_or_default(),
@@ -169,7 +171,7 @@ fn cell(values: &Values, row: usize) -> String {
     }
 }
 
-/// The cells as values of one kind.
+/// Converts the cells to values of one kind.
 fn values(cells: Vec<String>) -> Values {
     fn all<T>(cells: &[String], read: impl Fn(&str) -> Option<T>) -> Option<Vec<Option<T>>> {
         let one = |cell: &String| match cell.is_empty() {
@@ -197,7 +199,7 @@ fn values(cells: Vec<String>) -> Values {
 
 fn writing(error: csv::Error) -> Error {
     Error::Write(match error.into_kind() {
-        // With its own kind: the reader of a pipe may have gone.
+        // Keep the kind of the I/O error: the reader of a pipe may have gone.
         csv::ErrorKind::Io(source) => source,
         other => std::io::Error::other(format!("{other:?}")),
     })

@@ -1,4 +1,4 @@
-//! Results as JSON documents, for programs in any language and for reading back bit by bit.
+//! Results as JSON documents, readable from any language and restored bit for bit.
 //!
 //! ```json
 //! {
@@ -20,17 +20,18 @@
 //! }
 //! ```
 //!
-//! - `format` and `version` come first. Another version is refused by name; within a version fields may be added, none changes.
+//! - `format` and `version` come first. An unknown version is rejected with its number; within a version, fields may be added but none
+//!   changes.
 //! - The schema of all documents ([JSON Schema](https://json-schema.org), draft 2020-12) is the file `eigentol.schema.json` of this crate,
 //!   [`SCHEMA`].
-//! - `inputs` has the operating point in declared units, without an input that varies.
-//! - `tables` has what people and other programs want ([`tables`](crate::tables)): columns of equal length, each of the `kind`
-//!   `numbers`, `whole`, `texts` or `flags`, in declared units; `null` where there is nothing.
-//! - `result` has all there is to the result, in the words of the Rust type and in SI, so that [`read`] gives the same result. Complex
-//!   numbers are `[real, imaginary]`, matrices lists of rows, infinite numbers the words `"Infinity"` and `"-Infinity"`. A `description`
-//!   that is `null` is that of the document.
-//! - `lengths` is a number that changes with the length of any list in `description` and `result`, in hexadecimal digits: what would no longer fit
-//!   together is refused by [`read`]. Other programs need not look at it.
+//! - `inputs` is the operating point in declared units, without any varied input.
+//! - `tables` is meant for people and other programs ([`tables`](crate::tables)): columns of equal length, each of the `kind` `numbers`,
+//!   `whole`, `texts` or `flags`, in declared units; missing values are `null`.
+//! - `result` is the complete result in SI, with the field names of the Rust type, so that [`read`] restores it exactly. Complex numbers
+//!   are `[real, imaginary]`, matrices are lists of rows, and infinities are the strings `"Infinity"` and `"-Infinity"`. A `description` of
+//!   `null` inside the result means the description of the document.
+//! - `lengths` is a hexadecimal hash of the lengths of all lists in `description` and `result`; [`read`] uses it to reject documents whose
+//!   lists no longer match. Other programs can ignore it.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
@@ -42,9 +43,9 @@ use crate::answer::Answer;
 use crate::results::as_written;
 use crate::{Error, Table};
 
-/// The word that says what a file is.
+/// Format name that identifies a document.
 const FORMAT: &str = "eigentol";
-/// The version of documents that is written and read.
+/// The document version that is written and read.
 pub const VERSION: u64 = 1;
 
 /// The JSON Schema (draft 2020-12) of all documents of this version.
@@ -116,21 +117,21 @@ pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
     file.flush().map_err(Error::Write)
 }
 
-/// A document as text.
+/// Returns the document as text.
 ///
 /// # Errors
-/// None that is known of.
+/// None known.
 pub fn to_string<A: Answer>(answer: &A) -> Result<String, Error> {
     let mut text = Vec::new();
     write(answer, &mut text)?;
     Ok(String::from_utf8_lossy(&text).into_owned())
 }
 
-/// Reads the result of a document back, bit by bit.
+/// Reads the result of a document back, bit for bit.
 ///
 /// # Errors
-/// [`Error::Read`]; [`Error::Malformed`] for a file that is cut off or no JSON; [`Error::Foreign`] for JSON of other programs,
-/// [`Error::Version`] for a document of another version, [`Error::Kind`] for one of another result; [`Error::Content`].
+/// [`Error::Read`]; [`Error::Malformed`] for a file that is truncated or not JSON; [`Error::Foreign`] for JSON from other programs;
+/// [`Error::Version`] for a document of another version; [`Error::Kind`] for a different kind of result; [`Error::Content`].
 pub fn read<A: Answer>(file: impl Read) -> Result<A, Error> {
     let document: Value = serde_json::from_reader(file).map_err(reading)?;
     let kind = kind(&document)?;
@@ -153,10 +154,10 @@ pub fn read<A: Answer>(file: impl Read) -> Result<A, Error> {
     serde_json::from_value(result).map_err(content)
 }
 
-/// Reads the tables of a document, whatever it holds.
+/// Reads the tables of a document, whatever result it holds.
 ///
 /// # Errors
-/// As [`read`], but for the kind.
+/// The same as [`read`], except [`Error::Kind`].
 pub fn read_tables(file: impl Read) -> Result<Vec<Table>, Error> {
     let mut document: Value = serde_json::from_reader(file).map_err(reading)?;
     kind(&document)?;
@@ -166,7 +167,7 @@ pub fn read_tables(file: impl Read) -> Result<Vec<Table>, Error> {
     Ok(tables)
 }
 
-/// The kind of a document of this format and version.
+/// Checks format and version, and returns the kind of the document.
 fn kind(document: &Value) -> Result<&str, Error> {
     if document.get("format").and_then(Value::as_str) != Some(FORMAT) {
         return Err(Error::Foreign);
@@ -184,7 +185,7 @@ fn kind(document: &Value) -> Result<&str, Error> {
     kind.ok_or(Error::Foreign)
 }
 
-/// A number that changes with the length of any list, as text: the hash of all of them in order (FNV-1a).
+/// Hash (FNV-1a) of the lengths of all lists in order, as text.
 fn lengths(description: &Value, result: &Value) -> String {
     fn add(hash: &mut u64, bytes: &[u8]) {
         for byte in bytes {
@@ -199,7 +200,7 @@ fn lengths(description: &Value, result: &Value) -> String {
                 all.iter().for_each(|own| walk(hash, own));
             }
             Value::Object(fields) => {
-                // Programs are free to write fields in another order.
+                // Sorted, because other programs may reorder fields.
                 let fields: BTreeMap<&String, &Value> = fields.iter().collect();
                 for (name, own) in fields {
                     add(hash, name.as_bytes());
@@ -216,7 +217,7 @@ fn lengths(description: &Value, result: &Value) -> String {
     format!("{hash:016x}")
 }
 
-/// Every state and every set of modes names its mechanism; a document says once what all have in common.
+/// Replaces repeated descriptions by `null`: every state and set of modes carries one, but the document stores it once.
 fn leave_out(value: &mut Value, description: &Value) {
     match value {
         Value::Array(all) => all.iter_mut().for_each(|own| leave_out(own, description)),

@@ -1,9 +1,9 @@
-//! Tables as Parquet files, for many samples and long sweeps: each table that is written becomes a row group, so that only one of them has
-//! to be in memory.
+//! Tables as Parquet files, for large sample sets and long sweeps: each table written becomes one row group, so only one needs to be in
+//! memory.
 //!
-//! Columns have the headings of CSV files, `name [unit]`, and may be empty; numbers are `DOUBLE`, whole numbers `INT64`, words UTF-8, answers
-//! `BOOLEAN`. Nothing is compressed. The file says under the keys `eigentol` and `table` of which version it is, and of which table. It is
-//! complete once [`Writer::finish`] has returned: what is cut off before that cannot be read.
+//! Columns use the CSV headings, `name [unit]`, and may hold missing values; numbers are `DOUBLE`, whole numbers `INT64`, words UTF-8,
+//! yes/no values `BOOLEAN`. Nothing is compressed. The metadata keys `eigentol` and `table` hold the format version and the table name. A
+//! file is complete only once [`Writer::finish`] has returned; a truncated file cannot be read.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -24,12 +24,12 @@ use parquet::schema::types::Type;
 use crate::json::VERSION;
 use crate::{Column, Error, Table, Values};
 
-/// Key of the version.
+/// Metadata key of the format version.
 const FORMAT: &str = "eigentol";
-/// Key of the name of the table.
+/// Metadata key of the table name.
 const TABLE: &str = "table";
 
-/// Writes rows to one file as they come.
+/// Writes rows to a single file as they arrive.
 ///
 /// ```
 /// use eigentol_tables::{Table, parquet};
@@ -60,17 +60,17 @@ enum State<W: Write + Send> {
 }
 
 impl<W: Write + Send> Writer<W> {
-    /// Nothing is written yet.
+    /// Creates a writer; nothing is written yet.
     pub fn new(file: W) -> Self {
         let state = State::Empty(file);
         Self { state }
     }
 
-    /// Writes the rows of a table as a row group.
+    /// Writes the rows of a table as one row group.
     ///
     /// # Errors
-    /// [`Error::Write`], after which nothing more can be written; [`Error::OtherColumns`] if headings or kinds are not those of the rows before;
-    /// [`Error::Lengths`].
+    /// [`Error::Write`], after which nothing more can be written; [`Error::OtherColumns`] if headings or kinds differ from the previous
+    /// rows; [`Error::Lengths`].
     pub fn write(&mut self, table: &Table) -> Result<(), Error> {
         table.check()?;
         let own: Vec<(String, Physical)> = (table.columns.iter())
@@ -105,7 +105,7 @@ impl<W: Write + Send> Writer<W> {
         Ok(())
     }
 
-    /// Writes the end of the file, without which it cannot be read. Without any table the file stays empty.
+    /// Writes the footer, without which the file cannot be read. If no table was written, the file stays empty.
     ///
     /// # Errors
     /// [`Error::Write`].
@@ -204,16 +204,16 @@ fn group<W: Write + Send>(
     Ok(())
 }
 
-/// For each entry 1 if it is there, and those that are.
+/// Definition levels (1 where an entry is present) and the values present.
 fn present<T, R>(all: &[Option<T>], value: impl Fn(&T) -> R) -> (Vec<i16>, Vec<R>) {
     let levels = all.iter().map(|own| i16::from(own.is_some())).collect();
     (levels, all.iter().flatten().map(value).collect())
 }
 
-/// Reads all rows of a file. One of another program can be read as well, if its columns are of kinds that tables have.
+/// Reads all rows of a file, including files from other programs if tables support their column types.
 ///
 /// # Errors
-/// [`Error::Read`]; [`Error::Content`] for a file that is cut off, damaged or no Parquet file, and for columns of other kinds;
+/// [`Error::Read`]; [`Error::Content`] for a file that is truncated, damaged or not Parquet, and for unsupported column types;
 /// [`Error::Version`].
 pub fn read(mut file: impl Read) -> Result<Table, Error> {
     let mut bytes = Vec::new();
@@ -302,7 +302,7 @@ fn entries<T: DataType>(reader: ColumnReader, rows: usize) -> Result<Vec<Option<
         }
         read += records;
     }
-    // A column that is never empty has no levels.
+    // A required column has no definition levels.
     if levels.is_empty() {
         levels = vec![1; values.len()];
     }

@@ -7,7 +7,7 @@ use crate::Error;
 /// A table: columns of equal length.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Table {
-    /// What it is a table of, in one or two words: `modes`.
+    /// The subject of the table in one or two words: `modes`.
     pub name: String,
     /// The columns. No two have the same heading.
     pub columns: Vec<Column>,
@@ -16,11 +16,11 @@ pub struct Table {
 /// One column of a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
-    /// What stands in it.
+    /// The name of the column.
     pub name: String,
-    /// The symbol of the unit of its numbers, as declarations write it; empty of what has none.
+    /// The unit symbol as written in declarations; empty if the column has no unit.
     pub unit: String,
-    /// One entry for each row; `None` where there is nothing, or no finite number.
+    /// One entry per row; `None` for a missing or non-finite value.
     #[serde(flatten)]
     pub values: Values,
 }
@@ -40,7 +40,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// How many entries there are, the missing ones included.
+    /// The number of entries, including missing ones.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -51,7 +51,7 @@ impl Values {
         }
     }
 
-    /// Whether there are no entries at all.
+    /// Whether there are no entries.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -59,7 +59,7 @@ impl Values {
 }
 
 impl Column {
-    /// `name [unit]`, or the name alone of what has no unit.
+    /// The heading: `name [unit]`, or the name alone if there is no unit.
     #[must_use]
     pub fn heading(&self) -> String {
         match self.unit.is_empty() {
@@ -79,7 +79,7 @@ impl Column {
 }
 
 impl Table {
-    /// A table without columns.
+    /// Creates a table without columns.
     #[must_use]
     pub fn new(name: &str) -> Self {
         Self {
@@ -88,19 +88,19 @@ impl Table {
         }
     }
 
-    /// The first column of this name.
+    /// The first column with this name.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|column| column.name == name)
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
 
-    /// Adds a column of numbers. What is not finite is left out, as a number that is missing.
+    /// Adds a column of numbers; non-finite values become missing.
     pub fn numbers<V: Into<Option<f64>>>(
         &mut self,
         name: impl Into<String>,
@@ -133,7 +133,7 @@ impl Table {
         self.add(name.into(), "", Values::Texts(values));
     }
 
-    /// Adds a column of answers, yes or no.
+    /// Adds a column of yes/no values.
     pub fn flags<V: Into<Option<bool>>>(
         &mut self,
         name: impl Into<String>,
@@ -143,7 +143,7 @@ impl Table {
         self.add(name.into(), "", Values::Flags(values));
     }
 
-    /// A declared name may be one that the table has already: then it is told apart by a number, `mode 2`.
+    /// Adds a column. A name the table already has gets a number appended, `mode 2`.
     fn add(&mut self, name: String, unit: &str, values: Values) {
         let taken = |name: &str| self.columns.iter().any(|own| own.name == name);
         let mut own = name.clone();
@@ -159,7 +159,7 @@ impl Table {
         });
     }
 
-    /// Refuses columns of different lengths, which a table that was put together by hand may have.
+    /// Rejects columns of different lengths, which a hand-built table may have.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let rows = self.rows();
         match self.columns.iter().find(|own| own.values.len() != rows) {

@@ -1,4 +1,4 @@
-//! The cheapest tolerances that meet requirements.
+//! Allocation of the cheapest tolerances that meet the requirements.
 
 use clap::Args;
 use eigentol::allocation::{Choices, Cost, HalfWidth, Nominal};
@@ -106,7 +106,7 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
     }
 }
 
-/// Refuses what would say nothing beside the rest of a requirement.
+/// Rejects settings that would have no effect in this requirement.
 fn all_used(own: &Require) -> Result<(), Failure> {
     let limited = own.at_least.is_some() || own.at_most.is_some() || own.outside.is_some();
     let elsewhere = [&own.output, &own.critical, &own.resonance, &own.flutter];
@@ -236,7 +236,7 @@ fn choose(
     Ok(())
 }
 
-/// Position among the design variables, tolerances of inputs after them.
+/// Index among the design variables, followed by the input tolerances.
 fn place(
     study: &Study<Interpreted>,
     name: &str,

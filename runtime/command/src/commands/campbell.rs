@@ -53,7 +53,7 @@ impl Campbell {
         let make = |points: &[CampbellPoint]| campbell_table(d, inputs, input.any(), points);
         let kind = "Campbell diagram";
         let mut rows = self.output.rows((kind, kind), make)?;
-        // Rows that are written as they come need not be kept.
+        // Rows written as they arrive need not be kept.
         let keep = rows.is_none() || self.picture.is_wanted();
         let (mut points, mut done, mut solved) = (Vec::new(), 0, 0);
         let mut written = Ok(());

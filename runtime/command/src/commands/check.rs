@@ -1,4 +1,4 @@
-//! Whether declarations are right.
+//! Checking declarations.
 
 use std::path::PathBuf;
 
@@ -36,7 +36,7 @@ impl Check {
     }
 }
 
-/// What a declaration declares, in one line.
+/// One-line summary of a declaration.
 fn summary(of: &Description) -> String {
     let moves = |role: &Role| matches!(role, Role::Position | Role::Speed);
     let moving = of.coordinates.iter().filter(|info| moves(&info.role));

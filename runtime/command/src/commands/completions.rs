@@ -1,4 +1,4 @@
-//! Completions for shells.
+//! Shell completions.
 
 use clap::{Args, CommandFactory as _};
 use clap_complete::{Shell, generate};

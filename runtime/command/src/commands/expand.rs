@@ -1,4 +1,4 @@
-//! What the compiler makes of a declaration.
+//! Output of the compiler stages for a declaration.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -70,7 +70,7 @@ fn dump(compilation: &Compilation, stage: &str) -> String {
     found.next().map_or_else(String::new, |(_, text)| text)
 }
 
-/// A line for each kernel: additions and the like, and functions such as sines.
+/// A line for each kernel: arithmetic operations, and functions such as sines.
 fn operations(compilation: &Compilation) -> String {
     let mut text = format!(
         "{:<24} {:>10} {:>10}\n",
@@ -78,7 +78,7 @@ fn operations(compilation: &Compilation) -> String {
     );
     for kernel in &compilation.program.kernels {
         let cost = &kernel.cost;
-        // A string takes everything.
+        // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "{:<24} {:>10} {:>10}",

@@ -1,4 +1,4 @@
-//! Robots of URDF files as declarations.
+//! Translation of URDF robots into declarations.
 
 use std::path::PathBuf;
 

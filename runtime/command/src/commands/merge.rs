@@ -1,4 +1,4 @@
-//! Putting parts of a run together.
+//! Merging the parts of a run.
 
 use std::path::PathBuf;
 

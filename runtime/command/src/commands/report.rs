@@ -82,7 +82,7 @@ impl Report {
             let reason = "the report says what is done";
             return Ok(Verdict::Stopped(reason.to_owned()));
         }
-        // What the report says is not there is an answer of "no" here.
+        // What the report mentions as missing counts here as the answer "no".
         let solved = study.solve()?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }

@@ -75,7 +75,7 @@ impl Sample {
             range: &range,
             bar: &bar,
         };
-        // Nothing, to refuse a partial result of another run before the work is done.
+        // An empty part, to reject a partial result of another run before any work.
         let mut part = run.take(range.start..range.start)?;
         if let Some(path) = &self.resume {
             parts::add(&mut part, path, parts::read(path)?)?;
@@ -104,7 +104,7 @@ impl Sample {
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }
 
-    /// Takes what is missing of a run, and writes its samples as they come.
+    /// Computes the missing samples of a run and writes them as they arrive.
     fn write_samples(&self, run: &Run<'_>, part: &mut PartialMonteCarlo) -> Result<(), Failure> {
         let whole = part.result();
         let make = |all: &[(u64, Solution)]| numbered_samples_table(&whole, all);
@@ -123,10 +123,10 @@ impl Sample {
     }
 }
 
-/// Samples that are in memory together where all are written.
+/// Number of samples in memory at once when all are written.
 const TOGETHER: u64 = 16_384;
 
-/// A run that is going on.
+/// A run in progress.
 struct Run<'a> {
     solved: &'a Solved<'a, Interpreted>,
     sampling: Sampling<'a>,
@@ -140,7 +140,7 @@ impl Run<'_> {
         self.solved.sample_modes(&sampling.range(Some(range)))
     }
 
-    /// Adds what is missing, so many samples at once, each part being shown before.
+    /// Computes the missing samples, `together` at a time, and passes each part to `each` before merging it.
     fn complete(
         &self,
         done: &mut PartialMonteCarlo,
@@ -169,7 +169,7 @@ fn length(ranges: &[Range<u64>]) -> u64 {
     ranges.iter().map(|own| own.end - own.start).sum()
 }
 
-/// What of these ranges lies within another.
+/// The intersections of these ranges with another range.
 fn within(ranges: &[Range<u64>], within: &Range<u64>) -> Vec<Range<u64>> {
     let inside = |own: &Range<u64>| own.start.max(within.start)..own.end.min(within.end);
     let inside = ranges.iter().map(inside);

@@ -1,4 +1,4 @@
-//! Derivatives by inputs and design variables.
+//! Derivatives with respect to inputs and design variables.
 
 use clap::Args;
 

@@ -36,7 +36,7 @@ impl Follow {
         let bar = progress::bar("values", Some(values.len() as u64));
         let study = progress::watched(question.study, &bar);
         let (d, inputs, input) = (study.description(), study.input_values(), range.input);
-        // As many as there can be unless one ends and another begins.
+        // The maximum number unless one motion ends and another begins.
         let motions = 2 * d.coordinates.len();
         let make = |points: &[SweepPoint]| sweep_table(d, inputs, input.any(), points, motions);
         let mut rows = self.output.rows(("sweep", "sweep"), make)?;

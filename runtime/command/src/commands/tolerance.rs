@@ -1,4 +1,4 @@
-//! What tolerances do at one operating point.
+//! The effect of tolerances at one operating point.
 
 use clap::Args;
 use eigentol::Error;

@@ -7,10 +7,10 @@ use super::layout::{Frame, HANGING, below, hanging, px};
 use super::pen::{Anchor, Pen};
 use crate::figure::{Axis, Panel, Point};
 
-/// Size of the letters of ticks, shown.
+/// Size of tick labels, as shown.
 const TICK: i32 = 15;
 
-/// Positions of a panel as pixels.
+/// Converts positions in a panel to pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     x: [f64; 2],
@@ -47,7 +47,7 @@ impl Place {
     }
 }
 
-/// Lines of the grid, ticks with their numbers, headings.
+/// Draws grid lines, ticks with their numbers, and headings.
 pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
     let place = Place::of(panel, frame);
     let Frame {
@@ -101,7 +101,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
     Ok(())
 }
 
-/// Places and words of the ticks, about so many.
+/// Positions and labels of the ticks, approximately as many as wanted.
 fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     if !axis.categories.is_empty() {
         let names = axis.categories.iter().enumerate();
@@ -119,7 +119,7 @@ fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     values.map(|value| (value, number(value, step))).collect()
 }
 
-/// The round number next above; of angles one that divides a turn.
+/// The next larger round number; for angles, one that divides a turn.
 fn step(rough: f64, unit: &str) -> f64 {
     let power = 10f64.powf(rough.log10().floor());
     let decimal = [1.0, 2.0, 2.5, 5.0, 10.0].map(|own| own * power);
@@ -135,7 +135,7 @@ fn step(rough: f64, unit: &str) -> f64 {
     wide.next().unwrap_or(10.0 * power)
 }
 
-/// A number with the decimals that its step asks for.
+/// Formats a number with as many decimals as the step requires.
 fn number(value: f64, step: f64) -> String {
     let size = value.abs().max(step);
     if !(1e-4..1e7).contains(&size) || step < 1e-6 {

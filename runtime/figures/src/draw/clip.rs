@@ -1,4 +1,4 @@
-//! Cutting curves and bands where they leave the panel.
+//! Clipping of curves and bands at the edges of the panel.
 
 use crate::figure::Point;
 
@@ -12,7 +12,7 @@ pub(super) fn clip(curve: &[Point], x: [f64; 2], y: [f64; 2]) -> Vec<Vec<Point>>
     parts.map(turned).collect()
 }
 
-/// The part of a band within a range, its edges cut where the range ends.
+/// The part of a band within a range, with its edges cut at the ends of the range.
 pub(super) fn clip_band(edges: &[[f64; 3]], [left, right]: [f64; 2]) -> Vec<[f64; 3]> {
     let inside = |edge: &[f64; 3]| (left..=right).contains(&edge[0]);
     let at = |pair: &[[f64; 3]], x: f64| {
@@ -37,7 +37,7 @@ pub(super) fn clip_band(edges: &[[f64; 3]], [left, right]: [f64; 2]) -> Vec<[f64
     found
 }
 
-/// The parts of a curve whose second values are between two.
+/// The parts of a curve whose y values lie between two limits.
 fn within(curve: &[Point], [bottom, top]: [f64; 2]) -> Vec<Vec<Point>> {
     let inside = |point: &Point| (bottom..=top).contains(&point[1]);
     let mut pieces = Vec::new();
@@ -59,7 +59,7 @@ fn within(curve: &[Point], [bottom, top]: [f64; 2]) -> Vec<Vec<Point>> {
     pieces
 }
 
-/// The part of a segment between two values, if any.
+/// The part of a segment between two limits, if any.
 fn between(from: Point, to: Point, bottom: f64, top: f64) -> Option<(Point, Point)> {
     let at = |part: f64| {
         [

@@ -1,8 +1,8 @@
-//! Dashes along a line. Those of plotters know one dash and one gap.
+//! Dashes along a line. plotters supports only a single dash and gap length.
 
 type Pixel = (i32, i32);
 
-/// The dashes of a line; `pattern` has the lengths of dash and gap in turns.
+/// The dashes of a line; `pattern` alternates dash and gap lengths.
 pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
     let mut found = Vec::new();
     let Some(&first) = line.first() else {

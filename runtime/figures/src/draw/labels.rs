@@ -1,4 +1,4 @@
-//! Words beside points, where they do not cover each other.
+//! Labels beside points, placed so that they do not overlap.
 
 use plotters::prelude::DrawingBackend;
 
@@ -6,16 +6,16 @@ use super::Outcome;
 use super::layout::{Frame, px};
 use super::pen::{Anchor, Pen, length};
 
-/// Size of the letters, shown.
+/// Size of the letters, as shown.
 const SIZE: i32 = 14;
 
-/// How far words reach beyond the right end of the panel.
+/// How far labels may reach beyond the right end of the panel.
 const BEYOND: i32 = px(20);
 
 /// A box: left, right, top, bottom.
 type Box = [i32; 4];
 
-/// What is taken.
+/// The occupied areas.
 pub(super) struct Labels {
     frame: Frame,
     taken: Vec<Box>,
@@ -29,12 +29,12 @@ impl Labels {
         }
     }
 
-    /// Nothing is written here.
+    /// Keeps labels out of this area.
     pub(super) fn keep_free(&mut self, (x, y): (i32, i32), half: i32) {
         self.taken.push([x - half, x + half, y - half, y + half]);
     }
 
-    /// Words do not cross this line if they find another place.
+    /// Keeps labels off this line if they find another place.
     pub(super) fn keep_line_free(&mut self, line: &[(i32, i32)]) {
         for pair in line.windows(2) {
             let [(x, y), (to_x, to_y)] = [pair[0], pair[1]];
@@ -46,7 +46,7 @@ impl Labels {
         }
     }
 
-    /// Writes words to the right of a point and above, or elsewhere near it where that is taken.
+    /// Writes a label above and to the right of a point, or elsewhere near it if that place is taken.
     pub(super) fn write<B: DrawingBackend>(
         &mut self,
         pen: &Pen<'_, B>,
@@ -71,7 +71,7 @@ impl Labels {
             .or_else(|| places.iter().find(inside))
             .or(places.first());
         if let Some(&[left, right, top, bottom]) = place {
-            // Where no place is inside, the words are longer than the panel is wide, or nearly.
+            // If no place is inside the panel, the label is nearly as long as the panel is wide, or longer.
             let room = self.frame.right + BEYOND - self.frame.left;
             let left = left
                 .min(self.frame.right + BEYOND - width)

@@ -1,12 +1,12 @@
-//! Where everything goes, in pixels of the drawing.
+//! The layout of a figure, in drawing pixels.
 
 use super::legend::{self, Entry};
 use crate::Figure;
 use crate::figure::Panel;
 
-/// plotters places everything on whole pixels: drawn three times larger and shown at its size, curves are smooth.
+/// plotters places everything on whole pixels; drawing at three times the shown size keeps curves smooth.
 pub(super) const SCALE: i32 = 3;
-/// Widths and heights, in pixels as shown.
+/// Widths and heights, in shown pixels.
 pub(super) const WIDTH: i32 = 960;
 pub(super) const TITLE_HEIGHT: i32 = 48;
 pub(super) const LEGEND_HEIGHT: i32 = 24;
@@ -15,12 +15,12 @@ const LEFT: i32 = 92;
 const RIGHT: i32 = 28;
 const BELOW: i32 = 58;
 const ABOVE: i32 = 10;
-/// Most room for a word that hangs below the horizontal axis.
+/// Maximum room for a label that hangs below the horizontal axis.
 pub(super) const HANGING: i32 = 150;
-/// Characters of a line of the caption.
+/// Characters per caption line.
 const LINE: usize = 116;
 
-/// Pixels of the drawing.
+/// Converts shown pixels to drawing pixels.
 pub(super) const fn px(shown: i32) -> i32 {
     SCALE * shown
 }
@@ -34,7 +34,7 @@ pub(super) struct Frame {
     pub(super) bottom: i32,
 }
 
-/// Where everything goes.
+/// The layout of a figure.
 #[derive(Debug)]
 pub(super) struct Layout {
     pub(super) height: i32,
@@ -75,7 +75,7 @@ impl Layout {
     }
 }
 
-/// Room for the words below the horizontal axis; categories that do not fit beside each other hang.
+/// Room for the labels below the horizontal axis; categories that do not fit side by side hang vertically.
 pub(super) fn below(panel: &Panel) -> i32 {
     let names = panel.x.categories.iter().map(|own| own.chars().count());
     match names.max() {
@@ -84,14 +84,14 @@ pub(super) fn below(panel: &Panel) -> i32 {
     }
 }
 
-/// Whether the categories of the horizontal axis have no room beside each other.
+/// Whether the categories of the horizontal axis do not fit side by side.
 pub(super) fn hanging(panel: &Panel) -> bool {
     let names = panel.x.categories.iter().map(|own| own.chars().count());
     let slot = (WIDTH - left(panel) - RIGHT) / panel.x.categories.len().max(1) as i32;
     names.max().is_some_and(|longest| 9 * longest as i32 > slot)
 }
 
-/// Room for the words beside the vertical axis.
+/// Room for the labels beside the vertical axis.
 fn left(panel: &Panel) -> i32 {
     let names = panel.y.categories.iter().map(|own| own.chars().count());
     match names.max() {
@@ -109,7 +109,7 @@ fn height(panel: &Panel, panels: usize) -> i32 {
     }
 }
 
-/// A text in lines.
+/// Breaks a text into lines.
 fn wrapped(text: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     let words = text.split(' ').flat_map(|word| {

@@ -1,4 +1,4 @@
-//! The legend: what has a label, once, in rows above the panels.
+//! The legend: each label once, in rows above the panels.
 
 use plotters::prelude::DrawingBackend;
 
@@ -8,13 +8,13 @@ use super::pen::{Anchor, Pen};
 use crate::Figure;
 use crate::figure::{Colour, Panel, Shape, Stroke};
 
-/// Left end of the legend and width of a symbol, shown.
+/// Left end of the legend and width of a symbol, as shown.
 const LEFT: i32 = 48;
 const SYMBOL: i32 = 36;
-/// More letters than these do not fit into a third of the width.
+/// The longest label, in letters, that fits into a third of the width.
 const SHORT: usize = 29;
 
-/// A line of the legend.
+/// An entry of the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     label: String,
@@ -31,7 +31,7 @@ enum Symbol {
     Mark,
 }
 
-/// Everything with a label, each label once.
+/// All labelled elements, each label once.
 pub(super) fn entries(figure: &Figure) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for (label, symbol) in figure.panels.iter().flat_map(symbols) {
@@ -68,7 +68,7 @@ fn symbols(panel: &Panel) -> Vec<(&str, Symbol)> {
         .collect()
 }
 
-/// As many columns as labels have room in.
+/// The largest number of columns in which the labels fit.
 pub(super) fn columns(entries: &[Entry]) -> usize {
     let longest = entries.iter().map(|own| own.label.chars().count()).max();
     match longest.unwrap_or(0) {

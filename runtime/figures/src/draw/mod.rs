@@ -1,4 +1,4 @@
-//! How a figure looks: title, legend in rows of its own so that it hides no data, panels, caption.
+//! Drawing of a figure: title, legend in rows of its own so that it hides no data, panels, caption.
 
 mod axes;
 mod clip;
@@ -26,7 +26,7 @@ use crate::figure::Colour;
 type Area<B> = DrawingArea<B, Shift>;
 type Outcome = Result<(), String>;
 
-/// Draws a figure onto an area of the size that its layout asks for.
+/// Draws a figure onto an area of the size its layout requires.
 fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> Outcome {
     area.fill(&plotters::style::WHITE).map_err(words)?;
     let pen = Pen::new(area);

@@ -1,4 +1,4 @@
-//! What stands between the axes.
+//! The content between the axes.
 
 use plotters::prelude::DrawingBackend;
 
@@ -10,7 +10,7 @@ use super::layout::{Frame, px};
 use super::pen::Pen;
 use crate::figure::{Panel, Point};
 
-/// Draws a panel; what lies outside the ranges is cut off.
+/// Draws a panel, clipped to the ranges of its axes.
 pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
     let place = Place::of(panel, frame);
     axes::draw(pen, panel, frame)?;

@@ -1,4 +1,4 @@
-//! Elements in the looks of the data model, on any backend of plotters.
+//! Drawing elements in the styles of the data model, on any plotters backend.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -9,10 +9,10 @@ use super::{Area, Outcome, words};
 use crate::figure::{Colour, Shape, Stroke};
 
 pub(super) const FONT: &str = "sans-serif";
-/// Width of a curve, shown.
+/// Width of a curve, as shown.
 const LINE: i32 = 2;
 
-/// Where a text has its anchor.
+/// The anchor of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
@@ -20,21 +20,21 @@ pub(super) enum Anchor {
     Right,
     /// In the middle, reading upwards.
     Upwards,
-    /// At its end, reading upwards: it hangs below.
+    /// At its end, reading upwards: the text hangs below the anchor.
     Below,
 }
 
-/// Width of a letter as a share of the size that plotters is given, of which a fifth is the room between lines; that of most is less.
+/// Width of a letter as a fraction of the font size given to plotters, a fifth of which is line spacing; most letters are narrower.
 pub(super) const LETTER: f64 = 0.52;
-/// Letters that can be read in print.
+/// Smallest letters readable in print.
 const SMALLEST: i32 = 10;
 
-/// Length of a text with letters of this size, as shown, in pixels of the drawing.
+/// Length of a text in drawing pixels, for a letter size as shown.
 pub(super) fn length(text: &str, size: i32) -> i32 {
     (LETTER * f64::from(px(size)) * text.chars().count() as f64).ceil() as i32
 }
 
-/// Size and letters of a text that has this room.
+/// Font size and text that fit into the given room.
 fn fit(text: &str, size: i32, room: i32) -> (i32, String) {
     let fits = |size: &i32| length(text, *size) <= room;
     if let Some(size) = (SMALLEST..=size).rev().find(fits) {
@@ -62,12 +62,12 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         Self { area }
     }
 
-    /// A text with letters of this size, as shown.
+    /// Draws a text with letters of this size, as shown.
     pub(super) fn text(&self, text: &str, at: Pixel, size: i32, anchor: Anchor) -> Outcome {
         self.coloured(text, at, size, anchor, Colour::Black)
     }
 
-    /// A text in a room of this length, in pixels of the drawing: with smaller letters or, where these would be too small to read, cut.
+    /// Draws a text into a room of this length, in drawing pixels, with smaller letters or, if these would be unreadable, truncated.
     pub(super) fn fitted(
         &self,
         text: &str,
@@ -148,7 +148,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         self.outline(corners, BLACK.mix(0.7).stroke_width(SCALE as u32))
     }
 
-    /// The four sides of a rectangle: plotters writes no width of theirs into SVG.
+    /// Draws the four sides of a rectangle as lines: plotters does not write a rectangle's stroke width to SVG.
     fn outline(&self, [(left, top), (right, bottom)]: [Pixel; 2], style: ShapeStyle) -> Outcome {
         let half = style.stroke_width as i32 / 2;
         for ends in [
@@ -188,7 +188,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         drawn.map_err(words)
     }
 
-    /// An interval about a point: a line with a stop at either end.
+    /// An interval about a point: a line with a cap at either end.
     pub(super) fn interval(&self, [from, to]: [Pixel; 2], own: Colour) -> Outcome {
         let level = from.1 == to.1;
         self.line(vec![from, to], own, 1)?;

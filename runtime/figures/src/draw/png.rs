@@ -10,13 +10,13 @@ use super::layout::{Layout, WIDTH, px};
 use super::pen::FONT;
 use crate::{Error, Figure};
 
-/// Latin, Greek and Cyrillic letters and signs of mathematics of DejaVu Sans 2.37.
+/// Latin, Greek, Cyrillic and mathematical glyphs of DejaVu Sans 2.37.
 static LETTERS: &[u8] = include_bytes!("../../fonts/DejaVuSans-subset.ttf");
 
-/// Pixels per metre of paper: 300 to the inch.
+/// Pixels per metre on paper: 300 per inch.
 const DENSITY: u32 = 11_811;
 
-/// plotters has no letters of its own.
+/// Registers the font, since plotters ships none.
 pub(super) fn register_font() -> Result<(), Error> {
     static DONE: OnceLock<bool> = OnceLock::new();
     let register = || plotters::style::register_font(FONT, FontStyle::Normal, LETTERS).is_ok();
@@ -27,8 +27,9 @@ pub(super) fn register_font() -> Result<(), Error> {
 }
 
 impl Figure {
-    /// The figure as a PNG file, 2880 pixels wide, for 300 pixels to the inch. Letters outside Latin, Greek and Cyrillic are boxes:
-    /// SVG has them.
+    /// The figure as a PNG file, 2880 pixels wide, at 300 pixels per inch.
+    ///
+    /// Characters other than Latin, Greek and Cyrillic appear as boxes; SVG shows them.
     ///
     /// # Errors
     /// [`Error::Drawing`].

@@ -1,26 +1,26 @@
-//! Figures in files.
+//! Writing figures to files.
 
 use std::fs;
 use std::path::Path;
 
 use crate::{Error, Figure};
 
-/// In which form a figure is written.
+/// The file format of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Form {
-    /// A drawing of lines and letters.
+    /// A vector drawing.
     Svg,
-    /// A picture of pixels.
+    /// A raster image.
     #[cfg(feature = "png")]
     Png,
 }
 
 impl Form {
-    /// That which the ending of a file asks for: `.svg`, or `.png` with the feature `png`.
+    /// The form given by a file extension: `.svg`, or `.png` with the feature `png`.
     ///
     /// # Errors
-    /// [`Error::Ending`] for another one.
+    /// [`Error::Ending`] for any other extension.
     pub fn of(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let ending = path.extension().and_then(|own| own.to_str());
@@ -40,7 +40,7 @@ impl Form {
 }
 
 impl Figure {
-    /// The content of a file of this form.
+    /// The content of a file in this form.
     ///
     /// # Errors
     /// [`Error::Drawing`].
@@ -52,7 +52,7 @@ impl Figure {
         }
     }
 
-    /// Writes the figure into a file, in the form that the ending of its name says ([`Form::of`]).
+    /// Writes the figure to a file, in the form given by its extension ([`Form::of`]).
     ///
     /// # Errors
     /// [`Error::Ending`], [`Error::Write`], [`Error::Drawing`].

@@ -7,7 +7,7 @@ use super::layout::{Layout, SCALE, WIDTH, px};
 use crate::{Error, Figure};
 
 impl Figure {
-    /// The figure as an SVG document, 960 pixels wide; letters are those of the reader's system.
+    /// The figure as an SVG document, 960 pixels wide; text uses the fonts of the reader's system.
     ///
     /// # Errors
     /// [`Error::Drawing`].

@@ -5,18 +5,18 @@ use serde::Serialize;
 /// An axis of numbers, or of categories.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Axis {
-    /// What it measures.
+    /// The quantity it measures.
     pub name: String,
     /// The unit; empty for pure numbers.
     pub unit: String,
     /// Its ends, in the unit, ascending.
     pub range: [f64; 2],
-    /// The categories at 0, 1, 2, ...; without any it is an axis of numbers.
+    /// The categories at 0, 1, 2, ...; empty for an axis of numbers.
     pub categories: Vec<String>,
 }
 
 impl Axis {
-    /// An axis of numbers whose range is yet to be found.
+    /// An axis of numbers whose range is still to be determined.
     #[must_use]
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self {
@@ -26,7 +26,7 @@ impl Axis {
         }
     }
 
-    /// An axis of categories, half a place of room at either end.
+    /// An axis of categories, with half a category of room at either end.
     #[must_use]
     pub fn of_categories(name: impl Into<String>, categories: Vec<String>) -> Self {
         Self {

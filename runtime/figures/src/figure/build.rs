@@ -1,15 +1,15 @@
-//! Putting figures together: nothing that is not a number gets in, and the axes end up around what is there.
+//! Building figures: non-finite numbers are dropped, and the axes are fitted to the content.
 
 use super::{
     Axis, Band, Bars, Colour, Curve, ErrorBar, ErrorBars, Figure, Label, Markers, Panel, Point,
     Shape, Stroke,
 };
 
-/// Room about what is drawn, as a share of it.
+/// Margin around the content, as a fraction of its extent.
 const ROOM: f64 = 0.05;
 
 impl Curve {
-    /// A solid line through points, interrupted where there is none or where it is not finite.
+    /// A solid line through points, interrupted where a point is missing or not finite.
     #[must_use]
     pub fn new(
         label: impl Into<String>,
@@ -32,7 +32,7 @@ impl Curve {
         }
     }
 
-    /// The same in another stroke.
+    /// Returns the curve with another stroke.
     #[must_use]
     pub fn stroke(mut self, stroke: Stroke) -> Self {
         self.stroke = stroke;
@@ -41,7 +41,7 @@ impl Curve {
 }
 
 impl ErrorBar {
-    /// A point with an interval of this half-width above and below it.
+    /// A point with a vertical interval of this half-width.
     #[must_use]
     pub fn upright(at: Point, half: f64) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl ErrorBar {
         }
     }
 
-    /// A point with an interval of this half-width to the left and to the right of it.
+    /// A point with a horizontal interval of this half-width.
     #[must_use]
     pub fn level(at: Point, half: f64) -> Self {
         Self {
@@ -63,7 +63,7 @@ impl ErrorBar {
 }
 
 impl Panel {
-    /// A panel with nothing in it.
+    /// An empty panel.
     #[must_use]
     pub fn new(x: Axis, y: Axis) -> Self {
         Self {
@@ -97,7 +97,7 @@ impl Panel {
         }
     }
 
-    /// Adds markers, those that are finite.
+    /// Adds the markers that are finite.
     pub fn markers(
         &mut self,
         label: impl Into<String>,
@@ -116,7 +116,7 @@ impl Panel {
         }
     }
 
-    /// Adds error bars, those that are finite.
+    /// Adds the error bars that are finite.
     pub fn error_bars(
         &mut self,
         label: impl Into<String>,
@@ -136,7 +136,7 @@ impl Panel {
         }
     }
 
-    /// Adds a shaded area; what is not finite is left out.
+    /// Adds a shaded area; non-finite edges are left out.
     pub fn band(
         &mut self,
         label: impl Into<String>,
@@ -154,7 +154,7 @@ impl Panel {
         }
     }
 
-    /// Adds bars, those that are finite.
+    /// Adds the bars that are finite.
     pub fn bars(
         &mut self,
         label: impl Into<String>,
@@ -172,7 +172,7 @@ impl Panel {
         }
     }
 
-    /// Adds words beside a point.
+    /// Adds a text beside a point.
     pub fn label(&mut self, at: Point, text: impl Into<String>) {
         if finite(&at) {
             let text = text.into();
@@ -180,7 +180,7 @@ impl Panel {
         }
     }
 
-    /// A thin level line across the panel, once the horizontal axis has its range.
+    /// Adds a thin horizontal line across the panel, if the horizontal axis already has its range.
     pub fn level_line(&mut self, at: f64) {
         let [low, high] = self.x.range;
         let line = [Some([low, at]), Some([high, at])];
@@ -188,7 +188,7 @@ impl Panel {
             .insert(0, Curve::new("", Colour::Grey, line).stroke(Stroke::Dotted));
     }
 
-    /// Gives axes without a range one around what is drawn, bands and intervals included, with some room above and below.
+    /// Fits axes that have no range to the content, bands and intervals included, with some margin above and below.
     pub fn fit(&mut self) {
         let points = self.points();
         if !self.x.has_range() {
@@ -199,13 +199,13 @@ impl Panel {
         }
     }
 
-    /// Whether there is anything in it but axes and marks.
+    /// Whether the panel has any content besides axes and marks.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points().is_empty()
     }
 
-    /// All points that the axes have to hold.
+    /// All points that the axes must include.
     fn points(&self) -> Vec<Point> {
         let curves = self.curves.iter().flat_map(|curve| &curve.pieces).flatten();
         let markers = self.markers.iter().flat_map(|own| &own.points);
@@ -224,7 +224,7 @@ impl Panel {
 }
 
 impl Figure {
-    /// A figure of these panels, each with a range about what it shows.
+    /// A figure of these panels, each fitted to its content.
     #[must_use]
     pub fn new(title: impl Into<String>, caption: Vec<String>, mut panels: Vec<Panel>) -> Self {
         for panel in &mut panels {
@@ -251,7 +251,7 @@ fn finite(point: &Point) -> bool {
     point.iter().all(|value| value.is_finite())
 }
 
-/// Around these values, with room; about a single value half a unit, or half of it, to either side.
+/// The range of these values with a margin; a single value gets half a unit, or half its size, to either side.
 fn range(values: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {
     let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
         let [low, high] = ends.unwrap_or([value, value]);

@@ -1,16 +1,16 @@
-//! Colours, strokes and shapes. What differs in colour differs in stroke or shape as well, for readers and printers that see no colours.
+//! Colours, strokes and shapes. Elements that differ in colour also differ in stroke or shape, for readers and printers without colour.
 
 use serde::{Serialize, Serializer};
 
 /// A colour; serialised as text, `"#0072b2"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
-    /// That of series number 0, 1, 2, ...: colours that stay apart for colour-blind readers (Okabe and Ito 2008), ordered so that
-    /// neighbours differ in grey, too.
+    /// The colour of series 0, 1, 2, ...: distinguishable for colour-blind readers (Okabe and Ito 2008), and ordered so that neighbours
+    /// also differ in grey.
     Series(usize),
-    /// What only compares.
+    /// For reference data.
     Grey,
-    /// Sums, axes and events.
+    /// For sums, axes and events.
     Black,
 }
 
@@ -46,19 +46,19 @@ impl Serialize for Colour {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stroke {
-    /// Without a gap.
+    /// Solid.
     #[default]
     Solid,
-    /// In dashes.
+    /// Dashed.
     Dashed,
-    /// In dots.
+    /// Dotted.
     Dotted,
-    /// In dashes with dots between them.
+    /// Alternating dashes and dots.
     DashDotted,
 }
 
 impl Stroke {
-    /// That of series number 0, 1, 2, ...
+    /// The stroke of series 0, 1, 2, ...
     #[must_use]
     pub fn of(series: usize) -> Self {
         [Self::Solid, Self::Dashed, Self::DashDotted, Self::Dotted][series % 4]
@@ -75,7 +75,7 @@ pub enum Shape {
     Triangle,
     /// A diagonal cross.
     Cross,
-    /// A square without filling.
+    /// An open square.
     Square,
     /// A filled diamond.
     Diamond,
@@ -84,7 +84,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// That of series number 0, 1, 2, ...
+    /// The shape of series 0, 1, 2, ...
     #[must_use]
     pub fn of(series: usize) -> Self {
         let all = [
@@ -105,8 +105,8 @@ mod tests {
 
     type Matrix = [[f64; 3]; 3];
 
-    /// What readers without one kind of cones see of linear red, green and blue: Machado, Oliveira and Fernandes (2009), "A
-    /// Physiologically-based Model for Simulation of Color Vision Deficiency", severity 1.
+    /// Linear RGB as perceived by readers lacking one type of cone: Machado, Oliveira and Fernandes (2009), "A Physiologically-based Model
+    /// for Simulation of Color Vision Deficiency", severity 1.
     const BLIND: [(&str, Matrix); 3] = [
         (
             "protanopes",
@@ -134,7 +134,7 @@ mod tests {
         ),
     ];
     const UNIT: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    /// Linear sRGB to CIE XYZ (IEC 61966-2-1), white at the sums of its rows.
+    /// Linear sRGB to CIE XYZ (IEC 61966-2-1); white is at the row sums.
     const XYZ: Matrix = [
         [0.412_4, 0.357_6, 0.180_5],
         [0.212_6, 0.715_2, 0.072_2],
@@ -145,7 +145,7 @@ mod tests {
         matrix.map(|row| row.iter().zip(own).map(|(a, b)| a * b).sum())
     }
 
-    /// CIE 1976 L*, a*, b* of a colour as such a reader sees it.
+    /// CIE 1976 L*, a*, b* of a colour as such a reader perceives it.
     fn lab(colour: Colour, reader: &Matrix) -> [f64; 3] {
         let linear = |channel: u8| {
             let own = f64::from(channel) / 255.0;
@@ -166,7 +166,7 @@ mod tests {
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
-    /// CIE 1976 colour difference: 2.3 is just noticed, side by side.
+    /// CIE 1976 colour difference: 2.3 is just noticeable side by side.
     fn difference(a: usize, b: usize, reader: &Matrix) -> f64 {
         let [a, b] = [a, b].map(|k| lab(Colour::Series(k), reader));
         let squares = a.iter().zip(b).map(|(a, b)| (a - b).powi(2));
@@ -213,7 +213,7 @@ mod tests {
     fn the_measure_is_that_of_the_textbook() {
         let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.1);
         assert!(near(lab(Colour::Black, &UNIT), [0.0; 3]));
-        // A reader whom everything is as bright as white: rows of the matrix sum to one, white stays white.
+        // Every reader sees white as white: the rows of the matrix sum to one.
         for (name, matrix) in &BLIND {
             let white = apply(matrix, [1.0; 3]);
             assert!(

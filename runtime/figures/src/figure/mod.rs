@@ -1,7 +1,7 @@
-//! What a figure consists of, whoever draws it.
+//! The contents of a figure, independent of how it is drawn.
 //!
-//! Numbers are in the units of the axes, and finite. Serialised, a figure is a tree of lists and plain objects: points are
-//! `[x, y]`, colours `"#0072b2"`, everything else has the names of the fields here.
+//! All numbers are finite and in the units of the axes. A serialised figure is a tree of lists and plain objects: points are `[x, y]`,
+//! colours `"#0072b2"`, and all other keys are the field names below.
 
 mod axis;
 mod build;
@@ -20,17 +20,17 @@ pub type Point = [f64; 2];
 /// A figure: panels one below the other.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Figure {
-    /// What it shows.
+    /// Its title.
     pub title: String,
-    /// Lines below it: operating point, parameters, samples and seed, what shades and markers mean.
+    /// Lines below the panels: operating point, parameters, samples and seed, the meaning of shades and markers.
     pub caption: Vec<String>,
     /// Its panels, from top to bottom.
     pub panels: Vec<Panel>,
 }
 
-/// One pair of axes and what is drawn between them: first bands and bars, then marks, curves, error bars, markers and labels.
+/// One pair of axes and the elements between them, drawn in this order: bands, bars, marks, curves, error bars, markers, labels.
 ///
-/// What lies outside the ranges of the axes is not seen.
+/// Anything outside the ranges of the axes is clipped.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Panel {
     /// The horizontal axis.
@@ -49,6 +49,6 @@ pub struct Panel {
     pub error_bars: Vec<ErrorBars>,
     /// Separate points.
     pub markers: Vec<Markers>,
-    /// Words.
+    /// Texts beside points.
     pub labels: Vec<Label>,
 }

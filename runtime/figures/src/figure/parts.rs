@@ -1,13 +1,13 @@
-//! What stands between the axes. What has no label is not in the legend.
+//! Elements drawn between the axes. Elements without a label do not appear in the legend.
 
 use serde::Serialize;
 
 use super::{Colour, Point, Shape, Stroke};
 
-/// A line, in pieces where values are missing.
+/// A line, broken into pieces where values are missing.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
-    /// What it is.
+    /// Its legend entry.
     pub label: String,
     /// Its colour.
     pub colour: Colour,
@@ -20,9 +20,9 @@ pub struct Curve {
 /// A shaded area between two curves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Band {
-    /// What it is.
+    /// Its legend entry.
     pub label: String,
-    /// Its colour, which is drawn faintly.
+    /// Its colour, drawn faintly.
     pub colour: Colour,
     /// Positions along the horizontal axis, each with the lower and the upper value.
     pub edges: Vec<[f64; 3]>,
@@ -31,7 +31,7 @@ pub struct Band {
 /// Rectangles.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bars {
-    /// What they are.
+    /// Their legend entry.
     pub label: String,
     /// Their colour.
     pub colour: Colour,
@@ -42,20 +42,20 @@ pub struct Bars {
 /// Separate points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Markers {
-    /// What they are.
+    /// Their legend entry.
     pub label: String,
     /// Their colour.
     pub colour: Colour,
     /// Their form.
     pub shape: Shape,
-    /// Where they lie.
+    /// Their positions.
     pub points: Vec<Point>,
 }
 
 /// Points with an interval about each.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ErrorBars {
-    /// What they are.
+    /// Their legend entry.
     pub label: String,
     /// Their colour.
     pub colour: Colour,
@@ -65,7 +65,7 @@ pub struct ErrorBars {
     pub bars: Vec<ErrorBar>,
 }
 
-/// A point with an interval about it, upright or level.
+/// A point with a vertical or horizontal interval about it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorBar {
     /// The point.
@@ -81,15 +81,15 @@ pub struct ErrorBar {
 pub struct Mark {
     /// What it marks.
     pub label: String,
-    /// Where it stands along the horizontal axis.
+    /// Its position along the horizontal axis.
     pub at: f64,
 }
 
-/// Words beside a point.
+/// A text beside a point.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Label {
-    /// The point; words stand to its right and above.
+    /// The point; the text stands above and to its right.
     pub at: Point,
-    /// The words.
+    /// The text.
     pub text: String,
 }

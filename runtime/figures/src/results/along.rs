@@ -1,4 +1,4 @@
-//! What is found along an input, whichever result it is.
+//! A common view of results along an input.
 
 use eigentol::branches::SpecialKind;
 use eigentol::modes::{Sense, Whirl};
@@ -24,7 +24,7 @@ pub(crate) struct Sample {
     pub(crate) sense: Option<Sense>,
 }
 
-/// All modes at one value of the input, in its unit; none where the point failed.
+/// All modes at one value of the input, in its unit; empty if the point failed.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Station {
     pub(crate) value: f64,
@@ -42,9 +42,9 @@ pub(crate) mod sealed {
         fn description(&self) -> &Description;
         fn input(&self) -> Input;
         fn inputs(&self) -> &[f64];
-        /// Values, SI, with their equilibria and with labels, eigenvalues, frequencies and senses of their modes.
+        /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and whirl senses of their modes.
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)>;
-        /// Values, SI, at which stiffness is lost, with the equilibrium where it changes without a jump.
+        /// Values, SI, at which stiffness is lost, with the equilibrium if it changes without a jump.
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)>;
     }
 
@@ -110,7 +110,7 @@ pub(crate) mod sealed {
     }
 }
 
-/// A result as figures along an input need it.
+/// A result in the form that figures along an input need.
 pub(crate) struct Course<'a> {
     pub(crate) description: &'a Description,
     pub(crate) input: Input,
@@ -119,7 +119,7 @@ pub(crate) struct Course<'a> {
     pub(crate) equilibria: Vec<(f64, Option<&'a Equilibrium>)>,
     /// Values at which stiffness is lost, in the unit of the input.
     pub(crate) critical: Vec<f64>,
-    /// The equilibria at those of them where it changes without a jump.
+    /// Those of them at which the equilibrium changes without a jump, with that equilibrium.
     pub(crate) soft: Vec<(f64, &'a Equilibrium)>,
 }
 
@@ -174,7 +174,7 @@ impl<'a> Course<'a> {
         axis
     }
 
-    /// The first lines of the caption: operating point and design, then what the user notes.
+    /// The first lines of the caption: operating point and design, then the user's notes.
     pub(crate) fn caption(&self, style: &Style) -> Vec<String> {
         let mut lines = vec![operating_point(
             self.description,
@@ -189,7 +189,7 @@ impl<'a> Course<'a> {
     }
 }
 
-/// The notes of the user; a list of design variables with tolerances stands in place of one without.
+/// Adds the user's notes; a note that lists the design variables replaces the line without tolerances.
 pub(crate) fn with_notes(mut lines: Vec<String>, style: &Style, d: &Description) -> Vec<String> {
     let first = d
         .design
@@ -207,7 +207,7 @@ pub(crate) fn with_notes(mut lines: Vec<String>, style: &Style, d: &Description)
     lines
 }
 
-/// An axis of an input, its range yet to be found.
+/// An axis of an input, its range still to be determined.
 pub(crate) fn input_axis(d: &Description, input: Input) -> Axis {
     match d.inputs.get(input.index()) {
         Some(info) => Axis::new(&*info.name, &*info.unit.symbol),
@@ -215,7 +215,7 @@ pub(crate) fn input_axis(d: &Description, input: Input) -> Axis {
     }
 }
 
-/// The unit of an input; that of an unknown one is a pure number.
+/// The unit of an input; a pure number if the input is unknown.
 pub(crate) fn input_unit(d: &Description, input: Input) -> Unit {
     let pure = || Unit {
         symbol: "".into(),

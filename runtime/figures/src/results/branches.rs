@@ -9,14 +9,14 @@ use crate::caption::{design, in_unit, operating_point, with_unit};
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point, Shape, Stroke};
 use crate::style::Style;
 
-/// More panels than these fit on no page.
+/// Maximum number of panels that fit on a page.
 const MOST: usize = 4;
 
-/// Branches of equilibria along the input, a panel for each coordinate: stable stretches solid, unstable ones dotted; folds and
-/// branch points are numbered.
+/// Branches of equilibria along the input, one panel per coordinate: stable stretches solid, unstable ones dotted; folds and branch points
+/// are numbered.
 ///
 /// # Errors
-/// [`Error::Nothing`] without a branch, or of a mechanism without coordinates that rest.
+/// [`Error::Nothing`] without a branch, or if the mechanism has no coordinates at rest.
 pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     let first = result.branches.iter().find(|own| !own.points.is_empty());
     let Some(first) = first else {
@@ -105,7 +105,7 @@ fn holds(point: &BranchPoint) -> bool {
     point.equilibrium.stability.holds()
 }
 
-/// A stretch of a branch with, where it begins or ends between two points, those two.
+/// A stretch of a branch and, if it begins or ends between two points, those two points.
 type Joined<'a> = (
     Stability,
     &'a [BranchPoint],
@@ -113,7 +113,7 @@ type Joined<'a> = (
     Option<[&'a BranchPoint; 2]>,
 );
 
-/// The stretches of a branch. Where stability changes at no special point, as at the onset of flutter, no point belongs to both.
+/// The stretches of a branch. Where stability changes away from special points, as at a flutter onset, no point belongs to both stretches.
 fn joined(branch: &Branch) -> Vec<Joined<'_>> {
     let all = branch.stretches();
     let gap = |before: Option<usize>, after: usize| {
@@ -129,12 +129,12 @@ fn joined(branch: &Branch) -> Vec<Joined<'_>> {
     each.collect()
 }
 
-/// The point half way between two.
+/// The midpoint of two points.
 fn between(a: Point, b: Point) -> Point {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
-/// Adds a stretch to the curve of the same look, so that the legend has it once.
+/// Adds a stretch to the curve with the same look, so that the legend lists it once.
 fn add(
     panel: &mut Panel,
     label: String,
@@ -164,7 +164,7 @@ fn about(d: &Description, result: &Branches) -> Vec<String> {
     }
 }
 
-/// The word of the legend, and that of the caption.
+/// The wording for the legend and for the caption.
 fn kind(point: &SpecialPoint) -> (&'static str, &'static str) {
     match point.kind {
         SpecialKind::Fold => ("fold", "fold"),

@@ -16,8 +16,10 @@ use crate::caption::{in_unit, number};
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point, Stroke};
 use crate::style::Style;
 
-/// The Campbell diagram: frequencies with their bands, backward whirl dashed, the lines of excitation, and numbered where they meet
-/// and where stability changes, with bars of as many standard deviations as the tolerances hold.
+/// The Campbell diagram: frequencies with their bands (backward whirl dashed), excitation lines, and numbered crossings and stability
+/// changes.
+///
+/// Each event has a bar of as many standard deviations as the tolerances span.
 ///
 /// ```
 /// use eigentol::{Study, mechanism};
@@ -99,7 +101,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     Ok(Figure::new(title, caption, vec![panel]))
 }
 
-/// A motion in the colour of its mode; backward whirl is dashed, and where nothing whirls every mode has a stroke of its own.
+/// Draws a motion in the colour of its mode; backward whirl is dashed, and if nothing whirls every mode has its own stroke.
 pub(super) fn oscillation(
     track: &Track,
     style: &Style,
@@ -122,8 +124,8 @@ pub(super) fn oscillation(
     }
 }
 
-/// Shades as many standard deviations as the tolerances hold about each mode, and says how many times as wide. Modes of a
-/// cluster have no spread of their own.
+/// Shades a band of as many standard deviations as the tolerances span about each mode, and returns the factor by which it is exaggerated.
+/// Modes of a cluster have no spread of their own.
 pub(super) fn bands(
     panel: &mut Panel,
     result: &Campbell,
@@ -165,7 +167,7 @@ pub(super) fn bands(
     times
 }
 
-/// The lines of excitation, as far as they are within the panel.
+/// Adds the excitation lines, as far as they lie within the panel.
 fn orders(panel: &mut Panel, result: &Campbell, scale: f64) {
     let unit = input_unit(&result.description, result.input);
     let ([low, high], [bottom, top]) = (panel.x.range, panel.y.range);
@@ -183,7 +185,7 @@ fn orders(panel: &mut Panel, result: &Campbell, scale: f64) {
     }
 }
 
-/// Whether an event is a limit of stability, not a crossing of a line.
+/// Whether an event is a stability limit rather than a crossing of a line.
 pub(super) fn changes_stability(event: &Event) -> bool {
     !matches!(
         event,

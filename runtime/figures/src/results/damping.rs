@@ -12,7 +12,7 @@ use crate::Error;
 use crate::figure::{Axis, Figure, Panel};
 use crate::style::Style;
 
-/// Damping ratios of the modes that oscillate, with their bands; negative where a mode grows. Limits of stability are numbered.
+/// Damping ratios of the oscillating modes with their bands; negative for growing modes. Stability limits are numbered.
 ///
 /// # Errors
 /// [`Error::Nothing`] where no mode oscillates.

@@ -12,14 +12,15 @@ use crate::caption::number;
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Shape, Stroke};
 use crate::style::Style;
 
-/// Room to the left and to the right of the paths in the plane, as a share of their width.
+/// Margin to the left and right of the paths in the plane, as a fraction of their width.
 const ROOM: f64 = 0.04;
 
-/// Real parts of the eigenvalues, solid, and imaginary parts, dashed, along the input, with the limits of stability and their bars of as many standard
-/// deviations as the tolerances hold.
+/// Real parts (solid) and imaginary parts (dashed) of the eigenvalues along the input, with the stability limits.
+///
+/// Each limit has a bar of as many standard deviations as the tolerances span.
 ///
 /// # Errors
-/// [`Error::Nothing`] where there are no modes.
+/// [`Error::Nothing`] if there are no modes.
 pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result);
     let mut panel = Panel::new(course.axis(), Axis::new("eigenvalue", "1/s"));
@@ -65,11 +66,11 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     Ok(Figure::new(title, caption, vec![panel]))
 }
 
-/// The paths of the eigenvalues in the complex plane while the input varies: real part to the right, imaginary part upwards, from
-/// a ring to a disc. To the right of zero a motion grows.
+/// The paths of the eigenvalues in the complex plane as the input varies: real part to the right, imaginary part upwards, from a ring to a
+/// disc. To the right of zero the motion grows.
 ///
 /// # Errors
-/// [`Error::Nothing`] where there are no modes.
+/// [`Error::Nothing`] if there are no modes.
 pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result);
     let mut panel = Panel::new(Axis::new("Re s", "1/s"), Axis::new("Im s", "1/s"));
@@ -102,7 +103,7 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
         panel.markers(label, Colour::Black, shape, points);
     }
     panel.fit();
-    // The markers at either end have a size: half of it would be cut off at the frame.
+    // Without this margin the frame would cut the end markers in half.
     let [low, high] = panel.x.range;
     let room = ROOM * (high - low);
     panel.x.range = [low - room, (high + room).max(room)];

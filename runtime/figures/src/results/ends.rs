@@ -6,7 +6,7 @@ use super::tracks::Track;
 use crate::figure::{Curve, Panel, Point};
 use crate::style::Style;
 
-/// Where the curves of each mode go.
+/// The last points of the curves of each mode.
 #[derive(Default)]
 pub(crate) struct Ends(BTreeMap<usize, Vec<Point>>);
 
@@ -16,7 +16,7 @@ impl Ends {
         self.0.entry(track.label).or_default().extend(points);
     }
 
-    /// Writes the name of each mode at the last of its points that the panel shows; a single mode needs none.
+    /// Writes the name of each mode at its last point within the panel; a single mode needs none.
     pub(crate) fn write(self, panel: &mut Panel, style: &Style) {
         if self.0.len() < 2 {
             return;

@@ -8,14 +8,16 @@ use crate::caption::{in_unit, number};
 use crate::figure::{Axis, Colour, Curve, Figure, Mark, Panel, Point, Stroke};
 use crate::style::Style;
 
-/// Points between a critical value and the next station.
+/// Number of points between a critical value and the next station.
 const STEPS: usize = 8;
 
-/// The coordinates of the equilibrium along the input, a panel for each unit: unstable stretches dotted, interrupted where there is no
-/// equilibrium and where it passes to another branch at a critical value.
+/// The coordinates of the equilibrium along the input, one panel per unit.
+///
+/// Unstable stretches are dotted. Curves are interrupted where there is no equilibrium and where it passes to another branch at a critical
+/// value.
 ///
 /// # Errors
-/// [`Error::Nothing`] without an equilibrium, or of a mechanism without coordinates that rest.
+/// [`Error::Nothing`] without an equilibrium, or if the mechanism has no coordinates at rest.
 pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result);
     let mut panels: Vec<Panel> = Vec::new();
@@ -60,8 +62,8 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     Ok(Figure::new(title, course.caption(style), panels))
 }
 
-/// The points that are stable, or those that are not, each stretch with the first point of the next one, so that they meet. At a critical value
-/// where the equilibrium does not jump it leaves like a square root.
+/// The stable or the unstable points; each stretch includes the first point of the next, so that they meet. At a critical value where the
+/// equilibrium does not jump, the curve leaves like a square root.
 fn stretch(
     course: &Course<'_>,
     stable: bool,
@@ -101,7 +103,7 @@ fn stretch(
     points
 }
 
-/// From a point of a square root on to shortly before another.
+/// Points of a square root from its origin to just before another point.
 fn root(from: Point, to: Point) -> impl Iterator<Item = Option<Point>> {
     (0..STEPS).map(move |k| {
         let t = k as f64 / STEPS as f64;

@@ -1,4 +1,4 @@
-//! Crossings, critical values and onsets of flutter, numbered, with their standard deviations.
+//! Crossings, critical values and flutter onsets, numbered, with their standard deviations.
 
 use eigentol::modes::{Sense, Whirl};
 use eigentol::sweep::{Condition, Event, EventTolerance};
@@ -9,10 +9,10 @@ use crate::caption::{in_unit, number, with_unit};
 use crate::figure::{Colour, ErrorBar, Panel, Shape};
 use crate::style::Style;
 
-/// More lines than these make a caption that nobody reads.
+/// Maximum number of caption lines; nobody reads more.
 const MOST: usize = 14;
 
-/// Events in the order of their numbers: crossings, critical values, onsets of flutter, each ascending.
+/// Events in the order of their numbers: crossings, critical values, flutter onsets, each ascending.
 pub(crate) fn events(campbell: &Campbell) -> Vec<&EventTolerance> {
     let lists = [
         &campbell.crossings,
@@ -39,8 +39,8 @@ fn look(event: &Event) -> (&'static str, Shape) {
     }
 }
 
-/// Draws those events that `height` gives a place, with a level error bar of as many standard deviations as tolerances hold, and returns
-/// a line of the caption for each.
+/// Draws the events that `height` places, each with a horizontal error bar of as many standard deviations as the tolerances span, and
+/// returns a caption line for each.
 pub(crate) fn draw(
     panel: &mut Panel,
     campbell: &Campbell,

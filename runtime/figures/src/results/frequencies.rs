@@ -9,7 +9,7 @@ use crate::Error;
 use crate::figure::{Axis, Figure, Panel};
 use crate::style::Style;
 
-/// Frequencies of the modes along the input, and below them damping ratios where any mode is damped.
+/// Frequencies of the modes along the input and, if any mode is damped, their damping ratios below.
 ///
 /// # Errors
 /// [`Error::Nothing`] where no mode oscillates.

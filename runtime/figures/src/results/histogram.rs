@@ -10,16 +10,16 @@ use crate::caption::{number, operating_point};
 use crate::figure::{Axis, Colour, Curve, Figure, Mark, Panel, Point, Stroke};
 use crate::style::Style;
 
-/// Points of a density.
+/// Number of points of a density curve.
 const POINTS: usize = 121;
-/// Intervals whose probabilities make the density of the second-order model.
+/// Number of intervals whose probabilities form the density of the second-order model.
 const INTERVALS: usize = 60;
-/// Standard deviations that a density is drawn to either side.
+/// Number of standard deviations that a density extends to either side.
 const REACH: f64 = 4.5;
 /// Smaller probabilities say more about the model than about the machine.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// The histogram of a sampled frequency, and the densities of first and second order over it.
+/// The histogram of a sampled frequency, overlaid with its first- and second-order densities.
 ///
 /// ```
 /// use eigentol::{Study, mechanism};
@@ -51,7 +51,7 @@ pub struct Histogram<'a> {
 }
 
 impl<'a> Histogram<'a> {
-    /// Of the frequency of mode number `mode`, from 0.
+    /// The histogram of the frequency of mode `mode`, from 0.
     #[must_use]
     pub fn new(sampled: &'a MonteCarlo, mode: usize) -> Self {
         Self {
@@ -62,14 +62,14 @@ impl<'a> Histogram<'a> {
         }
     }
 
-    /// With the normal density that has mean and standard deviation of first order.
+    /// Adds the normal density with the first-order mean and standard deviation.
     #[must_use]
     pub fn first_order(mut self, found: &'a FirstOrder) -> Self {
         self.first_order = Some(found);
         self
     }
 
-    /// With the density of the second-order model.
+    /// Adds the density of the second-order model.
     #[must_use]
     pub fn second_order(mut self, found: &'a SecondOrder, tolerances: &'a Tolerances) -> Self {
         self.second_order = Some((found, tolerances));
@@ -79,8 +79,8 @@ impl<'a> Histogram<'a> {
     /// The figure.
     ///
     /// # Errors
-    /// [`Error::UnknownMode`]; [`Error::Nothing`] where no sample oscillates in the mode or all have the same frequency;
-    /// [`Error::Solver`] for a second-order model that has no probabilities.
+    /// [`Error::UnknownMode`]; [`Error::Nothing`] if no sample oscillates in the mode or all have the same frequency; [`Error::Solver`] if
+    /// the second-order model has no probabilities.
     pub fn figure(&self, style: &Style) -> Result<Figure, Error> {
         let (mode, modes) = (self.mode, self.sampled.modes.len());
         let own = self.sampled.modes.get(mode);
@@ -158,10 +158,10 @@ impl<'a> Histogram<'a> {
     }
 }
 
-/// A forbidden band beside the density of first order, with the probability that tolerances bring the quantity into it.
+/// A forbidden band and the first-order density, with the probability that tolerances bring the quantity into the band.
 ///
 /// # Errors
-/// [`Error::Nothing`] where no tolerance moves the quantity.
+/// [`Error::Nothing`] if no tolerance moves the quantity.
 pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
     let (d, own) = (&*result.description, &result.margin);
     let name = style.mode(result.mode);
@@ -253,7 +253,7 @@ fn normal(mean: f64, sigma: f64) -> Vec<Option<Point>> {
     (0..POINTS).map(|k| point(place(k))).collect()
 }
 
-/// The mean density of each of many intervals, at its middle.
+/// The mean density of each interval, at its midpoint.
 fn quadratic(
     model: &Quadratic,
     tolerances: &Tolerances,

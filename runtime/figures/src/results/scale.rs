@@ -1,12 +1,12 @@
-//! How many times as wide bands are drawn, so that they can be seen.
+//! Exaggeration of bands, so that they can be seen.
 
-/// A band narrower than this share of the axis on either side cannot be seen.
+/// A band narrower than this fraction of the axis on either side is invisible.
 const VISIBLE: f64 = 0.01;
-/// A band wider than this share hides what is near.
+/// A band wider than this fraction hides its surroundings.
 const WIDEST: f64 = 0.12;
 
-/// The least factor of 1, 2, 5, 10, 20, 50, ..., 1000 with which the typical of these half-widths can be seen on an axis of this length, unless the
-/// widest would then hide what is near.
+/// The smallest factor of 1, 2, 5, 10, 20, 50, ..., 1000 that makes the typical half-width visible on an axis of this length, unless the
+/// widest band would then hide its surroundings.
 pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64 {
     let mut all: Vec<f64> = half_widths
         .filter(|own| own.is_finite() && *own > 0.0)
@@ -23,7 +23,7 @@ pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64
     steps.into_iter().rev().find(fits).unwrap_or(1.0)
 }
 
-/// What bands and error bars show.
+/// Describes what bands and error bars show.
 pub(crate) fn words(sigma_level: f64, factor: f64) -> String {
     let sigma = match sigma_level == 1.0 {
         true => "1 standard deviation".to_owned(),
@@ -47,7 +47,7 @@ mod tests {
         assert_eq!(band(0.01), 100.0);
         assert_eq!(band(0.0), 1.0);
         assert_eq!(factor(std::iter::empty(), 100.0), 1.0);
-        // A wide band among narrow ones keeps its place.
+        // A wide band among narrow ones limits the factor.
         let mixed = [0.1, 0.1, 0.1, 4.0].into_iter();
         assert_eq!(factor(mixed, 100.0), 2.0);
     }

@@ -8,17 +8,19 @@ use crate::caption::{design, number, operating_point};
 use crate::figure::{Axis, Colour, Figure, Panel, Shape};
 use crate::style::Style;
 
-/// More modes than these fit on no page.
+/// Maximum number of modes that fit on a page.
 const MOST: usize = 6;
-/// Components smaller than this share of the largest have no phase worth drawing.
+/// Components smaller than this fraction of the largest have no meaningful phase.
 const VISIBLE: f64 = 1e-3;
-/// Half of the width of the bars of one coordinate.
+/// Half the width of the bars of one coordinate.
 const HALF: f64 = 0.38;
-/// Width of a bar where there is room.
+/// Maximum width of a bar.
 const WIDEST: f64 = 0.25;
 
-/// Shapes of the modes as bars by coordinate, in SI units, relative to the largest component. Those of undamped modes have signs; of general
-/// modes magnitudes are drawn, and below them phases against the largest component.
+/// Mode shapes as bars by coordinate, in SI units, relative to the largest component.
+///
+/// Shapes of undamped modes are drawn with signs; those of general modes as magnitudes, with phases relative to the largest component
+/// below.
 ///
 /// # Errors
 /// [`Error::Nothing`] without modes.
@@ -70,8 +72,9 @@ pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
     Ok(Figure::new(title, caption, panels))
 }
 
-/// What share of the kinetic energy of each mode is in each coordinate, `Re(phi_i* (Mhat phi)_i) / phi^H Mhat phi`: coordinates of any
-/// unit compare. Coupled coordinates can have negative shares.
+/// The share of each coordinate in the kinetic energy of each mode, `Re(phi_i* (Mhat phi)_i) / phi^H Mhat phi`.
+///
+/// The shares are comparable whatever the units of the coordinates. Coupled coordinates can have negative shares.
 ///
 /// # Errors
 /// [`Error::Nothing`] without modes, or for an equilibrium of another mechanism.
@@ -118,7 +121,7 @@ fn shown(result: &Modes) -> Result<Vec<&Mode>, Error> {
     }
 }
 
-/// Coordinates and speeds; reactions are no motion.
+/// Coordinates and speeds; reactions are not part of the motion.
 fn resting(result: &Modes) -> impl Iterator<Item = usize> + '_ {
     let infos = result.description.coordinates.iter().enumerate();
     infos
@@ -134,7 +137,7 @@ fn panel(result: &Modes, name: &str, unit: &str) -> Panel {
     )
 }
 
-/// Components over the largest one, whose phase is zero.
+/// Components divided by the largest one, whose phase is zero.
 fn relative(result: &Modes, mode: &Mode) -> Vec<Complex> {
     let own: Vec<Complex> = resting(result)
         .filter_map(|k| mode.shape.get(k).copied())
@@ -149,7 +152,7 @@ fn relative(result: &Modes, mode: &Mode) -> Vec<Complex> {
     }
 }
 
-/// Bars of mode number `r` of `modes` beside those of the others, one for each coordinate.
+/// Bars of mode `r` of `modes`, side by side with the others, one for each coordinate.
 fn columns(
     heights: impl Iterator<Item = f64>,
     r: usize,

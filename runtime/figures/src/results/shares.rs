@@ -1,4 +1,4 @@
-//! Where the variance of a mode comes from.
+//! Sources of the variance of a mode.
 
 use eigentol::FirstOrder;
 use eigentol::tolerance::ModeTolerance;
@@ -9,18 +9,20 @@ use crate::caption::{number, operating_point};
 use crate::figure::{Axis, Colour, Figure, Panel};
 use crate::style::Style;
 
-/// Variables beyond these are summed.
+/// Variables beyond this number are summed.
 const MOST: usize = 12;
-/// Half of the height of a bar.
+/// Half the height of a bar.
 const HALF: f64 = 0.36;
 
-/// More panels than these fit on no page.
+/// Maximum number of panels that fit on a page.
 const PANELS: usize = 4;
 
-/// Shares of the design variables in the variance of the frequency of mode number `mode`, from 0, the greatest at the top (a tornado
-/// chart). Of a mode without a frequency they are those of `lambda`. Correlated variables can have negative shares.
+/// Share of each design variable in the variance of the frequency of mode `mode`, from 0, largest at the top (a tornado chart).
+///
+/// If the mode has no frequency, the shares are for `lambda`. Correlated variables can have negative shares.
 ///
 /// # Errors
+/// [`Error::UnknownMode`]; [`Error::Nothing`] if nothing moves the mode.
 /// [`Error::UnknownMode`]; [`Error::Nothing`] where nothing moves the mode.
 pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure, Error> {
     let panel = panel(result, mode, "")?;
@@ -37,10 +39,10 @@ pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure,
     Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
 }
 
-/// The same of the first modes that tolerances move, a panel for each.
+/// Variance shares of the first modes that tolerances move, one panel each.
 ///
 /// # Errors
-/// [`Error::Nothing`] where nothing moves any mode.
+/// [`Error::Nothing`] if nothing moves any mode.
 pub fn shares_of_all(result: &FirstOrder, style: &Style) -> Result<Figure, Error> {
     let d = &*result.description;
     let mut lines = vec![operating_point(d, &result.inputs, None)];
@@ -93,7 +95,7 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
         let sum = rest.iter().map(|own| own.1).sum();
         all.push((format!("{} others", rest.len()), sum));
     }
-    // The first category is the lowest one.
+    // The first category is at the bottom.
     all.reverse();
     let bars = all.iter().enumerate().map(|(k, (_, share))| {
         let k = k as f64;

@@ -1,4 +1,4 @@
-//! Standard deviations and means of a frequency along an input, first order against Monte Carlo.
+//! Standard deviation and mean of a frequency along an input: first order against Monte Carlo.
 
 use eigentol::{Description, FirstOrder, Input, MonteCarlo};
 
@@ -8,7 +8,7 @@ use crate::caption::{in_unit, operating_point};
 use crate::figure::{Axis, Colour, Curve, ErrorBar, Figure, Panel, Point, Shape, Stroke};
 use crate::style::Style;
 
-/// The spread of one frequency along an input under one or several tolerances.
+/// The spread of one frequency along an input, for one or more sets of tolerances.
 ///
 /// ```
 /// use eigentol::{Study, mechanism};
@@ -54,7 +54,7 @@ struct Series<'a> {
 }
 
 impl<'a> Spreads<'a> {
-    /// Of the frequency of mode number `mode`, from 0, along `input`.
+    /// The spread of the frequency of mode `mode`, from 0, along `input`.
     #[must_use]
     pub fn new(input: Input, mode: usize) -> Self {
         Self {
@@ -64,8 +64,8 @@ impl<'a> Spreads<'a> {
         }
     }
 
-    /// Adds what was found under one set of tolerances, which `label` names: first order as a line, samples as points with their
-    /// standard errors. Either may be empty; values of the input are those of the results.
+    /// Adds the results for one set of tolerances, labelled `label`: first order as a line, samples as points with their standard errors.
+    /// Either list may be empty; the input values are taken from the results.
     #[must_use]
     pub fn under(
         mut self,
@@ -81,8 +81,7 @@ impl<'a> Spreads<'a> {
         self
     }
 
-    /// The figure: above, standard deviations; below, means less the nominal frequency, so that several tolerances do not hide each
-    /// other.
+    /// The figure: standard deviations above; below, means minus the nominal frequency, so that several tolerances do not hide each other.
     ///
     /// # Errors
     /// [`Error::Nothing`] where the mode has no spread anywhere.
@@ -188,7 +187,7 @@ impl<'a> Spreads<'a> {
         );
     }
 
-    /// The nominal frequency at these inputs.
+    /// The nominal frequency at these input values.
     fn nominal(&self, series: &Series<'_>, inputs: &[f64]) -> Option<f64> {
         let same = |own: &&FirstOrder| own.inputs.iter().eq(inputs.iter());
         let found = series.first_order.iter().find(same)?;

@@ -1,8 +1,8 @@
 //! Eigenvalues along an input as lines: one for each motion and sense of whirl, joined where two of them meet.
 //!
-//! Where a pair of conjugate eigenvalues turns into two real ones, or an undamped frequency vanishes, no point of a sweep lies
-//! on the turn. There `s = m +- sqrt(D)` with `m` and `D` smooth: drawn from the points on either side with both linear between
-//! them, lines meet as they do in truth.
+//! No sweep point lies exactly where a pair of conjugate eigenvalues becomes two real ones, or where an undamped frequency vanishes. Near
+//! such a point `s = m +- sqrt(D)` with smooth `m` and `D`; interpolating both linearly from the neighbouring points lets the lines meet as
+//! they truly do.
 
 use eigentol::Complex;
 use eigentol::modes::Sense;
@@ -10,7 +10,7 @@ use eigentol::modes::Sense;
 use super::along::{Sample, Station};
 use crate::figure::Point;
 
-/// Points between a station and a turn.
+/// Number of points between a station and a turning point.
 const STEPS: usize = 12;
 
 /// An eigenvalue at a value of the input.
@@ -23,7 +23,7 @@ pub(crate) struct State {
 /// What a line shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motion {
-    /// An oscillation that whirls in a sense, where it whirls.
+    /// An oscillation, with its sense of whirl if it whirls.
     Oscillation(Option<Sense>),
     /// A real eigenvalue.
     Real,
@@ -49,7 +49,7 @@ impl Track {
     }
 }
 
-/// The lines of all motions by label, oscillations first. `critical` are the values at which stiffness is lost.
+/// The lines of all motions by label, oscillations first. `critical` holds the values at which stiffness is lost.
 pub(crate) fn tracks(stations: &[Station], critical: &[f64]) -> Vec<Track> {
     let mut lines = Lines::default();
     for pair in stations.windows(2) {
@@ -79,7 +79,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// Adds a stretch of a motion; it continues a piece that ends where it begins.
+    /// Adds a stretch of a motion, extending a piece that ends where it begins.
     fn stretch(&mut self, label: usize, motion: Motion, states: &[State]) {
         let known = |own: &Track| own.label == label && own.motion == motion;
         let place = self.tracks.iter().position(known);
@@ -98,7 +98,7 @@ impl Lines {
         }
     }
 
-    /// A mode that no line has yet is a point of its own.
+    /// Adds a mode that belongs to no line yet as a single point.
     fn alone(&mut self, station: &Station) {
         for sample in &station.modes {
             let state = State {
@@ -142,7 +142,7 @@ impl Lines {
         self.turns(to, from, (&gained, &lost), turn);
     }
 
-    /// Oscillations of `pair` that are real eigenvalues in `single`.
+    /// Adds the turning points where oscillations of `pair` become real eigenvalues in `single`.
     fn turns(
         &mut self,
         pair: &Station,
@@ -188,8 +188,8 @@ impl Lines {
         }
     }
 
-    /// From a station to a turn, where all of `samples` are `at`; for a pair of real ones with the signs of their roots. `reverse` draws
-    /// from the turn to the station.
+    /// Draws from a station to a turning point, where all of `samples` reach `at`; for a pair of real eigenvalues, with the signs of their
+    /// roots. `reverse` draws from the turning point to the station.
     fn half(
         &mut self,
         samples: &[(&Sample, f64)],
@@ -234,7 +234,7 @@ fn state(station: &Station, sample: &Sample) -> State {
     }
 }
 
-/// A step belongs to the sense at its end, or, where nothing whirls there, at its beginning.
+/// A step takes the whirl sense at its end or, if nothing whirls there, at its beginning.
 fn motion(from: &Sample, to: &Sample) -> Motion {
     match to.oscillates {
         true => Motion::Oscillation(to.sense.or(from.sense)),
@@ -252,7 +252,7 @@ fn softest(station: &Station) -> Option<usize> {
     least.map(|own| own.label)
 }
 
-/// Modes of `own` that go on in no mode of `other`.
+/// Modes of `own` that continue in no mode of `other`.
 fn unmatched(
     own: &Station,
     other: &Station,

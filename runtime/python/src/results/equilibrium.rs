@@ -1,4 +1,4 @@
-//! Where a mechanism stays.
+//! Equilibria of a mechanism.
 
 use eigentol::equilibrium::AssemblyMode;
 use pyo3::prelude::*;

@@ -1,4 +1,4 @@
-//! Results as classes: arrays for computing, text and tables for reading.
+//! Results as classes: arrays for computation, text and tables for reading.
 
 mod branches;
 mod equilibrium;

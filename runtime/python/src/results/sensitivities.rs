@@ -1,4 +1,4 @@
-//! What moves modes and outputs.
+//! Sensitivities of modes and outputs.
 
 use eigentol::second_order::{EventCurvature, OutputCurvature, SecondDerivatives};
 use eigentol::sensitivity::{ModeSensitivity, Slopes};
@@ -10,7 +10,7 @@ use crate::arrays::{Array1, Array2, matrix, optional_rows, vector};
 use crate::errors::{Kind, new};
 use crate::values::word;
 
-/// A quantity of a mode by its name.
+/// Looks up a mode quantity by name.
 pub(crate) fn quantity(py: Python<'_>, name: &str) -> PyResult<Quantity> {
     let words = [
         ("frequency", Quantity::Frequency),

@@ -1,4 +1,4 @@
-//! What all results have: text, tables, and HTML for notebooks.
+//! Features common to all results: text, tables, and HTML for notebooks.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 use crate::arrays::{optional, vector};
 use crate::errors::{Kind, new};
 
-/// A class around a result: it prints as the result does, and has its tables.
+/// Defines a class around a result, with the text and tables of that result.
 macro_rules! result {
     ($(#[$doc:meta])* $name:ident($inner:ty)) => {
         $(#[$doc])*
@@ -75,7 +75,7 @@ pub(crate) fn json_schema() -> &'static str {
     eigentol_tables::json::SCHEMA
 }
 
-/// The table of this name, or the first, as a dictionary.
+/// The table with this name, or the first, as a dictionary.
 pub(crate) fn table<'py>(
     py: Python<'py>,
     all: &[Table],
@@ -99,7 +99,7 @@ pub(crate) fn table<'py>(
     Err(new(py, Kind::UnknownName, message))
 }
 
-/// Numbers become arrays, NaN where there is none; words, and what may be missing otherwise, lists.
+/// Numbers become arrays with NaN for missing values; words and other columns with missing values become lists.
 fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
     for column in &table.columns {
@@ -119,7 +119,7 @@ fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict
     Ok(columns)
 }
 
-/// A report for a notebook: the text, and below it the tables, folded.
+/// HTML for a notebook: the text, followed by collapsible tables.
 pub(crate) fn html(report: &str, all: &[Table]) -> String {
     let mut text = format!("<pre>{}</pre>", escaped(report));
     for table in all.iter().filter(|own| own.rows() > 0) {
@@ -144,7 +144,7 @@ pub(crate) fn html(report: &str, all: &[Table]) -> String {
     text
 }
 
-/// One entry, numbers to six digits.
+/// Formats one entry, numbers with six digits.
 fn cell(column: &Column, row: usize) -> String {
     let shown = match &column.values {
         Values::Numbers(values) => values[row].map(six_digits),

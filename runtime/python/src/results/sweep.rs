@@ -1,4 +1,4 @@
-//! What happens along an input.
+//! Results along an input.
 
 use eigentol::campbell::CampbellMode;
 use eigentol::tolerance::Spread;

@@ -1,4 +1,4 @@
-//! What happens along an input: branches of equilibria, frequencies, damping, critical values.
+//! Results along an input: branches of equilibria, frequencies, damping, critical values.
 
 use eigentol::tolerance::Spread;
 use eigentol_figures::{branches, campbell, damping_ratios, root_locus};
@@ -102,7 +102,7 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
     Ok(())
 }
 
-/// What fits on a page; the rest is copied.
+/// The columns that fit on a page; the rest is available by copying.
 fn on_a_page(table: &Table) -> Vec<&str> {
     let left_out = ["sigma level", "Re s", "Im s", "whirl ratio"];
     let names = table.columns.iter().map(|own| &*own.name);

@@ -1,4 +1,4 @@
-//! What matters first, in sentences.
+//! The main findings, in sentences.
 
 use eigentol::sweep::{Condition, Event, EventTolerance};
 use eigentol::tolerance::{FirstOrder, MonteCarlo, Outcome};
@@ -11,9 +11,9 @@ use crate::content::{Along, Content, Spreads};
 use crate::html::Html;
 use crate::words::{digits, is_rounding, number, sentence, with_unit};
 
-/// Modes that are described one by one.
+/// Maximum number of modes described individually.
 const MODES: usize = 6;
-/// Events along the input that are described one by one.
+/// Maximum number of events described individually.
 const EVENTS: usize = 8;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
@@ -64,7 +64,7 @@ fn equilibrium(content: &Content) -> Line {
     }
 }
 
-/// Each mode with its spread and what most of it comes from.
+/// Each mode with its spread and the main source of that spread.
 fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
     let first = (content.spread.as_ref())
         .and_then(|own| own.summary.as_ref().ok())

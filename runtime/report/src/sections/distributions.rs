@@ -1,4 +1,4 @@
-//! How samples of the tolerances are distributed, beside first order.
+//! Sampled distributions compared with first order.
 
 use eigentol_figures::Histogram;
 use eigentol_tables::tables;

@@ -1,4 +1,4 @@
-//! Where the mechanism stays, and its outputs there.
+//! The equilibrium and the outputs there.
 
 use eigentol::{Equilibrium, Role};
 use eigentol_tables::{Table, tables};

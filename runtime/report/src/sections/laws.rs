@@ -1,4 +1,4 @@
-//! How each variable varies, drawn small: its density about its mean.
+//! Small drawings of the distribution of each variable: its density about its mean.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -9,17 +9,17 @@ use super::variables::Variable;
 use crate::html::Html;
 use crate::words::{digits, number};
 
-/// Size of a drawing, and of the room below its curve for a line.
+/// Size of a drawing, and of the space below its curve for a line.
 const WIDTH: f64 = 160.0;
 const HEIGHT: f64 = 48.0;
 const BELOW: f64 = 4.0;
-/// Standard deviations to either side of a normal variable, and how finely.
+/// Standard deviations drawn to either side of a normal variable, and the number of points.
 const REACH: f64 = 3.5;
 const STEPS: u32 = 56;
-/// More variables than these are only in the table.
+/// Maximum number of variables drawn; further ones appear only in the table.
 const MOST: usize = 48;
 
-/// A drawing for each variable that varies.
+/// A drawing for each variable with a tolerance.
 pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) {
     let varying = all.iter().filter_map(|own| Some((own, own.law?)));
     let varying: Vec<_> = varying.filter(|(_, law)| law.sigma() > 0.0).collect();
@@ -46,7 +46,7 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
     }
 }
 
-/// `normal, 1 ± 0.03 m`: mean and band.
+/// `normal, 1 ± 0.03 m`: distribution, mean and band.
 fn words(own: &Variable<'_>, law: &Distribution, sigma_level: f64) -> String {
     let mean = number(own.unit.from_si(law.mean()));
     let band = digits(own.unit.from_si(sigma_level * law.sigma()), 3);
@@ -98,8 +98,8 @@ fn drawing(html: &mut Html, own: &Variable<'_>, law: &Distribution) {
     });
 }
 
-/// Values and their densities from the left to the right, both ends at zero; of a law without a density upright lines as high as its
-/// values are frequent.
+/// Values and their densities from left to right, zero at both ends; for a discrete distribution, vertical lines proportional to the
+/// probability of each value.
 fn density(law: &Distribution) -> Vec<[f64; 2]> {
     let quantiles = (0..=STEPS).map(|k| REACH * (2.0 * f64::from(k) / f64::from(STEPS) - 1.0));
     let mut points = Vec::new();

@@ -1,4 +1,4 @@
-//! What was studied: variables with units and tolerances, bodies and joints, the text that declares them.
+//! The mechanism: variables with units and tolerances, bodies and joints, and its declaration.
 
 use eigentol::{DampingKind, Role};
 

@@ -17,7 +17,7 @@ use crate::content::Content;
 use crate::html::Html;
 use crate::words::sentence;
 
-/// Their anchors and headings, in order.
+/// Anchors and headings of the sections, in order.
 pub(crate) const HEADINGS: [(&str, &str); 8] = [
     ("brief", "In short"),
     ("mechanism", "Mechanism"),
@@ -29,7 +29,7 @@ pub(crate) const HEADINGS: [(&str, &str); 8] = [
     ("along", "Along an input"),
 ];
 
-/// What writes a section.
+/// Writes a section.
 type Section = fn(&mut Html, &Content) -> Result<(), Error>;
 
 const SECTIONS: [Section; 8] = [
@@ -43,7 +43,7 @@ const SECTIONS: [Section; 8] = [
     along::section,
 ];
 
-/// Writes all of them.
+/// Writes all sections.
 ///
 /// # Errors
 /// [`Error::Data`].
@@ -60,10 +60,10 @@ pub(crate) fn all(html: &mut Html, content: &Content) -> Result<(), Error> {
     Ok(())
 }
 
-/// Modes that have figures of their own.
+/// Maximum number of modes with figures of their own.
 const MODES: usize = 6;
 
-/// Says of how many modes there are no figures.
+/// Notes how many modes have no figures.
 fn beyond(html: &mut Html, modes: usize, what: &str) {
     if modes > MODES {
         let more = modes - MODES;
@@ -71,7 +71,7 @@ fn beyond(html: &mut Html, modes: usize, what: &str) {
     }
 }
 
-/// Says why something is not there.
+/// States why something is missing.
 fn refused(html: &mut Html, what: &str, why: &eigentol::Error) {
     let text = sentence(&format!("{what}: {why}"));
     html.leaf("p", &[("class", "refused")], &text);

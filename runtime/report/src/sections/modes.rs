@@ -1,4 +1,4 @@
-//! How the mechanism vibrates.
+//! The vibration modes of the mechanism.
 
 use eigentol::picture::Scene;
 use eigentol_figures::{mode_shapes, participation};
@@ -35,7 +35,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         table(html, "Natural modes", &own, &columns)?;
     }
     if content.description.coordinates.len() < 2 {
-        // Every shape is the same.
+        // With one component, every shape is the same.
         return Ok(());
     }
     let style = content.brief_style.clone();
@@ -52,7 +52,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     Ok(())
 }
 
-/// The mechanism in space.
+/// The 3-D view of the mechanism.
 fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), Error> {
     let modes = content.modes.as_ref().ok();
     let json = serde_json::to_string(&View::new(pictures, modes, &content.brief_style))?;
@@ -84,7 +84,7 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
     Ok(())
 }
 
-/// Which way is up in the picture, and why.
+/// States which way is up in the picture, and why.
 fn upwards(scene: &Scene) -> String {
     let up = scene.up().map(|own| digits(own, 3)).join(", ");
     match scene.gravity {

@@ -1,11 +1,11 @@
-//! Bodies, joints, and what acts on them or binds them, as tables.
+//! Tables of bodies, joints, forces and constraints.
 
 use eigentol::picture::{Scene, Shape, Solid};
 use eigentol_tables::Table;
 
 use crate::words::number;
 
-/// Those that there are, with their captions.
+/// The non-empty tables with their captions.
 pub(super) fn tables(scene: &Scene) -> Vec<(&'static str, Table)> {
     let all = [
         ("Bodies; lengths in m, masses in kg", bodies(scene)),

@@ -1,4 +1,4 @@
-//! Which variables the spread of each mode comes from.
+//! Contributions of the variables to the spread of each mode.
 
 use eigentol::FirstOrder;
 use eigentol_figures::{Style, shares};
@@ -55,7 +55,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     Ok(())
 }
 
-/// A row for each variable, a column for each mode; nothing of the members of a cluster, which have no spread of their own.
+/// A row for each variable, a column for each mode; members of a cluster are left out, since they have no spread of their own.
 fn by_variable(first: &FirstOrder, style: &Style) -> Table {
     let design = first.description.design.iter();
     let mut table = Table::new("shares");

@@ -13,9 +13,9 @@ pub(super) struct Variable<'a> {
     pub(super) unit: &'a Unit,
     /// SI.
     pub(super) value: f64,
-    /// SI; zero where it does not vary.
+    /// SI; zero if it does not vary.
     pub(super) half_width: f64,
-    /// Mean less value, SI.
+    /// Mean minus value, SI.
     pub(super) shift: f64,
     pub(super) law: Option<&'a Distribution>,
 }
@@ -83,7 +83,7 @@ pub(super) fn table(all: &[Variable<'_>]) -> Table {
 }
 
 impl Setup {
-    /// The tolerances of inputs that have one follow those of the design variables.
+    /// Index of an input's tolerance; those of inputs follow those of the design variables.
     fn place_of_input(&self, input: usize) -> Option<usize> {
         let place = self.deviating.iter().position(|own| *own == input)?;
         Some(self.design.len() + place)

@@ -1,4 +1,4 @@
-//! What tolerances do to the frequencies, and which numbers can be trusted.
+//! The effect of tolerances on the frequencies, and which numbers can be trusted.
 
 use eigentol::report::News;
 use eigentol_tables::tables;
@@ -67,5 +67,5 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     Ok(())
 }
 
-/// What is said where no variable has a tolerance.
+/// Shown if no variable has a tolerance.
 pub(super) const NOTHING_VARIES: &str = "No variable has a tolerance: nothing spreads.";

@@ -5,14 +5,15 @@ use super::equilibrium::stability;
 use super::names::{operating_point, unknowns, varied};
 use crate::Table;
 
-/// A row for each equilibrium of a branch, with the number of the branch, counted from 1: branches can be written one after the other, all
-/// have the same columns.
+/// A row for each equilibrium of a branch, with the branch number, counted from 1.
+///
+/// Branches can be written one after the other: all have the same columns.
 #[must_use]
 pub fn branch_table(number: usize, branch: &Branch) -> Table {
     rows_of(number, std::slice::from_ref(branch), branch)
 }
 
-/// The rows of some branches, the first of which has this number; all are of the mechanism of one of them.
+/// The rows of several branches, numbered from `first`; `one` is any branch of the same mechanism.
 fn rows_of(first: usize, branches: &[Branch], one: &Branch) -> Table {
     let d = &one.description;
     let rows = || {
@@ -35,7 +36,7 @@ fn rows_of(first: usize, branches: &[Branch], one: &Branch) -> Table {
     table
 }
 
-/// `branches`: [`branch_table`] of all; `special points`: a row for each fold and fork.
+/// `branches`: the [`branch_table`] of all branches; `special points`: a row for each fold and fork.
 fn tables_of(branches: &[Branch]) -> Vec<Table> {
     let Some(one) = branches.first() else {
         return Vec::new();
@@ -72,14 +73,14 @@ fn tables_of(branches: &[Branch]) -> Vec<Table> {
     tables
 }
 
-/// `branches` and, where there are any, `special points`.
+/// `branches` and, if any, `special points`.
 impl Tables for Branches {
     fn tables(&self) -> Vec<Table> {
         tables_of(&self.branches)
     }
 }
 
-/// As a list of one.
+/// Written as a list of one.
 impl Tables for Branch {
     fn tables(&self) -> Vec<Table> {
         tables_of(std::slice::from_ref(self))

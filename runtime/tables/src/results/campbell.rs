@@ -8,8 +8,9 @@ use super::modes::sense;
 use super::names::{behaviour, operating_point, varied};
 use crate::Table;
 
-/// A row for each mode at each value of the input, one without a mode where there are none: parts of a diagram can be written one after
-/// the other, all have the same columns.
+/// A row for each mode at each value of the input, or one row without a mode if there are none.
+///
+/// Parts of a diagram can be written one after the other: all have the same columns.
 ///
 /// ```
 /// # use eigentol::{Study, mechanism};
@@ -99,7 +100,7 @@ pub fn campbell_table(
     table
 }
 
-/// `Campbell diagram`: [`campbell_table`]; then `crossings`, `critical states` and `flutter onsets`, where there are any.
+/// `Campbell diagram`: [`campbell_table`]; then `crossings`, `critical states` and `flutter onsets`, if any.
 impl Tables for Campbell {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

@@ -7,8 +7,7 @@ use super::names::operating_point;
 use super::tolerance::statistics;
 use crate::Table;
 
-/// `clusters`: for each cluster a row for each of its members, from the lowest, and one for what lies between the lowest and the
-/// highest.
+/// `clusters`: for each cluster, a row for each member from the lowest up, and one for the splitting between the lowest and the highest.
 impl Tables for [ClusterTolerance] {
     fn tables(&self) -> Vec<Table> {
         let Some(one) = self.first() else {
@@ -80,7 +79,7 @@ impl Tables for [ClusterTolerance] {
     }
 }
 
-/// `directional derivatives`: a row for each eigenvalue of the cluster; which belongs to which mode is not defined.
+/// `directional derivatives`: a row for each eigenvalue of the cluster; their assignment to modes is undefined.
 impl Tables for DirectionalDerivatives {
     fn tables(&self) -> Vec<Table> {
         let unit = match self.family {

@@ -6,12 +6,12 @@ use super::Tables;
 use super::names::{by, in_unit, per_unit, variables};
 use crate::Table;
 
-/// Entry of a matrix that a damaged file may have cut.
+/// Entry of a matrix, which a damaged file may have truncated.
 fn entry<T: Copy>(matrix: &Matrix<T>, i: usize, j: usize) -> Option<T> {
     matrix.iter().nth(i)?.get(j).copied()
 }
 
-/// Every two of some variables, a row for each.
+/// All pairs of some variables, one row each.
 struct Pairs<'a>(Vec<(&'a Text, &'a Unit)>);
 
 impl Pairs<'_> {
@@ -20,7 +20,7 @@ impl Pairs<'_> {
         (0..count).flat_map(move |i| (0..count).map(move |j| (i, j)))
     }
 
-    /// Names and units of both.
+    /// Adds the names and units of both variables.
     fn columns(&self, table: &mut Table) {
         for (title, which) in [
             ("by", (|(i, _)| i) as fn((usize, usize)) -> usize),
@@ -34,7 +34,7 @@ impl Pairs<'_> {
         }
     }
 
-    /// A second derivative by declared units.
+    /// Converts a second derivative to declared units.
     fn scaled(&self, (i, j): (usize, usize), value: f64) -> Option<f64> {
         let (by_first, by_second) = (self.0.get(i)?.1, self.0.get(j)?.1);
         Some(per_unit(per_unit(value, by_first), by_second))
@@ -42,7 +42,7 @@ impl Pairs<'_> {
 }
 
 /// `second derivatives`: a row for each pair of variables, derivatives of `lambda` and of the eigenvalue `s` per `unit` of the first and
-/// `unit 2` of the second one.
+/// `unit 2` of the second.
 impl Tables for ModeCurvature {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -67,8 +67,7 @@ impl Tables for ModeCurvature {
     }
 }
 
-/// `second derivatives`: a row for each pair of variables, the derivative of the output per `unit` of the first and `unit 2` of the
-/// second one.
+/// `second derivatives`: a row for each pair of variables, the derivative of the output per `unit` of the first and `unit 2` of the second.
 impl Tables for OutputCurvature {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -87,8 +86,8 @@ impl Tables for OutputCurvature {
     }
 }
 
-/// `second derivatives`: a row for each pair of design variables, the derivative of the critical value per `unit` of the first and
-/// `unit 2` of the second one.
+/// `second derivatives`: a row for each pair of design variables, the derivative of the critical value per `unit` of the first and `unit 2`
+/// of the second.
 impl Tables for EventCurvature {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -108,7 +107,7 @@ impl Tables for EventCurvature {
     }
 }
 
-/// The second derivative by two variables, inputs first.
+/// The second derivative with respect to two variables, inputs first.
 fn element<T: Copy>(
     own: &SecondDerivatives<T>,
     inputs: usize,
@@ -122,7 +121,8 @@ fn element<T: Copy>(
     }
 }
 
-/// `shape sensitivities`: a row for each unknown and variable, derivatives of the components of the right and the left vector per `unit` of the variable.
+/// `shape sensitivities`: a row for each unknown and variable, derivatives of the right and left vector components per `unit` of the
+/// variable.
 impl Tables for ShapeSensitivity {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

@@ -6,7 +6,7 @@ use super::modes::sense;
 use super::names::{operating_point, unknowns, varied};
 use crate::Table;
 
-/// What mode meets which line: number of the mode, ratio, offset.
+/// Adds the mode that meets each line: mode number, ratio, offset.
 fn meetings(table: &mut Table, all: &[Option<(usize, Condition)>]) {
     let all = all.iter().copied();
     table.whole("mode", all.clone().map(|own| Some(own?.0 + 1)));
@@ -38,14 +38,14 @@ impl Tables for [CriticalState] {
     }
 }
 
-/// As a list of one.
+/// Written as a list of one.
 impl Tables for CriticalState {
     fn tables(&self) -> Vec<Table> {
         std::slice::from_ref(self).tables()
     }
 }
 
-/// `crossings`: a row for each frequency that is `ratio` times the input plus `offset`, or that begins to flutter, where these are
+/// `crossings`: a row for each frequency that equals `ratio` times the input plus `offset`, or for each flutter onset, where both are
 /// empty.
 impl Tables for [Crossing] {
     fn tables(&self) -> Vec<Table> {
@@ -77,7 +77,7 @@ impl Tables for [Crossing] {
     }
 }
 
-/// As a list of one.
+/// Written as a list of one.
 impl Tables for Crossing {
     fn tables(&self) -> Vec<Table> {
         std::slice::from_ref(self).tables()
@@ -128,14 +128,14 @@ pub(super) fn events(name: &str, all: &[EventTolerance]) -> Vec<Table> {
     vec![table]
 }
 
-/// `events`: a row for each, where it happens along the input and how far tolerances move that.
+/// `events`: a row for each, with its place along the input and how far tolerances shift it.
 impl Tables for [EventTolerance] {
     fn tables(&self) -> Vec<Table> {
         events("events", self)
     }
 }
 
-/// As a list of one.
+/// Written as a list of one.
 impl Tables for EventTolerance {
     fn tables(&self) -> Vec<Table> {
         events("events", std::slice::from_ref(self))

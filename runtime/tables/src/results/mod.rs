@@ -32,7 +32,7 @@ pub trait Tables {
     fn tables(&self) -> Vec<Table>;
 }
 
-/// The tables of a result, as [`Tables::tables`].
+/// Returns the tables of a result; see [`Tables::tables`].
 pub fn tables<R: Tables + ?Sized>(result: &R) -> Vec<Table> {
     result.tables()
 }

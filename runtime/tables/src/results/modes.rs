@@ -5,7 +5,7 @@ use super::Tables;
 use super::names::{behaviour, operating_point, word};
 use crate::Table;
 
-/// `modes`: a row for each mode; of its shape two columns for each coordinate and speed, real and imaginary part.
+/// `modes`: a row for each mode; its shape takes two columns per coordinate and speed, real and imaginary part.
 impl Tables for Modes {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

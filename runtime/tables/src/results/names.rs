@@ -1,10 +1,10 @@
-//! Names, units and operating points, as reports have them.
+//! Names, units and operating points as columns of tables.
 
 use eigentol::{Behaviour, Description, Input, Text, Unit};
 
 use crate::Table;
 
-/// A value in the declared unit.
+/// Converts an SI value to the declared unit.
 pub(super) fn in_unit(value: f64, unit: &Unit) -> f64 {
     if unit.scale == 0.0 {
         value
@@ -13,8 +13,7 @@ pub(super) fn in_unit(value: f64, unit: &Unit) -> f64 {
     }
 }
 
-/// A value that a person chose, as it was written: 3000 rpm are not 3000.0000000000005. Of 15 digits where these give the same
-/// SI value.
+/// A user-chosen value as the user wrote it: 3000 rpm, not 3000.0000000000005. Rounded to 15 digits if these give the same SI value.
 pub(crate) fn as_written(value: f64, unit: &Unit) -> f64 {
     let own = in_unit(value, unit);
     let short = format!("{own:.14e}").parse().unwrap_or(own);
@@ -25,7 +24,7 @@ pub(crate) fn as_written(value: f64, unit: &Unit) -> f64 {
     }
 }
 
-/// A derivative by an SI value as one by a value in the declared unit.
+/// Converts a derivative with respect to an SI value to one with respect to the declared unit.
 pub(super) fn per_unit(slope: f64, unit: &Unit) -> f64 {
     slope * unit.scale
 }
@@ -60,7 +59,7 @@ pub(super) fn varied(
     }
 }
 
-/// One column for each unknown, of states that may be missing.
+/// One column for each unknown, for states that may be missing.
 pub(super) fn unknowns<'a>(
     table: &mut Table,
     d: &Description,
@@ -106,7 +105,7 @@ pub(super) fn word(text: &str) -> Option<String> {
     Some(text.to_owned())
 }
 
-/// What stands after a number that is a fraction of one, and of `value` per `unit`.
+/// The symbol of a unit as a cell.
 pub(super) fn by(unit: &Unit) -> Option<String> {
     Some(unit.symbol.to_string())
 }

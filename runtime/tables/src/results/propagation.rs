@@ -17,7 +17,7 @@ fn responses<'a>(
     table.texts("unit", all.map(|own| by(&own.unit(d))));
 }
 
-/// The columns of an estimate, in the unit of each response, or without one.
+/// The columns of an estimate, in the unit of each response or unitless.
 fn estimates<'a>(
     table: &mut Table,
     name: &str,
@@ -148,8 +148,8 @@ impl Tables for Controlled {
     }
 }
 
-/// `worst case`: a row for each response, numbers in its `unit`; `worst designs`: a row for each end of each response, with the design
-/// that has it.
+/// `worst case`: a row for each response, numbers in its `unit`; `worst designs`: a row for each extreme of each response, with the design
+/// that attains it.
 impl Tables for WorstCase {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

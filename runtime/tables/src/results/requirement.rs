@@ -7,7 +7,7 @@ use super::names::{by, in_unit, operating_point, per_unit};
 use super::tolerance::outcomes;
 use crate::Table;
 
-/// How sure the intervals are.
+/// Confidence level of the intervals.
 const CONFIDENCE: f64 = 0.95;
 
 fn tallies<'a>(table: &mut Table, all: impl Iterator<Item = &'a Tally> + Clone) {
@@ -45,8 +45,8 @@ impl Tables for Chances {
     }
 }
 
-/// `design points`: a row for each, or one with the error where there are none; `design point variables`: a row for each design
-/// variable of each; `system`: one row.
+/// `design points`: a row for each, or one with the error if there are none; `design point variables`: a row for each design variable of
+/// each; `system`: one row.
 impl Tables for Reliability {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

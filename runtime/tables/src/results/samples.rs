@@ -4,9 +4,11 @@ use eigentol::{Complex, Description, MonteCarlo};
 use super::names::{design, operating_point, unknowns, word};
 use crate::Table;
 
-/// A row for each sample: its number in the run, what became of it, design variables, unknowns, and of each mode the frequency, the
-/// damping ratio and the eigenvalue. `first` is the number of the first of them, counted from 0, so that parts of a run can be written one
-/// after the other: all that are not empty have the same columns.
+/// A row for each sample: its number in the run, its outcome, the design variables, the unknowns, and the frequency, damping ratio and
+/// eigenvalue of each mode.
+///
+/// `first` is the number of the first sample, counted from 0, so that parts of a run can be written one after the other: all non-empty
+/// parts have the same columns.
 ///
 /// ```
 /// # use eigentol::{Study, mechanism};
@@ -30,15 +32,16 @@ use crate::Table;
 /// ```
 #[must_use]
 pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table {
-    // A sample has a place for each nominal mode, also where it was not found.
+    // A sample has a slot for each nominal mode, even where the mode was not found.
     let modes = samples.iter().map(|own| own.frequencies.len()).max();
     let numbers = (first + 1..).take(samples.len());
     rows(d, modes.unwrap_or(0), numbers, samples.iter())
 }
 
-/// As [`samples_table`], of samples of a run that have their numbers, counted from 0; a part without samples has the same columns. The
-/// operating point, seed and stream come last, as in all tables of the run. What
-/// [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples) gives.
+/// Like [`samples_table`], for samples that carry their own numbers, counted from 0, as returned by
+/// [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples).
+///
+/// A part without samples has the same columns. The operating point, seed and stream come last, as in all tables of the run.
 #[must_use]
 pub fn numbered_samples_table(run: &MonteCarlo, samples: &[(u64, Sample)]) -> Table {
     let numbers = samples.iter().map(|(number, _)| *number as usize + 1);
@@ -48,7 +51,7 @@ pub fn numbered_samples_table(run: &MonteCarlo, samples: &[(u64, Sample)]) -> Ta
     table
 }
 
-/// Where the random numbers come from and at what operating point they were used.
+/// Adds the operating point and the origin of the random numbers.
 pub(super) fn origin(table: &mut Table, run: &MonteCarlo) {
     operating_point(table, &run.description, &run.inputs, None);
     let rows = table.rows();

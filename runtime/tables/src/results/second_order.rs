@@ -4,7 +4,7 @@ use super::Tables;
 use super::names::{by, operating_point, per_unit};
 use crate::Table;
 
-/// `second-order tolerances`: a row for each mode; empty where it has none, with the reason.
+/// `second-order tolerances`: a row for each mode, empty and with the reason if the mode has no second-order result.
 impl Tables for SecondOrder {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

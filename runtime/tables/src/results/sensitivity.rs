@@ -64,7 +64,7 @@ impl Tables for EquilibriumShift {
     }
 }
 
-/// `outputs`: one row, a column for each; `output sensitivities`: a row for each output and variable, the derivative in `unit` of
+/// `outputs`: one row, a column for each output; `output sensitivities`: a row for each output and variable, the derivative in `unit` of
 /// the output per `per` of the variable.
 impl Tables for OutputSensitivities {
     fn tables(&self) -> Vec<Table> {

@@ -6,9 +6,10 @@ use super::equilibrium::stability;
 use super::names::{operating_point, unknowns, varied};
 use crate::Table;
 
-/// A row for each value of the input, with the unknowns, the stability and of each motion the frequency, the damping ratio and the
-/// eigenvalue. Of how many motions is said, so that parts of a sweep can be written one after the other: all have the same columns.
-/// A motion beyond them is left out; a mechanism of `n` coordinates and speeds has up to `2 n`, more where others take their place.
+/// A row for each value of the input: the unknowns, the stability, and the frequency, damping ratio and eigenvalue of each motion.
+///
+/// The caller gives the number of motions so that parts of a sweep can be written one after the other with the same columns. Motions beyond
+/// that number are left out; a mechanism of `n` coordinates and speeds has up to `2 n`, or more where motions are replaced by others.
 #[must_use]
 pub fn sweep_table(
     d: &Description,
@@ -47,7 +48,7 @@ pub fn sweep_table(
     table
 }
 
-/// `sweep`: as [`sweep_table`], with all motions; `critical states`, where there are any.
+/// `sweep`: [`sweep_table`] with all motions; `critical states`, if any.
 impl Tables for Sweep {
     fn tables(&self) -> Vec<Table> {
         let all = self.points.iter().filter_map(|own| own.modes.as_ref().ok());

@@ -21,7 +21,7 @@ fn spreads(
     table.numbers(format!("band of {quantity}"), &unit, band);
 }
 
-/// One column of shares in a variance for each design variable.
+/// One column for the variance share of each design variable.
 fn shares<'a>(
     table: &mut Table,
     d: &Description,
@@ -34,8 +34,8 @@ fn shares<'a>(
     }
 }
 
-/// `first-order tolerances`: a row for each mode; a cluster has no sigma. The shares are those of the frequency, or of `lambda` of a
-/// mode that has none.
+/// `first-order tolerances`: a row for each mode; a cluster has no sigma. The shares are for the frequency, or for `lambda` if the mode has
+/// no frequency.
 impl Tables for FirstOrder {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -131,7 +131,7 @@ pub(super) fn statistics<'a>(
     }
 }
 
-/// What became of samples: a row for each outcome.
+/// Counts of sample outcomes: a row for each.
 pub(super) fn outcomes(counts: &Counts) -> Table {
     let all = [
         ("stable", counts.stable),
@@ -149,8 +149,8 @@ pub(super) fn outcomes(counts: &Counts) -> Table {
     table
 }
 
-/// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`, where they were kept: a row for each. All have
-/// seed and stream of the random numbers, where they are below 2^63.
+/// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`: a row for each sample, if they were kept. All include
+/// the seed and stream of the random numbers, if below 2^63.
 impl Tables for MonteCarlo {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
