@@ -45,7 +45,7 @@ impl Visitor for Machines {
     }
 }
 
-/// The machines of [`corpus`] and of [`machines`](crate::machines).
+/// The machines of [`corpus`] and those with closed forms.
 pub fn open() -> Vec<Machine> {
     let mut found = Machines(Vec::new());
     corpus::visit(&mut found);

@@ -1,4 +1,4 @@
-//! Monte Carlo against moments by quadrature: `w1_moments`, and closed integrals near the critical speed.
+//! Monte Carlo against moments by quadrature: `w1_moments`, and closed-form integrals near the critical speed.
 
 use eigentol::{MonteCarlo, Study};
 use eigentol_oracle::truth::Truth;
@@ -6,7 +6,7 @@ use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
 
 const SAMPLES: usize = 20_000;
 
-/// The pendulum with a tolerance on its length alone, sampled.
+/// Samples of the pendulum with a tolerance on its length only.
 fn sampled(omega: f64, half_width: f64) -> MonteCarlo {
     Study::new(RotatingPendulum)
         .input(RotatingPendulum::omega, omega)
