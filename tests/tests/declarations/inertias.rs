@@ -25,7 +25,8 @@ impl Mass {
     }
 }
 
-/// By how much the largest principal moment of the combined masses exceeds the sum of the other two, relative to their sum.
+/// By how much the largest principal moment of the combined masses falls short of the sum of the other two, relative to the
+/// sum of all three.
 fn surplus(masses: &[Mass]) -> f64 {
     let total: f64 = masses.iter().map(|m| m.mass).sum();
     let center = masses

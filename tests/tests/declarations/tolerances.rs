@@ -139,7 +139,7 @@ fn a_law_follows_the_limits() {
     }
 }
 
-/// Nominal values stay as they are; limits, and the positions between them, are those of the values.
+/// Values arrive unchanged; the limits, and the positions between them, follow from the values.
 #[test]
 fn a_list_says_what_a_value_may_be() {
     for (text, values) in [
