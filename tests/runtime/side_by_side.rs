@@ -257,7 +257,7 @@ mechanism! {
 
 #[test]
 fn damped_modes() {
-    // At rest, and on a branch that rotates: three of each.
+    // At rest, and on a branch that turns: three of each.
     for omega in [0.0, 5.0] {
         let (counts, in_vectors) = compare(&Damped, omega, &[0.8, 0.1, 0.0], &declared(&Damped));
         assert!(counts.stable == 1003 && in_vectors, "{omega}: {counts:?}");

@@ -230,7 +230,7 @@ fn a_summary_that_is_stopped_is_no_summary() {
     assert!(done.load(Ordering::Relaxed) > 0);
 }
 
-/// A study that is not watched counts no steps.
+/// Watching changes neither the study nor its results.
 #[test]
 fn who_waits_changes_nothing() {
     let (study, _) = stopped_after(pendulum(), usize::MAX);

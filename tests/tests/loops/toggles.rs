@@ -172,7 +172,7 @@ fn search(starts: usize, seed: u64) -> Search {
     Search::new(lower, upper).starts(starts).seed(seed)
 }
 
-/// An angle, measured positive towards the side of `other`.
+/// The difference `angle - other`, wrapped to at most half a turn.
 fn apart(angle: f64, other: f64) -> f64 {
     let difference = angle - other;
     difference - std::f64::consts::TAU * (difference / std::f64::consts::TAU).round()
