@@ -94,8 +94,7 @@ fn by_qr(
     each.collect()
 }
 
-/// Eigenvalues of a seal with equal damping along both axes: `s^2 + c s + lambda = 0`, with `lambda` an eigenvalue of the
-/// stiffness.
+/// Eigenvalues of a seal with equal damping along both axes: `s^2 + c s + lambda = 0`, with `lambda` an eigenvalue of the stiffness.
 fn of_seal(damping: f64, [kx, ky]: [f64; 2], across: f64) -> Vec<Complex> {
     let both = |middle: f64, square: f64| {
         let root = Complex::new(square, 0.0).sqrt();

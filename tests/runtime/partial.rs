@@ -1,5 +1,4 @@
-//! Sampling runs in parts: any split and order, stopped and resumed, gives the same bits; parts of other runs are
-//! refused.
+//! Sampling runs in parts: any split and order, stopped and resumed, gives the same bits; parts of other runs are refused.
 #![allow(clippy::single_range_in_vec_init, reason = "lists of ranges")]
 
 mod exact;
@@ -179,8 +178,8 @@ fn a_run_that_is_stopped_can_be_resumed() {
     }
 }
 
-/// A result reports the settings needed to draw its samples again, whether it was drawn at once, merged from parts, or written
-/// and read.
+/// A result reports the settings needed to draw its samples again, whether it was drawn at once, merged from
+/// parts, or written and read.
 #[test]
 fn a_result_says_how_its_samples_were_drawn() {
     let study = bar().seed(7).stream(3);

@@ -404,8 +404,7 @@ fn a_report_says_what_first_order_leaves_out() {
     assert_eq!(first.modes[0].distance_to_instability, f64::NEG_INFINITY);
 }
 
-/// All derivatives of a margin's probability against differences of the complete calculation at changed inputs and
-/// designs.
+/// All derivatives of a margin's probability against differences of the complete calculation at changed inputs and designs.
 #[test]
 fn a_margin_moves_with_speed_and_design() {
     let study = |speed: f64, length: f64| {
@@ -502,8 +501,7 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
     close(by_speed(&found), by_speed(&forward), 1e-12);
 }
 
-/// At rest each coordinate of the plate is a separate damped oscillator: the distance to `|s|^2 = k / m = 0` is `k /
-/// sigma(k)`.
+/// At rest each coordinate of the plate is a separate damped oscillator: the distance to `|s|^2 = k / m = 0` is `k / sigma(k)`.
 #[test]
 fn a_damped_mode_loses_its_stiffness_where_its_spring_does() {
     let sigma = 0.1;

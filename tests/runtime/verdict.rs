@@ -331,8 +331,8 @@ fn what_is_too_dear_to_sample_keeps_the_distances() {
     assert!(exact.trusted());
 }
 
-/// The seat moves along a circle: `3 l^2 theta'' + c theta' + 3.5 g l theta = 0`, with a third of each rope's mass lumped at
-/// its end.
+/// The seat moves along a circle: `3 l^2 theta'' + c theta' + 3.5 g l theta = 0`, with a third of each
+/// rope's mass lumped at its end.
 #[test]
 fn verdicts_on_a_loop_are_right() {
     let ratio = |damping: f64, l: f64| 0.5 * damping / (3.0 * 3.5 * 9.81 * l.powi(3)).sqrt();

@@ -1,6 +1,5 @@
-//! Converts a declaration into the oracle's plain data with every value fixed to a number, so that the oracle can check
-//! machines written in the language, whatever their expressions. Only names and values come from the compiler; no equation
-//! does.
+//! Converts a declaration into the oracle's plain data with every value fixed to a number, so that the oracle can check machines
+//! written in the language, whatever their expressions. Only names and values come from the compiler; no equation does.
 
 use std::rc::Rc;
 
@@ -14,8 +13,8 @@ use eigentol_oracle::model::{
     Motion, Part, Placement, Point, Shape, Step, Unit, Value, Values, Word,
 };
 
-/// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which are the inputs of
-/// that model.
+/// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which
+/// are the inputs of that model.
 pub fn fixed(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) -> (Model, Vec<f64>) {
     let evaluation = Evaluation::new(&mechanism.constants, u, b);
     let fixing = Fixing {

@@ -1,5 +1,4 @@
-//! Operating points of the machines, at which equilibria move with the design, and a loop that passes every machine to
-//! a comparison.
+//! Operating points of the machines, at which equilibria move with the design, and a loop that passes every machine to a comparison.
 
 use eigentol::Policy;
 use eigentol::equilibrium::{Equilibrium, equilibrium};

@@ -252,8 +252,8 @@ fn kernels_of_robots_are_consistent() {
     }
 }
 
-/// A comparison that cannot fail proves nothing: a design variable that is off by one part in 10^8 shows in every quantity
-/// it affects.
+/// A comparison that cannot fail proves nothing: a design variable that is off by one part in 10^8 shows in
+/// every quantity it affects.
 #[test]
 fn a_small_fault_is_found() {
     let mut robot = Robot::load("Ur5");

@@ -1,5 +1,5 @@
-//! Special cases of the compiler in which a deliberately wrong line went undetected: each is now compared with an independent
-//! number.
+//! Special cases of the compiler in which a deliberately wrong line went undetected: each is now compared
+//! with an independent number.
 
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Damping, Limits};
@@ -40,8 +40,7 @@ fn closed(closing: &str) -> String {
     )
 }
 
-/// An axis that may be misaligned, by two variables that are nominally zero: perpendicular directions exist
-/// nevertheless.
+/// An axis that may be misaligned, by two variables that are nominally zero: perpendicular directions exist nevertheless.
 #[test]
 fn an_axis_nominally_along_x_may_be_tilted() {
     let state: [&[f64]; 2] = [&[0.3, -0.4, 0.5, 0.2, 1.1, -0.7, 0.6, 0.9, -1.2], &[]];
@@ -215,8 +214,8 @@ fn a_gliding_body_may_be_placed_anyhow() {
     assert_equal(&one, &other);
 }
 
-/// A joint declared from the body towards the ground, with shifted and rotated frames, transmits the opposite reaction, as seen
-/// from the body.
+/// A joint declared from the body towards the ground, with shifted and rotated frames, transmits the opposite
+/// reaction, as seen from the body.
 #[test]
 fn a_reversed_joint_transmits_the_opposite() {
     let arm = |joint: &str| {
@@ -284,8 +283,7 @@ fn loops_of_every_kind_have_a_symmetric_stiffness() {
     }
 }
 
-/// A direction rotated by an angle about a perpendicular one is tilted from itself by that angle, also by nearly half a
-/// turn.
+/// A direction rotated by an angle about a perpendicular one is tilted from itself by that angle, also by nearly half a turn.
 #[test]
 fn a_tilt_is_an_angle() {
     let text = "mechanism Tilt {
@@ -406,8 +404,7 @@ fn a_body_of_two_pieces_whirls_as_one() {
     assert_equal(&found, &whirl(&whole));
 }
 
-/// The height of a ball above a sloping plane, and the force that the plane exerts on it: the one that moves its
-/// centre.
+/// The height of a ball above a sloping plane, and the force that the plane exerts on it: the one that moves its centre.
 #[test]
 fn a_ball_on_a_slope_is_held_by_the_slope() {
     let slope = |placed: &str| {
@@ -566,8 +563,7 @@ fn hinges_on_a_turned_body_are_no_run() {
     assert_equal(&one, &other);
 }
 
-/// The reaction of a cut joint is the only load on an otherwise free body; it is reported at the joint, along the
-/// joint's axes.
+/// The reaction of a cut joint is the only load on an otherwise free body; it is reported at the joint, along the joint's axes.
 #[test]
 fn a_cut_joint_exerts_what_moves_the_body() {
     let outputs: String = ["force", "moment"]

@@ -12,8 +12,8 @@ fn pair(a: &Distribution, b: &Distribution, r: f64) -> Result<Joint, Error> {
     Joint::correlated(vec![a.clone(), b.clone()], &[1.0, r, r, 1.0])
 }
 
-/// The second row of the factor: the normal variable behind the second of two variables, for the two independent ones at (0, 1)
-/// and (1, 0).
+/// The second row of the factor: the normal variable behind the second of two variables, for the two independent
+/// ones at (0, 1) and (1, 0).
 fn factor(joint: &Joint) -> [f64; 2] {
     let mut slopes = [0.0; 2];
     let last = &joint.variables()[1];

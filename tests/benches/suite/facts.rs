@@ -1,5 +1,5 @@
-//! Single measurements without a peer: the ratio reported in the paper, many speeds on two cores, and the full analysis of
-//! a long chain.
+//! Single measurements without a peer: the ratio reported in the paper, many speeds on two cores, and the
+//! full analysis of a long chain.
 
 use std::env;
 use std::hint::black_box;

@@ -1,5 +1,4 @@
-//! Operation counts: every node of the expression graph except inputs, outputs and constants, by the same rule for both
-//! sides.
+//! Operation counts: every node of the expression graph except inputs, outputs and constants, by the same rule for both sides.
 
 use eigentol_compiler::algebra::{cost, regroup};
 use eigentol_compiler::base::ids::ExprId;

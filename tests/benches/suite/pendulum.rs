@@ -195,8 +195,7 @@ struct SweepByHand {
 
 impl SweepByHand {
     fn load(library: &Path, name: &str) -> Result<Box<dyn Work>, String> {
-        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function
-        // has this type.
+        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function has this type.
         #[allow(unsafe_code)]
         let (library, function) = unsafe {
             let library = Library::new(library).map_err(|error| error.to_string())?;
@@ -325,8 +324,7 @@ struct MonteCarloByHand {
 
 impl MonteCarloByHand {
     fn load(library: &Path) -> Result<Box<dyn Work>, String> {
-        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function
-        // has this type.
+        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function has this type.
         #[allow(unsafe_code)]
         let (library, function) = unsafe {
             let library = Library::new(library).map_err(|error| error.to_string())?;

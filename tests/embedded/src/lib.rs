@@ -1,7 +1,6 @@
 //! A mechanism compiled without the standard library, as in controller firmware.
 //!
-//! `cargo check -p eigentol-embedded` builds it alone, without the solvers; in a workspace build, other packages enable
-//! them.
+//! `cargo check -p eigentol-embedded` builds it alone, without the solvers; in a workspace build, other packages enable them.
 #![no_std]
 
 pub mod smallest;

@@ -52,8 +52,8 @@ fn bordered(
 }
 
 impl Pair {
-    /// The pair near the eigenvalue `s`, with the given lead component or the largest one. `None` where the eigenvalue
-    /// is not simple.
+    /// The pair near the eigenvalue `s`, with the given lead component or the largest one. `None` where
+    /// the eigenvalue is not simple.
     pub(super) fn near(
         coefficients: &[Matrix],
         s: Complex<f64>,

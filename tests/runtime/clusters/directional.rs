@@ -1,5 +1,4 @@
-//! Directional derivatives of equal eigenvalues against closed forms, and what reports say about single-mode
-//! derivatives.
+//! Directional derivatives of equal eigenvalues against closed forms, and what reports say about single-mode derivatives.
 
 use eigentol::{
     DampingKind, Description, Error, Family, Real, Shared, Study, Violation, mechanism,

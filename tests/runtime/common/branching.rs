@@ -101,8 +101,8 @@ law!(
 );
 
 law!(
-    /// Subcritical pitchfork that turns back: `q^5 - q^3 + (a - u) q`, arms `u = a - q^2 + q^4`, folds at `q^2 = 1/2`,
-    /// `u = a - 1/4`.
+    /// Subcritical pitchfork that turns back: `q^5 - q^3 + (a - u) q`, arms `u = a - q^2 + q^4`, folds at
+    /// `q^2 = 1/2`, `u = a - 1/4`.
     Quintic, 1, 1, symmetric: true, METRE, ["a" = 1.0],
     |q, u, b, c| {
         let s = q[0] * q[0];

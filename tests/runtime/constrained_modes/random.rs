@@ -1,5 +1,4 @@
-//! Random bordered pencils: every reported root is one, left and right; no two are the same; and their number matches
-//! the freedom.
+//! Random bordered pencils: every reported root is one, left and right; no two are the same; and their number matches the freedom.
 
 use eigentol::kernels::Linear;
 use eigentol::modes::modes_of;

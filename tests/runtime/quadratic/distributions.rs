@@ -14,8 +14,7 @@ fn quadratic(value: f64, slopes: &[f64], curvature: &[&[f64]]) -> Quadratic {
     }
 }
 
-/// Normal variables whose means differ from the nominal values: the model about these means, with its coefficients written
-/// out.
+/// Normal variables whose means differ from the nominal values: the model about these means, with its coefficients written out.
 #[test]
 fn means_beside_the_nominal_values() {
     let model = quadratic(2.0, &[1.0, -3.0], &[&[0.5, 0.2], &[0.2, -1.0]]);

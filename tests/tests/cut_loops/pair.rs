@@ -90,8 +90,7 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
-    /// `None` if no joint can be cut this way, or if a coordinate has no resistance without the forces on the cut
-    /// joint.
+    /// `None` if no joint can be cut this way, or if a coordinate has no resistance without the forces on the cut joint.
     pub(crate) fn new(plan: Plan, closing: Closing) -> Option<Self> {
         let mut random = Random::new(plan.seed);
         let tree = plan.model();

@@ -118,8 +118,7 @@ impl Weld {
         )
     }
 
-    /// The masses in the frame of the first one; the last mass and the offsets of the first joint scale with the
-    /// design.
+    /// The masses in the frame of the first one; the last mass and the offsets of the first joint scale with the design.
     fn together(&self, scale: f64) -> Vec<Mass> {
         let mut third = self.masses[2];
         third.inertia *= scale;

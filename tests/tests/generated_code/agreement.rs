@@ -113,8 +113,7 @@ fn generated_code_computes_what_the_interpreter_computes() {
     assert!(agreement.numbers > 50_000, "{}", agreement.numbers);
 }
 
-/// Violates requirements one at a time: the generated check must name the quantity that the interpreter finds not
-/// positive.
+/// Violates requirements one at a time: the generated check must name the quantity that the interpreter finds not positive.
 struct Requirements {
     broken: usize,
 }

@@ -1,5 +1,4 @@
-//! Constraint reactions do no work on motions that the constraints allow: the column of a reaction is the row of its
-//! constraint.
+//! Constraint reactions do no work on motions that the constraints allow: the column of a reaction is the row of its constraint.
 
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Limits, Role};

@@ -126,8 +126,7 @@ pub(crate) fn many() -> ProptestConfig {
 proptest! {
     #![proptest_config(many())]
 
-    /// Twenty orders of magnitude in either direction, with starts of a million: products of several values stay
-    /// finite.
+    /// Twenty orders of magnitude in either direction, with starts of a million: products of several values stay finite.
     #[test]
     fn any_size(
         which in 0..6_usize,

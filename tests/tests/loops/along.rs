@@ -78,8 +78,7 @@ fn folds_and_resonances() {
     assert_eq!(found, [1, 2, 2, 1]);
 }
 
-/// Sweeps from rest to the last point of the file in a hundred steps: the assembly mode is kept, and the modes keep
-/// their labels.
+/// Sweeps from rest to the last point of the file in a hundred steps: the assembly mode is kept, and the modes keep their labels.
 fn check_sweep<M: Mechanism>(machine: M, name: &'static str) {
     let case = Case::new(name);
     let points = case.points();

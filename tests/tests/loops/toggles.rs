@@ -147,8 +147,7 @@ fn circles(offset: f64) -> [Circle; 4] {
     })
 }
 
-/// The force that a lower bar exerts on its pin, from moments about the elbow for the lower bar and about the pivot for
-/// both.
+/// The force that a lower bar exerts on its pin, from moments about the elbow for the lower bar and about the pivot for both.
 fn pin_force(toggle: Toggle) -> [f64; 2] {
     let Toggle { elbow, pin } = toggle;
     let lever = [pin[0] - elbow[0], pin[1] - elbow[1]];

@@ -114,8 +114,8 @@ fn oil_whirl_goes_forward_at_half_the_speed() {
     assert!((0.45..0.52).contains(&share), "{share}");
 }
 
-/// Curves are undefined beyond their ends: evaluating there is an error that names the curve and the end. The ends themselves are
-/// valid.
+/// Curves are undefined beyond their ends: evaluating there is an error that names the curve and the end. The
+/// ends themselves are valid.
 #[test]
 fn a_curve_ends() {
     let at = |speed: f64| {

@@ -80,8 +80,7 @@ fn onset_of_instability_by_internal_damping() {
         panic!("{found:?}")
     };
     event(only, expected, &slopes, &design, tolerances.half_widths());
-    // Slightly above the onset, samples lie on both sides; their shares follow from the standard deviation of the
-    // onset.
+    // Slightly above the onset, samples lie on both sides; their shares follow from the standard deviation of the onset.
     let sigma = only.sigma().expect("a spread");
     let run = study
         .clone()

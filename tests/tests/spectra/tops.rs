@@ -81,8 +81,7 @@ fn turning_splits_a_double_frequency() {
     }
 }
 
-/// A sweep follows a state held by gyroscopic forces: the top keeps sleeping as its spin decreases, until nothing holds
-/// it.
+/// A sweep follows a state held by gyroscopic forces: the top keeps sleeping as its spin decreases, until nothing holds it.
 #[test]
 fn a_sweep_follows_the_sleeping_top_until_it_falls() {
     let study: Study<SleepingTop> = Study::new(SleepingTop);

@@ -1,4 +1,4 @@
-//! Texts with commands, files and changes of files: what they show is what a reader gets.
+//! Documents with commands, files and edits: checks that a reader gets exactly what they show.
 //!
 //! | block | meaning |
 //! | --- | --- |

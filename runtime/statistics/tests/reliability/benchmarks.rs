@@ -1,8 +1,7 @@
 //! Published problems. RP numbers are those of the reliability benchmark of TNO (Rozsas and Slobbe 2019, *Repository and
 //! Black-box Reliability Challenge 2019*), with the formulas of OpenTURNS's `otbenchmark`. Published versions give different
-//! probabilities for some problems (RP25: 6.14e-6 and 4.1486e-5; RP28: 1.46e-7 and 1.763e-7; RP14: 7.52e-3). Each is
-//! therefore computed here a second time, by integration over one or several variables, and compared with the version that
-//! this supports.
+//! probabilities for some problems (RP25: 6.14e-6 and 4.1486e-5; RP28: 1.46e-7 and 1.763e-7; RP14: 7.52e-3). Each is therefore
+//! computed here a second time, by integration over one or several variables, and compared with the version that this supports.
 
 use core::convert::Infallible;
 use core::f64::consts::{PI, SQRT_2};
@@ -355,8 +354,7 @@ fn rp111() {
     );
 }
 
-/// The series system of Waarts (2000), with four limit states of which two are curved: exact after a rotation by 45
-/// degrees.
+/// The series system of Waarts (2000), with four limit states of which two are curved: exact after a rotation by 45 degrees.
 #[test]
 fn four_branches() {
     let curved = |sign: f64| {

@@ -236,8 +236,7 @@ fn nothing_to_search_is_refused() {
     }
 }
 
-/// From the origin the search reaches the apex, the farthest point of its neighbourhood; the nearest points lie beside
-/// it.
+/// From the origin the search reaches the apex, the farthest point of its neighbourhood; the nearest points lie beside it.
 #[test]
 fn a_point_that_is_nearest_in_some_directions_only_is_left() {
     // (b - z1) = k z0^2 / 2 with b k > 1: the nearest points are at z1 = 1/k.

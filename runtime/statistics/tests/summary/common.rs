@@ -20,8 +20,8 @@ pub(crate) fn normal(stream: u64, sample: u64) -> f64 {
     radius * (std::f64::consts::TAU * uniform(2 * stream + 1, sample)).cos()
 }
 
-/// Three quantities: a large mean with a small standard deviation, one missing in every fifth sample, and one with zeros of
-/// either sign.
+/// Three quantities: a large mean with a small standard deviation, one missing in every fifth sample, and one
+/// with zeros of either sign.
 pub(crate) fn quantities(sample: u64) -> [Option<f64>; 3] {
     let x = normal(7, sample);
     let y = 0.5 * x + uniform(8, sample);

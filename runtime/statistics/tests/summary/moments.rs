@@ -89,8 +89,7 @@ impl Exact {
 
 #[test]
 fn large_means_with_small_spreads() -> Result<(), Error> {
-    // Multiples of 2^-26, exact when added to 1e8, with a standard deviation of 1e-4; skewed, so that the third moment
-    // matters.
+    // Multiples of 2^-26, exact when added to 1e8, with a standard deviation of 1e-4; skewed, so that the third moment matters.
     let unit = 0.5_f64.powi(26);
     let skewed = |k| normal(1, k) + 0.3 * normal(2, k).powi(2);
     let integers: Vec<i64> = (0..10_000)

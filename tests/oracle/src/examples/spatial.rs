@@ -9,8 +9,8 @@ fn turn(name: &str, axis: [f64; 3]) -> Step {
     Step::new(Motion::Turn, axis).named(name)
 }
 
-/// A body on a spherical joint: turned about z at the first input, free to tilt about y, spinning about its own z at the
-/// second input.
+/// A body on a spherical joint: turned about z at the first input, free to tilt about y, spinning about its
+/// own z at the second input.
 pub fn top(shape: Shape, weight: Values) -> Model {
     let steps = vec![
         turn("precession", Z).driven(0, 1.0),

@@ -17,8 +17,7 @@ pub(crate) struct Configuration<D> {
     pub(crate) axes: Vec<Vec<Axis<D>>>,
 }
 
-/// The motion, at unit speed of a step, of everything beyond it: rotation `spin` about `origin` and translation
-/// `slide`.
+/// The motion, at unit speed of a step, of everything beyond it: rotation `spin` about `origin` and translation `slide`.
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<D> {
     pub(crate) origin: Vector<D>,

@@ -16,8 +16,8 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The value at `x`: `m0 (x1 - x)^3 / (6 h) + m1 (x - x0)^3 / (6 h) + ..` with the second derivatives `m` at the two ends of
-    /// the segment.
+    /// The value at `x`: `m0 (x1 - x)^3 / (6 h) + m1 (x - x0)^3 / (6 h) + ..` with the second derivatives `m` at
+    /// the two ends of the segment.
     pub fn at<D: DualNum<Primitive = f64> + Copy>(&self, x: D) -> D {
         let (points, m) = (&self.points, self.curvatures());
         let last = points.len() - 1;

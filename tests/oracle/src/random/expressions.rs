@@ -94,8 +94,7 @@ impl Builder {
         Expr::Product(factors)
     }
 
-    /// `-k q - k3 q^3 - c rate(q)`, plus couplings with another free coordinate, the speed of any coordinate, or an
-    /// input.
+    /// `-k q - k3 q^3 - c rate(q)`, plus couplings with another free coordinate, the speed of any coordinate, or an input.
     pub(super) fn generalized(
         &mut self,
         coordinate: Coordinate,
@@ -157,8 +156,7 @@ impl Builder {
         }
     }
 
-    /// `1/2 k (q1 - q2)^2` for coordinates of the same unit, `1/2 k q^2 + g q1 q2` for different ones, `-m cos q` for
-    /// angles.
+    /// `1/2 k (q1 - q2)^2` for coordinates of the same unit, `1/2 k q^2 + g q1 q2` for different ones, `-m cos q` for angles.
     pub(super) fn energy_of_coordinates(
         &mut self,
         coordinate: Coordinate,

@@ -1,5 +1,4 @@
-//! Random mechanisms: trees that nobody would draw, and trees full of the special cases for which the compiler has dedicated
-//! code.
+//! Random mechanisms: trees that nobody would draw, and trees full of the special cases for which the compiler has dedicated code.
 //!
 //! Every model has a steady state and a regular mass matrix. Joints are declared in random order and in either direction;
 //! axes are not normalised; values are numbers or multiples of design variables, some shared by several values. Bodies are
