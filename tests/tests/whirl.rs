@@ -134,8 +134,8 @@ fn a_tilting_disk_circles_too() {
     }
 }
 
-/// The gyroscopic moment stiffens forward whirl and softens backward whirl: `A w^2 -+ C Omega w - k = 0` with `C = m
-/// r^2 / 2`, `A = C / 2`. The mode comes from the generated matrices.
+/// The gyroscopic moment stiffens forward whirl and softens backward whirl: `A w^2 -+ C Omega w - k = 0` with
+/// `C = m r^2 / 2`, `A = C / 2`. The mode comes from the generated matrices.
 #[test]
 fn forward_whirl_of_a_gyroscope_is_the_fast_one() {
     let (b, axial, stiffness) = ([2.0, 0.3, 0.0], 0.09, 40.0);

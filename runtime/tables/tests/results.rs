@@ -151,8 +151,8 @@ fn second_derivatives_are_per_declared_units() {
     assert!(mixed[0] == mixed[1] && mixed[0] != 0.0, "{mixed:?}");
 }
 
-/// `theta'' = -cos / sin (2 + cos^2 / sin^2) / l^2` by the length; for the critical speed `u_c = (3 g / 2
-/// l)^(1/2)` it is `3/4 u_c / l^2`.
+/// `theta'' = -cos / sin (2 + cos^2 / sin^2) / l^2` by the length; for the critical speed `u_c = (3 g / 2 l)^(1/2)` it
+/// is `3/4 u_c / l^2`.
 #[test]
 fn second_derivatives_of_outputs_and_critical_values() {
     let [theta, ..] = closed_form();

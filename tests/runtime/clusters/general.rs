@@ -101,8 +101,8 @@ fn the_mean_damping_ratio_moves_as_each_of_two_equal_ones() {
     close(ratio.sigma, (0.02 / 10.0_f64).hypot(by_stiffness), 1e-9);
 }
 
-/// Ziegler's column loses stability at `load / stiffness = (7 - sqrt 8) / 2`, where two frequencies merge: `2 lambda^2
-/// + (2 p - 7 k) lambda + k^2 = 0`.
+/// Ziegler's column loses stability at `load / stiffness = (7 - sqrt 8) / 2`, where two frequencies merge:
+/// `2 lambda^2 + (2 p - 7 k) lambda + k^2 = 0`.
 fn critical_load() -> f64 {
     0.5 * (7.0 - 8.0_f64.sqrt())
 }

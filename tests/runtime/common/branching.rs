@@ -88,8 +88,8 @@ law!(
 );
 
 law!(
-    /// Transcritical: `(q - d) (q - e - s (u - d))`; the branches `q = d` and `q = e + s (u - d)` cross at `u = d + (d
-    /// - e) / s`.
+    /// Transcritical: `(q - d) (q - e - s (u - d))`; the branches `q = d` and `q = e + s (u - d)` cross at
+    /// `u = d + (d - e) / s`.
     Exchange, 1, 3, symmetric: true, METRE, ["d" = 0.0, "e" = 0.0, "s" = 1.0],
     |q, u, b, c| [(q[0] - b[0]) * (q[0] - b[1] - b[2] * (u - b[0]))]
 );
@@ -188,8 +188,8 @@ law!(
 );
 
 law!(
-    /// Two coordinates in a quartic potential with adjustable lower-order terms, and a non-symmetric term `s`: `q_i^3 +
-    /// sum_j a_ij q_j + e_i - u q_i + c q_0 q_1 (..) + s (q_1, 0)`.
+    /// Two coordinates in a quartic potential with adjustable lower-order terms, and a non-symmetric term `s`:
+    /// `q_i^3 + sum_j a_ij q_j + e_i - u q_i + c q_0 q_1 (..) + s (q_1, 0)`.
     Field, 2, 7, symmetric: false, METRE,
     ["a00" = 0.0, "a01" = 0.0, "a11" = 0.0, "c" = 0.0, "e0" = 0.0, "e1" = 0.0, "s" = 0.0],
     |q, u, b, c| [

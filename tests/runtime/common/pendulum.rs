@@ -1,5 +1,5 @@
-//! The paper's single rotating pendulum with every method written by hand: `g = J (qddot - Omega^2 sin q cos q) + m g
-//! L/2 sin q`, `J = m L^2/3`. Design variables: `m`, `l`.
+//! The paper's single rotating pendulum with every method written by hand:
+//! `g = J (qddot - Omega^2 sin q cos q) + m g L/2 sin q`, `J = m L^2/3`. Design variables: `m`, `l`.
 
 use eigentol::{
     DampingKind, Description, Gradient, GradientOf, Linear, LinearPartials, Mechanism, OutputInfo,

@@ -87,8 +87,8 @@ impl Model for Trail {
 
 /// A caster at speed `v`. Its kingpin moves sideways by `y` on a spring `k`; the fork, of mass `m` at distance `b` behind
 /// the kingpin and inertia `J` about its centre, trails by `theta`; the wheel at distance `a` does not slip sideways. A
-/// torsion spring `kt` about the angle `t0` keeps the wheel pushing, a damper `c` resists: `(J + m (a - b)^2) s^3 + (m v (a
-/// - b) + c) s^2 + (k a^2 + kt) s + k a v = 0`.
+/// torsion spring `kt` about the angle `t0` keeps the wheel pushing, a damper `c` resists:
+/// `(J + m (a - b)^2) s^3 + (m v (a - b) + c) s^2 + (k a^2 + kt) s + k a v = 0`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caster;
 
@@ -281,8 +281,8 @@ impl Model for DrivenDisk {
     no_forces! {8, 5}
 }
 
-/// A sleigh on a knife edge at distance `a` behind its centre, pushed by `d (v - forward)`: `s = -d / m` and `-m a v /
-/// (J + m a^2)`. Without a push (`d = 0`) any speed is steady.
+/// A sleigh on a knife edge at distance `a` behind its centre, pushed by `d (v - forward)`: `s = -d / m` and
+/// `-m a v / (J + m a^2)`. Without a push (`d = 0`) any speed is steady.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sleigh;
 

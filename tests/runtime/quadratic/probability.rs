@@ -140,8 +140,8 @@ fn differences_of_squares_are_laplace() {
     }
 }
 
-/// From quadrature in 30-digit arithmetic over one of two variables, with a closed form for the other: `(c1, nu1, c2,
-/// nu2, y)` and `P(X < y)`.
+/// From quadrature in 30-digit arithmetic over one of two variables, with a closed form for the other:
+/// `(c1, nu1, c2, nu2, y)` and `P(X < y)`.
 const TWO: [(f64, f64, f64, f64, f64, f64); 26] = [
     (0.3, 1.0, 0.5, 0.6, -0.2, 0.045_638_055_314_149_96),
     (0.3, 1.0, 0.5, 0.6, 0.0, 0.201_612_850_132_624_12),

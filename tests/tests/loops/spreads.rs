@@ -14,8 +14,8 @@ use super::study::study;
 
 const SAMPLES: usize = 2000;
 
-/// Shift of the mean, and standard deviation, of `Im s`: `sum H_ii v_i / 2`, and the root of `sum (g_i)^2 v_i + sum
-/// (H_ij)^2 v_i v_j / 2`, with the variances `v`.
+/// Shift of the mean, and standard deviation, of `Im s`: `sum H_ii v_i / 2`, and the root of
+/// `sum (g_i)^2 v_i + sum (H_ij)^2 v_i v_j / 2`, with the variances `v`.
 fn moments(case: &Case, mode: &Truth) -> [f64; 2] {
     let design = case.truth.get("design").list();
     let variance = |i: usize| (design[i].get("tolerance").number() / 3.0).powi(2);

@@ -6,8 +6,8 @@ use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk};
 
 use super::common::close;
 
-/// Without drag nothing determines the yaw rate of the disk: one eigenvalue is zero, and `(A + m r^2) s^2 = m g r - (C
-/// + m r^2) C spin^2 / A`.
+/// Without drag nothing determines the yaw rate of the disk: one eigenvalue is zero, and
+/// `(A + m r^2) s^2 = m g r - (C + m r^2) C spin^2 / A`.
 #[test]
 fn a_disk_without_drag() {
     let free = Study::<RollingDisk>::new(RollingDisk)

@@ -69,8 +69,8 @@ fn curvatures_of_paraboloids() {
     }
 }
 
-/// Two equal curvatures: `P(Z > b + k R^2/2)` with `R^2 / 2` exponentially distributed, in closed form `Phi(-b) -
-/// exp(b/k + 1/(2 k^2)) Phi(-b - 1/k)`.
+/// Two equal curvatures: `P(Z > b + k R^2/2)` with `R^2 / 2` exponentially distributed, in closed form
+/// `Phi(-b) - exp(b/k + 1/(2 k^2)) Phi(-b - 1/k)`.
 #[test]
 fn formulas_on_a_paraboloid() {
     let (b, k) = (3.0, 0.4_f64);

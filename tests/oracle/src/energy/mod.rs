@@ -2,8 +2,8 @@
 //!
 //! `g_i = d/dt (dL/dqdot_i) - dL/dq_i + dD/dqdot_i - Q_i` with `L = T - V`, Rayleigh's dissipation function `D` and the
 //! virtual work `Q_i dq_i` of forces that have neither an energy nor a dissipation function. Poses are 4 x 4 matrices
-//! built from quaternions. The kinetic energy of a body is `1/2 tr(Xdot P Xdot^T)` with its pseudo-inertia `P =
-//! integral [r; 1] [r; 1]^T dm`, so neither angular velocities nor gyroscopic moments occur. Every derivative is a
+//! built from quaternions. The kinetic energy of a body is `1/2 tr(Xdot P Xdot^T)` with its pseudo-inertia
+//! `P = integral [r; 1] [r; 1]^T dm`, so neither angular velocities nor gyroscopic moments occur. Every derivative is a
 //! hyper-dual number.
 
 mod expressions;

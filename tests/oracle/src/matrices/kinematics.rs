@@ -182,8 +182,8 @@ impl Oracle<'_> {
         }
     }
 
-    /// The velocities that unit speed of one coordinate gives the bodies it carries: `v = s x (c - o) + t` and `omega =
-    /// s` with the spin `s` about `o` and the slide `t` of its axis.
+    /// The velocities that unit speed of one coordinate gives the bodies it carries: `v = s x (c - o) + t` and
+    /// `omega = s` with the spin `s` about `o` and the slide `t` of its axis.
     fn column<D: Scalar>(&self, at: &Configuration<D>, coordinate: Coordinate) -> Vec<D> {
         let axis = at.axes[coordinate.joint][coordinate.step];
         let mut column = vec![D::zero(); 6 * at.bodies.len()];

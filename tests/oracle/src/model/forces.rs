@@ -149,10 +149,10 @@ pub enum ForceLaw {
         /// Expression of coordinates and points.
         energy: Expr,
     },
-    /// Elastic connection of two points with axes. It applies, along the axes of `from`, the force `-stiffness d -
-    /// damping d'` and the moment `-turning_stiffness r - turning_damping r'` to `to`, and the opposite to the body of
-    /// `from` at the position of `to`. `d` is the position of `to`, `r` the axial vector of the antisymmetric part of
-    /// its rotation matrix; both, and their rates, are measured in `from`.
+    /// Elastic connection of two points with axes. It applies, along the axes of `from`, the force
+    /// `-stiffness d - damping d'` and the moment `-turning_stiffness r - turning_damping r'` to `to`, and the opposite
+    /// to the body of `from` at the position of `to`. `d` is the position of `to`, `r` the axial vector of the
+    /// antisymmetric part of its rotation matrix; both, and their rates, are measured in `from`.
     Bushing {
         /// Index of one point.
         from: usize,
