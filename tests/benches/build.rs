@@ -1,7 +1,7 @@
-//! Kernels of the chain of bars, one mechanism for every size that is timed.
+//! Kernels of the chain of bars, one mechanism for each size that is timed.
 //!
-//! A build script rather than `mechanism!`: only it can lift the bound on explicit partials, so that all of them are timed up
-//! to 16 bars, and only it knows the profile: what is merely checked (`cargo clippy`) gets the small chains.
+//! This is a build script rather than `mechanism!` for two reasons: it can lift the limit on explicit partials, so that all of
+//! them are timed up to 16 bars, and it knows the profile, so that a mere check (`cargo clippy`) generates only the small chains.
 
 use std::env;
 use std::error::Error;
@@ -17,17 +17,17 @@ use eigentol_compiler::{Compilation, compile};
 #[path = "chain.rs"]
 mod chain;
 
-/// Sizes of the chains that are compared with a peer, and of those whose growth is measured.
+/// Chain sizes compared with a peer, and chain sizes for the growth measurement.
 const COMPARED: [&[usize]; 2] = [&[2, 4, 8, 16, 32], &[2]];
 const GROWN: [&[usize]; 2] = [&[1, 2, 4, 8, 16, 32, 64], &[1]];
 
-/// The largest chain whose explicit partials are written out.
+/// The largest chain whose explicit partials are generated.
 const MOST_WITH_PARTIALS: usize = 16;
 
-/// The largest chain whose kernels are compiled for vectors: every one is, for every set of instructions.
+/// The largest chain whose kernels are compiled for vectors: each kernel is compiled for every instruction set.
 const MOST_IN_LANES: usize = 16;
 
-/// The kernels whose growth is measured: `growth::Kernels` is the contract cut down to them.
+/// The kernels whose growth is measured; `growth::Kernels` is the contract reduced to these.
 const GROWING: [&str; 2] = ["residual", "mode_gradient"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -81,7 +81,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Statements on lines of their own: rustc looks up the column of every operation, which takes as long as its line.
+/// Puts each statement on its own line: rustc looks up the column of every operation, which takes time proportional to
+/// the line length.
 fn in_lines(items: &str) -> String {
     items.replace("; ", ";\n")
 }
@@ -103,7 +104,7 @@ fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
     Ok(compilation)
 }
 
-/// A chain with the growing kernels alone: the whole of a long one would be tens of megabytes that nobody times.
+/// A chain with only the growing kernels: a complete long chain would be tens of megabytes that are never timed.
 fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
     let mut compilation = compiled(name, bars)?;
     let functions = &mut compilation.functions;

@@ -1,7 +1,7 @@
-//! What a user sees: the messages of rustc on wrong declarations and on wrong uses of right ones. The diagnostics themselves
-//! are tested in `tests/diagnostics.rs`; here they have gone through the macro.
+//! The messages that a user sees from rustc for wrong declarations and for wrong uses of correct ones. The diagnostics
+//! themselves are tested in `tests/diagnostics.rs`; here they have passed through the macro.
 //!
-//! The texts follow rustc; `TRYBUILD=overwrite cargo test -p eigentol-compile-errors` writes them anew.
+//! The texts depend on the rustc version; `TRYBUILD=overwrite cargo test -p eigentol-compile-errors` regenerates them.
 
 #[test]
 fn messages() {

@@ -1,4 +1,4 @@
-//! Writes the generated text of many declarations to one file, as the build script of a user would.
+//! Writes the generated text of many declarations to one file, as a user's build script would.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ fn files(source: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     Ok(files)
 }
 
-/// The braces behind `mechanism!` and `machine!`.
+/// The contents of the braces after `mechanism!` and `machine!`.
 fn declarations(file: &Path) -> Result<Vec<TokenStream>, Box<dyn Error>> {
     let tokens: TokenStream = fs::read_to_string(file)?
         .parse()

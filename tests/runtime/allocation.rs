@@ -1,4 +1,4 @@
-//! Allocation of tolerances against closed forms, and its conditions of optimality by differences.
+//! Tolerance allocation against closed forms; its optimality conditions against finite differences.
 
 use eigentol::allocation::{Allocation, Choices, Cost, HalfWidth, Nominal};
 use eigentol::requirement::Requirement;
@@ -74,7 +74,7 @@ fn cost_of(power: f64, half_widths: &[f64]) -> f64 {
         .sum()
 }
 
-/// Lagrange: `T_i = scale (c_i / s_i^2)^(1 / (k + 2))`, and the spread fills the margin.
+/// Lagrange: `T_i = scale (c_i / s_i^2)^(1 / (k + 2))`, and the standard deviation uses up the margin.
 fn closed_form(power: f64, sigma: f64) -> Vec<f64> {
     let shape: Vec<f64> = (0..3)
         .map(|i| (COSTS[i] / (SLOPES[i] * SLOPES[i])).powf(1.0 / (power + 2.0)))
@@ -114,7 +114,7 @@ fn a_linear_limit_has_a_closed_form() {
     }
 }
 
-/// Both ends of a band: each has half of the probability, and the closed form holds for it.
+/// A band has two limits: each gets half the probability, and the closed form holds for each.
 #[test]
 fn a_band_shares_its_probability() {
     let wanted = [Requirement::Within {
@@ -129,7 +129,7 @@ fn a_band_shares_its_probability() {
     }
 }
 
-/// Of two requirements on different dimensions each has the closed form of its own chance.
+/// Two requirements on different dimensions: each has the closed form for its own probability.
 #[test]
 fn each_requirement_has_its_own_chance() {
     let study = stack().tolerance(Stack::d, 0.1e-3);
@@ -157,7 +157,7 @@ fn each_requirement_has_its_own_chance() {
     }
 }
 
-/// A nominal value that may move is put in the middle of the band, where tolerances may be widest.
+/// A movable nominal value is placed in the middle of the band, where tolerances can be widest.
 #[test]
 fn nominal_values_move_to_the_middle() {
     let wanted = [Requirement::Within {
@@ -183,7 +183,7 @@ fn nominal_values_move_to_the_middle() {
     assert!(found.refuted.is_empty());
 }
 
-/// Limits of half-widths hold: with two at their limits the third takes what is left.
+/// Limits on half-widths are respected: with two at their limits, the third takes the rest.
 #[test]
 fn limits_of_half_widths_hold() {
     let wanted = [Requirement::at_most(gap(), 41e-3)];
@@ -213,8 +213,8 @@ fn a_cost_of_ones_own() {
     }
 }
 
-/// Length and speed of the bar: the wished probability is reached exactly, and no exchange of one half-width for the other is
-/// cheaper.
+/// Length and speed of the bar: the requested probability is met exactly, and no trade of one half-width for the other
+/// reduces the cost.
 #[test]
 fn a_curved_limit_with_uniform_variables() {
     let study = Study::new(Pendulum)
@@ -257,7 +257,7 @@ fn a_curved_limit_with_uniform_variables() {
     };
     close(ratio(1, costs[0]), ratio(2, costs[1]), 1e-4);
     assert!(found.refuted.is_empty(), "{found}");
-    // The same tolerances given anew: a half-width of three standard deviations is 3^(1/2) times the hard limit, about the mean.
+    // The same tolerances restated: a half-width of three standard deviations is 3^(1/2) times the hard limit about the mean.
     let hard = found.half_widths[1] / 3.0_f64.sqrt();
     let anew = (study.clone())
         .limits(Pendulum::l, 0.01 - hard, 0.01 + hard)

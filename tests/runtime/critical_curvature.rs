@@ -1,4 +1,5 @@
-//! Second derivatives of critical values: closed forms, and differences of first derivatives at critical states found anew.
+//! Second derivatives of critical values against closed forms, and against differences of first derivatives at critical
+//! states found again.
 
 use crate::common::branching::{
     Exchange, Flat, Lopsided, LopsidedSnap, MovingPitchfork, Quintic, Skewed, Snap,
@@ -14,7 +15,7 @@ use eigentol::second_order::{EventCurvature, critical_curvature};
 use eigentol::sweep::{CriticalState, Range, critical_sensitivity, critical_state};
 use eigentol::{Error, Input};
 
-/// A machine, its design, and where to look for its critical state.
+/// A machine, its design, and a range that contains its critical state.
 pub(crate) struct Case<'a> {
     pub(crate) machine: &'a dyn CurvatureKernels,
     pub(crate) b: &'a [f64],
@@ -29,7 +30,7 @@ impl Case<'_> {
         critical_state(self.machine, &[0.0], b, self.start, range).unwrap()
     }
 
-    /// Second derivatives, held against differences of the first ones, extrapolated.
+    /// Second derivatives, checked against extrapolated differences of the first ones.
     pub(crate) fn curvature(&self) -> EventCurvature {
         let b = self.b;
         let found = critical_curvature(self.machine, &self.state(b)).unwrap();
@@ -58,7 +59,7 @@ impl Case<'_> {
         found
     }
 
-    /// The same, held against a closed form as well.
+    /// Second derivatives, checked against a closed form as well.
     fn is(&self, expected: &[&[f64]]) {
         let found = self.curvature();
         for (own, expected) in found.second.iter().zip(expected) {
@@ -93,7 +94,7 @@ fn of_the_double_pendulum() {
         between: (0.1, 5.0),
     }
     .curvature();
-    // Masses and lengths scale: `b . du_c/db = 0` over masses, `-u_c / 2` over lengths; once more of each derivative.
+    // Scaling of masses and lengths: `b . du_c/db = 0` over masses, `-u_c / 2` over lengths; likewise for each derivative.
     let (b, first) = ([0.8, 1.1, 2.5, 3.7], &found.first);
     for j in 0..4 {
         let over = |pair: [usize; 2]| pair.map(|k| b[k] * found.second[j][k]).iter().sum::<f64>();
@@ -111,7 +112,7 @@ fn of_the_double_pendulum() {
     }
 }
 
-/// `2 (a/3)^(3/2)`; with a lopsided coupling `a = 1 - k/2`; `3 (f/2)^(2/3) c^(1/3)` for `k q - c q^3 = f`.
+/// `2 (a/3)^(3/2)`; with a non-symmetric coupling `a = 1 - k/2`; `3 (f/2)^(2/3) c^(1/3)` for `k q - c q^3 = f`.
 #[test]
 fn of_limit_points() {
     Case {
@@ -147,7 +148,7 @@ fn of_limit_points() {
     ]);
 }
 
-/// `u = r + (r^2 + 1/r)^(1/2)`, `r = b/a`, on a branch that moves with input and design in every direction.
+/// `u = r + (r^2 + 1/r)^(1/2)`, `r = b/a`, on a branch that moves in every direction with input and design.
 #[test]
 fn of_a_pitchfork_on_a_moving_branch() {
     let (a, b): (f64, f64) = (1.3, 0.9);

@@ -1,5 +1,5 @@
-//! Tolerances of any distribution: first order and Monte Carlo against the exact distribution of the rotating bar, whose frequency is
-//! a function of its length.
+//! Tolerances with any distribution: first order and Monte Carlo against the exact distribution of the rotating bar, whose
+//! frequency is a function of its length.
 
 use eigentol::tolerance::{Distribution, MonteCarlo, Outcome};
 use eigentol::{DesignVariable, Error, Law, Study, mechanism};
@@ -75,7 +75,7 @@ fn monte_carlo_has_the_exact_moments() {
             let error = sigma / (SAMPLES as f64).sqrt();
             assert_eq!(run.counts.stable, SAMPLES);
             assert!((found.mean - mean).abs() < 4.0 * error, "{length:?}");
-            // The standard error of a standard deviation is at most this for excess kurtosis below 6.
+            // An upper bound on the standard error of a standard deviation for excess kurtosis below 6.
             assert!(
                 (found.sigma.unwrap() - sigma).abs() < 4.0 * 1.42 * error,
                 "{length:?}"
@@ -84,7 +84,7 @@ fn monte_carlo_has_the_exact_moments() {
     }
 }
 
-/// The same designs, whichever way they are solved.
+/// The same designs are drawn, whichever way they are solved.
 #[test]
 fn side_by_side_draws_the_same_values() {
     for length in lengths() {
@@ -164,7 +164,7 @@ fn first_order_counts_the_mean_and_the_law() {
     }
 }
 
-/// Of shapes 2 and 5 the mean lies at two sevenths of the way, of 5 and 2 at five.
+/// With shapes 2 and 5 the mean lies two sevenths of the way, with 5 and 2 five sevenths.
 #[test]
 fn a_beta_law_leans_as_its_shapes_say() {
     for (alpha, beta, shift) in [(2.0, 5.0, 0.01), (5.0, 2.0, 0.04)] {
@@ -182,13 +182,13 @@ fn a_law_follows_limits_and_limits_keep_the_law() {
     let one = study().law(LENGTH, Law::Uniform).tolerance(LENGTH, 0.03);
     let other = study().tolerance(LENGTH, 0.03).law(LENGTH, Law::Uniform);
     assert_eq!(wide(one.clone()), wide(other));
-    // Hard limits do not ask how many standard deviations they hold.
+    // Hard limits do not depend on how many standard deviations they correspond to.
     assert_eq!(wide(one.clone()), wide(one.sigma_level(2.0)));
     let soft = study().tolerance(LENGTH, 0.03);
     close(wide(soft.clone().sigma_level(2.0)), 1.5 * wide(soft), 1e-14);
 }
 
-/// Places between the limits follow them.
+/// Discrete values between the limits scale with them.
 #[test]
 fn one_of_some_values_between_limits() {
     let places = vec![(0.0, 1.0), (0.25, 6.0), (1.0, 1.0)];
@@ -266,7 +266,7 @@ fn impossible_bodies_are_counted() {
     }
 }
 
-/// A speed that wanders, with a length that varies: of both, first order is exact in the derivatives of the closed form.
+/// A fluctuating speed with a varying length: first order is exact in the derivatives of the closed form for both.
 #[test]
 fn a_speed_that_wanders() {
     let exact = Study::new(Pendulum)
@@ -311,7 +311,7 @@ fn a_speed_that_wanders() {
         .unwrap();
     let last = swept[1].as_ref().unwrap().modes[0].frequency().unwrap();
     close(last.sigma, with.sigma, 1e-12);
-    // The speed at which the mechanism becomes critical is the same: the one to be set is less by the deviation.
+    // The mechanism becomes critical at the same speed, so the set value is lower by the deviation.
     let critical = study.critical_tolerance(Pendulum::omega, 0.0, 6.0).unwrap();
     let plain = exact.critical_tolerance(Pendulum::omega, 0.0, 6.0).unwrap();
     close(
@@ -389,7 +389,7 @@ mod declared {
         }
     }
 
-    /// What is declared is what a study takes: the tolerance of the speed follows it.
+    /// A study uses the declared tolerances: the tolerance of the speed follows it.
     #[test]
     fn tolerances_of_the_language() {
         let study = Study::new(Declared)

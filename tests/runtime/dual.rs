@@ -4,7 +4,7 @@ use eigentol::{Dual, Real};
 
 type Second = Dual<Dual<f64>>;
 
-/// A number that moves at the rate one, twice.
+/// A number with unit rate in both dual directions.
 fn moving(value: f64) -> Second {
     let one = Dual::fixed(1.0);
     let [value] = Dual::along(&[value], &[1.0]);

@@ -1,4 +1,4 @@
-//! Equilibria: closed forms, unstable starts, far starts, wrong input, events along an input.
+//! Equilibria: closed forms, unstable starts, distant starts, invalid input, events along an input.
 
 use crate::common::chain::DOUBLE;
 use crate::common::close;
@@ -81,7 +81,7 @@ fn far_starts_end_in_stable_states() {
         let state = equilibrium(&DOUBLE, &[3.0], &BARS, &start, Policy::Stable).unwrap();
         assert_eq!(state.stability, Stability::Stable, "{start:?}");
     }
-    // A cubic spring from far away: Newton contracts by 2/3 only.
+    // A cubic spring from far away: Newton's method contracts only by a factor 2/3.
     let far = equilibrium(
         &Derived(Spring),
         &[1.0],
@@ -95,7 +95,7 @@ fn far_starts_end_in_stable_states() {
 
 #[test]
 fn double_pendulum_matches_reference() {
-    // 50-digit arithmetic (mpmath), absolute angles, stable branch with positive angles.
+    // From 50-digit arithmetic (mpmath), absolute angles, stable branch with positive angles.
     for (omega, expected) in [
         (0.1, [0.0, 0.0]),
         (2.5, [0.0, 0.0]),
@@ -136,7 +136,7 @@ fn every_branch_is_found() {
 
 #[test]
 fn linear_divergence_is_a_result() {
-    // Far above both critical speeds the plate's stiffness is negative in both directions; gyroscopic forces may hold.
+    // Far above both critical speeds the plate's stiffness is negative in both directions; gyroscopic forces may hold it.
     let design = [0.5, 40.0, 60.0, 0.0];
     let state = equilibrium(
         &Derived(Plate),
@@ -147,7 +147,7 @@ fn linear_divergence_is_a_result() {
     )
     .unwrap();
     close(state.coordinates[0], 4.0 / (40.0 - 200.0), 1e-14);
-    // In the frame at rest it is a mass on turning springs: stable again above both critical speeds.
+    // In the stationary frame it is a mass on rotating springs: stable again above both critical speeds.
     let held = Stability::GyroscopicallyStabilised { negative: 2 };
     assert_eq!(state.stability, held);
     let one = equilibrium(
@@ -197,7 +197,7 @@ fn no_stiffness_and_no_equilibrium() {
     assert_eq!(divergent.stability, Stability::Divergent { negative: 1 });
 }
 
-/// Ziegler's column: `2 lambda^2 + (2 p - 7) lambda + 1 = 0`, so it flutters from `p = (7 - sqrt 8) / 2` on and diverges
+/// Ziegler's column: `2 lambda^2 + (2 p - 7) lambda + 1 = 0`, so it flutters from `p = (7 - sqrt 8) / 2` and diverges
 /// beyond `(7 + sqrt 8) / 2`.
 #[test]
 fn a_follower_load_leads_to_flutter_then_to_divergence() {

@@ -1,4 +1,4 @@
-//! Sweeps of an input, and where something happens along them.
+//! Sweeps of an input, and the events located along them.
 
 use crate::common::branching::{Away, Exchange, LopsidedSnap, Quintic, Rotor, Snap};
 use crate::common::chain::DOUBLE;
@@ -96,7 +96,7 @@ fn through(low: f64, high: f64, steps: usize) -> Range {
 
 #[test]
 fn critical_states_from_every_side() {
-    // From the bent branch down to the pitchfork, whatever the steps, into the range and to its very end.
+    // From the bent branch down to the pitchfork, with any number of steps, both inside the range and at its very end.
     for steps in [1, 7, 200] {
         for low in [6.0, 4.0, W.sqrt() * (1.0 + 1e-7)] {
             let bent = critical_state(&Pendulum, &[0.0], &BAR, &[1.0], through(low, 0.0, steps));
@@ -182,7 +182,7 @@ fn a_branch_that_runs_to_infinity_is_not_critical() {
     );
 }
 
-/// Along the upper branch `omega^2 = 3 q^2 - 1` falls from 2 to 0 at the fold; the branch that follows has more than 3.
+/// Along the upper branch `omega^2 = 3 q^2 - 1` decreases from 2 to 0 at the fold; on the branch that follows it exceeds 3.
 #[test]
 fn a_frequency_that_jumps_across_a_line_does_not_meet_it() {
     let range = Range::new(Input::new(0), 0.0, 0.6).steps(7);

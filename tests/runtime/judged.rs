@@ -1,5 +1,5 @@
-//! Samples that jump across flutter and divergence, far from the nominal design: stability and eigenvalues of every one against
-//! closed forms and, on a turntable, against a dense QR, their number against the exact distribution.
+//! Samples that jump across flutter and divergence, far from the nominal design: the stability and eigenvalues of each against
+//! closed forms and, on a turntable, against a dense QR method; their numbers against the exact distribution.
 
 use eigentol::tolerance::Outcome;
 use eigentol::{Complex, Mechanism, MonteCarlo, Stability, Study, mechanism};
@@ -51,7 +51,7 @@ fn sampled<M: Mechanism>(study: Study<M>) -> MonteCarlo {
     study.monte_carlo().expect("samples")
 }
 
-/// The chance of a standard normal number below `z`, by Simpson's rule.
+/// The probability of a standard normal number below `z`, by Simpson's rule.
 fn normal(z: f64) -> f64 {
     let n = 2000;
     let h = (z + 12.0) / n as f64;
@@ -65,7 +65,7 @@ fn normal(z: f64) -> f64 {
     h / 3.0 * terms.sum::<f64>()
 }
 
-/// A number of samples of which each has this chance: within five standard deviations.
+/// Checks a number of samples with this probability to within five standard deviations.
 fn agrees(count: usize, chance: f64) {
     let n = SAMPLES as f64;
     let sigma = (n * chance * (1.0 - chance)).sqrt();
@@ -76,7 +76,7 @@ fn agrees(count: usize, chance: f64) {
     );
 }
 
-/// Eigenvalues of `s^2 + s C + K` by the QR method of a library on the companion matrix.
+/// Eigenvalues of `s^2 + s C + K` by a library's QR method on the companion matrix.
 fn by_qr(
     [[cxx, cxy], [cyx, cyy]]: [[f64; 2]; 2],
     [[kxx, kxy], [kyx, kyy]]: [[f64; 2]; 2],
@@ -94,7 +94,7 @@ fn by_qr(
     each.collect()
 }
 
-/// Those of a seal with the same damping along both axes: `s^2 + c s + lambda = 0`, `lambda` an eigenvalue of the stiffness.
+/// Eigenvalues of a seal with equal damping along both axes: `s^2 + c s + lambda = 0`, with `lambda` an eigenvalue of the stiffness.
 fn of_seal(damping: f64, [kx, ky]: [f64; 2], across: f64) -> Vec<Complex> {
     let both = |middle: f64, square: f64| {
         let root = Complex::new(square, 0.0).sqrt();
@@ -109,7 +109,7 @@ fn of_seal(damping: f64, [kx, ky]: [f64; 2], across: f64) -> Vec<Complex> {
     roots.into_iter().flat_map(of).collect()
 }
 
-/// Whether the eigenvalues of a sample, conjugates left out, are those of the companion matrix: each as often.
+/// Whether the eigenvalues of a sample, without conjugates, match those of the companion matrix including multiplicity.
 fn same(found: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
     let mut left = wanted.to_vec();
     assert!(found.iter().any(Option::is_some), "{found:?}");
@@ -128,8 +128,8 @@ fn same(found: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
     }
 }
 
-/// `lambda = k +- sqrt((d/2)^2 - q^2)` are the roots of the stiffness, and `s^2 + c s + lambda` has a growing root where
-/// `(Im lambda)^2 > c^2 Re lambda`.
+/// `lambda = k +- sqrt((d/2)^2 - q^2)` are the eigenvalues of the stiffness, and `s^2 + c s + lambda` has a growing root
+/// where `(Im lambda)^2 > c^2 Re lambda`.
 #[test]
 fn a_seal_flutters_beyond_its_limit() {
     for (nominal, sigma) in [
@@ -156,7 +156,7 @@ fn a_seal_flutters_beyond_its_limit() {
             assert_eq!(sample.outcome, expected, "{nominal} {sigma}: {q}");
             let exact = of_seal(0.5, [110.0, 90.0], q);
             assert_eq!(sample.eigenvalues.iter().flatten().count(), 2);
-            // Next to a double eigenvalue rounding moves them by its square root.
+            // Near a double eigenvalue a rounding error acts through its square root.
             same(&sample.eigenvalues, &exact, 1e-6);
         }
         assert_eq!(
@@ -170,7 +170,7 @@ fn a_seal_flutters_beyond_its_limit() {
     }
 }
 
-/// Both stiffnesses of the seal at once, and with them both pairs of eigenvalues, lose their sign.
+/// Both stiffnesses of the seal, and with them both pairs of eigenvalues, change sign together.
 #[test]
 fn a_seal_gives_way_in_one_direction_or_in_two() {
     let mut growing = [0; 2];
@@ -203,8 +203,8 @@ fn a_seal_gives_way_in_one_direction_or_in_two() {
     assert!(growing.iter().all(|&count| count > 100), "{growing:?}");
 }
 
-/// `a = kx - omega^2` and `b = ky - omega^2`: with a damper on the plate it holds where both are positive, without one also where
-/// both are negative.
+/// `a = kx - omega^2` and `b = ky - omega^2`: with a damper on the plate it is stable where both are positive, without one also
+/// where both are negative.
 #[test]
 fn a_turntable_holds_its_block_by_springs_or_by_turning() {
     for (omega, damping, sigma) in [
@@ -252,7 +252,7 @@ fn a_turntable_holds_its_block_by_springs_or_by_turning() {
     }
 }
 
-/// At rest the directions know nothing of each other: a mode keeps its direction where their frequencies change places.
+/// At rest the directions are uncoupled: a mode keeps its direction where their frequencies exchange order.
 #[test]
 fn modes_that_change_places_keep_their_names() {
     for damping in [0.0, 0.3] {
@@ -266,7 +266,7 @@ fn modes_that_change_places_keep_their_names() {
         for sample in run.all.as_ref().expect("samples were asked for") {
             let [kx, ky] = [sample.design[0], sample.design[1]];
             changed += usize::from(kx < ky);
-            // The lower mode of the nominal design moves along y.
+            // At the nominal design the lower mode moves along y.
             for (s, k) in sample.eigenvalues.iter().zip([ky, kx]) {
                 let exact = Complex::new(-0.5 * damping, (k - 0.25 * damping * damping).sqrt());
                 let s = s.expect("it oscillates");
@@ -281,7 +281,7 @@ fn modes_that_change_places_keep_their_names() {
     }
 }
 
-/// The modes that a seal was judged by, ascending in size, are its answer.
+/// The modes by which a seal is judged, in ascending order of size, are those it returns.
 #[test]
 fn a_study_answers_with_the_modes_it_was_judged_by() {
     for (stiff, across, damping) in [

@@ -1,4 +1,4 @@
-//! Kernels at the states of a batch give the bits that they give for each state alone, with every set of instructions.
+//! On a batch of states, kernels give the same bits as for each state alone, with every instruction set.
 
 use crate::common::pendulum::Pendulum as ByHand;
 use eigentol::kernels::{
@@ -46,7 +46,7 @@ mechanism! {
     }
 }
 
-/// Numbers without a pattern in [-1, 1).
+/// Irregular numbers in [-1, 1).
 fn numbers() -> impl FnMut() -> f64 {
     let mut state = 11_u64;
     move || {
@@ -65,7 +65,7 @@ fn of_state(batches: &[Batch], state: usize) -> Vec<f64> {
     batches.iter().map(|batch| batch.0[state]).collect()
 }
 
-/// Equal bits, or both not a number.
+/// Requires equal bits, or NaN for both.
 fn same(batch: &Batch, state: usize, alone: f64) {
     let value = batch.0[state];
     assert!(
@@ -158,7 +158,7 @@ fn write_partials(
     }
 }
 
-/// All kernels at one batch of states.
+/// Compares all kernels on one batch of states.
 fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
     let kernels: &dyn Kernels = m;
     let sizes = kernels.sizes();
@@ -244,7 +244,7 @@ fn random_states() {
     }
 }
 
-/// Angles at the end of the range of the reduction, beyond it, and no angles at all: alone and beside ordinary ones.
+/// Angles at the end of the reduction range, beyond it, and non-finite: alone and beside ordinary ones.
 #[test]
 fn states_at_the_edges() {
     let odd = [
@@ -275,7 +275,7 @@ fn states_at_the_edges() {
     }
 }
 
-/// A mechanism that no compiler wrote has lanes too.
+/// A hand-written mechanism has lanes too.
 #[test]
 fn written_by_hand() {
     let mut random = numbers();

@@ -1,4 +1,4 @@
-//! The solvers of the runtime on mechanisms written by hand, independent of the compiler.
+//! The solvers of the runtime on hand-written mechanisms, independent of the compiler.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;

@@ -53,7 +53,7 @@ fn diagonal(n: usize, value: impl Fn(usize) -> f64) -> Matrix {
     Matrix::from_fn(n, n, |i, j| if i == j { value(i) } else { 0.0 })
 }
 
-/// A symmetric matrix from the first numbers of `seeds`; shifted to be positive definite when `shift` is positive.
+/// A symmetric matrix from the first numbers of `seeds`; shifted to be positive definite if `shift` is positive.
 fn symmetric(n: usize, seeds: &[f64], shift: f64) -> Matrix {
     let mut matrix = Matrix::zeros(n, n);
     for i in 0..n {
@@ -99,7 +99,7 @@ fn check(n: usize, stiffness: &[f64], mass: &[f64], duplicate: bool) {
     }
 }
 
-/// Fixed cases: the same on every run.
+/// The same cases on every run.
 fn fixed(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
@@ -127,7 +127,7 @@ proptest! {
 proptest! {
     #![proptest_config(fixed(300))]
 
-    /// A soft pendulum on stiff bearings: stiffnesses, masses and lengths of very different sizes.
+    /// A soft pendulum on stiff bearings: stiffnesses, masses and lengths of very different magnitude.
     #[test]
     fn eigenvalues_of_very_different_size(
         stiffness in prop::collection::vec(-0.2..0.2_f64, 25),
@@ -166,7 +166,7 @@ fn frequencies_match_references() {
             1e-13,
         );
     }
-    // 50-digit arithmetic (mpmath), two uniform bars in series.
+    // From 50-digit arithmetic (mpmath), two uniform bars in series.
     for (omega, design, expected) in [
         (
             2.5,
@@ -266,7 +266,7 @@ fn singular_mass_names_its_coordinate() {
     ));
 }
 
-/// The symmetric part of a skew `Chat` is zero but for rounding: its eigenpairs have nothing but rounding to be judged by.
+/// The symmetric part of a skew `Chat` is zero except for rounding: its eigenpairs can only be judged relative to rounding.
 #[test]
 fn a_matrix_of_rounding_errors_has_modes() {
     let noise = 1.3234889800848443e-23;

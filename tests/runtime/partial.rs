@@ -1,4 +1,4 @@
-//! Runs of samples in parts: any split and order, stopped and resumed, the same bits; parts of other runs are refused.
+//! Sampling runs in parts: any split and order, stopped and resumed, gives the same bits; parts of other runs are refused.
 #![allow(clippy::single_range_in_vec_init, reason = "lists of ranges")]
 
 mod exact;
@@ -58,7 +58,7 @@ fn bar() -> Study<Bar> {
         .seed(7)
 }
 
-/// Some of the samples diverge, and none is solved side by side.
+/// Some of the samples diverge, and none is solved in vectors.
 fn plate() -> Study<Derived<Plate>> {
     Study::new(Derived(Plate))
         .input(Input::new(0), 8.5)
@@ -66,7 +66,7 @@ fn plate() -> Study<Derived<Plate>> {
         .samples(SAMPLES as usize)
 }
 
-/// Ranges between the cuts, in an order that the keys say.
+/// The ranges between the cuts, in the order given by the keys.
 fn ranges(mut cuts: Vec<u64>, order: &[u64]) -> Vec<Range<u64>> {
     cuts.extend([0, SAMPLES]);
     cuts.sort_unstable();
@@ -110,7 +110,7 @@ proptest! {
     }
 }
 
-/// Of general modes, of which some are solved alone.
+/// General modes, of which some are solved one by one.
 #[test]
 fn damped_samples_of_any_split_have_the_same_bits() {
     let rotor = |omega| Study::new(Rotor).input(Rotor::omega, omega);
@@ -132,7 +132,8 @@ fn outcomes_are_merged_too() {
     assert!(all.result() == whole);
 }
 
-/// Whatever the number of threads, a run that is stopped has every sample that it counted, says so, and can be resumed.
+/// With any number of threads, a stopped run contains every sample that it counted, reports that it was stopped, and
+/// can be resumed.
 #[test]
 fn a_run_that_is_stopped_can_be_resumed() {
     for threads in [1, 2, 3] {
@@ -166,7 +167,7 @@ fn a_run_that_is_stopped_can_be_resumed() {
             assert!(
                 matches!(part.check_complete(), Err(Error::SamplesMissing { missing }) if missing == part.missing())
             );
-            // Stopped again at once: nothing is lost.
+            // Stopped again immediately: nothing is lost.
             let before = part.clone();
             study.resume_samples(&mut part, &watched).unwrap();
             assert!(part == before);
@@ -177,7 +178,8 @@ fn a_run_that_is_stopped_can_be_resumed() {
     }
 }
 
-/// A result says what to ask for to draw its samples again, whether it was drawn at once, merged from parts, or written and read.
+/// A result reports the settings needed to draw its samples again, whether it was drawn at once, merged from
+/// parts, or written and read.
 #[test]
 fn a_result_says_how_its_samples_were_drawn() {
     let study = bar().seed(7).stream(3);
@@ -205,7 +207,7 @@ fn a_result_says_how_its_samples_were_drawn() {
         bar().seed(u64::MAX).samples(2).monte_carlo().unwrap().seed,
         u64::MAX
     );
-    // A file that does not say it is none of ours.
+    // A file without this information is not ours.
     for fact in ["seed", "stream"] {
         let without = text.replacen(&format!("[\"{fact}\","), "[\"other\",", 1);
         assert_ne!(without, text);
@@ -251,7 +253,7 @@ fn gaps_and_overlaps_are_named() {
     }
 }
 
-/// What differs is named.
+/// The error names the difference.
 #[test]
 fn parts_of_other_runs_are_refused() {
     let part = |study: &Study<Bar>| study.samples_between(0..10).unwrap();

@@ -1,5 +1,5 @@
-//! How tolerances spread any responses, against the exact distribution of the rotating bar, whose frequency is a function of its length,
-//! and of the spring oscillator, whose frequency and output are simple.
+//! Propagation of tolerances to any response, against the exact distribution of the rotating bar, whose frequency is a function
+//! of its length, and of the spring oscillator, whose frequency and output are simple.
 
 mod control;
 mod crossing;
@@ -64,7 +64,7 @@ fn bar() -> Study<Bar> {
         .start(Bar::theta, 1.0)
 }
 
-/// Asks about responses of a study.
+/// Puts a question about the responses of a study.
 fn ask<R>(
     study: &Study<Bar>,
     wanted: Vec<Response>,
@@ -75,7 +75,7 @@ fn ask<R>(
     question(&responses)
 }
 
-/// The same of the mechanism with outputs that are simple.
+/// Puts a question to the mechanism with simple outputs.
 fn ask_sum<R>(wanted: Vec<Response>, question: impl FnOnce(&Responses<'_>) -> R) -> R {
     let study = Study::new(Sum);
     let solved = study.solve().unwrap();
@@ -95,7 +95,7 @@ fn varied(length: Distribution) -> Tolerances {
     Tolerances::distributed(&[3.0, 1.0], vec![mass, length], 3.0, None).unwrap()
 }
 
-/// Mean, standard deviation, skewness, and the values at the quantiles of the length for probabilities.
+/// Mean, standard deviation, skewness, and quantiles derived from those of the length.
 struct Exact {
     mean: f64,
     sigma: f64,
@@ -122,7 +122,7 @@ impl Exact {
         }
     }
 
-    /// The frequency grows with the length.
+    /// The frequency increases with the length.
     fn quantile(&self, probability: f64) -> f64 {
         frequency(self.length.quantile(probability))
     }

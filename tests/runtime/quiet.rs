@@ -1,4 +1,4 @@
-//! Texts leave out noise, and say so.
+//! Reports omit negligible numbers, and say so.
 
 use eigentol::second_order::Band;
 use eigentol::{Coordinate, DesignVariable, InDeclaredUnit, Input, Study, mechanism};
@@ -8,13 +8,13 @@ use crate::common::pendulum::Pendulum;
 const OMEGA: Input<Pendulum> = Input::new(0);
 const MASS: DesignVariable<Pendulum> = DesignVariable::new(0);
 
-/// Some twelve standard deviations away.
+/// About twelve standard deviations away.
 const FAR: Band = Band::Between {
     low: 3.55,
     high: 5.0,
 };
 
-/// Hangs at zero, where the angle does not depend on anything, and the frequency not on the mass.
+/// Hangs at zero, where the angle depends on nothing, and the frequency does not depend on the mass.
 fn hanging() -> Study<Pendulum> {
     Study::new(Pendulum)
         .input(OMEGA, 2.0)
@@ -74,7 +74,7 @@ mechanism! {
     }
 }
 
-/// A spring moves its own mode, and the other one by a share of the variance that is small, or rounding.
+/// A spring affects its own mode, and the other one by a small or rounding-sized share of the variance.
 #[test]
 fn shares_that_do_not_matter_are_bounds() {
     let spread = |between: f64| {
@@ -112,13 +112,13 @@ fn long_diagrams_show_some_points_and_say_how_many() {
         assert!(text.lines().count() < 30, "{text}");
         assert_quiet(&text);
     }
-    // Both ends are among them.
+    // Both ends are included.
     let text = sweep.to_string();
     assert!(
         text.contains("\n  5.9 ") && text.contains("\n  0 "),
         "{text}"
     );
-    // The critical speed stands first, with its spread and its cause.
+    // The critical speed comes first, with its standard deviation and its main source.
     let first = campbell.to_string();
     let second_row = first.lines().nth(2).unwrap();
     assert!(

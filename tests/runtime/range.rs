@@ -1,4 +1,4 @@
-//! Beyond the range of a double an answer is an error, never NaN.
+//! Results beyond the range of a double are errors, never NaN.
 
 use crate::common::derived::Derived;
 use crate::common::models::{Pair, Plate, Spring};
@@ -7,12 +7,12 @@ use eigentol::second_order::Band;
 use eigentol::sweep::Line;
 use eigentol::{DesignVariable, Error, Family, Input, Mechanism, Study};
 
-/// What is NaN in an answer, or an eigenvalue that is infinite, with what stands before it.
+/// The place of a NaN or an infinite eigenvalue in a result, with the text before it.
 fn look(text: &str) -> Option<&str> {
     if let Some(at) = text.find("lambda: -inf").or(text.find("lambda: inf")) {
         return Some(&text[at..at + 12]);
     }
-    // An error may well say that something is NaN, with `value`.
+    // An error may report that something is NaN, as `value`.
     let at = text
         .match_indices("NaN")
         .find(|(at, _)| !text[..*at].ends_with("value: "))?
@@ -152,7 +152,7 @@ fn an_eigenvalue_whose_square_overflows_is_named() {
     let Err(Error::EigenvalueRange { mode, size }) = found else {
         panic!("{found:?}")
     };
-    // c / m; of the other mode the eigenvalue is about -k / c.
+    // c / m; for the other mode the eigenvalue is approximately -k / c.
     assert!(mode >= 1 && (size / 2e200 - 1.0).abs() < 1e-12, "{size}");
 }
 
@@ -190,7 +190,7 @@ fn a_band_around_something_infinite_is_refused() {
     }
 }
 
-/// A million threads are as many as make sense, and the answer is that of one.
+/// A million threads are reduced to a sensible number, and the result is the same as with one.
 #[test]
 fn a_million_threads_are_not_started() {
     let study = Study::new(Pendulum).input(Input::new(0), 3.0).samples(1000);

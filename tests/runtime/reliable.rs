@@ -1,5 +1,4 @@
-//! Requirements: limits that are linear, and the rotating bar, whose frequency is a function of its length, against exact
-//! probabilities.
+//! Requirements: linear limits, and the rotating bar, whose frequency is a function of its length, against exact probabilities.
 
 use eigentol::requirement::{Edge, Requirement, SamplingSettings};
 use eigentol::response::Response;
@@ -49,7 +48,7 @@ fn pendulum() -> Study<Pendulum> {
         .start(Pendulum::theta, 1.0)
 }
 
-/// The length at which the bar has a frequency.
+/// The length at which the bar has the given frequency.
 fn length(frequency: f64, speed: f64) -> f64 {
     1.5 * GRAVITY / (speed * (speed * speed - frequency * frequency).sqrt())
 }
@@ -126,7 +125,7 @@ fn a_linear_limit_is_exact() {
     }
 }
 
-/// Two limits of one band, and a band of another output: the exact probability is that of two normal variables.
+/// Two limits of one band, and a band on another output: the exact probability is that of two normal variables.
 #[test]
 fn a_series_system() {
     let other = Response::Output(Stack::other.any());
@@ -166,7 +165,7 @@ fn a_series_system() {
     let system = found.system.unwrap();
     close(system.probability.value, 1.0 - met, 1e-4);
     let bounds = system.bounds;
-    // Those of pairs are exact but for failing all three; 1e-8 is the error of the integral.
+    // Probabilities of pairs are exact except for failing all three; 1e-8 is the error of the integral.
     assert!(bounds.lower <= 1.0 - met + 1e-8 && 1.0 - met <= bounds.upper + 1e-8);
     let chances = stack().samples(20_000).chances(&wanted).unwrap();
     let interval = chances.all.wilson(0.9999).unwrap();
@@ -210,7 +209,7 @@ fn the_pendulum_in_a_band() {
         };
         let exact_low = below(&values, length(low, SPEED));
         let exact_high = 1.0 - below(&values, length(high, SPEED));
-        // A mass that varies does not matter.
+        // A varying mass has no effect.
         for mass in [0.0, 0.9] {
             let study = distributed(values.clone()).tolerance(Pendulum::m, mass);
             let found = study.reliability(&[band]).unwrap();
@@ -271,7 +270,7 @@ fn a_forbidden_band() {
     );
 }
 
-/// A speed that wanders and a length, normal both: the exact probability is an integral over the speed.
+/// A fluctuating speed and a length, both normal: the exact probability is an integral over the speed.
 #[test]
 fn small_probabilities_of_a_curved_limit() {
     let study = pendulum()
@@ -312,7 +311,7 @@ fn small_probabilities_of_a_curved_limit() {
     assert_eq!(rare.counts.total() as u64, rare.failure.samples);
     let one = study.clone().threads(1).rare_failure(&wanted, &settings);
     assert_eq!(one.unwrap().failure, rare.failure);
-    // No sample is left out or drawn twice, also where threads have pieces of their own.
+    // No sample is omitted or drawn twice, even when threads have separate pieces.
     let few = SamplingSettings {
         samples: 1000,
         coefficient_of_variation: 0.0,
@@ -322,7 +321,7 @@ fn small_probabilities_of_a_curved_limit() {
     assert_eq!((rare.failure.samples, rare.counts.total()), (1000, 1000));
 }
 
-/// Against first-order reliability run again.
+/// Against first-order reliability recomputed at changed values.
 #[test]
 fn derivatives_are_those_of_differences() {
     let at = |nominal: [f64; 2], wide: [f64; 2], law: &Law, edge: f64| {
@@ -366,7 +365,7 @@ fn derivatives_are_those_of_differences() {
     }
 }
 
-/// Against the score function of importance samples, which knows nothing of design points.
+/// Against the score function of importance samples, which does not use design points.
 #[test]
 fn derivatives_are_those_of_samples() {
     let wanted = [Requirement::at_least(FREQUENCY, 3.9)];
@@ -384,7 +383,7 @@ fn derivatives_are_those_of_samples() {
     for (k, sigma) in [(1, 0.01), (2, 0.05)] {
         let by_mean = rare.by_mean[k].value / sigma;
         let by_half_width = rare.by_sigma[k].value / sigma / 3.0;
-        // What first order itself is off by, and the error of the samples.
+        // The first-order error itself, plus the sampling error.
         assert!((at.by_nominal[k].probability / by_mean - 1.0).abs() < 0.1);
         assert!((at.by_half_width[k].probability / by_half_width - 1.0).abs() < 0.1);
     }
@@ -435,7 +434,7 @@ fn what_makes_no_sense_is_refused() {
     ));
 }
 
-/// No design within reach fails: the limit says so, and sampling about nothing is refused.
+/// No design within reach fails: the limit reports this, and sampling around a nonexistent point is refused.
 #[test]
 fn a_limit_out_of_reach() {
     let study = distributed(Distribution::uniform(0.99, 1.01).unwrap());

@@ -1,4 +1,4 @@
-//! What is zero but for rounding is said to be zero, and what is not is not: equilibria, modes and reports agree.
+//! A quantity that is zero except for rounding is reported as zero, and no other: equilibria, modes and reports agree.
 
 use std::sync::Arc;
 
@@ -92,8 +92,8 @@ mechanism! {
     }
 }
 
-/// Masses of 1, 2 and 3 kg in a row, coordinates from the ground: springs `k1` and `k2` between them, `g` holds the first. What holds
-/// the row as a whole stands in one element beside `k1`, which rounds it.
+/// Masses of 1, 2 and 3 kg in a row, in ground coordinates: springs `k1` and `k2` between them, and `g` holds the first. The
+/// stiffness that holds the row as a whole is added to `k1` in one matrix element and rounded with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Chain;
 
@@ -136,12 +136,12 @@ impl Model for Chain {
     }
 }
 
-/// The representable number `count` places after `value`.
+/// The floating-point number `count` places after `value`.
 fn after(value: f64, count: i64) -> f64 {
     f64::from_bits(value.to_bits().wrapping_add_signed(count))
 }
 
-/// `3 g / (2 L) - omega^2`, stiffness over inertia where the bar hangs, rounded once at the end.
+/// `3 g / (2 L) - omega^2`, the stiffness over the inertia where the bar hangs, rounded once at the end.
 fn exact_lambda(omega: f64) -> f64 {
     let square = omega * omega;
     (W - square) - omega.mul_add(omega, -square)
@@ -179,7 +179,7 @@ fn at_its_critical_speed_a_pendulum_is_neutral() {
     }
 }
 
-/// Against the sign of the exact stiffness: no sign is wrong, and few are left open.
+/// Compared with the sign of the exact stiffness: no sign is wrong, and few are undecided.
 #[test]
 fn beside_its_critical_speed_a_pendulum_is_stable_or_not() {
     let critical = W.sqrt();
@@ -207,7 +207,7 @@ fn beside_its_critical_speed_a_pendulum_is_stable_or_not() {
     }
 }
 
-/// A critical state that was searched for is one, whatever the last digits of the speed make of it.
+/// A located critical state is neutral, whatever the last digits of its speed.
 #[test]
 fn a_critical_state_that_was_located_is_neutral() {
     let found = bar(0.0, 0.0).critical_state(Bar::omega, 3.0, 5.0).unwrap();
@@ -218,11 +218,11 @@ fn a_critical_state_that_was_located_is_neutral() {
     assert_eq!(mode.behaviour, Behaviour::Neutral);
 }
 
-/// Stiffnesses 1e15 apart, in relative coordinates, where none is hidden in the digits of another one. Expected are the
-/// frequencies where the stiff spring is a rigid joint; what it gives differs by 1e-15 of them.
+/// Stiffnesses 1e15 apart in relative coordinates, where none is lost in the digits of another. Expected are the
+/// frequencies with the stiff spring as a rigid joint; its compliance changes them by 1e-15.
 #[test]
 fn a_soft_mode_beside_a_stiff_one_is_as_good_as_alone() {
-    // Squares of the frequencies of two masses, a spring on the first and one between.
+    // Squared frequencies of two masses with a spring on the first and one between them.
     let pair = |(first, near): (f64, f64), (second, between): (f64, f64)| {
         let trace = (near + between) / first + between / second;
         let product = near * between / (first * second);
@@ -290,7 +290,7 @@ fn a_soft_mode_beside_a_stiff_one_is_as_good_as_alone() {
     }
 }
 
-/// Without damping a whirling plate keeps its amplitude at every speed, and the next sample of `c` decides what it does.
+/// Without damping a whirling plate keeps its amplitude at every speed; a tiny `c` of either sign decides its behaviour.
 #[test]
 fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
     for speed in [0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 8.0] {
@@ -317,7 +317,7 @@ fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
 }
 
 /// The same critical speed with damping, where one of two real eigenvalues vanishes, and with a constraint, where the stiffness
-/// along the one free direction does.
+/// along the one free direction vanishes.
 #[test]
 fn damping_and_constraints_do_not_hide_a_critical_state() {
     for start in [0.0, 0.5] {
@@ -380,7 +380,7 @@ fn damping_and_constraints_do_not_hide_a_critical_state() {
     }
 }
 
-/// No element of `Khat` vanishes at the critical speed of two bars: its determinant does, at 2.6801 rad/s.
+/// At the critical speed of two bars, 2.6801 rad/s, no element of `Khat` vanishes but its determinant does.
 #[test]
 fn a_stiffness_that_is_singular_but_nowhere_small_is_neutral() {
     let study = Study::new(TwoBars);
@@ -410,8 +410,8 @@ fn a_stiffness_that_is_singular_but_nowhere_small_is_neutral() {
     }
 }
 
-/// A row that nothing holds is neutral, though rounding may well leave it a stiffness; one that is held 1e-12 as much as it holds
-/// together is stable, or not. `lambda = g / 6` but for `g^2`.
+/// An unheld row is neutral, even if rounding gives it a stiffness; one held by 1e-12 of its internal stiffness is stable or
+/// unstable. `lambda = g / 6` to within `g^2`.
 #[test]
 fn what_the_elements_cannot_hold_is_neutral() {
     for i in 1..30 {
@@ -450,8 +450,8 @@ fn what_the_elements_cannot_hold_is_neutral() {
     }
 }
 
-/// Matrices of whole numbers with known eigenvalues: `Mhat = T^T T`, `Khat = T^T diag(d) T`, `T` a product of shears. None is farther
-/// off than its error, and no sign is wrong.
+/// Integer matrices with known eigenvalues: `Mhat = T^T T`, `Khat = T^T diag(d) T`, `T` a product of shears. None is off by more
+/// than its stated error, and no sign is wrong.
 fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
     let infos = vec![coordinate("q", METRE); n];
     let description = Shared::Counted(Arc::new(Description {
@@ -480,7 +480,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
             }
         }
     }
-    // A quarter zero, some negative, the others up to 2^30.
+    // A quarter are zero, some negative, the others up to 2^30.
     let mut d = Vector::from_fn(n, |_| match next(4) {
         0 => 0.0,
         1 => -(next(1 << 10) as f64),
@@ -506,7 +506,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
     d.sort_by(f64::total_cmp);
     let mut counts = [0; 2];
     for (mode, exact) in found.modes.iter().zip(d) {
-        // Half of it for a zero, of which `error` is the root.
+        // Half of it for a zero, where `error` is a square root.
         let error = match mode.behaviour {
             Behaviour::Neutral => mode.error * mode.error,
             _ => mode.error * mode.s.norm(),
@@ -535,6 +535,6 @@ fn errors_are_bounds_and_signs_are_true() {
             open = [open[0] + count[0], open[1] + count[1]];
         }
     }
-    // Signs that are left open though the eigenvalue is not zero.
+    // Signs left undecided although the eigenvalue is not zero.
     assert_eq!(open, [0, 400 * 29]);
 }

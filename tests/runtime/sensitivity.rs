@@ -1,4 +1,4 @@
-//! Total derivatives: closed forms, references, three ways against each other, critical states.
+//! Total derivatives: closed forms, references, three methods against each other, critical states.
 
 use crate::common::branching::{
     Exchange, Imperfect, Lopsided, LopsidedSnap, NearlyTwo, Quintic, Snap,
@@ -25,7 +25,7 @@ use eigentol::{Error, Family, Input, Policy, Vector};
 
 const BAR: [f64; 2] = [3.0, 1.0];
 
-/// Solves, differentiates in every way, checks that they agree, returns `domega/du` and `domega/db` by mode.
+/// Solves, differentiates by every method, checks that they agree, and returns `domega/du` and `domega/db` by mode.
 fn all_ways(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],
@@ -96,7 +96,7 @@ fn frozen_equilibrium_is_minus_half_of_the_truth_above() {
 
 #[test]
 fn chains_match_references() {
-    // 50-digit arithmetic (mpmath): d omega / d (lengths, masses), equilibrium shift included.
+    // From 50-digit arithmetic (mpmath): d omega / d (lengths, masses), including the equilibrium shift.
     let double = all_ways(&DOUBLE, &[3.2], &[0.8, 1.1, 2.5, 3.7], &[1.0; 2]);
     let expected = [
         [
@@ -214,7 +214,7 @@ fn limit_point_moves_with_the_force() {
     close(rates[2], 0.5f64.powf(2.0 / 3.0) * 2.0, 1e-10);
 }
 
-/// Critical sensitivities against closed forms, and against differences of critical values found anew.
+/// Critical sensitivities against closed forms, and against differences of critical values found again.
 fn moves(
     machine: &dyn DirectionalKernels,
     b: &[f64],
@@ -262,7 +262,7 @@ fn critical_values_move_as_their_closed_forms_do() {
         &[1.0 + 1.0 / s, -1.0 / s, -(d - e) / (s * s)],
     );
     moves(&Derived(Quintic), &[1.2], &[0.0], (0.0, 2.0), &[1.0]);
-    // The determinant of the lopsided mechanism is negative from k (3 - 8^(1/2)) on.
+    // The determinant of the non-symmetric mechanism is negative from k (3 - 8^(1/2)).
     moves(
         &Derived(Lopsided),
         &[1.1],
@@ -354,7 +354,7 @@ fn modes_of_a_cluster_have_no_derivatives_beyond_the_first() {
     }
 }
 
-/// `lambda = -Re s^2` of a damped oscillator is `k / m - c^2 / (2 m^2)`; the plate at rest is two of them.
+/// `lambda = -Re s^2` of a damped oscillator is `k / m - c^2 / (2 m^2)`; the plate at rest consists of two.
 #[test]
 fn second_derivatives_of_lambda_of_a_damped_oscillator() {
     let (m, springs, c) = (0.5_f64, [40.0, 60.0], 0.7_f64);
@@ -382,7 +382,7 @@ fn second_derivatives_of_lambda_of_a_damped_oscillator() {
                 );
             }
         }
-        // lambda is even in the speed.
+        // lambda is an even function of the speed.
         assert!(
             curvature.lambda.by_input_and_design[0]
                 .iter()

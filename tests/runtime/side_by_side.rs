@@ -1,5 +1,5 @@
-//! Monte Carlo in vectors against the solvers for one state: the same outcome of every sample, the same numbers up to
-//! rounding, the same bits with every set of instructions and any number of threads.
+//! Monte Carlo in vectors against the solvers for one state: the same outcome for every sample, the same numbers up to
+//! rounding, the same bits with every instruction set and any number of threads.
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{BatchKernels, Kernels};
@@ -74,8 +74,8 @@ fn compare(
     compare_at(m, (omega, &nominal(m)), start, tolerances)
 }
 
-/// Runs every set of instructions, compares with single samples, and returns what became of them and whether any was
-/// solved in vectors, which rounding shows.
+/// Runs every instruction set, compares with single samples, and returns the outcomes and whether any sample was solved
+/// in vectors, as rounding reveals.
 fn compare_at(
     m: &dyn BatchKernels,
     (omega, b): (f64, &[f64]),
@@ -103,7 +103,7 @@ fn compare_at(
             );
         }
     }
-    // Which it was the result says, and the report where it was not one by one.
+    // The result reports which it was, and so does the text unless it was one by one.
     let said = |run: &MonteCarlo| run.to_string().contains("side by side in vectors");
     assert!(!alone.side_by_side && !said(&alone));
     assert_eq!(first.side_by_side, said(&first));
@@ -132,7 +132,7 @@ fn compare_at(
         for (a, b) in own.frequencies.iter().zip(&other.frequencies) {
             assert_eq!(a.is_some(), b.is_some());
             let (a, b) = (a.unwrap_or(1.0), b.unwrap_or(1.0));
-            // A frequency near zero is the root of a difference.
+            // A frequency near zero is the square root of a difference.
             near(a * a, b * b, b * b + 1.0);
         }
         for (a, b) in own.eigenvalues.iter().zip(&other.eigenvalues) {
@@ -262,7 +262,7 @@ fn damped_modes() {
         let (counts, in_vectors) = compare(&Damped, omega, &[0.8, 0.1, 0.0], &declared(&Damped));
         assert!(counts.stable == 1003 && in_vectors, "{omega}: {counts:?}");
     }
-    // Wide: dampers that push, bodies that cannot be, modes that stop oscillating.
+    // Wide tolerances: negative dampers, impossible bodies, modes that stop oscillating.
     let wide = Tolerances::new([0.9, 0.1, 0.1, 0.8, 100.0], 3.0, None).expect("valid");
     let (counts, in_vectors) = compare(&Damped, 0.0, &[0.1, 0.1, 0.0], &wide);
     assert!(counts.stable > 900 && in_vectors, "{counts:?}");
@@ -295,7 +295,7 @@ fn gyroscopic_modes() {
     }
 }
 
-/// Below, at and beyond the speed from which the material damping of the shaft makes the rotor whirl.
+/// Below, at and beyond the speed at which material damping of the shaft makes the rotor whirl.
 #[test]
 fn forces_without_a_potential() {
     let mut unstable = 0;
@@ -320,7 +320,7 @@ fn forces_without_a_potential() {
     assert!((1..4).contains(&unstable), "{unstable}");
 }
 
-/// Wide tolerances: bodies that cannot exist, springs that push, equilibria on another branch.
+/// Wide tolerances: impossible bodies, negative springs, equilibria on another branch.
 #[test]
 fn samples_that_fail_are_what_they_are_alone() {
     let wide = Tolerances::new([3.0, 0.0, 0.6, 0.9], 2.0, None).expect("valid");
@@ -339,7 +339,7 @@ fn samples_that_fail_are_what_they_are_alone() {
     assert!(counts.stable > 900, "{counts:?}");
 }
 
-/// About the speed at which the pendulum leaves the vertical: some samples hang, some have left it.
+/// Near the speed at which the pendulum leaves the vertical: some samples hang, some have left it.
 #[test]
 fn near_a_critical_state() {
     let critical = (1.5_f64 * 9.81).sqrt();

@@ -1,4 +1,5 @@
-//! The front door: values in and out, tolerances by fraction, spread of critical speeds and resonances, streams.
+//! The public interface: values in and out, relative tolerances, standard deviations of critical speeds and resonances,
+//! random streams.
 
 mod operating_point;
 
@@ -60,7 +61,7 @@ fn sigma_counts_correlation() {
     close(sigma(0.0), 0.52_f64.sqrt(), 1e-15);
     close(sigma(0.5), 0.28_f64.sqrt(), 1e-14);
     close(sigma(1.0), 0.2, 1e-14);
-    // Beyond the range of a double only where the result is.
+    // Out of the range of a double only if the result is.
     let wide = Tolerances::new([3e200, 3e200], 3.0, None).unwrap();
     close(wide.sigma(&[3e-200, 4e-200]), 5.0, 1e-14);
     close(wide.sigma(&[3e100, 4e100]), 5e300, 1e-14);
@@ -94,7 +95,7 @@ fn the_critical_speed_has_a_spread() {
     }
 }
 
-/// Hanging: `omega_1^2 = 3 g / (2 l) - omega^2`, which is `omega^2` at half the square of the critical speed.
+/// Hanging: `omega_1^2 = 3 g / (2 l) - omega^2`, which equals `omega^2` at half the squared critical speed.
 #[test]
 fn a_resonance_has_a_spread() {
     let study = study().relative_tolerance(LENGTH, 0.03);

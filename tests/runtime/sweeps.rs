@@ -1,5 +1,5 @@
-//! Sweeps whose values are solved side by side against sweeps whose values are solved one by one: the same states, modes,
-//! labels, derivatives and critical states up to rounding, the same bits with every set of instructions.
+//! Sweeps solved in vectors against sweeps solved one value at a time: the same states, modes, labels, derivatives and
+//! critical states up to rounding, and the same bits with every instruction set.
 
 use std::mem::discriminant;
 use std::ops::ControlFlow;
@@ -126,8 +126,8 @@ fn near(a: f64, b: f64, scale: f64) {
     assert!((a - b).abs() <= 1e-10 * (scale + a.abs()), "{a:e} {b:e}");
 }
 
-/// Sweeps with every set of instructions, compares with values one by one, and returns that sweep and how many states
-/// rounding tells were solved side by side.
+/// Sweeps with every instruction set, compares with values solved one by one, and returns that sweep and the number of
+/// states that rounding shows to be solved in vectors.
 fn compare<M>(
     m: &dyn BatchKernels,
     u: &[f64],
@@ -203,7 +203,7 @@ fn compare<M>(
     (first, side_by_side)
 }
 
-/// Derivatives along the sweep against those of each of its states.
+/// Derivatives along the sweep against those at each of its states.
 fn derivatives(
     m: &dyn BatchKernels,
     (u, b): (&[f64], &[f64]),
@@ -311,7 +311,7 @@ fn another_input_than_a_speed() {
 
 #[test]
 fn impossible_values_repeated_ones_and_leaps_keep_their_own_answer() {
-    // A mass that becomes negative on the way and positive again.
+    // A mass that becomes negative along the sweep and then positive again.
     let mut masses = steps(1.0, -0.5, 30);
     masses.extend(steps(0.3, 0.9, 30));
     let (found, _) = compare(&Triple, &[5.0, 0.5], &[1.0, 0.1, 0.0], Triple::m, &masses);
@@ -326,7 +326,7 @@ fn impossible_values_repeated_ones_and_leaps_keep_their_own_answer() {
 
 #[test]
 fn modes_keep_their_labels_where_frequencies_cross() {
-    // x has the frequency of y where k = c m_x / m_y = 50 N/m, in no value and in one.
+    // x has the frequency of y at k = c m_x / m_y = 50 N/m, which is at none of the values, or at one.
     for values in [steps(20.0, 90.0, 64), steps(20.0, 80.0, 31)] {
         let start = &[0.01, 0.01, 0.2, 0.1, 0.0];
         let (found, _) = compare(&Crossing, &[20.0], start, Crossing::k, &values);
@@ -371,8 +371,8 @@ fn other_policies_and_families_go_one_by_one() {
     );
 }
 
-/// Solves one value after the other, and holds every state, its modes and their derivatives against those that are found from
-/// nothing there. Returns how many values had them all, and how many sets of modes differ from the one before in number or kind.
+/// Solves one value after another, and compares every state, its modes and their derivatives with those computed from scratch
+/// there. Returns how many values had all of them, and how often consecutive sets of modes differ in number or kind.
 fn from_nothing(
     m: &dyn BatchKernels,
     (u, start): (&[f64], &[f64]),
@@ -439,7 +439,7 @@ fn nothing_of_an_earlier_value_is_left_in_a_later_one() {
         let back = there.iter().rev().copied();
         there.iter().copied().chain(back).collect()
     };
-    // Hanging straight down: modes diverge above the critical speed, the second one too where it turns faster.
+    // Hanging straight down: modes diverge above the critical speed, the second one too at higher speed.
     let values = there_and_back(0.5, 9.0);
     let hanging = (&[0.0, 0.0][..], &[0.0, 0.0][..]);
     for family in [None, Some(Family::General)] {
@@ -448,7 +448,7 @@ fn nothing_of_an_earlier_value_is_left_in_a_later_one() {
         assert_eq!(found.0, values.len());
         assert!(found.1 >= 2, "{found:?}");
     }
-    // On stable branches, and with values that no mechanism can have.
+    // On stable branches, and with impossible values of the mechanism.
     let along = (Double::omega.any(), &values[..]);
     let out = (&[0.0, 0.0][..], &[0.3, 0.1][..]);
     let found = from_nothing(&Double, out, (Policy::Stable, None), along);
@@ -458,7 +458,7 @@ fn nothing_of_an_earlier_value_is_left_in_a_later_one() {
     let lying = (&[5.0, 1.0][..], &[0.9, 0.1, 0.0][..]);
     let found = from_nothing(&Triple, lying, (Policy::Stable, None), along);
     assert_eq!(found.0, 6);
-    // One mode or two: the critical damping is 8 N s/m.
+    // One mode or two: critical damping is 8 N s/m.
     let values = there_and_back(1.0, 15.3);
     for family in [None, Some(Family::Undamped)] {
         let along = (Damped::c.any(), &values[..]);
@@ -467,7 +467,7 @@ fn nothing_of_an_earlier_value_is_left_in_a_later_one() {
         let expected = if family.is_none() { 2 } else { 0 };
         assert_eq!(found, (values.len(), expected));
     }
-    // Reactions among the unknowns.
+    // With reactions among the unknowns.
     let values = there_and_back(-4.0, 5.0);
     let along = (Held::load.any(), &values[..]);
     let start = (&[0.0][..], &[0.0, 0.0, 0.0][..]);
@@ -504,7 +504,7 @@ fn spreads_along_a_sweep_are_those_of_each_value() {
     assert!(matches!(foreign, Err(Error::UnknownHandle { .. })));
 }
 
-/// Central differences of frequencies, each found anew at a changed design, one by one.
+/// Central differences of frequencies, each computed from scratch at a changed design, one by one.
 #[test]
 fn derivatives_along_a_sweep_are_what_differences_show() {
     let values = steps(4.5, 8.0, 24);

@@ -1,4 +1,4 @@
-//! Tolerances: first order against closed forms, Monte Carlo against quadrature, reproducibility, honest counts.
+//! Tolerances: first order against closed forms, Monte Carlo against quadrature, reproducibility, correct counts.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -67,7 +67,8 @@ fn first_order_matches_closed_form_and_warns_near_the_critical_speed() {
 
 #[test]
 fn plate_sigma_matches_reference() {
-    // Independent m, kx, ky and an exact speed: 0.06046 has Omega's share (-0.5 * 0.04/3) as well, taken off here.
+    // Independent m, kx, ky and an exact speed: 0.06046 also contains Omega's share (-0.5 * 0.04/3), which is
+    // subtracted here.
     let study = Study::new(Derived(Plate))
         .input(Input::new(0), 4.0)
         .family(Family::Undamped);
@@ -134,7 +135,7 @@ fn correlation_changes_the_spread() {
     ));
 }
 
-/// Mean and standard deviation within four standard errors.
+/// Requires mean and standard deviation to agree within four standard errors.
 fn agrees(run: &MonteCarlo, mean: f64, sigma: f64) {
     let found = run.modes[0].as_ref().unwrap();
     assert_eq!(run.counts.stable, run.samples);
@@ -155,7 +156,7 @@ fn agrees(run: &MonteCarlo, mean: f64, sigma: f64) {
 
 #[test]
 fn monte_carlo_matches_quadrature() {
-    // L normal about 1 m, three standard deviations in the tolerance; quadrature in 30-digit arithmetic.
+    // L is normal about 1 m, with three standard deviations in the tolerance; from quadrature in 30-digit arithmetic.
     for (omega, tolerance, mean, sigma) in [
         (2.0, 0.03, 3.273_525_091_654, 0.022_481_458_667_38),
         (4.2, 0.06, 2.310_563_045_236, 0.107_359_679_428),
@@ -202,13 +203,13 @@ fn results_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn no_sample_is_dropped() {
-    // A length that is often negative, on purpose.
+    // A length that is often negative, deliberately.
     let run = pendulum(3.0, 3.0).samples(3000).monte_carlo().unwrap();
     assert_eq!(run.counts.total(), 3000);
     assert!(run.counts.unphysical > 300, "{}", run.counts);
     let count = run.modes[0].as_ref().unwrap().count as usize;
     assert_eq!(count, run.counts.stable);
-    // A stiffness about zero: half of the samples diverge. The force keeps an equilibrium in place.
+    // A stiffness about zero: half of the samples diverge. The force fixes the equilibrium.
     let study = Study::new(Derived(Plate))
         .input(Input::new(0), 8.5)
         .tolerance(DesignVariable::new(1), 12.0);
@@ -216,7 +217,7 @@ fn no_sample_is_dropped() {
     assert_eq!(plate.counts.total(), 2000);
     assert!(plate.counts.divergent > 100, "{}", plate.counts);
     assert!(plate.counts.stable > 100, "{}", plate.counts);
-    // A potential that falls without end: no equilibrium at all beyond some force.
+    // A potential without a lower bound: beyond some force there is no equilibrium at all.
     let study = Study::new(Derived(Spring))
         .input(Input::new(0), 1.9)
         .design(DesignVariable::new(1), -1.0);
@@ -353,7 +354,7 @@ fn every_result_prints() {
     assert!(text.contains("give a finite value"));
 }
 
-/// `x* = -e / (omega^2 - 1)` about; descent would run to the stable equilibria far outside.
+/// `x* = -e / (omega^2 - 1)` approximately; an energy descent would run to the stable equilibria far outside.
 #[test]
 fn samples_stay_where_gyroscopic_forces_hold_them() {
     let study = Study::new(Derived(Supercritical))
@@ -403,7 +404,7 @@ fn a_report_says_what_first_order_leaves_out() {
     assert_eq!(first.modes[0].distance_to_instability, f64::NEG_INFINITY);
 }
 
-/// All that a margin's probability depends on, against differences of the whole chain at moved inputs and designs.
+/// All derivatives of a margin's probability against differences of the complete calculation at changed inputs and designs.
 #[test]
 fn a_margin_moves_with_speed_and_design() {
     let study = |speed: f64, length: f64| {
@@ -433,8 +434,8 @@ fn a_margin_moves_with_speed_and_design() {
     );
 }
 
-/// The standard error is the scatter of the means of independent runs, and that of one run is its own deviation over the root of
-/// its number.
+/// The standard error matches the scatter of the means of independent runs; for a single run it is its own standard deviation
+/// over the square root of the sample count.
 #[test]
 fn means_scatter_by_their_standard_error() {
     let study = pendulum(3.0, 0.03).samples(50).keep_samples(true);
@@ -470,7 +471,7 @@ fn means_scatter_by_their_standard_error() {
     close(scatter / (errors / count), 1.0, 4.0 * (2.0 / count).sqrt());
 }
 
-/// Turning the other way changes nothing but the sign of the derivative by the speed.
+/// Rotating the other way changes only the sign of the derivative by the speed.
 #[test]
 fn a_band_about_a_negative_speed_moves_the_other_way() {
     let length = |speed: f64| pendulum(speed, 0.03).tolerance(LENGTH, 0.03);
@@ -490,7 +491,7 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
     let difference =
         margin(-5.0 + step).margin.first_order - margin(-5.0 - step).margin.first_order;
     close(by_speed(&backward), difference / (2.0 * step), 1e-4);
-    // So does an order of the other sign.
+    // So does an order with the opposite sign.
     let against = Band::Around {
         input: OMEGA.any(),
         order: -1.0,
@@ -500,7 +501,7 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
     close(by_speed(&found), by_speed(&forward), 1e-12);
 }
 
-/// At rest each coordinate of the plate is a damped oscillator of its own: `|s|^2 = k / m` vanishes `k / sigma(k)` away.
+/// At rest each coordinate of the plate is a separate damped oscillator: the distance to `|s|^2 = k / m = 0` is `k / sigma(k)`.
 #[test]
 fn a_damped_mode_loses_its_stiffness_where_its_spring_does() {
     let sigma = 0.1;

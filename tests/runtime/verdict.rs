@@ -1,5 +1,5 @@
-//! Verdicts that are measured, over tolerances and speeds about the critical one: never trusted where sigma is off by more than 5 %,
-//! never refused where it is within 1 %.
+//! Measured verdicts, over tolerances and speeds near the critical one: never trusted where sigma is off by more than 5 %, never
+//! refused where it is within 1 %.
 
 use eigentol::summary::{Advice, Doubt, Sampling, Summary};
 use eigentol::tolerance::{Distribution, Outcome};
@@ -53,7 +53,7 @@ mechanism! {
     }
 }
 
-/// `3 g / 2`, of a bar of 1 m the square of the critical speed.
+/// `3 g / 2`: the squared critical speed of a bar of 1 m.
 const W: f64 = 1.5 * 9.81;
 const TOLERANCES: [f64; 8] = [0.01, 0.02, 0.03, 0.06, 0.12, 0.15, 0.20, 0.25];
 
@@ -63,7 +63,7 @@ fn bar(speed: f64) -> Study<Bar> {
         .start(Bar::theta, 1.0)
 }
 
-/// Hanging, or swung out where that is stable.
+/// The frequency, hanging, or swung out where that is stable.
 fn frequency(speed: f64, length: f64) -> f64 {
     let (w, square) = (W / length, speed * speed);
     let lambda = if w > square {
@@ -74,13 +74,13 @@ fn frequency(speed: f64, length: f64) -> f64 {
     lambda.sqrt()
 }
 
-/// Frequencies and their weights: the length at so many places of a normal number, a sum that is exact to some 1e-6 where the
-/// frequency has a root.
+/// Frequencies and their weights over a grid of the normally distributed length; the sum is accurate to about 1e-6 where the
+/// frequency has a square-root singularity.
 fn distribution(speed: f64, sigma: f64) -> Vec<(f64, f64)> {
     over_lengths(sigma, |length| frequency(speed, length))
 }
 
-/// The same of any function of the length.
+/// Values and weights of any function of the length.
 fn over_lengths(sigma: f64, of: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     const STEP: f64 = 1e-3;
     let places = (-6_500..=6_500).map(|k| (f64::from(k) + 0.5) * STEP);
@@ -100,7 +100,7 @@ fn exact_sigma(all: &[(f64, f64)]) -> f64 {
     variance.sqrt()
 }
 
-/// Checks the verdict on a mode whose sigma is known to `known`, and what it says of the methods.
+/// Checks the verdict on a mode whose sigma is known to within `known`, and its statements on the methods.
 fn judged(summary: &Summary, mode: usize, exact: f64, known: f64, at: &str) {
     let (trust, first) = (&summary.trust[mode], &summary.first.modes[mode]);
     let first = first.frequency().unwrap().sigma / exact - 1.0;
@@ -146,7 +146,7 @@ fn verdicts_on_a_bar_are_right_at_every_speed_and_tolerance() {
     }
 }
 
-/// Cases of which first two distances alone say that they can be trusted.
+/// Cases that distances alone would declare trustworthy.
 #[test]
 fn beyond_the_critical_speed_wide_tolerances_are_found_out() {
     for tolerance in [0.12, 0.15, 0.20, 0.25] {
@@ -164,7 +164,7 @@ fn beyond_the_critical_speed_wide_tolerances_are_found_out() {
             matches!(doubts[..], [.., Doubt::Inaccurate { .. }]),
             "{doubts:?}"
         );
-        // Second order is off by as much there.
+        // Second order has an error of the same size there.
         assert_eq!(summary.trust[0].advice, Advice::Sampling);
     }
 }
@@ -224,7 +224,7 @@ fn samples_beside_the_critical_speed_have_the_exact_distribution() {
     }
 }
 
-/// Exact distributions over both branches, at or beside the critical speed.
+/// Exact distributions over both branches, at or near the critical speed.
 fn samples_have_the_exact_distribution(ratio: f64) {
     for (tolerance, exact) in [
         (0.03, [0.1745, 0.2242]),
@@ -267,7 +267,7 @@ fn samples_have_the_exact_distribution(ratio: f64) {
     }
 }
 
-/// The share of samples beyond the critical length `3 g / (2 u^2)`, from either side of it.
+/// The share of samples beyond the critical length `3 g / (2 u^2)`, from either side.
 #[test]
 fn the_chance_of_the_other_branch_is_that_of_the_critical_length() {
     for ratio in [0.97, 0.99, 1.01, 1.02] {
@@ -315,7 +315,7 @@ fn uniform_lengths_are_judged_as_well() {
     }
 }
 
-/// Without samples only distances are left, and the result says so.
+/// Without samples only distances remain, and the result says so.
 #[test]
 fn what_is_too_dear_to_sample_keeps_the_distances() {
     let study = bar(1.1 * W.sqrt()).tolerance(Bar::l, 0.12);
@@ -331,13 +331,14 @@ fn what_is_too_dear_to_sample_keeps_the_distances() {
     assert!(exact.trusted());
 }
 
-/// The seat moves along a circle: `3 l^2 theta'' + c theta' + 3.5 g l theta = 0`, of each rope a third of its mass at its end.
+/// The seat moves along a circle: `3 l^2 theta'' + c theta' + 3.5 g l theta = 0`, with a third of each
+/// rope's mass lumped at its end.
 #[test]
 fn verdicts_on_a_loop_are_right() {
     let ratio = |damping: f64, l: f64| 0.5 * damping / (3.0 * 3.5 * 9.81 * l.powi(3)).sqrt();
     let frequency =
         |damping: f64, l: f64| (3.5 * 9.81 / (3.0 * l) * (1.0 - ratio(damping, l).powi(2))).sqrt();
-    // Of `f(1) + f' x + f'' x^2 / 2`.
+    // For `f(1) + f' x + f'' x^2 / 2`.
     let second_order = |of: &dyn Fn(f64) -> f64, sigma: f64| {
         let h = 1e-4;
         let slope = (of(1.0 + h) - of(1.0 - h)) / (2.0 * h);
@@ -384,7 +385,7 @@ fn verdicts_on_a_loop_are_right() {
                 (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"
             );
-            // What the second order leaves of each sample is of the third.
+            // The remainder of each sample after second order is of third order.
             let rest = found.standard_error;
             let off = second_order(of, sigma) / exact - 1.0;
             let found = check.second_order_error.unwrap();
@@ -450,7 +451,7 @@ fn outcomes_have_chances_that_add_up() {
     );
 }
 
-/// A seal that may push as well as damp: the frequencies of samples that flutter count for nothing.
+/// A seal with damping of either sign: the frequencies of fluttering samples are excluded.
 #[test]
 fn unstable_samples_have_no_part_in_checks() {
     let summary = Study::new(Rotor)

@@ -1,4 +1,4 @@
-//! Long work that is watched, stopped, and shown as it comes.
+//! Long computations with progress reports, cancellation and intermediate results.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -38,12 +38,12 @@ fn pendulum() -> Study<Pendulum> {
         .start(Pendulum::theta, 1.0)
 }
 
-/// Through the pitchfork at 3.8360 rad/s.
+/// Speeds through the pitchfork at 3.8360 rad/s.
 fn speeds() -> Vec<f64> {
     (0..60).map(|k| 3.0 + 0.05 * f64::from(k)).collect()
 }
 
-/// A study that is stopped after so many steps, and the steps.
+/// A study that is stopped after the given number of steps, and its step count.
 fn stopped_after(study: Study<Pendulum>, steps: usize) -> (Study<Pendulum>, Arc<AtomicUsize>) {
     let (flag, done) = (
         Arc::new(AtomicBool::new(steps == 0)),
@@ -58,7 +58,7 @@ fn stopped_after(study: Study<Pendulum>, steps: usize) -> (Study<Pendulum>, Arc<
     (study.stop(flag).progress(progress), done)
 }
 
-/// What has no use by halves is an error, the rest is as far as it came.
+/// Where a partial result is useless, stopping is an error; otherwise the result so far is returned.
 #[test]
 fn questions_about_responses_stop() {
     type Question = fn(&Study<Pendulum>) -> Result<(), Error>;
@@ -88,7 +88,7 @@ fn questions_about_responses_stop() {
         assert!(matches!(question(&study), Err(Error::Stopped)), "{name}");
         assert_eq!(done.load(Ordering::Relaxed), all / 2, "{name}");
     }
-    // Frequencies go in vectors.
+    // Frequencies are solved in vectors.
     let (study, _) = stopped_after(pendulum(), 0);
     assert!(matches!(study.propagate(&[FREQUENCY]), Err(Error::Stopped)));
     let sampler = Sampler::new(Points::Random).samples(3000).threads(1);
@@ -218,7 +218,7 @@ fn samples_stop_with_what_is_done() {
     );
 }
 
-/// Half a verdict is none.
+/// A partial verdict is no verdict.
 #[test]
 fn a_summary_that_is_stopped_is_no_summary() {
     for steps in [0, 1] {
@@ -230,7 +230,7 @@ fn a_summary_that_is_stopped_is_no_summary() {
     assert!(done.load(Ordering::Relaxed) > 0);
 }
 
-/// Of a study that is not waited for there is no step to count.
+/// Watching changes neither the study nor its results.
 #[test]
 fn who_waits_changes_nothing() {
     let (study, _) = stopped_after(pendulum(), usize::MAX);
@@ -293,7 +293,7 @@ fn chances_stop_with_what_is_done() {
     let part = study.chances(&wanted()).unwrap();
     assert_eq!(part.all.samples(), 256);
     assert_eq!((part.planned, done.load(Ordering::Relaxed)), (100_000, 256));
-    // The first samples in any case: no share of nothing.
+    // At least the first samples are done: there is no share of nothing.
     let (study, _) = stopped_after(pendulum().samples(100_000), 0);
     assert_eq!(study.chances(&wanted()).unwrap().all.samples(), 64);
 }
@@ -311,7 +311,7 @@ fn choices() -> Choices<'static> {
     }
 }
 
-/// The start is the answer as long as it is reliable enough; otherwise there is none yet.
+/// The start is returned if it is already reliable enough; otherwise there is no result yet.
 #[test]
 fn allocations_stop_with_the_best_so_far() {
     let at_least = |limit| [Requirement::at_least(FREQUENCY, limit)];

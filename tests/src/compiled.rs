@@ -1,4 +1,4 @@
-//! The compiler's own interpreter as [`Kernels`]: the program it would emit, run without rustc.
+//! The compiler's own interpreter as [`Kernels`]: runs the program it would emit, without rustc.
 
 use eigentol_compiler::base::diagnostics::Diagnostics;
 use eigentol_compiler::compile;
@@ -13,7 +13,7 @@ use eigentol_oracle::{Linear, LinearPartials};
 
 use eigentol_consistency::interpreter::interpret_along;
 
-/// Explicit partial derivatives whatever their number.
+/// No limit on explicit partial derivatives.
 const EVERYTHING: Limits = Limits::NONE;
 
 /// A compiled model.
@@ -27,7 +27,7 @@ impl Compiled {
     /// Compiles the declaration of a model.
     ///
     /// # Errors
-    /// What the compiler has to say against it.
+    /// The compiler's messages, if it refuses the declaration.
     pub fn new(model: &Model) -> Result<Self, Diagnostics> {
         let tokens: TokenStream = declaration(model)
             .parse()
@@ -50,7 +50,7 @@ impl Compiled {
         arrays(kernel, results.expect("a kernel of the contract"))
     }
 
-    /// Derivatives along a direction, as the runtime takes them.
+    /// Derivatives along a direction, computed as in the runtime.
     fn along<const ARRAYS: usize>(
         &self,
         kernel: &str,
@@ -63,7 +63,7 @@ impl Compiled {
     }
 }
 
-/// A fixed number of arrays.
+/// Converts to a fixed number of arrays.
 fn arrays<const ARRAYS: usize>(kernel: &str, arrays: Vec<Vec<f64>>) -> [Vec<f64>; ARRAYS] {
     let count = arrays.len();
     arrays
@@ -79,7 +79,7 @@ fn linear([mass, damping, stiffness]: [Vec<f64>; 3]) -> Linear<f64> {
     }
 }
 
-/// Splits the three matrices of `count` derivatives, the index of differentiation outermost.
+/// Splits three arrays into the matrices of `count` derivatives; the index of differentiation is the outermost.
 fn derivatives(count: usize, n: usize, arrays: [Vec<f64>; 3]) -> Vec<Linear<f64>> {
     for array in &arrays {
         assert_eq!(
@@ -151,7 +151,7 @@ impl Kernels for Compiled {
     }
 
     fn whirl(&self, [q, u, b]: At, real: &[f64], imaginary: &[f64]) -> Vec<f64> {
-        // As in the runtime: no kernel where nothing turns.
+        // As in the runtime: there is no such kernel where nothing rotates.
         if self.program.kernel("whirl").is_none() {
             return vec![0.0; 2];
         }

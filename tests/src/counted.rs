@@ -1,4 +1,4 @@
-//! A number that counts what is done with it.
+//! A number type that counts operations.
 
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -12,8 +12,8 @@ thread_local! {
     static OPERATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Operations and calls of functions that a kernel takes in dual numbers. The interpreter asks for sine and cosine of an angle one
-/// after the other: generated code does a few less.
+/// The number of operations and function calls that a kernel takes in dual numbers. The interpreter evaluates sine and cosine of
+/// an angle separately, so generated code does slightly fewer.
 pub fn operations_along(kernel: &Kernel) -> usize {
     let start = Dual {
         value: Counted(0.7),
@@ -51,7 +51,7 @@ macro_rules! operators {
 
 operators! { Add add, Sub sub, Mul mul, Div div }
 
-/// A sign is part of the operation behind it.
+/// A negation counts as part of the operation that follows it.
 impl Neg for Counted {
     type Output = Self;
     fn neg(self) -> Self {

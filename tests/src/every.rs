@@ -1,4 +1,4 @@
-//! Springs and dampers on everything that is free, and a mechanism of which only the equations are wanted.
+//! Springs and dampers on every free coordinate, and a mechanism of which only the equations are needed.
 
 use crate::corpus::machine;
 

@@ -1,5 +1,5 @@
-//! A declaration as the oracle's plain data, every value fixed at numbers: so that machines written in the language, whatever
-//! their expressions, can be judged by the oracle. Only names and values come from the compiler; no equation does.
+//! Converts a declaration into the oracle's plain data with every value fixed to a number, so that the oracle can check machines
+//! written in the language, whatever their expressions. Only names and values come from the compiler; no equation does.
 
 use std::rc::Rc;
 
@@ -13,7 +13,8 @@ use eigentol_oracle::model::{
     Motion, Part, Placement, Point, Shape, Step, Unit, Value, Values, Word,
 };
 
-/// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives: the inputs of that model.
+/// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which
+/// are the inputs of that model.
 pub fn fixed(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) -> (Model, Vec<f64>) {
     let evaluation = Evaluation::new(&mechanism.constants, u, b);
     let fixing = Fixing {
@@ -229,7 +230,7 @@ impl Fixing<'_> {
         Joint {
             from_placement: self.placement(&joint.from_placement),
             to_placement: self.placement(&joint.to_placement),
-            // The word is how a model is spelled; its motion is in the steps.
+            // The keyword only affects how a model is spelled; its motion is in the steps.
             ..Joint::new(
                 &joint.name.to_string(),
                 Word::Free,

@@ -1,9 +1,9 @@
-//! Generated code by the name of a kernel, over vectors of any scalar, in the flattened form of the interpreter's results.
+//! Calls generated code by kernel name, over vectors of any scalar; results are flattened as the interpreter's are.
 
 use eigentol::{Array, Gradient, Linear, Mechanism, Real};
 
 /// Calls a kernel of the runtime's contract: one vector per returned array, indices of differentiation outermost.
-/// Nothing for a name that the contract does not have.
+/// `None` for a name that is not in the contract.
 ///
 /// # Panics
 /// When the number or the lengths of the arguments are wrong.
@@ -90,8 +90,8 @@ pub fn evaluate<T: Real, M: Mechanism>(
     })
 }
 
-/// As [`evaluate`], for the kernels of `q`, `u`, `b` alone that differentiate at most once: what another scalar can be tried
-/// on without rustc translating everything for it.
+/// Like [`evaluate`], but only for kernels of `q`, `u`, `b` that differentiate at most once: another scalar can be tested on
+/// these without rustc translating everything for it.
 ///
 /// # Panics
 /// When the number or the lengths of the arguments are wrong.
@@ -135,7 +135,7 @@ fn flat<T: Copy, R: AsRef<[T]>>(rows: &[R]) -> Vec<T> {
     rows.iter().flat_map(AsRef::as_ref).copied().collect()
 }
 
-/// All masses, all dampings, all stiffnesses.
+/// All mass matrices, then all damping matrices, then all stiffness matrices.
 fn matrices<T: Copy, R: AsRef<[T]>, A: AsRef<[R]>>(list: &[Linear<A>]) -> Vec<Vec<T>> {
     let part = |of: fn(&Linear<A>) -> &A| -> Vec<T> {
         list.iter()

@@ -1,10 +1,14 @@
-//! What the tests share.
+//! Shared machines and helpers of the tests.
 //!
-//! [`corpus`] holds machines declared with the macro, [`machines`] more of them with closed forms, [`loops`] those whose loops
-//! close, [`wheels`] those that roll, [`robots`] by others, [`fits`] one with all kinds of tolerances, [`every`] one with springs on all that is free; [`generated`] calls their kernels by name, [`dual`] and [`hyper`] differentiate them,
-//! the interpreter of `eigentol_consistency` runs them without rustc, [`tables`] has all of them. [`compiled`] takes a model of the oracle through the compiler, [`fixed`] a
-//! declaration back to such a model, [`counted`] counts what a kernel does. `eigentol_resolved` solves a whole problem again in hyper-dual numbers: total derivatives of
-//! equilibria, eigenvalues and mode shapes; [`resolved`] holds the machines and where they are run. [`sampled`] compares samples in vectors with samples one by one.
+//! Machines: [`corpus`] holds machines declared with the macro, [`machines`] more with closed forms, [`loops`] those with closed
+//! loops, [`wheels`] those that roll, [`robots`] published robots, [`fits`] one with all kinds of tolerances, [`every`] one with
+//! springs on every free coordinate, and [`tables`] all of them.
+//!
+//! Helpers: [`generated`] calls their kernels by name, [`dual`] and [`hyper`] differentiate them, and the interpreter of
+//! `eigentol_consistency` runs them without rustc. [`compiled`] takes a model of the oracle through the compiler, [`fixed`]
+//! converts a declaration back to such a model, and [`counted`] counts the operations of a kernel. `eigentol_resolved` solves a
+//! whole problem again in hyper-dual numbers to obtain total derivatives of equilibria, eigenvalues and mode shapes; [`resolved`]
+//! holds its machines and operating points. [`sampled`] compares samples solved in vectors with samples solved one by one.
 
 pub mod compiled;
 pub mod corpus;
@@ -24,7 +28,7 @@ pub mod wheels;
 
 pub use eigentol_resolved::{dual, hyper};
 
-/// The example of the language's reference.
+/// The example from the language reference.
 #[cfg(doctest)]
 #[doc = include_str!("../../macros/REFERENCE.md")]
 pub struct Reference;

@@ -1,4 +1,4 @@
-//! Machines in operation: inputs at which equilibria move with the design, and every machine shown to a comparison.
+//! Operating points of the machines, at which equilibria move with the design, and a loop that passes every machine to a comparison.
 
 use eigentol::Policy;
 use eigentol::equilibrium::{Equilibrium, equilibrium};
@@ -8,18 +8,19 @@ use crate::tables;
 
 pub use eigentol_resolved::{ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode};
 
-/// One way of running a machine: inputs in SI, and where to look for the equilibrium.
+/// One operating point of a machine: inputs in SI, and where to look for the equilibrium.
 #[derive(Clone, Debug)]
 pub struct Operation {
     /// Inputs, SI.
     pub inputs: Vec<f64>,
     /// Start values of the coordinates, rad or m.
     pub start: Vec<f64>,
-    /// Which equilibrium.
+    /// Which equilibrium to choose.
     pub policy: Policy,
 }
 
-/// How the machines of the corpus and those of [`machines`](crate::machines) are run: away from critical states and, where a machine can bend, bent.
+/// Operating points of the machines of the corpus and of [`machines`](crate::machines): away from critical states and, where a
+/// machine can bend, bent.
 ///
 /// # Panics
 /// For an unknown name.
@@ -29,7 +30,7 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         start: start.to_vec(),
         policy: Policy::Stable,
     };
-    // Held by its spin in a position that descent would leave.
+    // Held by its spin in a position that an energy descent would leave.
     let nearest = |inputs: &[f64]| Operation {
         policy: Policy::Nearest,
         ..point(inputs, &[0.0; 2])
@@ -72,10 +73,10 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
     }
 }
 
-/// Something that is compared between the product and the solution in hyper-dual numbers.
+/// A comparison between the product and the solution in hyper-dual numbers.
 pub trait Comparison {
-    /// Called for each machine at each of its operating points, design variables nominal. `state` is the
-    /// same equilibrium as `at`.
+    /// Called for each machine at each of its operating points, with nominal design variables. `state` is the same
+    /// equilibrium as `at`.
     fn compare(
         &mut self,
         what: &str,
@@ -115,7 +116,7 @@ fn compare(
     }
 }
 
-/// Compares every machine of the corpus and every one with a closed form at every operating point.
+/// Compares every machine of the corpus and every machine with a closed form at all its operating points.
 pub fn every_machine(comparison: &mut impl Comparison) {
     for machine in tables::open() {
         compare(

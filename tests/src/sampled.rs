@@ -1,4 +1,4 @@
-//! Samples in vectors against samples one by one.
+//! Compares samples solved in vectors with samples solved one by one.
 
 use eigentol::modes::Family;
 use eigentol::propagation::{Points, ResponseSpread, Sampler, sampled};
@@ -7,17 +7,17 @@ use eigentol::scalar::Instructions;
 use eigentol::tolerance::Sample;
 use eigentol::{Error, Mechanism, MonteCarlo, Quantity, Study};
 
-/// How many samples were compared, and how many of them differ in their last bits: those that were solved in vectors.
+/// The number of samples compared, and the number that differ in their last bits, which were solved in vectors.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Compared {
-    /// Compared with those solved one by one.
+    /// Samples compared with those solved one by one.
     pub samples: usize,
-    /// Of these, solved in vectors.
+    /// How many of these were solved in vectors.
     pub in_vectors: usize,
 }
 
 impl Compared {
-    /// Of many comparisons, with the tolerances of each and with wide ones.
+    /// The sums of many comparisons, first with each study's own tolerances, then with wide ones.
     pub fn sum(all: impl IntoIterator<Item = [Self; 2]>) -> [Self; 2] {
         let mut sum = [Self::default(); 2];
         for own in all {
@@ -30,14 +30,14 @@ impl Compared {
     }
 }
 
-/// Samples of damped and of undamped modes with every set of instructions, which must give the same bits, and one by one, which
-/// must give the same numbers or the same error: with the tolerances of the study and, a quarter of them, with such that are ten
-/// times as wide. Nothing is compared where the study has no samples in vectors.
+/// Compares samples of damped and undamped modes: every instruction set must give the same bits, and solving one by one must
+/// give the same numbers or the same error. It does so with the study's tolerances and, for a quarter of the samples, with
+/// tolerances ten times as wide. Nothing is compared where the study solves no samples in vectors.
 ///
 /// # Panics
-/// Where something differs.
+/// When anything differs.
 pub fn compare<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> [Compared; 2] {
-    // Half-widths that stand for a tenth of the standard deviations.
+    // Half-widths of 0.3 standard deviations.
     let wide = study.clone().sigma_level(0.3);
     let wide = wide.samples(study.sampling().samples / 4);
     [
@@ -76,7 +76,7 @@ fn compare_one<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
     compared
 }
 
-/// Spreads of every quantity of the first mode, in vectors and one by one.
+/// Standard deviations of every quantity of the first mode, in vectors and one by one.
 fn responses<M: Mechanism + Copy>(study: &Study<M>, what: &str) {
     let quantities = Quantity::ALL.map(|quantity| Response::Mode { mode: 0, quantity });
     let solved = study.solve().expect("a nominal state");

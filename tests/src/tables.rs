@@ -1,7 +1,7 @@
 //! Every machine as tables of kernels.
 //!
-//! They are compiled here, once: rustc does not compile again for a test what the crate below it holds already, whether the test
-//! calls it through these tables or by the machine's type.
+//! They are compiled once, here: rustc does not recompile for a test what this crate already contains, whether the test calls it
+//! through these tables or by the machine's type.
 
 use eigentol::Mechanism;
 use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};
@@ -11,13 +11,13 @@ use crate::{loops, machines, wheels};
 
 /// A machine.
 pub struct Machine {
-    /// In `snake_case`.
+    /// Name in `snake_case`.
     pub name: &'static str,
-    /// One token after the other.
+    /// Text of the declaration.
     pub declaration: &'static str,
-    /// What the solvers call.
+    /// The kernels that the solvers call.
     pub kernels: Box<dyn BatchKernels>,
-    /// Those of second derivatives.
+    /// The kernels of second derivatives.
     pub curvature: Box<dyn CurvatureKernels>,
     /// The kernels of the motion.
     pub motion: Box<dyn MotionKernels>,
@@ -53,7 +53,7 @@ pub fn open() -> Vec<Machine> {
     found.0
 }
 
-/// Those with constraints.
+/// The machines with constraints.
 pub fn constrained() -> Vec<Machine> {
     let mut found = Machines(Vec::new());
     loops::visit(&mut found);

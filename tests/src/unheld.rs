@@ -1,4 +1,4 @@
-//! Machines that can be driven, or stripped of their springs, to where nothing holds them.
+//! Machines that can be driven, or stripped of their springs, until nothing holds them.
 
 eigentol::mechanism! {
     /// A mass on a radial spring of a spinning plate: the spring holds it up to `omega^2 = k / m`.

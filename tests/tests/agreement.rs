@@ -1,4 +1,4 @@
-//! Whatever offers the kernels of generated code agrees with the oracle on random trees.
+//! Checks every implementation of the generated code's kernels against the oracle on random trees.
 
 use std::cell::Cell;
 
@@ -10,7 +10,7 @@ use eigentol_oracle::random::{Plan, Setting, on_plans};
 use eigentol_oracle::{Linear, LinearPartials, Oracle};
 use eigentol_tests::compiled::Compiled;
 
-/// The only trees refused are those in which the oracle, too, finds a coordinate that nothing resists.
+/// The compiler may refuse only those trees in which the oracle also finds a coordinate without resistance.
 #[test]
 fn the_compiler_agrees_with_the_oracle() {
     agrees_on(40);
@@ -47,7 +47,7 @@ fn agrees_on(trees: u32) {
     assert!(compared >= trees * 3 / 4, "{compared} trees compared");
 }
 
-/// Whether `message` says that nothing resists a coordinate, and the oracle's column of `Khat` agrees.
+/// Whether `message` says that nothing resists a coordinate, and the oracle's column of `Khat` confirms it.
 fn is_unresisted(model: &Model, message: &str) -> bool {
     let Some(name) = message
         .strip_prefix("nothing resists `")
@@ -65,7 +65,7 @@ fn is_unresisted(model: &Model, message: &str) -> bool {
     (0..q.len()).all(|row| stiffness[row * q.len() + column].abs() < 1e-9)
 }
 
-/// The oracle in another ground frame: right, but rounded differently.
+/// The oracle in another ground frame: correct, but rounded differently.
 #[test]
 fn rounding_is_no_disagreement() {
     on_plans(8, |plan| {
@@ -75,10 +75,10 @@ fn rounding_is_no_disagreement() {
     });
 }
 
-/// The oracle with one entry of one returned array changed by a little.
+/// The oracle with a small error in one entry of one returned array.
 struct Faulty<'a> {
     oracle: Oracle<'a>,
-    /// Which array, counted over all calls.
+    /// Index of the array, counted over all calls.
     target: usize,
     call: Cell<usize>,
     touched: Cell<bool>,
@@ -214,7 +214,7 @@ impl Kernels for Faulty<'_> {
     }
 }
 
-/// A comparison that cannot fail proves nothing: every array of every kernel is spoilt once, by one part in 10^5.
+/// A comparison that cannot fail proves nothing: perturbs every array of every kernel once, by one part in 10^5.
 #[test]
 fn every_fault_is_found() {
     let plan = Plan {

@@ -1,5 +1,5 @@
-//! Small machines are solved without the heap, but for the lists in which answers stand: a Monte Carlo thread hardly ever waits
-//! for an allocator.
+//! Small machines are solved without heap allocation except for the lists in the results, so a Monte Carlo thread hardly ever
+//! waits for the allocator.
 #![allow(
     unsafe_code,
     reason = "counting allocations takes an allocator, and implementing one is unsafe"
@@ -34,11 +34,11 @@ thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// The system's allocator, counting calls by thread.
+/// The system allocator, with a count of calls per thread.
 struct Counting;
 
-// SAFETY: every call is the system allocator's own with the same arguments. The counter is a `Cell` of a plain number in
-// constant thread-local storage: touching it neither allocates nor runs a destructor.
+// SAFETY: every call forwards to the system allocator with the same arguments. The counter is a `Cell` of a plain number
+// in constant thread-local storage: accessing it neither allocates nor runs a destructor.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.set(ALLOCATIONS.get() + 1);
@@ -61,21 +61,21 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Allocations of this thread while `work` runs.
+/// Number of allocations on this thread while `work` runs.
 fn allocations<R>(work: impl FnOnce() -> R) -> usize {
     let before = ALLOCATIONS.get();
     black_box(work());
     ALLOCATIONS.get() - before
 }
 
-/// The count counts: a test that cannot fail shows nothing.
+/// The counter works: a test that cannot fail shows nothing.
 #[test]
 fn allocations_are_seen() {
     assert_eq!(allocations(|| black_box(Box::new(1.0))), 1);
     assert_eq!(allocations(|| black_box([1.0; 64])), 0);
 }
 
-/// Every kernel of generated code once.
+/// Calls every kernel of the generated code once.
 fn generated<M: Mechanism>(
     machine: &M,
     q: &M::Coordinates<f64>,
@@ -103,7 +103,7 @@ fn generated<M: Mechanism>(
     black_box(machine.violation(u, b));
 }
 
-/// What kernels of the table write into.
+/// Buffers for the kernels of the table.
 struct Buffers {
     numbers: Vector,
     outputs: Vector,
@@ -141,7 +141,7 @@ impl Buffers {
         }
     }
 
-    /// Every kernel of the table once.
+    /// Calls every kernel of the table once.
     fn fill(&mut self, machine: &dyn EveryKernel, q: &[f64], u: &[f64], b: &[f64]) {
         let Self {
             numbers,
@@ -202,7 +202,7 @@ trait EveryKernel: MotionKernels + CurvatureKernels {}
 
 impl<M: MotionKernels + CurvatureKernels> EveryKernel for M {}
 
-/// Answers hold their numbers themselves; what they list is on the heap.
+/// Results hold their numbers inline; only their lists are on the heap.
 fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     let description = machine.description();
     let name = &description.name;
@@ -221,24 +221,24 @@ fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     assert_eq!(allocations(shift), 0, "shift of {name}");
 
     let found = modes(&at).expect("modes");
-    // The list; of general modes also their roots and five lists that the eigenproblem works on.
+    // One list; general modes also need their roots and five work lists of the eigenproblem.
     let lists = match found.family {
         Family::Undamped => 1,
         Family::General => 7,
     };
     assert_eq!(allocations(|| modes(&at)), lists, "modes of {name}");
-    // The list; of several general modes also their places and the sizes of their shapes.
+    // One list; for several general modes also their places and the sizes of their shapes.
     assert!(
         allocations(|| match_modes(&found, &found, &at.linear)) <= 5,
         "matching of {name}"
     );
 
-    // What a general mode has beyond an undamped one stands on the heap.
+    // General modes keep what they store beyond undamped ones on the heap.
     let general = match found.family {
         Family::Undamped => 0,
         Family::General => found.modes.len(),
     };
-    // Lists by modes, and of partial derivatives by coordinates, inputs and design where these are taken.
+    // Lists by mode, and of partial derivatives by coordinates, inputs and design if these are computed.
     let ways: [Derivatives; 3] = [
         sensitivities,
         sensitivities_explicit,
@@ -275,9 +275,9 @@ fn small_machines_need_no_heap() {
     check(Hoist, &[0.1, 0.5], &[0.1, 0.05, 0.02]);
 }
 
-/// Side by side, 256 samples at a time need a list, and what they gave another now and then. Twice as many samples come twice as
-/// near to the nominal value: of each of the two frequencies the sketch counts another octave of deviations on either side, now and
-/// then two.
+/// Solving side by side, 256 samples at a time need one list, and their results occasionally another. Twice as many samples come
+/// twice as close to the nominal value: for each of the two frequencies the sketch then counts one more octave of deviations on
+/// either side, occasionally two.
 #[test]
 fn samples_need_no_heap() {
     let run = |samples: usize| {

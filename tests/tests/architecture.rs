@@ -1,10 +1,10 @@
-//! The import directions of ARCHITECTURE.md: what is absent stays absent.
+//! Checks the import directions of ARCHITECTURE.md: absent dependencies must stay absent.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Each room of the compiler and the rooms it may import.
+/// Each room of the compiler, and the rooms it may import.
 const ROOMS: [(&str, &[&str]); 8] = [
     ("base", &[]),
     ("syntax", &["base"]),
@@ -26,7 +26,7 @@ const ROOMS: [(&str, &[&str]); 8] = [
     ),
 ];
 
-/// The subfolders of `mechanics`, in order: each may import those before it, and the types that all of them hand on.
+/// The subfolders of `mechanics`, in order: each may import the earlier ones and the shared types.
 const MECHANICS: [&str; 8] = [
     "setup",
     "motion",
@@ -41,8 +41,8 @@ const MECHANICS: [&str; 8] = [
 /// The types that the subfolders of `mechanics` share with other rooms.
 const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
-/// The rooms of the runtime, in order: each may import those before it. The first seventeen are the core: contract, equilibrium,
-/// modes, sensitivities, first-order tolerances and Monte Carlo.
+/// The rooms of the runtime, in order: each may import the earlier ones. The first seventeen are the core: contract,
+/// equilibrium, modes, sensitivities, first-order tolerances and Monte Carlo.
 const RUNTIME: [&str; 32] = [
     "setters",
     "algebra",
@@ -61,7 +61,7 @@ const RUNTIME: [&str; 32] = [
     "sensitivity",
     "batched",
     "tolerance",
-    // beyond
+    // beyond the core
     "branches",
     "sweep",
     "response",
@@ -79,7 +79,7 @@ const RUNTIME: [&str; 32] = [
     "study",
 ];
 
-/// Files that define the types between the stages, and the modules of their own room that they may name.
+/// Files that define the types passed between stages, and the modules of their own room that they may import.
 const TYPE_FILES: [(&str, &[&str]); 12] = [
     ("syntax/ast.rs", &[]),
     (
@@ -108,7 +108,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     for entry in entries {
         let path = entry.expect("a folder entry").path();
         if path.is_dir() {
-            // what `cargo build` leaves in a workspace of its own is not ours
+            // skip the output of `cargo build` in a nested workspace
             if !path.ends_with("target") {
                 files.extend(sources(&path));
             }
@@ -120,7 +120,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The names that follow `prefix` in the text, in braces or not.
+/// The names after `prefix` in the text, with or without braces.
 fn imported(text: &str, prefix: &str) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for (start, _) in text.match_indices(prefix) {
@@ -211,7 +211,7 @@ fn assert_one_direction(source: &Path, files: Vec<PathBuf>) {
     }
 }
 
-/// The rooms of the runtime: folders, or files of the first level.
+/// The rooms of the runtime: folders, or top-level files.
 fn runtime_rooms() -> BTreeMap<String, Vec<PathBuf>> {
     let runtime = root().join("runtime/src");
     let mut rooms: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
@@ -262,7 +262,7 @@ fn rooms_of_the_runtime_import_those_before_them() {
     }
 }
 
-/// A file without its prose and its tests.
+/// A file without its comments and tests.
 fn code(text: &str) -> String {
     let code = text.split("mod tests {").next().unwrap_or(text);
     code.lines()
@@ -271,7 +271,7 @@ fn code(text: &str) -> String {
         .collect()
 }
 
-/// What a file of the runtime names of the crate outside of its tests and its prose.
+/// The crate items that a runtime file refers to outside its tests and comments.
 fn runtime_imports(text: &str) -> BTreeSet<String> {
     let code = code(text);
     let declared = code.split("use crate::").skip(1).flat_map(|rest| {
@@ -299,10 +299,10 @@ fn module(source: &Path, file: &Path) -> String {
     names.join("::")
 }
 
-/// The modules that a module names outside of its tests, but for its own children whose items it hands on with `pub use`.
+/// The modules that a module refers to outside its tests, except its own children whose items it re-exports with `pub use`.
 fn uses(text: &str, own: &str, modules: &BTreeMap<String, PathBuf>) -> BTreeSet<String> {
     let code = code(text);
-    // a visibility is no import
+    // a visibility is not an import
     let code = &code.replace("pub(in crate::", "pub(");
     let declared = code.match_indices("use ").flat_map(|(at, word)| {
         let line = code[..at].rsplit('\n').next().unwrap_or_default();
@@ -324,7 +324,7 @@ fn uses(text: &str, own: &str, modules: &BTreeMap<String, PathBuf>) -> BTreeSet<
     all.filter(|name| name != own).collect()
 }
 
-/// The paths of a `use` declaration, its braces taken apart.
+/// The paths of a `use` declaration, with its braces expanded.
 fn paths(tree: &str) -> Vec<String> {
     let Some(open) = tree.find('{') else {
         return vec![tree.to_owned()];
@@ -366,7 +366,7 @@ fn absolute(path: &str, own: &str) -> Vec<String> {
     full
 }
 
-/// Modules that import each other in a circle.
+/// Finds modules that import each other in a cycle.
 fn circle(imports: &BTreeMap<&str, BTreeSet<String>>) -> Option<Vec<String>> {
     let mut left = imports.clone();
     loop {
@@ -480,7 +480,7 @@ fn unsafe_code_stays_in_one_place() {
     let allowed: BTreeSet<PathBuf> = files
         .filter(|file| read(file).contains("allow(unsafe_code"))
         .collect();
-    // The second writes it into the text of functions for C.
+    // The second one writes it into the text of C functions.
     let generator = root().join("macros/build/src/c/mod.rs");
     assert_eq!(
         allowed,

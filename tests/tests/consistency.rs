@@ -1,4 +1,4 @@
-//! Every machine that the tests know, open, closed, rolling or coasting: each kernel against the equations of motion.
+//! Checks each kernel against the equations of motion for every test machine: open, closed, rolling or coasting.
 
 use eigentol::Mechanism;
 use eigentol_compiler::mechanics::Limits;

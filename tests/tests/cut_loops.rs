@@ -1,6 +1,6 @@
-//! The same mechanism as an open chain and as a cut loop: in random trees one joint is replaced by a `free` joint between the
-//! same frames, and declared once more as a joint that is `cut`, or as constraints of points that say the same. Freedom, residual, matrices, and derivatives by inputs and
-//! design variables agree at random states that are assembled, whatever the reactions are.
+//! Compares a mechanism as an open chain with the same mechanism as a cut loop. In random trees one joint is replaced by a `free`
+//! joint between the same frames, and is declared again as a `cut` joint or as equivalent point constraints. Freedom, residual,
+//! matrices, and derivatives by inputs and design variables agree at random assembled states for any reactions.
 
 #[path = "cut_loops/double.rs"]
 mod double;
@@ -31,10 +31,10 @@ const CLOSINGS: [Closing; 4] = [
     Closing::new(false, true),
 ];
 
-/// How often each kind of joint was cut, as a joint and by constraints.
+/// How often each kind of joint was cut, by a joint and by constraints.
 type Seen = BTreeMap<(bool, Word), u32>;
 
-/// Whether constraints close the loop, and the kind of the joint; `None` where there is no such pair.
+/// Whether constraints close the loop, and the kind of the joint; `None` if there is no such pair.
 fn compared(plan: Plan, closing: Closing) -> Option<(bool, Word)> {
     let pair = Pair::new(plan, closing)?;
     pair.compare(plan.seed)
@@ -67,7 +67,7 @@ fn a_cut_loop_is_the_open_chain() {
     agrees_on(40);
 }
 
-/// A comparison that cannot fail proves nothing: a gap, a wrong tangent, a tangent that is taken for straight.
+/// A comparison that cannot fail proves nothing: a gap, a wrong tangent, and a tangent taken as straight are detected.
 #[test]
 fn faults_are_found() {
     let found = RefCell::new([0; 3]);

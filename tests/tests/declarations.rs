@@ -1,4 +1,4 @@
-//! From tokens to topology: what is read is what was written, values arrive in SI, and no input whatever panics.
+//! From tokens to topology: declarations are read as written, values arrive in SI, and no input causes a panic.
 
 #[path = "declarations/common.rs"]
 mod common;

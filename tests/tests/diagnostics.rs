@@ -1,11 +1,11 @@
-//! Every user error is drawn in the source that causes it: the text of a case, with its diagnostics drawn in, must be
-//! exactly what the compiler says, no more, no less, each at its columns.
+//! Checks that every user error is marked in the source that causes it: the text of a case, with its diagnostics drawn
+//! in, must match the compiler's output exactly, each at its columns.
 //!
 //! A case in `tests/diagnostics/*.txt` starts with `=== title`. Under a line, `//^^^ message` marks the columns of the
-//! carets, and `// help: text` belongs to the mark above it. A case without the word `mechanism` stands inside a
-//! mechanism that is otherwise right: a bar on a hinge `theta`.
+//! carets, and `// help: text` belongs to the mark above it. A case without the word `mechanism` is placed inside an
+//! otherwise correct mechanism: a bar on a hinge `theta`.
 //!
-//! `UPDATE_DIAGNOSTICS=1 cargo test -p eigentol-tests --test diagnostics` redraws all cases; read the difference.
+//! `UPDATE_DIAGNOSTICS=1 cargo test -p eigentol-tests --test diagnostics` redraws all cases; review the diff.
 
 use std::fs;
 use std::path::PathBuf;
@@ -20,7 +20,7 @@ const BEFORE: &str = "mechanism Test {
     joint theta: revolute(y) from ground to bar;
 ";
 
-/// What the compiler says about a declaration.
+/// The compiler's diagnostics for a declaration.
 fn diagnose(source: &str) -> Vec<Diagnostic> {
     let tokens: TokenStream = source.parse().expect("the case consists of Rust tokens");
     match compile(tokens, Limits::default()) {
@@ -29,7 +29,7 @@ fn diagnose(source: &str) -> Vec<Diagnostic> {
     }
 }
 
-/// The case without its drawings.
+/// The case without its drawn diagnostics.
 fn undrawn(case: &str) -> String {
     let is_drawing = |line: &&str| {
         let line = line.trim_start();
@@ -39,7 +39,7 @@ fn undrawn(case: &str) -> String {
     lines.join("\n")
 }
 
-/// The case with what the compiler says drawn in.
+/// The case with the compiler's diagnostics drawn in.
 fn drawn(source: &str) -> String {
     let whole = source.contains("mechanism") || source.contains("struct");
     let (diagnostics, first) = if whole {
@@ -136,7 +136,7 @@ fn every_case_is_drawn_as_the_compiler_says() {
     assert!(count >= 100, "only {count} cases");
 }
 
-/// The harness itself can fail, in each of the ways a drawing can be wrong.
+/// The harness itself fails for each of the ways in which a drawing can be wrong.
 #[test]
 fn a_wrong_drawing_is_noticed() {
     let right = "    let a = 1 kgg;

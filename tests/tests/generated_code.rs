@@ -1,4 +1,4 @@
-//! The macro's output as rustc compiles it, against the interpreter of the same declaration, and in other scalars.
+//! The macro's output as compiled by rustc, against the interpreter for the same declaration, and in other scalars.
 
 #[path = "generated_code/agreement.rs"]
 mod agreement;
@@ -28,8 +28,7 @@ impl Numbers {
         (0..count).map(|_| self.next()).collect()
     }
 
-    /// Arguments for a kernel by the names of its parameters: design variables near their nominal values, all else
-    /// between -1 and 1.
+    /// Kernel arguments by parameter name: design variables near their nominal values, everything else between -1 and 1.
     fn arguments(&mut self, machine: &dyn Kernels, parameters: &[(&str, usize)]) -> Vec<Vec<f64>> {
         let description = machine.description();
         let near = |numbers: &mut Self| {

@@ -1,5 +1,5 @@
-//! Bad values, far starts, critical states and extreme scales on compiled machines: each gives a typed error or a reported
-//! class, never NaN, a panic or a wrong answer.
+//! Bad values, distant starts, critical states and extreme scales on compiled machines: each gives a typed error or a
+//! reported class, never NaN, a panic or a wrong answer.
 
 #[path = "hard_inputs/extremes.rs"]
 mod extremes;

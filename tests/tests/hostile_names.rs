@@ -1,9 +1,9 @@
-//! Any name that Rust allows may be the name of a mechanism or of anything in it, whatever the generated code and the modules
-//! around it call their things.
+//! Any legal Rust name may be the name of a mechanism or of anything in it, whatever names the generated code and the
+//! surrounding modules use.
 
 use eigentol::Kernels;
 
-/// What surrounds every declaration: items spelt like variables of the generated code.
+/// The surroundings of every declaration: items spelt like variables of the generated code.
 #[allow(non_upper_case_globals, non_camel_case_types, dead_code)]
 mod surroundings {
     pub(super) const theta: f64 = 1.0;
@@ -84,20 +84,20 @@ fn check(pendulum: &dyn Kernels) {
 pendulum!(parameters: q, u, b, qdot, result, known);
 pendulum!(variables: theta, sum, product, zero, value, sin_theta);
 pendulum!(marked: q_, u_, b_, theta_, result_, zero_);
-// What the kernels refer to.
+// Names that the kernels refer to.
 pendulum!(paths: core, eigentol, std, alloc, crate_, super_);
 pendulum!(types: T, f64, usize, u8, bool, str);
 pendulum!(prelude: Option, Some, None, Vec, String, Box);
-// Members of the trait, and of those that the type derives.
+// Members of the trait, and of the traits that the type derives.
 pendulum!(members: Mechanism, DESCRIPTION, residual, linear, violation, outputs);
 pendulum!(derived: Clone, clone, eq, fmt, default, ne);
 pendulum!(results: Linear, mass, stiffness, damping, by_design, by_input);
-// Words that Rust reserves in some places only, and names that differ in case only.
+// Words reserved by Rust only in some places, and names that differ only in case.
 pendulum!(weak: union, auto, raw, safe, macro_rules, r);
 pendulum!(cases: Theta, THETA, Sum, SUM, tHETA, sUM);
 
 mod unused {
-    //! What nothing refers to is a warning of rustc, which this would turn into an error.
+    //! An unreferenced item is a rustc warning, which this lint setting turns into an error.
     #![deny(warnings)]
 
     #[allow(non_upper_case_globals)]

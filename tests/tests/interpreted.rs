@@ -1,5 +1,5 @@
-//! Every machine of the corpus, read from text at run time, gives every answer of its compiled twin, bit for bit: the same
-//! operations in another order, each on the same numbers.
+//! Every machine of the corpus, read from text at run time, gives the same results as its compiled twin, bit for bit: the
+//! same operations in another order, each on the same numbers.
 
 use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};
 use eigentol::{Coordinate, Description, Input, Law, Mechanism, Policy, Study, ToleranceInfo};
@@ -8,7 +8,7 @@ use eigentol_tests::corpus::{self, Visitor};
 use eigentol_tests::fits::{self, Fits};
 use eigentol_tests::resolved::{Operation, operating_points};
 
-/// What a study answers, in words that tell every bit.
+/// The results of a study as text that shows every bit.
 fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
     machine: M,
     operation: &Operation,
@@ -53,7 +53,7 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
     answers
 }
 
-/// The kernels of the motion, too.
+/// The same for the kernels of the motion.
 fn motion(machine: &dyn MotionKernels, operation: &Operation) -> String {
     let description = machine.description();
     let (q, u) = (&operation.start, &operation.inputs);
@@ -103,7 +103,7 @@ fn twins_answer_alike() {
     assert!(twins.0 > 200, "{}", twins.0);
 }
 
-/// Tolerances are constants of the compiled type, those of its twin come from the compiler's tables.
+/// Tolerances are constants of the compiled type; those of its interpreted twin come from the compiler's tables.
 #[test]
 fn twins_have_the_same_tolerances() {
     const DESCRIPTION: Description = Fits::DESCRIPTION;

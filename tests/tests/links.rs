@@ -1,4 +1,4 @@
-//! Links within the repository: every file that a page names is there, and so is every heading.
+//! Checks links within the repository: every linked file and every linked heading must exist.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,7 +8,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Every page in Markdown that belongs to the project.
+/// Every Markdown page of the project.
 fn pages(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder") {
@@ -24,7 +24,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The lines of a page outside of blocks of code.
+/// The lines of a page outside code blocks.
 fn prose(text: &str) -> Vec<&str> {
     let mut inside = false;
     let mut lines = Vec::new();
@@ -38,7 +38,7 @@ fn prose(text: &str) -> Vec<&str> {
     lines
 }
 
-/// The targets of the links of a page: `[words](target)` and `![words](target)`, not within `code`.
+/// The link targets of a page: `[words](target)` and `![words](target)`, not within `code`.
 fn targets(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     for line in prose(text) {
@@ -66,7 +66,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
     headings.map(anchor).collect()
 }
 
-/// What is wrong with a link, if anything. Addresses of the web are not asked, paths of Rust are rustdoc's.
+/// The fault of a link, if any. Web addresses are not checked; Rust paths are left to rustdoc.
 fn mistake(page: &Path, text: &str, target: &str) -> Option<String> {
     if target.contains("://") || target.contains("::") {
         return None;

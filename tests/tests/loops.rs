@@ -1,4 +1,4 @@
-//! Mechanisms with closed loops and couplings against their references in minimal coordinates (`truth/loops.json`).
+//! Mechanisms with closed loops and couplings against reference solutions in minimal coordinates (`truth/loops.json`).
 
 #[path = "loops/along.rs"]
 mod along;

@@ -1,5 +1,5 @@
 //! Every machine of the corpus against the oracle: residual, mass, damping and stiffness at random states, and their
-//! derivatives by every design variable and input against differences of the oracle.
+//! derivatives by every design variable and input against finite differences of the oracle.
 
 use eigentol_compiler::base::diagnostics::Diagnostics;
 use eigentol_compiler::compile;
@@ -51,7 +51,7 @@ fn uniform(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Residual, mass, damping and stiffness by the oracle.
+/// Residual, mass, damping and stiffness from the oracle.
 fn judged(machine: &Machine, q: &[f64], u: &[f64], b: &[f64]) -> [Vec<f64>; 4] {
     let (model, speeds) = fixed(&machine.mechanism, u, b);
     let oracle = Oracle::new(&model);
@@ -103,7 +103,7 @@ fn the_corpus_agrees_with_the_oracle() {
             ]
             .concat();
             let names = ["g", "Mhat", "Chat", "Khat"];
-            // Stiff elements cancel in soft directions: what counts is the size of the terms.
+            // Stiff elements cancel in soft directions, so the size of the terms sets the scale.
             let size = largest(&stiffness).max(1e-3);
             for ((name_of, expected), got) in names
                 .iter()
@@ -158,7 +158,8 @@ fn check_design_derivatives(name: &str, machine: &Machine, q: &[f64], u: &[f64],
     }
 }
 
-/// The arm with its servos off: inverse dynamics, mass matrix and derivatives by Pinocchio (`truth/panda_arm.json`).
+/// The arm with its servos off, against inverse dynamics, mass matrix and derivatives from Pinocchio
+/// (`truth/panda_arm.json`).
 #[test]
 fn the_arm_is_the_public_one() {
     let (_, declaration) = corpus()

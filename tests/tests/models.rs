@@ -88,7 +88,7 @@ fn several_coordinates_have_names_and_drives_of_their_own() {
     }
 }
 
-/// The generator makes everything it promises, and what it prints is made of tokens.
+/// The generator produces everything it promises, and what it prints can be tokenised.
 #[test]
 fn random_models_leave_nothing_out() {
     let seen: RefCell<BTreeMap<String, usize>> = RefCell::default();

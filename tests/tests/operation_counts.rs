@@ -1,5 +1,5 @@
-//! What the generated code costs, for a chain of `n` bars on a spinning shaft with the length and the mass of every bar as
-//! design variables, and for a robot arm.
+//! Operation counts of the generated code for a chain of `n` bars on a spinning shaft, with the length and the mass of
+//! every bar as design variables, and for a robot arm.
 
 use eigentol_compiler::algebra::{Cost, Function, cost, regroup};
 use eigentol_compiler::base::ids::ExprId;
@@ -11,8 +11,8 @@ use eigentol_oracle::model::{Coordinate, Force, ForceLaw, Model, Value};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::counted::operations_along;
 
-/// Bars, and what an expert's closed forms cost in CasADi 3.8: residual, mass and stiffness matrix; gradient of a mode's
-/// functional; these with all partial derivatives. Every node counts but inputs, outputs and constants.
+/// Number of bars, and the cost of an expert's closed forms in CasADi 3.8: residual, mass and stiffness matrix; gradient
+/// of a mode's functional; these with all partial derivatives. Every node except inputs, outputs and constants counts.
 const TYPED: [(usize, usize, usize, Option<usize>); 5] = [
     (2, 62, 146, Some(227)),
     (4, 197, 487, Some(992)),
@@ -21,7 +21,7 @@ const TYPED: [(usize, usize, usize, Option<usize>); 5] = [
     (32, 9227, 24567, None),
 ];
 
-/// The same for the arm: inverse dynamics, mass matrix, stiffness at rest, all derivatives along a motion.
+/// Costs of the arm: inverse dynamics, mass matrix, stiffness at rest, all derivatives along a motion.
 const ARM: [usize; 4] = [810, 485, 1175, 6480];
 
 fn functions(bars: usize) -> Functions {
@@ -56,7 +56,7 @@ fn results(functions: &Functions, kernel: &str, wanted: &[&str]) -> Vec<ExprId> 
     values
 }
 
-/// Every node but inputs, outputs and constants.
+/// The number of nodes except inputs, outputs and constants.
 fn nodes(functions: &Functions, roots: &[ExprId]) -> usize {
     let mut graph = functions.graph.clone();
     let roots = regroup(&mut graph, roots);
@@ -64,7 +64,7 @@ fn nodes(functions: &Functions, roots: &[ExprId]) -> usize {
     cost.operations + cost.functions + cost.negations
 }
 
-/// Before regrouping, which only ever takes away.
+/// Cost before regrouping, which can only reduce it.
 fn together(functions: &Functions, names: &[&str]) -> Cost {
     let wanted = |function: &&Function| names.contains(&function.name);
     let roots: Vec<_> = functions
@@ -77,7 +77,7 @@ fn together(functions: &Functions, names: &[&str]) -> Cost {
     cost(&functions.graph, &roots)
 }
 
-/// What a chain costs: residual with matrices, gradient of a mode, everything.
+/// Costs of a chain: residual with matrices, gradient of a mode, everything.
 fn chain_counts(bars: usize) -> (usize, usize, Option<usize>) {
     let functions = functions(bars);
     let mut model = results(&functions, "residual", &["residual"]);
@@ -132,7 +132,7 @@ fn chains_cost_no_more_than_closed_forms_typed_by_an_expert() {
 #[test]
 fn an_arm_costs_less_than_in_casadi() {
     let mut model = arm(&Truth::load("panda_arm"));
-    // what nothing resists is refused
+    // a coordinate without resistance would be refused
     model.forces.push(Force {
         name: "hold".to_owned(),
         law: ForceLaw::Spring {
@@ -172,7 +172,7 @@ fn residual_and_adjoint_grow_linearly() {
     }
 }
 
-/// In the dual numbers that the runtime takes directional derivatives in, every operation counted.
+/// Counts every operation in the dual numbers in which the runtime takes directional derivatives.
 #[test]
 fn directional_derivatives_of_adjoints_grow_linearly() {
     let programs = [4, 8, 16, 32].map(|bars| {
@@ -198,7 +198,7 @@ fn directional_derivatives_of_adjoints_grow_linearly() {
 fn matrices_grow_with_the_square() {
     for name in ["motion", "linear"] {
         let counts = [4, 8, 16, 32].map(|bars| together(&functions(bars), &[name]).operations);
-        // A quadratic in the number of bars: second differences over doublings grow by exactly four.
+        // Quadratic in the number of bars: second differences over doublings grow by exactly four.
         let steps: Vec<i64> = counts
             .windows(2)
             .map(|pair| pair[1] as i64 - pair[0] as i64)

@@ -1,4 +1,4 @@
-//! Outputs beyond coordinates and points, in closed form: what joints transmit, energies, and the distance from singular poses.
+//! Outputs beyond coordinates and points, in closed form: joint reactions, energies, and the distance from singular poses.
 
 use eigentol::{Mechanism, Study, mechanism};
 
@@ -30,18 +30,18 @@ mechanism! {
     }
 }
 
-/// A bar at `theta` from the axis: its centre of mass goes round at `l/2 sin(theta)`.
+/// A bar at `theta` from the axis: its centre of mass moves on a circle of radius `l/2 sin(theta)`.
 #[test]
 fn a_swinging_bar_on_a_turning_shaft() {
     let (omega, m, l) = (4.0_f64, 3.0_f64, 1.0_f64);
     let (theta, phi) = (0.7_f64, 0.3_f64);
     let got = Swing.outputs(&[theta, phi], &[omega], &[m, l]);
-    // `theta` turns the bar about y, so its lower end goes to -x; the twin turns against `phi` and goes to +x.
+    // `theta` turns the bar about y, so its lower end moves to -x; the twin turns against `phi` and moves to +x.
     let centripetal = |angle: f64| m * omega.powi(2) * 0.5 * l * angle.sin();
     let moment_of_inertia = |angle: f64| m * l * l / 3.0 * angle.sin().powi(2);
     let inertia_moment = moment_of_inertia(theta) * omega.powi(2) / theta.tan();
     let weight_moment = m * G * 0.5 * l * theta.sin();
-    // What `twin` exerts on `shaft`, in the axes of `twin`.
+    // The force of `twin` on `shaft`, in the axes of `twin`.
     let on_twin = [-centripetal(phi), m * G];
     let in_twin = [
         phi.cos() * on_twin[0] + phi.sin() * on_twin[1],
@@ -81,7 +81,7 @@ mechanism! {
     }
 }
 
-/// The axes z, y turned by yaw, and x turned by yaw and pitch span the volume `|cos(pitch)|`.
+/// The axes z, y (turned by yaw) and x (turned by yaw and pitch) span the volume `|cos(pitch)|`.
 #[test]
 fn near_singular_poses_are_reported() {
     for pitch in [0.0, 0.5, -1.2, 1.57, 3.0] {
@@ -126,7 +126,7 @@ mechanism! {
     }
 }
 
-/// The distance from the axis has a kink on it: a value, no derivative, and the other output keeps both.
+/// The distance from the axis has a kink there: it has a value but no derivative, while the other output has both.
 #[test]
 fn an_output_without_a_derivative_keeps_its_value() {
     let study = Study::new(Hanging).input(Hanging::omega, 2.0);
@@ -146,7 +146,7 @@ fn an_output_without_a_derivative_keeps_its_value() {
     );
 }
 
-/// Components of cross products share their parts; a tree of them would never be done.
+/// Components of cross products share subexpressions; without sharing, translating a nested tree of them would never finish.
 #[test]
 fn nested_vector_functions_are_translated_once() {
     let nested = (0..40).fold("[l, 2 * l, 3 * l]".to_owned(), |v, _| {
@@ -162,7 +162,7 @@ fn nested_vector_functions_are_translated_once() {
 }
 
 mod constants {
-    /// A constant of the user's module with the name of a design variable, and a mechanism named like one.
+    /// A constant in the user's module with the name of a design variable, and a mechanism named like one.
     pub(super) const G: f64 = 9.81;
 
     eigentol::mechanism! {

@@ -1,4 +1,4 @@
-//! What there is to see of a mechanism, against the oracle's matrices, closed forms, outputs and files of robots.
+//! Pictures of a mechanism against the oracle's matrices, closed forms, outputs and robot files.
 
 #[path = "pictures/closed_forms.rs"]
 mod closed_forms;

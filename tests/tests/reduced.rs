@@ -1,5 +1,5 @@
-//! Small mechanisms on which the mass matrix was wrong once (`truth/robots/minimal`): hinges about one axis that follow each other,
-//! with something behind them that rides on no seat or leans out of the plane; right angles that are only nearly so.
+//! Small mechanisms for which the mass matrix was once wrong (`truth/robots/minimal`): successive hinges about one axis, carrying
+//! something that is not on a seat or leans out of the plane; and nearly right angles.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ use eigentol_oracle::Oracle;
 use eigentol_oracle::kernels::Kernels;
 use eigentol_tests::fixed::fixed;
 
-/// Relative to the largest entry.
+/// Tolerance relative to the largest entry.
 const TOLERANCE: f64 = 1e-13;
 
 const REDUCED: [&str; 10] = [
@@ -33,7 +33,7 @@ fn text(name: &str) -> String {
         Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("truth/robots/minimal/{name}.mech"));
     let text =
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    // a rod that turns about itself moves no mass, which the compiler says now that it sees it
+    // a rod that turns about its own axis moves no mass, which the compiler now detects and reports
     match name {
         "RR_cyl" => text.replace(
             "body b2: rod(mass: 1 kg, length: 1 m, along: x)",
@@ -111,7 +111,7 @@ fn reduced_cases_are_those_of_the_oracle() {
     }
 }
 
-/// Also the gripper whose fingers mimic each other.
+/// The same for the gripper whose fingers mimic each other.
 #[test]
 fn reduced_cases_are_consistent() {
     for name in REDUCED.into_iter().chain(["yyP", "mimic"]) {
@@ -128,8 +128,8 @@ fn reduced_cases_are_consistent() {
     }
 }
 
-/// Three unit rods of 1 kg in line, the last on a slider or a screw: about the first hinge each weighs in by 1/12 about its middle
-/// and by the square of its distance, 1/2, 3/2 and 5/2: 9 in all.
+/// Three unit rods of 1 kg in line, the last on a slider or a screw: about the first hinge each contributes 1/12 about its centre
+/// plus its distance squared, with distances 1/2, 3/2 and 5/2: 9 in all.
 #[test]
 fn a_slider_behind_two_hinges_has_its_mass() {
     let screw = text("RR_screw");
@@ -146,12 +146,12 @@ fn a_slider_behind_two_hinges_has_its_mass() {
     }
 }
 
-/// A mass at the side of a hinge that follows another, both on a turntable: `M[yaw][pitch] = -cos(pitch)`.
+/// A mass beside a hinge that follows another one, both on a turntable: `M[yaw][pitch] = -cos(pitch)`.
 #[test]
 fn a_leaning_mass_behind_two_hinges_loads_the_turntable() {
     for pitch in [0.0_f64, 0.4, -1.1, 2.0] {
         let found = linear(&text("minimal"), &[0.7, pitch, 0.3]);
-        // unit sphere of 1 kg, centre 1 m aside along y: place in the turntable (sin pitch, 1, cos pitch)
+        // unit sphere of 1 kg, centre 1 m to the side along y: position in the turntable (sin pitch, 1, cos pitch)
         let own = 0.4;
         let yaw = own + pitch.sin().powi(2) + 1.0;
         let both = [yaw, -pitch.cos(), 0.0];

@@ -1,5 +1,5 @@
-//! The problem solved again in hyper-dual numbers: proven by stored numbers, differences and closed forms, then held against
-//! the product's derivatives.
+//! The problem solved again in hyper-dual numbers: verified by stored numbers, finite differences and closed forms, then
+//! compared with the product's derivatives.
 
 #[path = "resolved/chains.rs"]
 mod chains;

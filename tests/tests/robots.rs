@@ -1,5 +1,5 @@
-//! Ten real robots against Pinocchio (`tests/truth/robots`, made from public robot files): every kernel at five states each, and
-//! every kernel against the equations of motion.
+//! Ten real robots against Pinocchio (`tests/truth/robots`, made from public robot files): every kernel at five states per
+//! robot, and every kernel against the equations of motion.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +27,7 @@ const ROBOTS: [&str; 10] = [
     "Xarm7",
 ];
 
-/// Relative to the largest entry of an array.
+/// Tolerance relative to the largest entry of an array.
 const TOLERANCE: f64 = 1e-9;
 
 fn read(file: &str) -> String {
@@ -44,15 +44,15 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// The results of a kernel by its name.
+/// Evaluates a kernel by its name.
 type Evaluate<'a> = dyn Fn(&str, &[&[f64]]) -> Vec<Vec<f64>> + 'a;
 
 struct Robot {
     subject: Subject,
     truth: Value,
-    /// By unknown: its place among the coordinates of the truth.
+    /// For each unknown, its index among the coordinates of the reference.
     order: Vec<usize>,
-    /// By design variable.
+    /// Values of the design variables.
     design: Vec<f64>,
 }
 
@@ -84,7 +84,7 @@ impl Robot {
         }
     }
 
-    /// By unknown, from the order of the truth.
+    /// Values by unknown, from the order of the reference.
     fn ordered(&self, list: &Value) -> Vec<f64> {
         let list = numbers(list);
         self.order.iter().map(|&place| list[place]).collect()
@@ -103,10 +103,10 @@ impl Robot {
         }
     }
 
-    /// The largest error of each quantity over all states, of kernels that `evaluate` runs.
+    /// The largest error of each quantity over all states, for kernels run by `evaluate`.
     fn errors(&self, evaluate: &Evaluate) -> Vec<(&'static str, f64)> {
         let mut errors: Vec<(&'static str, f64)> = Vec::new();
-        // where a quantity is zero, the truth holds rounding errors of 1e-14
+        // where a quantity is zero, the reference contains rounding errors of 1e-14
         let mut compare = |what, found: &[f64], expected: &[f64]| {
             assert_eq!(found.len(), expected.len(), "{what}");
             let size = expected.iter().fold(1e-4_f64, |size, x| size.max(x.abs()));
@@ -182,7 +182,7 @@ impl Robot {
                 let found = form(&slopes[2]) - lambda[0] * form(&slopes[0]);
                 compare("matrices by design", &[found], &[expected]);
             }
-            // by differences of order eight
+            // by eighth-order differences
             compare("mode by coordinates", &gradient[0], &get("mode_by_q"));
         }
         errors
@@ -210,7 +210,7 @@ fn compiled<M: Mechanism>(machine: &M, kernel: &str, arguments: &[&[f64]]) -> Ve
     evaluate(machine, kernel, &arguments).unwrap_or_else(|| panic!("no kernel `{kernel}`"))
 }
 
-/// The declarations that the macro compiles are those of the files.
+/// The declarations compiled by the macro match the files.
 #[test]
 fn compiled_robots_are_those_of_pinocchio() {
     let tokens = |text: &str| -> String {
@@ -252,7 +252,8 @@ fn kernels_of_robots_are_consistent() {
     }
 }
 
-/// A comparison that cannot fail proves nothing: a design variable off by one part in 10^8 shows in every quantity it is in.
+/// A comparison that cannot fail proves nothing: a design variable that is off by one part in 10^8 shows in
+/// every quantity it affects.
 #[test]
 fn a_small_fault_is_found() {
     let mut robot = Robot::load("Ur5");

@@ -1,4 +1,4 @@
-//! What is written comes back: every result of every machine, bit by bit. Every public type of the runtime can be written.
+//! Every result of every machine survives writing and reading, bit for bit. Every public type of the runtime can be written.
 
 #[path = "serial/answers.rs"]
 mod answers;

@@ -1,4 +1,4 @@
-//! Samples of every machine of the corpus in vectors are those that are solved one by one.
+//! For every machine of the corpus, samples solved in vectors match those solved one by one.
 
 use eigentol::{Coordinate, Input, Mechanism, Study};
 use eigentol_tests::corpus::{self, Visitor};

@@ -1,4 +1,4 @@
-//! Every stage of the corpus as text, with operation counts: a difference shows what a change does, and at what cost.
+//! Every stage of the corpus as text, with operation counts: the diff shows the effect of a change, and its cost.
 
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
@@ -10,10 +10,10 @@ use eigentol_tests::loops::{geared_coasting, slider_crank};
 use eigentol_tests::wheels::disk;
 use insta::assert_snapshot;
 
-/// Kernels short enough to read line by line; of the others the counts are kept.
+/// Kernels short enough to read line by line; for the others only the counts are kept.
 const READABLE: [&str; 3] = ["residual", "linear", "violation"];
 
-/// Machines whose generated code is kept whole.
+/// Machines whose generated code is kept in full.
 const GENERATED: [&str; 5] = [
     "rotating_pendulum",
     "rotating_double_pendulum",
@@ -22,7 +22,7 @@ const GENERATED: [&str; 5] = [
     "fits",
 ];
 
-/// The corpus, a closed loop, running coordinates, a rolling wheel, every kind of tolerance, and springs on all that is free.
+/// The corpus, a closed loop, running coordinates, a rolling wheel, every kind of tolerance, and springs on every free coordinate.
 fn machines() -> Vec<(&'static str, &'static str)> {
     let constrained = [
         ("slider_crank", slider_crank::DECLARATION),
@@ -74,7 +74,7 @@ fn the_same_declaration_gives_the_same_tokens() {
     }
 }
 
-/// Long bodies are cut into blocks: no chain of `let`s is long enough to bring rustc down.
+/// Long function bodies are split into blocks, so that no chain of `let`s is long enough to overflow rustc's stack.
 #[test]
 fn no_block_nests_many_statements() {
     let long = corpus()

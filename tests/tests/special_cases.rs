@@ -1,9 +1,10 @@
-//! Special cases of the compiler into which a wrong line was put on purpose and not seen: each meets a number found otherwise.
+//! Special cases of the compiler in which a deliberately wrong line went undetected: each is now compared
+//! with an independent number.
 
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Damping, Limits};
 
-/// A kernel of a declaration at its nominal design.
+/// Evaluates a kernel of a declaration at its nominal design.
 fn at_nominal(declaration: &str, kernel: &str, before: &[&[f64]]) -> Vec<Vec<f64>> {
     let compiled = compile(declaration.parse().expect("tokens"), Limits::NONE)
         .unwrap_or_else(|mistakes| panic!("{mistakes}"));
@@ -20,7 +21,7 @@ fn assert_equal(found: &[Vec<f64>], expected: &[Vec<f64>]) {
     }
 }
 
-/// Two links on one hinge each, and what closes the loop between their ends.
+/// Two links, each on one hinge, and the items that close the loop between their ends.
 fn closed(closing: &str) -> String {
     format!(
         "pub mechanism Loop {{
@@ -39,7 +40,7 @@ fn closed(closing: &str) -> String {
     )
 }
 
-/// An axis that may be misaligned, by two variables of nominally nothing: across it there are directions all the same.
+/// An axis that may be misaligned, by two variables that are nominally zero: perpendicular directions exist nevertheless.
 #[test]
 fn an_axis_nominally_along_x_may_be_tilted() {
     let state: [&[f64]; 2] = [&[0.3, -0.4, 0.5, 0.2, 1.1, -0.7, 0.6, 0.9, -1.2], &[]];
@@ -65,7 +66,8 @@ fn messages(declaration: &str) -> Vec<String> {
     }
 }
 
-/// A thin bar that turns about itself moves no mass, however it lies: what rounding leaves of its moment of inertia is not one.
+/// A thin bar that rotates about its own axis moves no mass, in any orientation: the rounding residue of its moment of inertia
+/// does not count.
 #[test]
 fn a_bar_that_turns_about_itself_has_no_inertia() {
     let lengths = [-3.0, -1.0, 0.3, 0.7, 2.0];
@@ -92,7 +94,8 @@ fn a_bar_that_turns_about_itself_has_no_inertia() {
     }
 }
 
-/// A car that coasts along x on a sledge that slides aslant: the sledge carries the car's mass, and feels it accelerate.
+/// A car that coasts along x on a sledge that slides obliquely: the sledge carries the car's mass, and its acceleration
+/// acts on the car.
 #[test]
 fn a_coasting_slide_loads_what_carries_it() {
     let text = "mechanism Sledge {
@@ -107,13 +110,13 @@ fn a_coasting_slide_loads_what_carries_it() {
     let [s_growth, s_rate, speed_rate] = [1.1, 0.7, -0.4];
     let arguments: [&[f64]; 4] = [&[s_growth, 0.0], &[s_rate, speed_rate], &[s, speed], &[]];
     let found = at_nominal(text, "motion_residual", &arguments);
-    // 3/5 of a unit along the sledge's way is along x
+    // 3/5 of a unit along the sledge's path is along x
     let sledge = 7.0 * s_growth + 2.0 * 0.6 * speed_rate + 30.0 * s;
     let car = 2.0 * (speed_rate + 0.6 * s_growth) + 0.5 * speed;
     assert_equal(&found, &[vec![sledge, car]]);
 }
 
-/// A light slider between two springs, the heavy one on it eight powers of ten heavier: hard to compute with, but regular.
+/// A light slider between two springs carries a body 1e8 times heavier: numerically difficult, but regular.
 #[test]
 fn a_light_body_below_a_heavy_one_has_its_mass() {
     let text = "mechanism Light {
@@ -129,7 +132,7 @@ fn a_light_body_below_a_heavy_one_has_its_mass() {
     assert_eq!(found[0], [light + heavy, heavy, heavy, heavy]);
 }
 
-/// A thin bar that spins about itself moves no mass, but geared to a swing it must: then the mass matrix need not be regular.
+/// A thin bar that spins about itself moves no mass, but it is geared to a swing: the mass matrix then need not be regular.
 #[test]
 fn constraints_stand_for_mass() {
     let text = |gear: &str| {
@@ -158,7 +161,7 @@ fn constraints_stand_for_mass() {
     assert_eq!(mass[3..], [0.0; 6]);
 }
 
-/// One of two pendulums feels where the drive stands, which is enough.
+/// If one of two pendulums depends on the position of the drive, there is no steady state.
 #[test]
 fn one_equation_that_depends_on_a_drive_leaves_no_steady_state() {
     let found = messages(
@@ -182,7 +185,7 @@ fn one_equation_that_depends_on_a_drive_leaves_no_steady_state() {
     );
 }
 
-/// A car whose body frame is turned against its joint is the same car as one whose body is turned in its frame.
+/// A car whose body frame is rotated relative to its joint is equivalent to one whose body is rotated in its frame.
 #[test]
 fn a_gliding_body_may_be_placed_anyhow() {
     let car = |shapes: &str, place: &str| {
@@ -211,7 +214,8 @@ fn a_gliding_body_may_be_placed_anyhow() {
     assert_equal(&one, &other);
 }
 
-/// A joint declared from the body towards the ground, its frames shifted and turned, transmits the opposite, seen from the body.
+/// A joint declared from the body towards the ground, with shifted and rotated frames, transmits the opposite
+/// reaction, as seen from the body.
 #[test]
 fn a_reversed_joint_transmits_the_opposite() {
     let arm = |joint: &str| {
@@ -245,7 +249,7 @@ fn a_reversed_joint_transmits_the_opposite() {
     assert_equal(&[on_ground], &[seen.collect()]);
 }
 
-/// What holds a loop together is the derivative of its equations, also where they do not hold: with springs and weights only,
+/// Loop reactions are derivatives of the loop equations, also where these are not satisfied: with only springs and weights,
 /// `Khat` is symmetric everywhere.
 #[test]
 fn loops_of_every_kind_have_a_symmetric_stiffness() {
@@ -279,7 +283,7 @@ fn loops_of_every_kind_have_a_symmetric_stiffness() {
     }
 }
 
-/// A direction that has turned by an angle about one across it has left itself by that angle: also by nearly half a turn.
+/// A direction rotated by an angle about a perpendicular one is tilted from itself by that angle, also by nearly half a turn.
 #[test]
 fn a_tilt_is_an_angle() {
     let text = "mechanism Tilt {
@@ -301,7 +305,7 @@ fn a_tilt_is_an_angle() {
     }
 }
 
-/// Newton's and Euler's equations along axes that turn: `a = dv/dt + omega x v`.
+/// The Newton-Euler equations in rotating axes: `a = dv/dt + omega x v`.
 #[test]
 fn a_gliding_body_turns_its_velocity() {
     let text = "mechanism Car {
@@ -328,7 +332,7 @@ fn a_gliding_body_turns_its_velocity() {
     assert_equal(&found, &[expected.to_vec()]);
 }
 
-/// Half the moment of inertia about the shaft times the square of its speed, of a body whose origin goes round.
+/// Half the moment of inertia about the shaft times its squared speed, for a body whose origin moves on a circle.
 #[test]
 fn a_body_off_the_shaft_has_its_kinetic_energy() {
     let text = "mechanism Turntable {
@@ -350,7 +354,7 @@ fn a_body_off_the_shaft_has_its_kinetic_energy() {
     assert_equal(&found, &[vec![energy]]);
 }
 
-/// A weight on a lever, seen from the hinge: neither from the origin of the body nor from its centre.
+/// A weight on a lever, seen from the hinge: about neither the origin of the body nor its centre.
 #[test]
 fn a_reaction_moment_is_about_the_joint() {
     let text = "mechanism Lever {
@@ -365,7 +369,7 @@ fn a_reaction_moment_is_about_the_joint() {
     assert_equal(&found, &[vec![0.4 * 30.0, -0.8 * 30.0, 0.0]]);
 }
 
-/// Two halves of a box are the box.
+/// Two halves of a box are equivalent to the box.
 #[test]
 fn a_body_of_two_pieces_whirls_as_one() {
     let rotor = |shapes: &str| {
@@ -400,7 +404,7 @@ fn a_body_of_two_pieces_whirls_as_one() {
     assert_equal(&found, &whirl(&whole));
 }
 
-/// The height of a ball above a sloping plane, and what the plane exerts on it: what moves its centre.
+/// The height of a ball above a sloping plane, and the force that the plane exerts on it: the one that moves its centre.
 #[test]
 fn a_ball_on_a_slope_is_held_by_the_slope() {
     let slope = |placed: &str| {
@@ -424,7 +428,7 @@ fn a_ball_on_a_slope_is_held_by_the_slope() {
     };
     let state: [&[f64]; 2] = [&[0.5, 0.9, 0.7, 0.0, 0.0, 0.0, 1.1, -0.6, 0.8], &[]];
     let found = at_nominal(&slope("rotated(x, 30 deg)"), "residual", &state);
-    // the gap is how far the ball has sunk into the plane
+    // the gap is the penetration of the ball into the plane
     let height = 0.7 * -0.5 + 0.4 * 0.75_f64.sqrt() - 0.1;
     assert_equal(&[vec![found[0][6]]], &[vec![-height]]);
 
@@ -432,12 +436,12 @@ fn a_ball_on_a_slope_is_held_by_the_slope() {
     let residual = &at_nominal(&slope(""), "residual", &state)[0];
     let expected = vec![0.5 - residual[0], 0.9 - residual[1], -residual[2]];
     assert_equal(&force, std::slice::from_ref(&expected));
-    // about z, y, x: it acts where the ball touches the plane
+    // about z, y, x: the force acts at the contact point
     let moment = vec![0.0, 0.1 * expected[0], -0.1 * expected[1]];
     assert_equal(&[residual[3..6].to_vec()], &[moment]);
 }
 
-/// A force that follows makes the stiffness asymmetric, however stiff the springs beside it are.
+/// A follower force makes the stiffness asymmetric, however stiff the springs beside it.
 #[test]
 fn a_small_asymmetry_is_none_of_rounding() {
     let column = |thrust: &str| {
@@ -462,7 +466,7 @@ fn a_small_asymmetry_is_none_of_rounding() {
     assert!(!column("-1"));
 }
 
-/// Principal minors of `tr(J)/2 1 - J` about the centre of mass, wherever that is.
+/// Principal minors of `tr(J)/2 1 - J` about the centre of mass, wherever it is.
 #[test]
 fn requirements_of_an_inertia_are_its_minors() {
     let text = "mechanism Rigid {
@@ -484,7 +488,7 @@ fn requirements_of_an_inertia_are_its_minors() {
     }
 }
 
-/// Only joints of three turns have singular poses.
+/// Only joints with three rotations have singular poses.
 #[test]
 fn slides_have_no_singular_pose() {
     let poses = |kind: &str, slides: &[&str], turns: &[&str]| {
@@ -509,7 +513,7 @@ fn slides_have_no_singular_pose() {
     assert_eq!(poses(free, &["s", "t", "r"], &["a", "b", "c"]), 1);
 }
 
-/// What is welded to a body counts where it is: two masses of 1 kg, each 1 m from their centre.
+/// A welded body counts at its actual position: two masses of 1 kg, each 1 m from their common centre.
 #[test]
 fn requirements_of_welded_bodies_are_about_their_centre() {
     let text = "mechanism Welded {
@@ -525,8 +529,8 @@ fn requirements_of_welded_bodies_are_about_their_centre() {
     assert!(found.iter().all(|x| (x - 1.5).abs() < 1e-6), "{found:?}");
 }
 
-/// Hinges about the `y` of their frames lie askew where the body between them is turned: the same two bodies, their frames
-/// along the first joint.
+/// Hinges about the `y` axes of their frames are not parallel if the body between them is rotated: compared with the same
+/// two bodies, their frames aligned with the first joint.
 #[test]
 fn hinges_on_a_turned_body_are_no_run() {
     let arm = |first: &str, place: &str, axis: &str, seat: &str, second: &str| {
@@ -559,7 +563,7 @@ fn hinges_on_a_turned_body_are_no_run() {
     assert_equal(&one, &other);
 }
 
-/// What a cut joint exerts on a body that is free otherwise is all that moves it; reported at the joint, along its axes.
+/// The reaction of a cut joint is the only load on an otherwise free body; it is reported at the joint, along the joint's axes.
 #[test]
 fn a_cut_joint_exerts_what_moves_the_body() {
     let outputs: String = ["force", "moment"]
@@ -580,7 +584,7 @@ fn a_cut_joint_exerts_what_moves_the_body() {
     let q = [&place[..], &[0.0; 3], &reactions].concat();
     let found = at_nominal(&text, "outputs", &[&q, &[]]).concat();
     let residual = &at_nominal(&text, "residual", &[&q, &[]])[0];
-    // about the origin of the body; its angles are about z, y, x
+    // about the origin of the body, whose angles are about z, y, x
     let force = [0, 1, 2].map(|k| -residual[k]);
     let [x, y, z] = [0.4, 0.7, 0.4];
     let moment = [
@@ -595,7 +599,7 @@ fn a_cut_joint_exerts_what_moves_the_body() {
     assert_equal(&[found], &[expected]);
 }
 
-/// A pendulum without speeds, one that a rotor makes gyroscopic, one with a damper.
+/// A pendulum without speed-dependent terms, one made gyroscopic by a rotor, and one with a damper.
 #[test]
 fn damping_is_of_three_kinds() {
     let damping = |speed: &str, damper: &str| {

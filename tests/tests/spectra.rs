@@ -1,4 +1,4 @@
-//! General modes, whirl, critical speeds and onsets of instability of machines with closed forms, through the front door.
+//! General modes, whirl, critical speeds and onsets of instability of machines with closed forms, through the public interface.
 
 #[path = "spectra/common.rs"]
 mod common;

@@ -1,5 +1,5 @@
-//! Large mechanisms fit into the small stacks that threads have, without optimisation too: every question, to a mechanism with 64
-//! unknowns and 64 design variables and to the bicycle, compiled and interpreted.
+//! Large mechanisms fit into the small stacks of threads, even without optimisation: every question is put to a mechanism with 64
+//! unknowns and 64 design variables and to the bicycle, both compiled and interpreted.
 #![recursion_limit = "256"]
 
 #[path = "stacks/bars.rs"]
@@ -19,7 +19,7 @@ use eigentol_tests::wheels::{WhippleBicycle, whipple};
 use bars::Bars;
 use questions::{Question, Range, along_an_input, at_one_state, of_chance, of_what_is_solved};
 
-/// Of the stack that threads of Rust have, KiB, and the main thread of Windows.
+/// Stack size of Rust threads, KiB, and of the main thread on Windows.
 const THREAD: usize = 2048;
 const WINDOWS: usize = 1024;
 
@@ -38,7 +38,7 @@ const BICYCLE: Range = Range {
     order: 1.0,
 };
 
-/// Asks each question in a thread of its own.
+/// Puts each question in a separate thread.
 fn ask<M>(study: &Study<M>, range: &Range, stack: usize, questions: &[Question<M>])
 where
     M: BatchKernels + CurvatureKernels + PictureKernels + Clone + Send + 'static,
@@ -64,7 +64,7 @@ fn everything<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Ques
     questions
 }
 
-/// Questions that take seconds of 64 unknowns with 64 variables, or do not.
+/// Questions that take seconds for 64 unknowns with 64 variables, or the others.
 fn slow<M: BatchKernels + CurvatureKernels + PictureKernels>(slow: bool) -> Vec<Question<M>> {
     const SLOW: [&str; 5] = [
         "second_order",
@@ -73,7 +73,7 @@ fn slow<M: BatchKernels + CurvatureKernels + PictureKernels>(slow: bool) -> Vec<
         "flutter_onsets",
         "flutter_onset_tolerances",
     ];
-    // Thousands of states: only the bicycle is asked. They call what others call.
+    // Thousands of states: put only to the bicycle. They call the same code as other questions.
     const LONG: [&str; 6] = [
         "propagate",
         "controlled",
@@ -132,7 +132,7 @@ fn bicycle_interpreted() {
     ask(&study, &BICYCLE, WINDOWS, &everything());
 }
 
-/// A chain of sixteen bars with damped springs: the most unknowns whose samples are solved side by side.
+/// A chain of sixteen bars with damped springs: the most unknowns whose samples are solved in vectors.
 fn damped_chain() -> String {
     let bar = |k: usize| {
         let (above, place) = match k {
@@ -161,11 +161,11 @@ fn samples_side_by_side() {
     let sampling = ["monte_carlo", "controlled", "influence"];
     questions.retain(|(name, _)| sampling.contains(name));
     assert_eq!(questions.len(), sampling.len());
-    // On the thread that asks.
+    // On the calling thread.
     ask(&study.threads(1), &BARS, THREAD, &questions);
 }
 
-/// What the sources of `Study` and `Solved` let a user ask is asked, name by name.
+/// Every question in the sources of `Study` and `Solved` is put here, name by name.
 #[test]
 fn every_question_is_asked() {
     let names = |questions: Vec<Question<Bars>>| -> BTreeSet<String> {

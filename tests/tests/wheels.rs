@@ -1,4 +1,4 @@
-//! Wheels that roll without slip: the benchmark of the bicycle, and mechanisms with closed forms.
+//! Wheels that roll without slip: the bicycle benchmark, and mechanisms with closed forms.
 
 #[path = "wheels/bicycle.rs"]
 mod bicycle;

@@ -1,4 +1,4 @@
-//! The sense in which a vibration circles, against what can be seen without a computer.
+//! The whirl sense of vibrations, in cases where it is obvious.
 
 use eigentol::{Mechanism, mechanism};
 
@@ -106,7 +106,7 @@ fn a_sliding_disk_circles_with_or_against_its_spin() {
     }
 }
 
-/// A later phase is the same vibration: `(1, -i) e^{i p}`.
+/// A later phase gives the same vibration: `(1, -i) e^{i p}`.
 #[test]
 fn the_phase_does_not_matter() {
     let (sin, cos) = f64::sin_cos(0.7);
@@ -118,7 +118,7 @@ fn tilting(speed: f64, b: [f64; 3], (real, imaginary): Vibration) -> [f64; 2] {
     Tilting.whirl(&[0.0; 2], &[speed], &b, &real, &imaginary)
 }
 
-/// Integral of `rho^2` over a disk: `m r^2 / 2`; a tilt about a point at the distance `h` adds `m h^2`.
+/// The integral of `rho^2` over a disk is `m r^2 / 2`; a tilt about a point at distance `h` adds `m h^2`.
 #[test]
 fn a_tilting_disk_circles_too() {
     for height in [0.0, 0.2] {
@@ -134,8 +134,8 @@ fn a_tilting_disk_circles_too() {
     }
 }
 
-/// The gyroscopic moment stiffens forward whirl and softens backward whirl:
-/// `A w^2 -+ C Omega w - k = 0` with `C = m r^2 / 2`, `A = C / 2`. The mode is that of the generated matrices.
+/// The gyroscopic moment stiffens forward whirl and softens backward whirl: `A w^2 -+ C Omega w - k = 0` with
+/// `C = m r^2 / 2`, `A = C / 2`. The mode comes from the generated matrices.
 #[test]
 fn forward_whirl_of_a_gyroscope_is_the_fast_one() {
     let (b, axial, stiffness) = ([2.0, 0.3, 0.0], 0.09, 40.0);
@@ -168,7 +168,7 @@ fn forward_whirl_of_a_gyroscope_is_the_fast_one() {
     }
 }
 
-/// Every body counts with its mass and the square of its own speed; the frame does not turn and does not count.
+/// Every body is weighted by its mass and the square of its own speed; the non-rotating frame has no weight.
 #[test]
 fn contrarotating_disks_weigh_against_each_other() {
     let (lower, upper) = (2.0 * 16.0, 1.5 * 144.0);

@@ -1,6 +1,6 @@
-//! What cargo hears of a build script, and which files it leaves.
+//! The output of a build script to cargo, and the files it leaves.
 //!
-//! A build script gets its folder from the environment and ends the process, so each test runs this program once more, as one.
+//! A build script gets its folder from the environment and ends the process, so each test runs this program again as a build script.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::env;
@@ -17,7 +17,7 @@ pub mechanism Pendulum {
 }
 ";
 
-/// A unit that does not exist, and, further on, a name that does not.
+/// A nonexistent unit and, further on, an undeclared name.
 const WRONG: &str = "mechanism Pendulum {
     design l = 1 mmm;
     gravity 9.81 m/s^2 along -z;
@@ -26,7 +26,7 @@ const WRONG: &str = "mechanism Pendulum {
 }
 ";
 
-/// The build script, when a test runs this program as one.
+/// Runs as the build script when a test starts this program as one.
 #[test]
 fn script() {
     let Ok(declaration) = env::var("DECLARATION") else {
@@ -55,7 +55,7 @@ fn run(folder: &Path, variables: &[(&str, &str)]) -> Output {
     command.output().unwrap()
 }
 
-/// What cargo hears.
+/// The lines addressed to cargo.
 fn said(output: &Output) -> Vec<String> {
     let text = String::from_utf8(output.stdout.clone()).unwrap();
     let lines = text
@@ -114,7 +114,7 @@ fn text_that_is_no_tokens_has_a_place_too() {
     );
 }
 
-/// The error for a declaration and a folder.
+/// The error for a declaration, given environment variables.
 fn refused(name: &str, variables: &[(&str, &str)]) -> String {
     let output = run(&folder(name, RIGHT), variables);
     assert_eq!(output.status.code(), Some(1));
@@ -181,7 +181,7 @@ mod for_c {
             "{text}"
         );
         assert!(text.contains("#define PENDULUM_DESIGN_l 0"), "{text}");
-        // one that is right is left as it is, so that what includes it is not built again
+        // a correct file is left untouched, so that code that includes it is not rebuilt
         let written = fs::metadata(&header).unwrap().modified().unwrap();
         let output = run(&folder, &WITH_HEADER);
         assert_eq!(fs::metadata(&header).unwrap().modified().unwrap(), written);
@@ -189,7 +189,7 @@ mod for_c {
             said(&output)[1],
             "cargo::rerun-if-changed=include/pendulum.h"
         );
-        // another one is put right
+        // a different file is corrected
         fs::write(&header, "old").unwrap();
         assert!(run(&folder, &WITH_HEADER).status.success());
         assert_eq!(fs::read_to_string(&header).unwrap(), text);
@@ -245,7 +245,7 @@ mod for_c {
                 said[3].starts_with("cargo::error=help: a name for C begins"),
                 "{said:?}"
             );
-            // without functions for C it is a good name
+            // without C functions the name is valid
             assert!(run(&folder, &HERE).status.success());
         }
     }

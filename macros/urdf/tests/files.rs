@@ -1,4 +1,4 @@
-//! What a declaration says of a file, and that it compiles.
+//! Checks the declarations generated from files, and that they compile.
 
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::{Compilation, compile};
@@ -6,7 +6,7 @@ use eigentol_urdf::{Base, Import, Note, Options, Resistance, import};
 
 const MASS: &str = r#"<inertial><origin xyz="0.1 0.2 0.3"/><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>"#;
 
-/// A chain of links `l0`, `l1` and so on, `l0` without mass, by the joints between them: name, type, more elements.
+/// A chain of links `l0`, `l1` and so on, with `l0` massless, given the joints between them: name, type, more elements.
 fn chain(joints: &[(&str, &str, &str)]) -> String {
     let mut text = "<robot name=\"chain\">\n<link name=\"l0\"/>\n".to_owned();
     for (index, (name, kind, more)) in joints.iter().enumerate() {
@@ -91,7 +91,7 @@ fn bases() {
     let text = chain(&[("j", "revolute", "")]).replace("<link name=\"l0\"/>", &root);
     let unknowns_of = |base| unknowns(&with(&text, &Options::default().base(base)));
     assert_eq!(unknowns_of(Base::Fixed), ["j"]);
-    // Upright, nothing but the springs holds the heading: they do.
+    // Upright, only the springs hold the heading.
     assert_eq!(
         unknowns_of(Base::Planar),
         ["base_px", "base_py", "base_yaw", "j"]
@@ -108,7 +108,7 @@ fn bases() {
     assert_eq!(unknowns_of(Base::Floating), all);
 }
 
-/// Of a joint about the vertical and one about a horizontal axis, gravity holds the second.
+/// Of a joint about the vertical and one about a horizontal axis, gravity holds only the second.
 #[test]
 fn what_nothing_resists() {
     let text = chain(&[
@@ -130,7 +130,7 @@ fn what_nothing_resists() {
     );
     assert_eq!(unknowns(&alone), ["pan", "tilt"]);
     assert_eq!(lines(&alone, "kernels"), ["kernels only;"]);
-    // Next to nothing.
+    // Nearly zero.
     let tilted = text.replace("0 0 1", "0 -1e-12 -1");
     let drives = with(&tilted, &Options::default().resistance(Resistance::Drives));
     assert_eq!(unknowns(&drives), ["tilt"]);
@@ -146,7 +146,7 @@ fn what_nothing_resists() {
     );
 }
 
-/// Joints that carry nothing, and a chain of those that follow each other.
+/// Joints that carry nothing, and a chain of such joints.
 #[test]
 fn what_moves_no_mass() {
     let text = chain(&[
@@ -282,7 +282,7 @@ fn dampers_of_the_file() {
     assert_eq!(lines(&without, "force").len(), 0);
 }
 
-/// Whatever is cut off or mixed up: an answer, no panic.
+/// Truncated or shuffled text gives a result or an error, but no panic.
 #[test]
 fn no_text_panics() {
     let text = chain(&[

@@ -1,10 +1,10 @@
-//! Every mistake of a file has a place, a message and a way out; several are reported together.
+//! Every mistake in a file is reported with its place, a message and a remedy; several are reported together.
 
 use eigentol_urdf::{Options, Reason, import};
 
 const LINK: &str = r#"<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>"#;
 
-/// A robot of two links, with more elements.
+/// A robot with two links and the given additional elements.
 fn robot(more: &str) -> String {
     format!(
         "<robot name=\"r\">\n<link name=\"base\"/>\n<link name=\"arm\">{LINK}</link>\n\
@@ -162,7 +162,7 @@ fn mimics() {
     );
 }
 
-/// `diag(1, 1, 3)`: the nearest has a moment that is the sum of the others.
+/// `diag(1, 1, 3)`: in the nearest valid tensor one moment is the sum of the others.
 #[test]
 fn inertias() {
     let text = robot("").replace("izz=\"1\"", "izz=\"3\"");
@@ -194,7 +194,7 @@ fn inertias() {
     );
 }
 
-/// Two links of which neither is possible are, welded, half of a rod each.
+/// Two links that are each impossible but, welded together, are two halves of a rod.
 #[test]
 fn welded_links_are_judged_together() {
     let flat = r#"<inertial><mass value="1"/><inertia ixx="0" iyy="2" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>"#;

@@ -1,11 +1,11 @@
-//! What the tables of the chapter "How to declare what" say is what the language takes.
+//! The language accepts the snippets in the tables of the chapter "How to declare what".
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use eigentol_interpreter::Interpreted;
 
 const CHAPTER: &str = include_str!("../src/declare.md");
 
-/// Numbers and bodies that the snippets speak of.
+/// Numbers and bodies that the snippets refer to.
 const BEGIN: &str = "mechanism Part {
     kernels only;
     design l = 1 m; design l0 = 1 m; design length = 3 m; design r = 0.1 m; design e = 10 mm;
@@ -21,7 +21,7 @@ const BEGIN: &str = "mechanism Part {
     point tip: arm at [0.1, 0, 0] m; point nozzle: arm; point center: arm at [0.2, 0, 0] m;
     point rail: fork; point pin: arm; point road: ground; point seat: ground; point journal: rotor; point hub: rotor;";
 
-/// Bodies that nothing holds.
+/// Unconnected bodies.
 fn free(bodies: &[&str]) -> String {
     let joint = |b: &&str| {
         format!(
@@ -31,14 +31,14 @@ fn free(bodies: &[&str]) -> String {
     bodies.iter().map(joint).collect()
 }
 
-/// Hinges and sliders with the names of the snippets.
+/// Hinges and sliders with the names used in the snippets.
 const HINGES: &str = "
     joint a: revolute(y) from ground to fork;
     joint b: revolute(y) from ground to arm;
     joint x: prismatic(x) from ground to cart;
     joint y: prismatic(y) from cart to rotor;";
 
-/// Joints that run.
+/// Running joints.
 const GEARS: &str = "
     joint sun: revolute(z) from ground to fork, coasting;
     joint ring: revolute(z) from ground to arm, coasting;
@@ -52,7 +52,7 @@ const CAM: &str = "
     joint rest: fixed from ground to cart;
     joint rest2: fixed from ground to rotor;";
 
-/// The declaration in which a snippet makes sense.
+/// A complete declaration around a snippet.
 fn declaration(snippet: &str) -> String {
     let all = free(&["fork", "arm", "cart", "rotor"]);
     let others = free(&["fork", "arm", "cart"]);
@@ -72,7 +72,7 @@ fn declaration(snippet: &str) -> String {
     format!("{BEGIN} {within} }}")
 }
 
-/// Pieces of declarations in the tables of the chapter.
+/// Snippets of declarations in the tables of the chapter.
 fn snippets() -> Vec<&'static str> {
     let tables = CHAPTER.split("# Names of quantities").next().unwrap();
     let rows = tables.lines().filter(|line| line.starts_with("| "));

@@ -1,16 +1,16 @@
-//! The wheel is built, installed in a virtual environment under the target folder, and its tests run there, where Python is.
+//! Builds the wheel, installs it in a virtual environment under the target folder, and runs its tests there, if Python is available.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// Why the tests cannot be run.
+/// The reason why the tests cannot be run.
 struct Skipped(String);
 
 fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// What a command answers; one that cannot be started, or that fails, is told in the last line it wrote.
+/// The output of a command; if it cannot be started or fails, the error is the last line it wrote.
 fn answer(command: &mut Command) -> Result<Output, String> {
     let output = command.output().map_err(|error| error.to_string())?;
     if output.status.success() {
@@ -21,7 +21,7 @@ fn answer(command: &mut Command) -> Result<Output, String> {
     Err(last.unwrap_or("it failed without a word").to_owned())
 }
 
-/// A virtual environment with these packages; one of an earlier run is used again.
+/// A virtual environment with these packages; an existing one is reused.
 struct Environment {
     folder: PathBuf,
 }
@@ -71,11 +71,11 @@ impl Environment {
         answer(self.python().args(pip).args(["--retries", "0"]).args(what))
     }
 
-    /// Builds the wheel as it is now and installs it in place of any other.
+    /// Builds the current wheel and installs it in place of any other.
     fn install_wheel(&self) {
         let wheels = self.folder.join("wheels");
         let _ = std::fs::remove_dir_all(&wheels);
-        // With the dependencies that the tests of Rust have built.
+        // Reuses the dependencies built by the Rust tests.
         let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent();
         let mut build = self.python();
         build
@@ -102,7 +102,7 @@ impl Environment {
         }
     }
 
-    /// Runs tests; their reasons for skipping are printed.
+    /// Runs tests and prints their reasons for skipping.
     fn test(&self, files: &[&str]) {
         let pytest = [
             "-m",
@@ -124,7 +124,7 @@ impl Environment {
         let text = String::from_utf8_lossy(&run.stdout);
         print!("{text}");
         let errors = String::from_utf8_lossy(&run.stderr);
-        // A program of others may end the interpreter, and without a word.
+        // A third-party program may terminate the interpreter without a message.
         assert!(
             run.status.success() && text.contains(" passed"),
             "tests of Python fail:\n{text}\n{errors}"
@@ -165,7 +165,7 @@ fn the_module_passes_its_tests() {
     run("python", &packages, &files);
 }
 
-/// Hundreds of megabytes are downloaded for it.
+/// Downloads hundreds of megabytes.
 #[test]
 #[ignore = "installs ROSS, OpenTURNS, Dask, mypy, pandas and polars"]
 fn the_module_agrees_with_its_peers() {
@@ -178,7 +178,7 @@ fn the_module_agrees_with_its_peers() {
         "openturns",
         "pandas",
         "polars",
-        // ROSS 2 names a kind of figure that plotly 6 no longer has.
+        // ROSS 2 refers to a kind of figure that plotly 6 has removed.
         "plotly<6",
         "ross-rotordynamics>=2,<3",
         "example-robot-data",

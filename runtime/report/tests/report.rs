@@ -1,4 +1,4 @@
-//! The text of reports: numbers are those of the results, names stay names, nothing is dropped without a word.
+//! The text of reports: numbers match the results, names stay names, and nothing is dropped silently.
 
 use eigentol::{InDeclaredUnit, Study, mechanism};
 use eigentol_interpreter::Interpreted;
@@ -27,7 +27,7 @@ fn swinging() -> Study<Pendulum> {
         .seed(3)
 }
 
-/// The pieces of data of one kind, in order.
+/// The data blocks of one kind, in order.
 fn data(html: &str, kind: &str) -> Vec<Value> {
     let start = format!("<script type=\"application/json\" data-kind=\"{kind}\">");
     let pieces = html.split(&start).skip(1);
@@ -53,7 +53,7 @@ fn column(table: &Value, name: &str) -> Vec<Option<f64>> {
     values.iter().map(Value::as_f64).collect()
 }
 
-/// The words of a page.
+/// The visible text of a page.
 fn words(html: &str) -> String {
     let page = html.split("<main>").nth(1).expect("a page");
     let mut text = String::new();
@@ -126,7 +126,7 @@ fn the_table_of_variables_has_values_and_tolerances_in_their_units() {
     assert!((half[2].unwrap() - 0.03).abs() < 1e-15, "{half:?}");
 }
 
-/// The charts are the figures of the crate eigentol-figures, whose numbers its own tests check.
+/// The charts are the figures of the crate eigentol-figures, which has its own tests for their numbers.
 #[test]
 fn charts_are_the_figures_of_the_results() {
     let study = swinging();
@@ -185,7 +185,7 @@ fn modes_are_called_and_measured_as_the_user_says() {
     }
     let plain = page(Style::default());
     assert!(words(&plain).contains(&format!("Mode 1 at {omega:.5}")));
-    // Tables keep numbers and rad/s.
+    // Tables keep plain numbers and rad/s.
     assert_eq!(column(&table(&named, "modes"), "frequency"), [Some(omega)]);
 }
 
@@ -226,7 +226,7 @@ fn the_view_in_3d_has_every_body_and_the_poses_of_every_mode() {
     }
 }
 
-/// A text that tries to leave the place it stands in.
+/// A text that tries to break out of its surroundings.
 const ATTACK: &str =
     "</script></title><script>alert('x')</script><img src=x onerror=alert(1)>\" ' & <!--";
 
@@ -264,7 +264,7 @@ fn nothing_is_loaded_from_anywhere() {
     for mark in ["src=", "@import", "url(http", "<link", "fetch(", "import("] {
         assert!(!html.contains(mark), "{mark}");
     }
-    // Names of XML's vocabularies are no addresses.
+    // Names of XML namespaces are not addresses.
     let addresses = html.matches("http").count();
     let known =
         html.matches("http://www.w3.org/2000/svg").count() + html.matches("http-equiv").count();
@@ -300,7 +300,7 @@ fn an_unstable_equilibrium_is_said_and_shown() {
 
 #[test]
 fn no_equilibrium_is_said_in_every_section() {
-    // Gravity holds no more than 4.9 N*m.
+    // Gravity holds at most 4.9 N*m.
     let declaration = "mechanism Overloaded { design m = 1 kg +/- 1%; gravity 9.81 m/s^2 along -z;
         body bar: rod(mass: m, length: 1 m, along: -z);
         joint theta: revolute(y) from ground to bar;
@@ -345,7 +345,7 @@ fn the_same_study_gives_the_same_report() {
     assert!(html() == html());
 }
 
-/// The words of the verdicts are those of the library, each once, in its order.
+/// The sentences of the verdicts are those of the library, each once, in its order.
 #[test]
 fn verdicts_are_the_sentences_of_the_summary() {
     let near = swinging().input(Pendulum::omega, 3.9);
@@ -407,7 +407,7 @@ fn texts(table: &Value, name: &str) -> Vec<String> {
         .collect()
 }
 
-/// Gravity, drives, springs and torques on coordinates, bushings, loads and curves: everything that acts.
+/// Gravity, drives, springs and torques on coordinates, bushings, loads and curves: everything that exerts a force.
 #[test]
 fn everything_that_acts_is_listed() {
     let elements = table(&Report::new(&carriage()).html().unwrap(), "elements");
@@ -465,7 +465,7 @@ fn up_is_against_gravity_or_along_the_first_drive() {
     assert_eq!(up(&still).0, [0.0, 0.0, 1.0]);
 }
 
-/// The drawings of the laws: a normal density is the bell of the textbook, a uniform one is level.
+/// The plots of the laws: a normal density is the textbook bell curve, a uniform one is flat.
 #[test]
 fn each_law_is_drawn_and_said() {
     let html = Report::new(&carriage()).html().unwrap();
@@ -479,7 +479,7 @@ fn each_law_is_drawn_and_said() {
     let [bell, level] = &drawn[..] else {
         panic!("{} drawings", drawn.len())
     };
-    // Two ends at zero, 57 quantiles between them.
+    // Two ends at zero, and 57 quantiles between them.
     assert_eq!((bell.len(), level.len()), (59, 59));
     let (base, top, middle) = (bell[0][1], bell[29][1], bell[29][0]);
     assert!((middle - 80.0).abs() < 0.11, "{middle}");
@@ -496,7 +496,7 @@ fn each_law_is_drawn_and_said() {
     );
 }
 
-/// The points of the curves of densities, in pixels.
+/// The points of the density curves, in pixels.
 fn densities(html: &str) -> Vec<Vec<[f64; 2]>> {
     let curves = html.split("class=\"density\" d=\"M").skip(1);
     let curves = curves.map(|rest| rest.split('"').next().expect("an end"));
@@ -570,7 +570,7 @@ fn close(a: f64, b: f64, digits: i32) -> bool {
     (a / b - 1.0).abs() < 0.6 * 10_f64.powi(1 - digits)
 }
 
-/// What matters first has the numbers of the results: frequencies with bands and causes, events with bands, in declared units.
+/// The summary lines have the numbers of the results: frequencies with bands and causes, events with bands, in declared units.
 #[test]
 fn the_lines_in_short_have_the_numbers_of_the_results() {
     let study = two_bars();
@@ -660,7 +660,7 @@ fn the_lines_in_short_have_the_numbers_of_the_results() {
     }
 }
 
-/// Each mode has the histogram and the shares of its own, and captions say how many standard deviations a band has.
+/// Each mode has its own histogram and shares, and captions state the number of standard deviations of a band.
 #[test]
 fn figures_and_tables_of_each_mode_are_its_own() {
     use eigentol_figures::{Histogram, Style, shares};
@@ -721,7 +721,7 @@ fn figures_and_tables_of_each_mode_are_its_own() {
     }
 }
 
-/// Captions stand above the tables they are of, and verdicts have the sign of what they say.
+/// Captions are above their tables, and verdicts have the matching symbol.
 #[test]
 fn captions_and_signs_are_those_of_what_they_stand_at() {
     let values = [3.0, 4.0, 5.0];

@@ -1,4 +1,4 @@
-//! Distributions against numbers of forty digits (mpmath) and closed forms.
+//! Distributions against forty-digit numbers (mpmath) and closed forms.
 
 use eigentol_statistics::{Distribution, Error, normal};
 
@@ -9,7 +9,7 @@ fn near(found: f64, expected: f64, relative: f64) {
     );
 }
 
-/// One of each kind, and some at the ends of what is allowed.
+/// One of each kind, and some at the limits of the allowed range.
 fn all() -> Vec<Distribution> {
     [
         Distribution::normal(2.0, 0.3),
@@ -78,7 +78,7 @@ fn beta_quantiles_in_both_tails() {
     ] {
         let variable = Distribution::beta((alpha, beta), (0.0, 1.0)).unwrap();
         near(variable.from_normal(z), x, 2e-12);
-        // The mirror image, of which the upper tail is the lower one of this.
+        // The mirror image: its upper tail is the lower tail of this one.
         let mirrored = Distribution::beta((beta, alpha), (-1.0, 0.0)).unwrap();
         near(mirrored.from_normal(-z), -x, 2e-12);
     }
@@ -165,7 +165,7 @@ fn third_and_fourth_moments() {
     }
 }
 
-/// Mean and standard deviation are those of the quantiles, and slopes those of differences.
+/// Mean and standard deviation match integrals over the quantiles, and slopes match differences.
 #[test]
 fn quantiles_agree_with_moments_and_slopes() {
     for variable in all() {
@@ -234,7 +234,7 @@ fn discrete_values_and_data() {
     let data = Distribution::empirical(&[1e8 + 3.0, 1e8 + 1.0, 1e8 + 2.0]).unwrap();
     near(data.mean(), 1e8 + 2.0, 1e-16);
     near(data.sigma(), (2.0_f64 / 3.0).sqrt(), 1e-14);
-    // A thousandth of the probability, at either end, is the first or the last value.
+    // The first or last thousandth of the probability is the first or the last value.
     let many: Vec<f64> = (0..1000).map(f64::from).collect();
     let many = Distribution::empirical(&many).unwrap();
     let at = |p: f64| many.from_normal(normal::quantile(p));

@@ -1,4 +1,4 @@
-//! Dependent variables: against closed forms of linear correlations under a Gaussian copula.
+//! Dependent variables against closed forms of linear correlations under a Gaussian copula.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,8 @@ fn pair(a: &Distribution, b: &Distribution, r: f64) -> Result<Joint, Error> {
     Joint::correlated(vec![a.clone(), b.clone()], &[1.0, r, r, 1.0])
 }
 
-/// The normal variable behind the second of two, where the two independent ones are 0 and 1, and 1 and 0: the factor's second row.
+/// The second row of the factor: the normal variable behind the second of two variables, for the two independent
+/// ones at (0, 1) and (1, 0).
 fn factor(joint: &Joint) -> [f64; 2] {
     let mut slopes = [0.0; 2];
     let last = &joint.variables()[1];
@@ -35,7 +36,7 @@ fn uniform_variables() {
     }
 }
 
-/// Of three uniform variables: `rho = 2 sin(pi r / 6)`, and the factor of a matrix of three rows written out.
+/// For three uniform variables: `rho = 2 sin(pi r / 6)`, and the written-out factor of a 3 x 3 matrix.
 #[test]
 fn the_factor_is_that_of_the_normal_variables() {
     let (a, b, c) = (0.6, -0.3, 0.2);
@@ -96,7 +97,7 @@ fn coins() {
         assert_eq!(joint.covariance(0, 1), 0.0);
         let joint = pair(&coin, &coin, r).unwrap();
         let mut found = 0.0;
-        // The correlation, by counting where both are heads: P = 1/4 + asin(rho) / (2 pi).
+        // The correlation by integration over both being heads: P = 1/4 + asin(rho) / (2 pi).
         let steps = 400;
         for i in 0..steps {
             for j in 0..steps {
@@ -177,7 +178,7 @@ fn impossible_dependence_is_refused() {
     for (variables, matrix) in refused {
         assert!(Joint::correlated(variables, &matrix).is_err(), "{matrix:?}");
     }
-    // A sum of two others is semidefinite, not definite.
+    // The sum of two other variables gives a semidefinite, not a definite matrix.
     let half = 0.5_f64.sqrt();
     let sum = [1.0, 0.0, half, 0.0, 1.0, half, half, half, 1.0];
     let joint = Joint::correlated(three(), &sum).unwrap();

@@ -1,4 +1,4 @@
-//! Tables of results: the numbers of the results in declared units, the same columns whatever the values are.
+//! Tables of results: the numbers of the results in declared units, with the same columns for any values.
 
 use eigentol::{InDeclaredUnit, Study, mechanism};
 use eigentol_tables::{Table, Values, csv, sweep_table, tables};
@@ -128,7 +128,7 @@ fn parts_of_a_sweep_are_the_sweep() {
     assert_eq!(parts, csv::to_string(whole).expect("text"));
 }
 
-/// Against differences of first derivatives, which are held against a closed form above.
+/// Against differences of first derivatives, which are checked against a closed form above.
 #[test]
 fn second_derivatives_are_per_declared_units() {
     let frequency_slope = |length: f64| {
@@ -151,7 +151,8 @@ fn second_derivatives_are_per_declared_units() {
     assert!(mixed[0] == mixed[1] && mixed[0] != 0.0, "{mixed:?}");
 }
 
-/// `theta'' = -cos / sin (2 + cos^2 / sin^2) / l^2` by the length; of the critical speed `(3 g / 2 l)^(1/2)` it is `3/4` of it by `l^2`.
+/// `theta'' = -cos / sin (2 + cos^2 / sin^2) / l^2` by the length; for the critical speed `u_c = (3 g / 2 l)^(1/2)` it
+/// is `3/4 u_c / l^2`.
 #[test]
 fn second_derivatives_of_outputs_and_critical_values() {
     let [theta, ..] = closed_form();

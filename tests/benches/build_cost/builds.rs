@@ -1,4 +1,4 @@
-//! rustc on generated code: a user's package in a workspace of its own, built again and again with other sources.
+//! Times rustc on generated code: a user package in its own workspace, rebuilt repeatedly with different sources.
 
 use std::error::Error;
 use std::fs;
@@ -8,7 +8,7 @@ use std::process::Command;
 use crate::clock::Children;
 use crate::machines::{Extent, Machine};
 
-/// Profiles of a user's manifest: nothing said, the lines that the README asks for, everything behind macros optimised.
+/// Profile settings of a user's manifest: none, the lines that the README recommends, and all macro-related packages optimised.
 const SETTINGS: [(&str, &str); 3] = [
     ("default", ""),
     (
@@ -24,12 +24,12 @@ const SETTINGS: [(&str, &str); 3] = [
 
 const PROFILES: [&str; 2] = ["dev", "release"];
 
-/// What the source calls.
+/// Which kernels the source calls.
 const CALLS: [&str; 3] = ["nothing", "one", "all"];
 
-/// Seconds of the processor that one build took.
+/// Processor time of one build, in seconds.
 pub(crate) struct Build {
-    /// A declaration, or what is built before any of them.
+    /// The declaration, or the stage built before any declaration.
     pub(crate) machine: String,
     pub(crate) settings: &'static str,
     pub(crate) profile: &'static str,
@@ -40,7 +40,7 @@ pub(crate) struct Build {
 /// Builds everything in packages under the folder.
 ///
 /// # Errors
-/// Where a package cannot be written or does not build.
+/// When a package cannot be written or does not build.
 pub(crate) fn measure(folder: &Path, machines: &[Machine]) -> Result<Vec<Build>, Box<dyn Error>> {
     let mut builds = Vec::new();
     for (settings, lines) in SETTINGS {
@@ -69,7 +69,7 @@ pub(crate) fn measure(folder: &Path, machines: &[Machine]) -> Result<Vec<Build>,
     Ok(builds)
 }
 
-/// Everything with the settings of the README; elsewhere what the macro adds, which is the same in both profiles.
+/// All cases for the README's settings; for the others only what the macro adds, which is the same in both profiles.
 fn calls(settings: &str, profile: &str, extent: Extent) -> &'static [&'static str] {
     match extent {
         Extent::Expanded => &[],
@@ -79,7 +79,7 @@ fn calls(settings: &str, profile: &str, extent: Extent) -> &'static [&'static st
     }
 }
 
-/// A program that declares a mechanism and calls kernels of it, each for `f64`.
+/// A program that declares a mechanism and calls some of its kernels, each for `f64`.
 fn source(machine: &Machine, calls: &str) -> String {
     let Machine { kind, text, .. } = machine;
     let call = match calls {
@@ -90,13 +90,13 @@ fn source(machine: &Machine, calls: &str) -> String {
     format!("{uses}\nmechanism! {{ {text} }}\n\nfn main() {{ {call} }}\n")
 }
 
-/// A package of a user, with the solvers: with the standard library each kernel of `f64` is compiled for two sets of instructions.
+/// A user package with the solvers: with the standard library, each `f64` kernel is compiled for two instruction sets.
 struct Package {
     folder: PathBuf,
 }
 
 impl Package {
-    /// Writes a package with some lines about profiles, from scratch.
+    /// Writes a new package with the given profile settings.
     fn new(folder: &Path, profiles: &str) -> Result<Self, Box<dyn Error>> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         if folder.exists() {
@@ -115,7 +115,7 @@ impl Package {
         })
     }
 
-    /// Seconds of the processor for a build of the package with this source.
+    /// Processor time of a build of the package with this source, in seconds.
     fn build(&self, profile: &str, source: &str) -> Result<f64, Box<dyn Error>> {
         fs::write(self.folder.join("src/main.rs"), source)?;
         let clock = Children::start();

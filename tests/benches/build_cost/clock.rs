@@ -1,12 +1,12 @@
-//! Processor time, which other work on the machine lengthens less than it does wall time.
+//! Processor time, which is less affected by other load on the machine than wall time.
 
 use std::fs;
 use std::time::{Duration, Instant};
 
-/// Ticks per second of the times in `/proc`, the same on every Linux.
+/// Ticks per second of the times in `/proc`; the same on every Linux.
 const TICKS: f64 = 100.0;
 
-/// Seconds that child processes take; of the processor on Linux, of the wall elsewhere.
+/// Time spent in child processes, in seconds: processor time on Linux, wall time elsewhere.
 pub(crate) struct Children {
     start: Instant,
     used: Option<f64>,
@@ -28,17 +28,17 @@ impl Children {
     }
 }
 
-/// User and system time of all children that have ended and were waited for, and of theirs.
+/// User and system time of all child processes that have ended and been waited for, including their own children.
 fn used_by_children() -> Option<f64> {
     let text = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name of the program, in parentheses, may hold anything; behind it the state is the third field.
+    // The program name, in parentheses, may contain anything; the state is the first field after it and the third overall.
     let (_, fields) = text.rsplit_once(')')?;
     let mut times = fields.split_whitespace().skip(13);
     let mut ticks = || times.next()?.parse::<f64>().ok();
     Some((ticks()? + ticks()?) / TICKS)
 }
 
-/// Milliseconds of a duration.
+/// Converts a duration to milliseconds.
 pub(crate) fn milliseconds(duration: Duration) -> f64 {
     duration.as_secs_f64() * 1e3
 }

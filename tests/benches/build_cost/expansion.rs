@@ -1,4 +1,4 @@
-//! The macro's work by stages, in this process: optimised, and without rustc's lexer, which reads the text behind it.
+//! Times the macro's stages in this process: optimised, and without rustc's lexer, which reads the generated text afterwards.
 
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -16,25 +16,25 @@ use proc_macro2::TokenStream;
 use crate::clock::milliseconds;
 use crate::machines::Machine;
 
-/// What is timed: reading the declaration, the equations and their derivatives, everything up to the program (these two
-/// included), and writing the program.
+/// The timed stages: reading the declaration; equations and their derivatives; everything up to the program, including
+/// the first two; and writing the program.
 pub(crate) const STAGES: [&str; 4] = ["read", "derive", "compile", "emit"];
 
 const REPETITIONS: usize = 5;
 
-/// What the expansion of one declaration takes.
+/// The cost of expanding one declaration.
 pub(crate) struct Expansion {
     pub(crate) name: String,
-    /// Operations of all kernels.
+    /// Total number of operations in all kernels.
     pub(crate) instructions: usize,
-    /// Of the generated text.
+    /// Size of the generated text.
     pub(crate) bytes: usize,
-    /// Milliseconds of each stage, the least of some repetitions.
+    /// Milliseconds of each stage, the minimum of several repetitions.
     pub(crate) stages: [f64; STAGES.len()],
 }
 
 impl Expansion {
-    /// Milliseconds of the whole.
+    /// Milliseconds of the whole expansion.
     pub(crate) fn milliseconds(&self) -> f64 {
         let [_, _, compile, emit] = self.stages;
         compile + emit
@@ -44,7 +44,7 @@ impl Expansion {
 /// Expands every declaration.
 ///
 /// # Errors
-/// Where one is not accepted.
+/// When a declaration is rejected.
 pub(crate) fn measure(machines: &[Machine]) -> Result<Vec<Expansion>, Box<dyn Error>> {
     machines.iter().map(expansion).collect()
 }

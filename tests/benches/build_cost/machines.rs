@@ -5,20 +5,20 @@ use crate::declaration;
 /// A declaration of the language.
 pub(crate) struct Machine {
     pub(crate) name: String,
-    /// Of the generated type.
+    /// Name of the generated type.
     pub(crate) kind: String,
     pub(crate) text: String,
     pub(crate) extent: Extent,
 }
 
-/// How far a declaration is followed.
+/// How far a declaration is processed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Extent {
-    /// The macro's work.
+    /// Expanded by the macro.
     Expanded,
-    /// rustc checks what it generates.
+    /// The generated code is checked by rustc.
     Built,
-    /// rustc compiles the kernels.
+    /// The kernels are compiled by rustc.
     Called,
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn all() -> Vec<Machine> {
     named.chain(chains).collect()
 }
 
-/// What stands in the braces of the first macro of a source that declares a mechanism.
+/// The text in the braces of the first macro in a source that declares a mechanism.
 fn declared(source: &str) -> String {
     let start = ["mechanism! {", "machine! {"]
         .iter()

@@ -1,4 +1,4 @@
-//! What a build costs: the macro by stages, and rustc on what it generates. `tests/benches/README.md` says how to read it.
+//! Build cost: the macro's stages, and rustc on the generated code. `tests/benches/README.md` explains the results.
 
 mod builds;
 mod clock;

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::builds::Build;
 use crate::expansion::{Expansion, STAGES};
 
-/// Everything.
+/// All measurements.
 pub(crate) struct Report {
     pub(crate) expansions: Vec<Expansion>,
     pub(crate) builds: Vec<Build>,

@@ -1,5 +1,5 @@
-//! The seven-joint arm of `tests/truth/panda_arm.json`: equations of motion against C that CasADi generates from recursive
-//! Newton-Euler in each body's own frame.
+//! The seven-joint arm of `tests/truth/panda_arm.json`: equations of motion against C code that CasADi generates from
+//! recursive Newton-Euler in each body's own frame.
 
 use std::hint::black_box;
 
@@ -12,7 +12,7 @@ use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work};
 macro_rules! arm {
     ($($tokens:tt)*) => {
         mechanism! { $($tokens)* }
-        /// The declaration, to be counted.
+        /// The declaration, for counting its operations.
         pub(crate) const DECLARATION: &str = stringify!($($tokens)*);
     };
 }
@@ -46,7 +46,7 @@ arm! {
     }
 }
 
-/// Functions that are timed, by the names of CasADi's side.
+/// Timed functions, by CasADi's names.
 const FUNCTIONS: [&str; 4] = [
     "motion_residual",
     "motion",
@@ -54,14 +54,14 @@ const FUNCTIONS: [&str; 4] = [
     "motion_linear",
 ];
 
-/// The numbers of the arm.
+/// The numerical data of the arm.
 pub(crate) fn numbers() -> String {
     source("../../truth/panda_arm.json")
         .to_string_lossy()
         .into_owned()
 }
 
-/// The tasks whose name is wanted.
+/// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
     let named = FUNCTIONS.map(|function| (format!("arm/{function}"), function));
     let named = named.into_iter().filter(|(name, _)| wanted(name));
@@ -75,7 +75,7 @@ pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Tas
     named.map(task).collect()
 }
 
-/// Arguments of an evaluation.
+/// Arguments of one evaluation.
 struct State {
     acceleration: [f64; 7],
     velocity: [f64; 7],

@@ -1,4 +1,4 @@
-//! Kernels of the chain of bars against C that CasADi generates from closed forms.
+//! Kernels of the chain of bars against C code that CasADi generates from closed forms.
 
 use std::hint::black_box;
 
@@ -8,7 +8,7 @@ use crate::casadi::CasadiWork;
 use crate::tools::{Tools, newer, source};
 use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work, flat};
 
-/// Sees every chain.
+/// Visits every chain.
 pub(crate) trait Visitor {
     fn visit<M: Mechanism + 'static>(&mut self, chain: M);
 }
@@ -22,13 +22,13 @@ mod generated {
 
 pub(crate) use generated::{LONGEST, Longest, visit_short};
 
-/// Functions that are timed, by the names of CasADi's side.
+/// Timed functions, by CasADi's names.
 const FUNCTIONS: [&str; 4] = ["residual_and_stiffness", "linear", "mode_gradient", "all"];
 
-/// Longer chains have no "all": C compilers take minutes for it.
+/// The longest chain with the set "all": C compilers take minutes for it.
 const MOST_WITH_ALL: usize = 16;
 
-/// The tasks whose name is wanted.
+/// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
     let mut collector = Collector {
         wanted,
@@ -69,7 +69,7 @@ pub(crate) fn bars<M: Mechanism>() -> usize {
     M::Coordinates::<f64>::LEN
 }
 
-/// Arguments of an evaluation.
+/// Arguments of one evaluation.
 pub(crate) struct State<M: Mechanism> {
     pub(crate) q: M::Coordinates<f64>,
     pub(crate) u: M::Inputs<f64>,
@@ -147,7 +147,7 @@ pub(crate) fn ours<M: Mechanism + 'static>(chain: M, function: &str) -> Box<dyn 
     }
 }
 
-/// Every explicit partial derivative in the order of CasADi's "all": one matrix after the other, by columns.
+/// Every explicit partial derivative in the order of CasADi's "all": one matrix after another, by columns.
 fn all_partials<M: Mechanism>(chain: &M, s: &State<M>) -> Vec<Vec<f64>> {
     let (by_input, by_design) = chain.residual_partials(&s.q, &s.u, &s.b);
     let rows = by_design.as_ref();
@@ -169,7 +169,7 @@ fn all_partials<M: Mechanism>(chain: &M, s: &State<M>) -> Vec<Vec<f64>> {
     results
 }
 
-/// What [`Mechanism::linear_partials_into`] starts from.
+/// A zeroed buffer for [`Mechanism::linear_partials_into`].
 fn zeros<M: Mechanism>() -> PartialsOf<M, f64> {
     let zeros: Square<M, f64> = Array::filled(Array::filled(0.0));
     let zeros = Linear {

@@ -1,4 +1,4 @@
-//! Instructions by valgrind: the suite runs itself again under callgrind, which writes one profile for every task.
+//! Counts instructions with valgrind: the suite runs itself again under callgrind, which writes one profile per task.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -17,21 +17,21 @@ pub(crate) fn counted() -> bool {
     env::var_os(VARIABLE).is_some()
 }
 
-/// Instructions of one unit: ours, the peer's.
+/// Instructions per unit: ours, and the peer's.
 pub(crate) type Counts = BTreeMap<String, [Option<f64>; 2]>;
 
-/// What callgrind looks for: it sets its counters to zero on entry and writes them down on return.
+/// The symbol that callgrind watches: it resets its counters on entry and writes them out on return.
 #[inline(never)]
 #[allow(unsafe_code)]
 // SAFETY: no other symbol of the program has this name.
 #[unsafe(no_mangle)]
 fn eigentol_bench_counted(work: &mut dyn Work) {
     work.run(work.inputs() as u64);
-    // Not a tail call: callgrind has to see the return.
+    // Prevents a tail call: callgrind has to see the return.
     black_box(());
 }
 
-/// In the run under valgrind: every task once over all inputs, and its name.
+/// In the run under valgrind: prints the name of every task and runs it once over all inputs.
 pub(crate) fn run(tasks: Vec<Task>) {
     for mut task in tasks {
         task.ours.run(1);
@@ -45,10 +45,10 @@ pub(crate) fn run(tasks: Vec<Task>) {
     }
 }
 
-/// Counts instructions of all tasks that the arguments of this program select.
+/// Counts the instructions of all tasks selected by the program's arguments.
 ///
 /// # Errors
-/// Where valgrind is missing or fails.
+/// When valgrind is missing or fails.
 pub(crate) fn count(folder: &Path) -> Result<Counts, String> {
     let program = env::current_exe().map_err(|error| error.to_string())?;
     let profiles = folder.join("callgrind");
@@ -86,7 +86,7 @@ pub(crate) fn count(folder: &Path) -> Result<Counts, String> {
     Ok(counts)
 }
 
-/// The total of a profile: its line `summary: N`.
+/// The total of a profile, from its line `summary: N`.
 fn total(profile: &Path) -> Result<f64, String> {
     let text =
         fs::read_to_string(profile).map_err(|error| format!("{}: {error}", profile.display()))?;

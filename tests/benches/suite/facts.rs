@@ -1,4 +1,5 @@
-//! Single measurements without a peer: the ratio that the paper reports, many speeds on two cores, a long chain as a whole.
+//! Single measurements without a peer: the ratio reported in the paper, many speeds on two cores, and the
+//! full analysis of a long chain.
 
 use std::env;
 use std::hint::black_box;
@@ -21,7 +22,7 @@ use crate::pendulum::DoublePendulum;
 pub(crate) const PENDULUM: &str = "facts/pendulum";
 pub(crate) const LONG_CHAIN: &str = "facts/long-chain";
 
-/// Samples and speeds of the paper.
+/// Samples and speeds used in the paper.
 const SAMPLES: usize = 3000;
 const SPEEDS: usize = 100;
 
@@ -34,7 +35,7 @@ fn speed(k: usize) -> f64 {
 
 type PendulumStudy = Study<DoublePendulum>;
 
-/// One study per speed, below and above the critical speed, looked for from the same start as the paper does.
+/// One study per speed, below and above the critical speed, with the paper's start values.
 fn studies() -> Vec<PendulumStudy> {
     let start = 60f64.to_radians();
     let study = Study::new(DoublePendulum)
@@ -44,7 +45,7 @@ fn studies() -> Vec<PendulumStudy> {
     (0..SPEEDS).map(at).collect()
 }
 
-/// Seconds of the fastest of some runs.
+/// The shortest time of several runs, in seconds.
 pub(crate) fn fastest(runs: usize, mut run: impl FnMut()) -> f64 {
     let timed = (0..runs).map(|_| {
         let start = Instant::now();
@@ -54,7 +55,7 @@ pub(crate) fn fastest(runs: usize, mut run: impl FnMut()) -> f64 {
     timed.fold(f64::INFINITY, f64::min)
 }
 
-/// Exact first order against Monte Carlo, all four dimensions, one thread; then Monte Carlo on two.
+/// Exact first order against Monte Carlo, with all four dimensions, on one thread; then Monte Carlo on two.
 pub(crate) fn pendulum() -> Vec<Fact> {
     let studies = studies();
     let analytic = fastest(50, || {
@@ -114,10 +115,10 @@ pub(crate) fn pendulum() -> Vec<Fact> {
     ]
 }
 
-/// Stack for the long chain: its kernels return arrays. `RUST_MIN_STACK` overrides it.
+/// Stack size for the long chain, whose kernels return arrays. `RUST_MIN_STACK` overrides it.
 const STACK: usize = 1 << 29;
 
-/// Every step of the analysis of the longest chain, all its design variables, second order included.
+/// Every step of the analysis of the longest chain, with all its design variables and second derivatives.
 pub(crate) fn long_chain() -> Vec<Fact> {
     let builder = match env::var_os("RUST_MIN_STACK") {
         Some(_) => thread::Builder::new(),
@@ -143,7 +144,7 @@ pub(crate) fn long_chain() -> Vec<Fact> {
 
 type Step = (String, Result<f64, String>);
 
-/// Time of every step; stops at the first that fails.
+/// Time of each step; stops at the first that fails.
 fn analysis(chain: &dyn CurvatureKernels) -> Vec<Step> {
     let mut steps = Vec::new();
     if let Err(error) = measure(chain, &mut steps) {

@@ -1,4 +1,4 @@
-//! How cost grows with the number of bars: operations, text and time of the kernels that have to be linear.
+//! Growth of cost with the number of bars: operations, text size and time of the kernels that must grow linearly.
 
 use std::hint::black_box;
 
@@ -6,7 +6,7 @@ use eigentol::{Array, Description, Dual, Gradient, PictureInfo, Real};
 
 use crate::work::{Closures, INPUTS, Random, Work};
 
-/// The contract cut down to the kernels that have to grow linearly.
+/// The contract reduced to the kernels that must grow linearly.
 pub(crate) trait Kernels: Copy + 'static {
     type Coordinates<T: Copy>: Array<T>;
     type Inputs<T: Copy>: Array<T>;
@@ -44,7 +44,7 @@ pub(crate) trait Kernels: Copy + 'static {
     ) -> Gradient<Self::Coordinates<T>, Self::Inputs<T>, Self::Design<T>>;
 }
 
-/// Sees every chain, with the bytes of its emitted text.
+/// Visits every chain, with the size of its emitted text.
 pub(crate) trait Visitor {
     fn visit<M: Kernels>(&mut self, chain: M, bytes: usize);
 }
@@ -59,9 +59,9 @@ mod generated {
 pub(crate) struct Grown {
     pub(crate) kernel: &'static str,
     pub(crate) bars: usize,
-    /// Operations and function calls; in dual numbers each is about three.
+    /// Operations and function calls; in dual numbers each costs about three.
     pub(crate) operations: usize,
-    /// Bytes of the text of both growing kernels of this chain.
+    /// Text size of both growing kernels of this chain.
     pub(crate) bytes: usize,
     pub(crate) work: Box<dyn Work>,
 }
@@ -119,7 +119,7 @@ struct State<M: Kernels> {
     lambda: [f64; 2],
 }
 
-/// Values that move in a direction.
+/// Values with derivatives along a direction.
 fn along<A: Array<f64>, D: Array<Dual<f64>>>(values: &A, direction: &A) -> D {
     D::from_fn(|k| Dual {
         value: values.as_ref()[k],

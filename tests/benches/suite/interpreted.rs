@@ -1,4 +1,4 @@
-//! Kernels of a chain that is read at run time, against the compiled ones at one state after the other.
+//! Kernels of a chain read at run time, against the compiled ones, one state at a time.
 
 use std::hint::black_box;
 
@@ -11,7 +11,7 @@ use crate::declaration::declaration;
 use crate::lanes::{self, vectors};
 use crate::work::{AGREEMENT, Closures, Task, Work};
 
-/// The tasks whose name is wanted.
+/// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool) -> Vec<Task> {
     let mut collector = Collector {
         wanted,

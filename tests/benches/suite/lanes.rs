@@ -1,4 +1,4 @@
-//! The same kernels at several states at once, against CasADi's C at one state after the other.
+//! The same kernels at several states at once, against CasADi's C at one state at a time.
 
 use std::hint::black_box;
 
@@ -10,16 +10,16 @@ use crate::chains::{self, State, Visitor, visit_short};
 use crate::tools::Tools;
 use crate::work::{AGREEMENT, Task, Work};
 
-/// Functions that are timed, by the names of CasADi's side.
+/// Timed functions, by CasADi's names.
 pub(crate) const FUNCTIONS: [&str; 3] = ["residual_and_stiffness", "linear", "mode_gradient"];
 
-/// Vectors with four and eight numbers, where this processor has them.
+/// Vectors of four and eight numbers, if this processor supports them.
 pub(crate) fn vectors() -> impl Iterator<Item = (&'static str, Instructions)> {
     let sets = Instructions::available().skip(1);
     ["lanes4", "lanes8"].into_iter().zip(sets)
 }
 
-/// The tasks whose name is wanted.
+/// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
     let mut collector = Collector {
         wanted,
@@ -62,7 +62,7 @@ impl Visitor for Collector<'_> {
     }
 }
 
-/// As many states as a batch holds.
+/// A batch full of states.
 pub(crate) struct States {
     q: Vec<Batch>,
     u: Vec<Batch>,
@@ -95,10 +95,10 @@ pub(crate) fn states<M: Mechanism>() -> Vec<States> {
     batches.collect()
 }
 
-/// Takes the numbers of one lane.
+/// Extracts the numbers of one lane.
 type OfLane<'a> = &'a dyn Fn(&[Batch]) -> Vec<f64>;
 
-/// A kernel on batches: what it fills, and how the numbers of one lane are read from that.
+/// A kernel on batches: the result it fills, and a way to read the numbers of one lane.
 struct Lanes<R, E, F> {
     inputs: Vec<States>,
     out: R,

@@ -1,4 +1,4 @@
-//! The benchmark suite: eigentol beside its strongest peers. `tests/benches/README.md` says how to run and read it.
+//! The benchmark suite: eigentol against its strongest peers. `tests/benches/README.md` explains how to run and read it.
 
 mod arm;
 mod casadi;
@@ -30,7 +30,7 @@ use report::{Growth, Report, Row};
 use tools::{Target, Tools};
 use work::{Task, difference};
 
-/// Its peer takes a C compiler minutes: once is enough, its instructions are not counted.
+/// A C compiler takes minutes for its peer, so it is compiled only once and its instructions are not counted.
 const SLOW_TO_COMPILE: &str = "chain16/all";
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -89,7 +89,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Everything that has a peer.
+/// Every task that has a peer.
 fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Result<Vec<Task>, Box<dyn Error>> {
     let mut tasks = pendulum::tasks(wanted, tools)?;
     tasks.extend(arm::tasks(wanted, tools));
@@ -139,7 +139,7 @@ fn results_folder() -> PathBuf {
     target.join("eigentol-bench")
 }
 
-/// Criterion's filter: the first argument that is no option.
+/// Criterion's filter: the first argument that is not an option.
 fn filter() -> Option<String> {
     env::args()
         .skip(1)

@@ -1,4 +1,4 @@
-//! Operations: every node of the expression graph but inputs, outputs and constants, by the same rule for both sides.
+//! Operation counts: every node of the expression graph except inputs, outputs and constants, by the same rule for both sides.
 
 use eigentol_compiler::algebra::{cost, regroup};
 use eigentol_compiler::base::ids::ExprId;
@@ -13,30 +13,30 @@ use crate::tools::Tools;
 /// Numbers of bars.
 const BARS: [usize; 5] = [2, 4, 8, 16, 32];
 
-/// Longer chains have no count of all partials.
+/// The longest chain for which all partials are counted.
 const MOST_WITH_ALL: usize = 16;
 
-/// Operations of one set of expressions.
+/// Operation counts of one set of expressions.
 #[derive(Clone, Debug)]
 pub(crate) struct Operations {
-    /// Mechanism and set. Sets of a chain: `mk`, residual, upper triangles of mass and stiffness; `adj`, gradient of a mode's
-    /// functional by coordinates and design variables; `all`, `mk` with all their partial derivatives but those of the
-    /// residual by coordinates.
+    /// Mechanism and set. The sets of a chain are `mk`: residual, upper triangles of mass and stiffness; `adj`: gradient of a
+    /// mode's functional by coordinates and design variables; `all`: `mk` with all its partial derivatives except those of
+    /// the residual by coordinates.
     pub(crate) set: String,
-    /// Ours, changes of sign included.
+    /// Ours, including sign changes.
     pub(crate) ours: usize,
-    /// Changes of sign among them, which fold into additions and cost nothing.
+    /// The sign changes among them, which fold into additions and cost nothing.
     pub(crate) signs: usize,
-    /// CasADi's, from closed forms or a recursion typed in.
+    /// CasADi's, from closed forms or a hand-written recursion.
     pub(crate) typed: Option<u64>,
-    /// CasADi's, from energies typed in.
+    /// CasADi's, from hand-written energies.
     pub(crate) energies: Option<u64>,
 }
 
 /// Counts all sets.
 ///
 /// # Errors
-/// Where our side does not compile.
+/// When our side does not compile.
 pub(crate) fn count(tools: &mut Tools) -> Result<Vec<Operations>, String> {
     let mut all = Vec::new();
     for bars in BARS {
@@ -118,7 +118,7 @@ fn counts(tools: &mut Tools, script: &str, arguments: &[&str]) -> Option<Value> 
     serde_json::from_str(&line).ok()
 }
 
-/// What a set of a chain consists of: CasADi's side counts the same expressions.
+/// The expressions of a set of a chain; CasADi's side counts the same ones.
 fn of_set(functions: &Functions, set: &str, bars: usize) -> Vec<ExprId> {
     if set == "adj" {
         let mut all = result(functions, "mode_gradient", "coordinates");
@@ -153,13 +153,13 @@ fn result(functions: &Functions, kernel: &str, name: &str) -> Vec<ExprId> {
     found
 }
 
-/// The upper triangles of matrices that lie one after the other.
+/// The upper triangles of consecutive matrices.
 fn upper(flat: Vec<ExprId>, size: usize) -> Vec<ExprId> {
     let entry = |index: &usize| (index % (size * size)) / size <= index % size;
     (0..flat.len()).filter(entry).map(|k| flat[k]).collect()
 }
 
-/// Operations of generated code and, among them, changes of sign.
+/// Operations of generated code, and how many of them are sign changes.
 fn operations(functions: &Functions, roots: &[ExprId]) -> (usize, usize) {
     let mut graph = functions.graph.clone();
     let roots = regroup(&mut graph, roots);

@@ -1,5 +1,5 @@
-//! The whole chain, double pendulum: equilibrium, modes and exact derivatives along speeds, and Monte Carlo, against C++
-//! written by hand.
+//! The complete workflow on the double pendulum: equilibrium, modes and exact derivatives along speeds, and Monte Carlo,
+//! against hand-written C++.
 
 use std::error::Error as StdError;
 use std::ffi::c_int;
@@ -39,22 +39,22 @@ mechanism! {
     }
 }
 
-/// Speeds of a sweep, all above the critical speed, and samples of a Monte Carlo.
+/// The number of speeds in a sweep, all above the critical speed, and the number of samples in a Monte Carlo run.
 const SPEEDS: usize = 100;
 const SAMPLES: usize = 3000;
 
-/// Near the equilibrium at the first speed, rad.
+/// Start values near the equilibrium at the first speed, rad.
 const START: [f64; 2] = [1.0, 0.1];
 
-/// Numbers per speed that the C++ writes.
+/// Numbers per speed written by the C++ side.
 const WIDTH: usize = 12;
 
 type State = Equilibrium;
 
-/// Finite differences agree to what their step allows.
+/// Agreement required of finite differences, limited by their step.
 const DIFFERENCE_ERROR: f64 = 1e-6;
 
-/// The functions of the C++ side, and the tasks that they do.
+/// The functions of the C++ side and the tasks they perform.
 const TASKS: [(&str, &str, usize, f64); 6] = [
     ("pendulum/sweep", "sweep", SPEEDS, AGREEMENT),
     ("pendulum/sweep-one-by-one", "sweep", SPEEDS, AGREEMENT),
@@ -79,13 +79,13 @@ const TASKS: [(&str, &str, usize, f64); 6] = [
     ),
 ];
 
-/// How the names of tasks end that solve one state after the other on our side.
+/// Suffix of the tasks in which our side solves one state at a time.
 const SCALAR: &str = "-one-by-one";
 
-/// The tasks whose name is wanted.
+/// The tasks with a selected name.
 ///
 /// # Errors
-/// Where our side has no solution.
+/// When our side has no solution.
 pub(crate) fn tasks(
     wanted: &dyn Fn(&str) -> bool,
     tools: &mut Tools,
@@ -138,7 +138,7 @@ fn sweeps() -> Vec<Sweep> {
     (0..INPUTS).map(sweep).collect()
 }
 
-/// Every speed from the equilibria before it; `each` sees the results, which are ours to use until the next.
+/// Solves every speed starting from the equilibria before it; `each` may use the results until the next call.
 fn follow(
     sweep: &Sweep,
     vectors: Option<Instructions>,
@@ -195,7 +195,7 @@ struct SweepByHand {
 
 impl SweepByHand {
     fn load(library: &Path, name: &str) -> Result<Box<dyn Work>, String> {
-        // SAFETY: the library is the C++ of this package: it runs nothing when loaded, and the function has this type.
+        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function has this type.
         #[allow(unsafe_code)]
         let (library, function) = unsafe {
             let library = Library::new(library).map_err(|error| error.to_string())?;
@@ -247,7 +247,7 @@ impl Work for SweepByHand {
     }
 }
 
-/// One Monte Carlo: nominal state and the seed.
+/// One Monte Carlo run: nominal state and seed.
 struct Samples {
     state: State,
     modes: Modes,
@@ -255,7 +255,7 @@ struct Samples {
     seed: u64,
 }
 
-/// Fewer than for other tasks: each is thousands of evaluations.
+/// Fewer than the inputs of other tasks: each is thousands of evaluations.
 const SEEDS: usize = 8;
 
 fn samples() -> Result<Vec<Samples>, Error> {
@@ -314,7 +314,7 @@ fn sampling(inputs: Vec<Samples>, vectors: Option<Instructions>) -> Box<dyn Work
 type MonteCarloFunction =
     unsafe extern "C" fn(*const f64, f64, *const f64, c_int, *mut f64) -> c_int;
 
-/// Its samples are those that our side draws, drawn beforehand: drawing costs this side nothing.
+/// Uses the samples of our side, drawn in advance: drawing them costs this side nothing.
 struct MonteCarloByHand {
     function: MonteCarloFunction,
     inputs: Vec<(State, Vec<f64>)>,
@@ -324,7 +324,7 @@ struct MonteCarloByHand {
 
 impl MonteCarloByHand {
     fn load(library: &Path) -> Result<Box<dyn Work>, String> {
-        // SAFETY: the library is the C++ of this package: it runs nothing when loaded, and the function has this type.
+        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function has this type.
         #[allow(unsafe_code)]
         let (library, function) = unsafe {
             let library = Library::new(library).map_err(|error| error.to_string())?;
@@ -359,7 +359,7 @@ impl Work for MonteCarloByHand {
 
     fn evaluate(&mut self, input: usize) {
         let (state, designs) = black_box(&self.inputs[input]);
-        // SAFETY: four dimensions for each sample, four numbers written.
+        // SAFETY: four dimensions are read and four numbers written per sample.
         #[allow(unsafe_code)]
         unsafe {
             (self.function)(

@@ -9,19 +9,19 @@ use serde_json::{Value, json};
 use crate::counting::Counts;
 use crate::operations::Operations;
 
-/// What was measured of one task.
+/// Measurements of one task.
 pub(crate) struct Row {
     pub(crate) name: String,
-    /// Nanoseconds of one unit; `None` where it was filtered out.
+    /// Nanoseconds per unit; `None` if the filter excluded it.
     pub(crate) ours: Option<f64>,
     pub(crate) peer: Option<f64>,
     /// Why there is no peer.
     pub(crate) absent: Option<String>,
-    /// Greatest relative difference of the results.
+    /// Largest relative difference of the results.
     pub(crate) difference: Option<f64>,
 }
 
-/// What was measured of the growth of one kernel.
+/// Growth measurements of one kernel.
 pub(crate) struct Growth {
     pub(crate) kernel: &'static str,
     pub(crate) bars: usize,
@@ -30,7 +30,7 @@ pub(crate) struct Growth {
     pub(crate) time: Option<f64>,
 }
 
-/// Everything.
+/// All measurements.
 pub(crate) struct Report {
     pub(crate) rows: Vec<Row>,
     pub(crate) counts: Result<Counts, String>,
@@ -44,7 +44,7 @@ impl Report {
     /// Writes `results.json` and `results.md` to the folder.
     ///
     /// # Errors
-    /// Where they cannot be written.
+    /// When a file cannot be written.
     pub(crate) fn write(&self, folder: &Path) -> std::io::Result<()> {
         fs::write(folder.join("results.json"), format!("{:#}\n", self.json()))?;
         fs::write(folder.join("results.md"), self.table())

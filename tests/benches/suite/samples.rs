@@ -1,4 +1,4 @@
-//! Monte Carlo of damped, larger and closed mechanisms, one sample after the other and side by side in vectors.
+//! Monte Carlo on damped, larger and closed-loop mechanisms, one sample at a time and several in vectors.
 
 use std::hint::black_box;
 
@@ -15,7 +15,7 @@ const COUNT: usize = 8192;
 struct Timed(Vec<Fact>);
 
 impl Timed {
-    /// Times samples of a study.
+    /// Times the samples of a study.
     fn add<M: Mechanism>(&mut self, name: &str, study: &Study<M>) {
         let study = study.clone().samples(COUNT).threads(1);
         for (way, vectors) in [
@@ -45,7 +45,7 @@ fn at<M: Mechanism>(machine: M, inputs: &[f64], start: &[f64]) -> Study<M> {
     study
 }
 
-/// A gyroscopic rotor, a linkage of four angles with two reactions, a long chain, and a damped press of nine coordinates.
+/// A gyroscopic rotor, a linkage with four angles and two reactions, a long chain, and a damped press with nine coordinates.
 pub(crate) fn samples() -> Vec<Fact> {
     let mut timed = Timed(Vec::new());
     let rotor = at(BearingRotor, &[314.0], &[]);

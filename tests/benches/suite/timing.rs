@@ -1,4 +1,4 @@
-//! Time by criterion.
+//! Timing with criterion.
 
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use criterion::Criterion;
 
 use crate::work::Work;
 
-/// Criterion with windows short enough that two sides of a comparison meet the same machine.
+/// Criterion with windows short enough that both sides of a comparison run under the same load.
 pub(crate) fn criterion() -> Criterion {
     Criterion::default()
         .without_plots()
@@ -18,8 +18,8 @@ pub(crate) fn criterion() -> Criterion {
         .configure_from_args()
 }
 
-/// Nanoseconds of one unit of `work`: the least of criterion's samples, which other load on the machine disturbs least;
-/// `None` where criterion's filter left it out.
+/// Nanoseconds per unit of `work`: the minimum of criterion's samples, which other load disturbs least; `None` if
+/// criterion's filter excluded it.
 pub(crate) fn time(
     criterion: &mut Criterion,
     name: &str,

@@ -1,4 +1,5 @@
-//! The other side's tools: a Python with CasADi, a C and a C++ compiler. Whatever is missing is a reason, not a failure.
+//! The tools of the peers: a Python with CasADi, a C compiler and a C++ compiler. A missing tool is reported as a
+//! reason, not a failure.
 
 use std::env;
 use std::fs;
@@ -8,13 +9,13 @@ use std::process::{Command, Stdio};
 /// What peers are compiled for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Target {
-    /// This machine, to be timed.
+    /// This machine, for timing.
     Native,
-    /// AVX2 and FMA without AVX-512, which valgrind does not know.
+    /// AVX2 and FMA without AVX-512, which valgrind does not support.
     Counted,
 }
 
-/// Where peers are kept between runs, and what they are made with.
+/// Where peers are kept between runs, and the tools that build them.
 pub(crate) struct Tools {
     folder: PathBuf,
     target: Target,
@@ -22,7 +23,7 @@ pub(crate) struct Tools {
 }
 
 impl Tools {
-    /// Finds the tools; `folder` keeps what they make.
+    /// Finds the tools; build products are kept in `folder`.
     pub(crate) fn new(folder: &Path, target: Target) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -31,7 +32,7 @@ impl Tools {
         }
     }
 
-    /// Runs a script of the folder `peers` in a Python that has CasADi.
+    /// Runs a script from the folder `peers` in a Python that has CasADi.
     pub(crate) fn casadi(&mut self, script: &str, arguments: &[&str]) -> Result<String, String> {
         if self.python.is_err() {
             self.python = interpreter(&self.folder);
@@ -56,7 +57,7 @@ impl Tools {
         Ok(folder)
     }
 
-    /// Compiles one file to a shared library, unless that is there and newer.
+    /// Compiles one file to a shared library, unless an up-to-date one exists.
     pub(crate) fn library(&self, source: &Path) -> Result<PathBuf, String> {
         let cpp = source.extension().is_some_and(|name| name == "cpp");
         let (variable, default) = if cpp { ("CXX", "c++") } else { ("CC", "cc") };
@@ -86,7 +87,7 @@ impl Tools {
     }
 }
 
-/// What this was measured with: names and versions, as far as they can be asked for.
+/// Names and versions of the measurement setup, as far as they can be determined.
 pub(crate) fn setting() -> Vec<(String, String)> {
     let version = |program: String| {
         let output = Command::new(program).arg("--version").output().ok()?;
@@ -125,7 +126,7 @@ pub(crate) fn newer(made: &Path, source: &Path) -> bool {
     matches!((time(made), time(source)), (Ok(made), Ok(source)) if made >= source)
 }
 
-/// The interpreter that `EIGENTOL_BENCH_PYTHON` names, or one of a virtual environment that is made here.
+/// The interpreter named by `EIGENTOL_BENCH_PYTHON`, or the interpreter of a virtual environment created here.
 fn interpreter(folder: &Path) -> Result<PathBuf, String> {
     let named = env::var_os("EIGENTOL_BENCH_PYTHON").map(PathBuf::from);
     let environment = folder.join("venv");

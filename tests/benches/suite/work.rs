@@ -1,25 +1,25 @@
-//! What is timed: one implementation of a task over prepared inputs.
+//! The unit of timing: one implementation of a task over prepared inputs.
 
 use std::hint::black_box;
 
 use eigentol::Array;
 
-/// Prepared inputs of every task; a run goes round them, so that nothing can be carried over from call to call.
+/// Number of prepared inputs per task; a run cycles through them, so that no work can be carried over between calls.
 pub(crate) const INPUTS: usize = 64;
 
-/// Results of both sides agree to this, relative to the greatest entry of their array, or nothing is timed.
+/// Required agreement of both sides' results, relative to the largest entry of their array; otherwise nothing is timed.
 pub(crate) const AGREEMENT: f64 = 1e-12;
 
 /// An implementation of a task.
 pub(crate) trait Work {
     /// Number of prepared inputs.
     fn inputs(&self) -> usize;
-    /// Evaluates one input; results go to the optimiser's barrier.
+    /// Evaluates one input and passes the results to `black_box`.
     fn evaluate(&mut self, input: usize);
-    /// The results for one input, array by array, to be compared with those of another implementation.
+    /// The results for one input, array by array, for comparison with another implementation.
     fn results(&mut self, input: usize) -> Vec<Vec<f64>>;
 
-    /// Evaluates `repetitions` times, round the inputs.
+    /// Evaluates `repetitions` times, cycling through the inputs.
     fn run(&mut self, repetitions: u64) {
         let count = self.inputs();
         let mut next = 0;
@@ -33,21 +33,21 @@ pub(crate) trait Work {
     }
 }
 
-/// A task that both sides do, or only we where the peer is absent.
+/// A task for both sides, or for ours alone if the peer is absent.
 pub(crate) struct Task {
-    /// Section and task: `chain8/linear`.
+    /// Section and task, for example `chain8/linear`.
     pub(crate) name: String,
-    /// Evaluations, speeds or samples in one repetition, ours and the peer's: times and counts are given for one of them.
+    /// Evaluations, speeds or samples in one repetition, ours and the peer's: times and counts are given per unit.
     pub(crate) units: [usize; 2],
-    /// The results agree to this.
+    /// Required agreement of the results.
     pub(crate) agreement: f64,
     pub(crate) ours: Box<dyn Work>,
     /// The peer, or why it is absent.
     pub(crate) peer: Result<Box<dyn Work>, String>,
 }
 
-/// An implementation made of two closures over the inputs: `evaluate` hands its results to the optimiser's barrier itself,
-/// so that large ones need not be moved.
+/// An implementation made of two closures over the inputs: `evaluate` passes its results to `black_box` itself, so that
+/// large ones need not be moved.
 pub(crate) struct Closures<S, E, R> {
     pub(crate) inputs: Vec<S>,
     pub(crate) evaluate: E,
@@ -72,10 +72,10 @@ where
     }
 }
 
-/// The greatest difference between two sets of results, relative to the greatest entry of its array.
+/// The largest difference between two sets of results, relative to the largest entry of its array.
 ///
 /// # Errors
-/// Where shapes differ or a number is not finite.
+/// When shapes differ or a number is not finite.
 pub(crate) fn difference(ours: &[Vec<f64>], peer: &[Vec<f64>]) -> Result<f64, String> {
     let shape = |results: &[Vec<f64>]| results.iter().map(Vec::len).collect::<Vec<_>>();
     if shape(ours) != shape(peer) {
@@ -97,13 +97,13 @@ pub(crate) fn difference(ours: &[Vec<f64>], peer: &[Vec<f64>]) -> Result<f64, St
     Ok(worst)
 }
 
-/// The entries of a matrix, row by row.
+/// The entries of a matrix, by rows.
 pub(crate) fn flat<R: AsRef<[f64]>>(rows: impl AsRef<[R]>) -> Vec<f64> {
     let rows = rows.as_ref().iter();
     rows.flat_map(|row| row.as_ref()).copied().collect()
 }
 
-/// Random numbers for inputs, the same in every run: splitmix64.
+/// Random numbers for inputs (splitmix64), the same in every run.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {

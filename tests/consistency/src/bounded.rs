@@ -4,8 +4,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use eigentol::Real;
 
-/// A value and a first-order bound on how far rounding may have moved it. Two ways to compute the same number agree when they
-/// differ by no more than both bounds together.
+/// A value and a first-order bound on its rounding error. Two ways to compute the same number agree when they differ by no
+/// more than the sum of both bounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounded {
     /// The computed number.
@@ -14,7 +14,7 @@ pub struct Bounded {
     pub error: f64,
 }
 
-/// Functions of the standard library are right to a few units in the last place.
+/// Standard library functions are accurate to a few units in the last place.
 const UNIT: f64 = 2.0 * f64::EPSILON;
 
 impl Bounded {
@@ -77,8 +77,8 @@ impl Neg for Bounded {
 }
 
 impl Real for Bounded {
-    /// The compiler has folded constants: one that is no simple number may be what some operations left of larger ones, as the
-    /// sine of a half turn.
+    /// The compiler has folded constants: one that is not a simple number may be the result of operations on larger ones, such
+    /// as the sine of half a turn.
     fn constant(value: f64) -> Self {
         let simple = (2.0 * value).fract() == 0.0;
         Self {
@@ -136,7 +136,7 @@ impl Real for Bounded {
         self.through(self.value.powi(exponent), slope)
     }
 
-    /// The terms may be greater than their sum, and the start of a piece is a rounded number.
+    /// The terms may exceed their sum in magnitude, and the start of a piece is a rounded number.
     fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
         let value = self.value.spline(pieces, derivative);
         let slope = self.value.spline(pieces, derivative + 1).abs();

@@ -1,7 +1,7 @@
-//! Every kernel, derived once more from `motion_residual`.
+//! Derives every kernel a second time from `motion_residual` and compares the two.
 //!
-//! Matrices of the first order are compared entry by entry. Kernels that return many derivatives are compared along one
-//! random direction, in which a wrong entry shows with probability one.
+//! First-order matrices are compared entry by entry. Kernels that return many derivatives are compared along one random
+//! direction, which exposes a wrong entry with probability one.
 
 use eigentol::{Dual, Real};
 use eigentol_compiler::mechanics::Role;
@@ -12,39 +12,39 @@ use crate::interpreter::interpret;
 use crate::state::State;
 use crate::subject::Subject;
 
-/// Below this nothing is compared: products of constants that are nearly zero may have been folded to zero.
+/// Values below this are not compared: products of nearly zero constants may have been folded to zero.
 const FLOOR: f64 = 1e-15;
 
 type First = Dual<Bounded>;
 type Second = Dual<First>;
 
-/// Two values that should be one.
+/// Two values that should be equal.
 #[derive(Clone, Debug)]
 pub struct Difference {
-    /// The kernel, and which of its results.
+    /// The kernel, and which of its results differs.
     pub place: String,
     /// What the kernel returns.
     pub found: f64,
-    /// What follows from the equations of motion.
+    /// The value derived from the equations of motion.
     pub expected: f64,
-    /// How far rounding may take them apart.
+    /// The difference that rounding alone may cause.
     pub allowed: f64,
 }
 
-/// What was compared.
+/// The outcome of comparing all kernels.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Values that disagree.
     pub differences: Vec<Difference>,
-    /// Values compared.
+    /// Number of values compared.
     pub compared: usize,
-    /// Of these, values whose rounding alone may reach a millionth of the largest of their kind, so that agreement says little.
+    /// How many of these have a rounding bound above a millionth of the largest value of their kind, so that agreement says little.
     pub blurred: usize,
-    /// The largest difference, relative to the largest value of its kind.
+    /// The largest difference relative to the largest value of its kind.
     pub worst: f64,
 }
 
-/// Compares every kernel at a state, and what constraints exert with what they demand.
+/// Compares every kernel at a state, and each constraint's reactions with its constraint equation.
 ///
 /// # Panics
 /// When a kernel of the runtime's contract is missing.
@@ -71,7 +71,7 @@ struct Check<'a> {
     outcome: Outcome,
 }
 
-/// The three lists of arguments in which `g` is differentiated.
+/// The three arguments of `g` with respect to which it is differentiated.
 #[derive(Clone, Copy, PartialEq)]
 enum By {
     Acceleration,
@@ -118,7 +118,7 @@ impl Check<'_> {
         self.program.kernel(name)
     }
 
-    /// The results of a kernel at the state; its own arguments stand before and after those of the state.
+    /// The results of a kernel at the state; the kernel's own arguments come before and after those of the state.
     fn evaluate(&self, name: &str, before: &[&[f64]], after: &[&[f64]]) -> Vec<Vec<Bounded>> {
         let at = self.state.at.each_ref().map(Vec::as_slice);
         let all = [before, &at, after].concat();
@@ -134,7 +134,7 @@ impl Check<'_> {
         interpret(kernel, &arguments).swap_remove(0)
     }
 
-    /// Acceleration, velocity and what stands in the state.
+    /// Acceleration, velocity, and the unknowns, inputs and design variables of the state.
     fn arguments(&self, at_rest: bool) -> [Vec<Bounded>; 5] {
         let [q, u, b] = self.state.at.each_ref().map(|list| exact(list));
         let still = vec![Bounded::exact(0.0); q.len()];
@@ -145,7 +145,7 @@ impl Check<'_> {
         [acceleration, velocity, q, u, b]
     }
 
-    /// The derivative of `g` along a direction of some of its arguments.
+    /// The derivative of `g` along a direction in some of its arguments.
     fn along(&self, at_rest: bool, directions: &[(usize, &[Bounded])]) -> Vec<Bounded> {
         let arguments = self.arguments(at_rest);
         let mut moved: [Vec<First>; 5] = arguments.each_ref().map(|list| fixed(list));
@@ -155,7 +155,7 @@ impl Check<'_> {
         slopes(&self.motion_residual(&moved))
     }
 
-    /// A matrix of first derivatives of `g`, row by row.
+    /// A matrix of first derivatives of `g`, by rows.
     fn matrix(&self, by: By, at_rest: bool) -> Vec<Bounded> {
         let n = self.n();
         let mut matrix = vec![Bounded::exact(0.0); n * n];
@@ -170,7 +170,7 @@ impl Check<'_> {
         matrix
     }
 
-    /// How the matrices at rest, applied to a vector each, change together along the direction of the state.
+    /// The directional derivative, along the state's direction, of the sum of the matrices at rest, each times a vector.
     fn second(&self, vectors: &[(By, &[f64])]) -> Vec<Bounded> {
         let along = self.state.along.each_ref().map(|list| exact(list));
         let still = exact(&vec![0.0; self.n()]);
@@ -201,7 +201,7 @@ impl Check<'_> {
             if size > 0.0 {
                 self.outcome.worst = self.outcome.worst.max(difference / size);
             }
-            // NaN is no agreement
+            // NaN is not agreement
             let agrees = difference <= allowed;
             if !agrees {
                 self.outcome.differences.push(Difference {
@@ -266,8 +266,8 @@ impl Check<'_> {
         self.compare("motion.force", &found[1], &force);
     }
 
-    /// A constraint exerts along a coordinate what one unit of that coordinate, or of its speed, changes in its demand. With
-    /// coasting coordinates the speeds are unknowns themselves, and these are their columns.
+    /// The reaction along a coordinate equals the change of the constraint equation per unit of that coordinate or of its
+    /// speed. With coasting coordinates the speeds are unknowns themselves, and these columns belong to them.
     fn reactions(&mut self, roles: &[Role]) {
         let n = self.n();
         let [damping, stiffness] = [By::Velocity, By::Position].map(|by| self.matrix(by, true));
@@ -309,7 +309,7 @@ impl Check<'_> {
         self.compare("residual_gradient", &[found], &[expected]);
     }
 
-    /// A gradient by coordinates, inputs and design along the direction of the state.
+    /// A gradient by coordinates, inputs and design, contracted with the direction of the state.
     fn gradient_along(&self, kernel: &str, own: &[&[f64]]) -> Bounded {
         let gradient = self.evaluate(kernel, &[], own);
         let along = self.state.along.each_ref().map(|list| exact(list));
@@ -385,7 +385,7 @@ impl Check<'_> {
     }
 }
 
-/// A matrix, row by row, applied to a vector; nothing for no columns.
+/// A matrix, by rows, times a vector; empty if there are no columns.
 fn contracted(matrix: &[Bounded], vector: &[Bounded]) -> Vec<Bounded> {
     let rows = matrix.chunks_exact(vector.len().max(1));
     rows.map(|row| dot(row, vector)).collect()

@@ -1,5 +1,5 @@
-//! Loops: a joint that is cut, or constraints, between two frames of a tree. Nothing has to go together for kernels to be
-//! compared; only the equations count.
+//! Loop closures: a cut joint, or constraints, between two frames of a tree. The loop need not assemble for its kernels
+//! to be compared; only the equations matter.
 
 use eigentol_oracle::model::{Frame, Model, Motion, Word};
 use eigentol_oracle::random::Random;
@@ -19,7 +19,7 @@ const TURNS: [&str; 5] = [
     " rotated([1, 2, 0], 0.7 rad)",
 ];
 
-/// Items that close a loop of a model.
+/// Declarations that close a loop in a model.
 pub fn items(model: &Model, random: &mut Random) -> String {
     let name = |frame: Frame| match frame {
         Frame::Ground => "ground".to_owned(),
@@ -61,7 +61,7 @@ pub fn items(model: &Model, random: &mut Random) -> String {
     }
 }
 
-/// Two hinges geared to each other.
+/// Couples two hinges by a gear.
 fn coupling(model: &Model) -> String {
     let hinges = model.joints.iter().filter(|joint| {
         joint.word == Word::Revolute

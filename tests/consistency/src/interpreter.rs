@@ -1,10 +1,10 @@
-//! Kernels run without rustc in any scalar: instantiating generated code for one more scalar would cost minutes.
+//! Runs kernels in any scalar type without rustc: instantiating the generated code for one more scalar would cost minutes.
 
 use eigentol::{Dual, Real};
 use eigentol_compiler::algebra::{Operator, Unary};
 use eigentol_compiler::program::{Kernel, Operand, Operation};
 
-/// Values of the results of a kernel, arrays flattened with the first index outermost.
+/// The results of a kernel; arrays are flattened with the first index outermost.
 pub fn interpret<T: Real>(kernel: &Kernel, arguments: &[&[T]]) -> Vec<Vec<T>> {
     let mut values: Vec<T> = Vec::with_capacity(kernel.instructions.len());
     let read = |values: &[T], operand| match operand {
@@ -29,7 +29,7 @@ pub fn interpret<T: Real>(kernel: &Kernel, arguments: &[&[T]]) -> Vec<Vec<T>> {
         .collect()
 }
 
-/// Derivatives of the results along a direction, in the dual numbers in which the runtime differentiates kernels.
+/// Directional derivatives of the results, in the same dual numbers that the runtime uses to differentiate kernels.
 pub fn interpret_along(
     kernel: &Kernel,
     arguments: &[&[f64]],

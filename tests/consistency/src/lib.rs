@@ -1,9 +1,9 @@
-//! Kernels of one mechanism check each other: all of them follow from the equations of motion `g(qddot, qdot, q; u, b)`, so
-//! [`check`] derives each once more from the kernel `motion_residual` in dual numbers. This needs no oracle and works for
-//! any declaration.
+//! Checks the kernels of a mechanism against each other. All of them follow from the equations of motion
+//! `g(qddot, qdot, q; u, b)`, so [`check`] derives each one again from the kernel `motion_residual` in dual numbers. This
+//! needs no oracle and works for any declaration.
 //!
-//! [`interpreter`] runs kernels without rustc, [`bounded`] is the number they run in, [`state`] says where, [`trees`] makes
-//! random mechanisms full of special cases.
+//! [`interpreter`] runs kernels without rustc, [`bounded`] is the number type it uses, [`state`] defines the point of
+//! comparison, and [`trees`] generates random mechanisms full of special cases.
 
 pub mod bounded;
 pub mod check;

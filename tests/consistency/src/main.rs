@@ -1,4 +1,4 @@
-//! Compares the kernels of many random mechanisms with their equations of motion: `-- --trees 1000000`.
+//! Checks the kernels of many random mechanisms against their equations of motion: `-- --trees 1000000`.
 
 use std::process::ExitCode;
 
@@ -8,10 +8,10 @@ use eigentol_consistency::trees::{Tree, summary, text, tree};
 /// Every kernel of random mechanisms full of special cases against `motion_residual` in dual numbers.
 #[derive(Parser)]
 struct Options {
-    /// How many mechanisms.
+    /// Number of mechanisms.
     #[arg(long, default_value_t = 10_000)]
     trees: u64,
-    /// The number of the first.
+    /// Number of the first mechanism.
     #[arg(long, default_value_t = 0)]
     from: u64,
     /// Print one mechanism and all its differences.

@@ -7,14 +7,14 @@ use eigentol_oracle::random::Random;
 
 use crate::state::State;
 
-/// Kernels, and what is needed to choose a state.
+/// The kernels of a declaration, and the data needed to choose a state.
 #[derive(Clone)]
 pub struct Subject {
     /// The kernels.
     pub program: Program,
     /// Names of the unknowns, in the order of `q`.
     pub unknowns: Vec<String>,
-    /// What they are.
+    /// Roles of the unknowns, in the same order.
     pub roles: Vec<Role>,
     /// Names of the design variables.
     pub design: Vec<String>,
@@ -27,7 +27,7 @@ impl Subject {
     /// Compiles a declaration.
     ///
     /// # Errors
-    /// The messages of the compiler.
+    /// The compiler's messages.
     pub fn new(declaration: &str, limits: Limits) -> Result<Self, Vec<String>> {
         let tokens = declaration
             .parse()
@@ -59,7 +59,7 @@ impl Subject {
         }
     }
 
-    /// A random state: coordinates of the order of one, drives on, the design off its nominal values.
+    /// A random state: coordinates of order one, drives on, design variables off their nominal values.
     pub fn state(&self, seed: u64) -> State {
         let mut random = Random::new(seed);
         let q = (0..self.unknowns.len())

@@ -1,4 +1,4 @@
-//! Random mechanisms full of special cases, by number: each can be made again by itself.
+//! Random mechanisms full of special cases, each reproducible from its number.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::check::{Outcome, check};
 use crate::closing;
 use crate::subject::Subject;
 
-/// Most free coordinates: what goes wrong shows in a few, and larger trees take most of the time.
+/// The most free coordinates a tree may have: a few are enough to show a fault, and larger trees take most of the time.
 const MOST: usize = 4;
 
-/// Why a tree may be refused: the beginnings of the messages.
+/// Acceptable reasons for refusing a tree, by the beginning of the message.
 const REASONS: [&str; 5] = [
     "no coordinate changes what",
     "no mass moves when",
@@ -25,30 +25,30 @@ const REASONS: [&str; 5] = [
     "the equations of motion depend on the driven coordinate",
 ];
 
-/// What a tree came to.
+/// The result for one tree.
 pub enum Tree {
-    /// Compared, with the special cases that its derivation took.
+    /// Compared; with the special cases that its derivation used.
     Compared(Outcome, BTreeMap<String, u64>),
-    /// Without steady motion, or with a coordinate that nothing resists or that has no inertia.
+    /// Refused: no steady motion, or a coordinate without resistance or inertia.
     Refused(Vec<String>),
 }
 
-/// Over many trees.
+/// The results of many trees.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
-    /// Trees compared, and trees the compiler refused.
+    /// Number of trees compared.
     pub compared: u64,
-    /// See [`Tree::Refused`].
+    /// Number of trees refused, see [`Tree::Refused`].
     pub refused: u64,
-    /// Numbers of trees refused for another reason than that it has no steady motion or that a coordinate is loose.
+    /// Numbers of the trees refused for an unexpected reason.
     pub odd: Vec<u64>,
     /// Numbers of trees with differences.
     pub wrong: Vec<u64>,
-    /// Values compared, and those of which rounding left little.
+    /// Number of values compared.
     pub values: usize,
     /// See [`Outcome::blurred`].
     pub blurred: usize,
-    /// By special case: in how many trees it was taken.
+    /// For each special case, the number of trees that used it.
     pub taken: BTreeMap<String, u64>,
 }
 
@@ -91,7 +91,7 @@ impl Summary {
     }
 }
 
-/// The declaration of tree `number`. Most have nothing but springs on their coordinates, because forces have few special cases and
+/// The declaration of tree `number`. Most trees have only springs on their coordinates: other forces have few special cases but
 /// take most of the time.
 pub fn text(number: u64) -> String {
     let mut random = Random::new(number ^ 0x51AC_1A15);

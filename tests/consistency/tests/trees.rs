@@ -1,5 +1,5 @@
-//! Random mechanisms full of special cases: ten thousand of them where asked for (`-- --ignored`), a quarter of these otherwise. More
-//! of them: `cargo run --release --package eigentol-consistency`.
+//! Random mechanisms full of special cases: a quarter of ten thousand by default, all of them with `-- --ignored`. For more:
+//! `cargo run --release --package eigentol-consistency`.
 
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::{Operand, Operation, Program};
@@ -11,7 +11,7 @@ use eigentol_consistency::trees::{Summary, summary};
 
 const TREES: u64 = 10_000;
 
-/// Special cases of the derivation, and in how many of [`TREES`] each is taken at least.
+/// Special cases of the derivation, and the least number of the [`TREES`] that must use each.
 const TAKEN: [(&str, u64); 34] = [
     ("augmented: rides on its seat", 3000),
     ("closing: demand ``", 50),
@@ -64,7 +64,7 @@ fn kernels_of_ten_thousand_trees_are_consistent() {
     require_consistent(TREES);
 }
 
-/// No difference in the first of the trees, and every special case taken as often as they let expect.
+/// Requires no difference in the first `trees` trees, and every special case in its proportional number of them.
 fn require_consistent(trees: u64) {
     let found = summary(0, trees);
     assert_eq!(found.wrong, [0; 0], "trees with differences");
@@ -83,7 +83,7 @@ fn require_consistent(trees: u64) {
         let count = count(&found, case);
         assert!(count * TREES >= least * trees, "{case}: {count} of {trees}");
     }
-    // a turned inertia tensor: any axis to any axis, either way round
+    // a rotated inertia tensor: any axis onto any axis, in either direction
     for row in 0..3 {
         for column in 0..3 {
             for mirrored in [false, true] {
@@ -96,7 +96,7 @@ fn require_consistent(trees: u64) {
     }
 }
 
-/// Reverses one subtraction or addition.
+/// Turns one subtraction into an addition, or the reverse.
 fn spoilt(subject: &Subject, kernel: usize, instruction: usize) -> Option<Subject> {
     use eigentol_compiler::algebra::Operator::{Add, Subtract};
     let mut subject = subject.clone();
@@ -109,7 +109,7 @@ fn spoilt(subject: &Subject, kernel: usize, instruction: usize) -> Option<Subjec
     Some(subject)
 }
 
-/// Whether a kernel returns the same after all, because what changed its sign is zero.
+/// Whether a kernel still returns the same results because the operand with the changed sign is zero.
 fn same_results(one: &Program, other: &Program, kernel: &str, state: &State) -> bool {
     let kernels = [one, other].map(|program| program.kernel(kernel).expect("a kernel"));
     let full = [0.3, -0.8, 0.6, 0.5, -0.4, 0.7, 0.2, -0.9];
@@ -133,8 +133,8 @@ fn same_results(one: &Program, other: &Program, kernel: &str, state: &State) -> 
     pairs.all(|(a, b)| (a - b).abs() <= 1e-12 * size)
 }
 
-/// A comparison that cannot fail proves nothing: each sign of each sum of each kernel is turned round once, and nothing goes
-/// unseen that changes a result.
+/// A comparison that cannot fail proves nothing: flips every sign of every sum of every kernel once, and requires each flip
+/// that changes a result to be detected.
 #[test]
 fn every_wrong_sign_is_found() {
     let text = "pub mechanism Crane {

@@ -1,19 +1,18 @@
-//! A mechanism compiled without the standard library, as in the firmware of a controller.
+//! A mechanism compiled without the standard library, as in controller firmware.
 //!
-//! `cargo check -p eigentol-embedded` builds it alone, with the solvers left out; within the workspace other packages switch
-//! them on.
+//! `cargo check -p eigentol-embedded` builds it alone, without the solvers; in a workspace build, other packages enable them.
 #![no_std]
 
 pub mod smallest;
 
-/// Declarations of this and other packages as a build script generates them: rustc judges that text as if the user had written
-/// it, and it has to be without warnings.
+/// Declarations of this and other packages as a build script generates them. rustc treats this text as if the user had written
+/// it, so it must compile without warnings.
 #[deny(warnings, unused, clippy::all, clippy::pedantic)]
 pub mod generated {
     include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
 }
 
-/// Mechanisms in files of their own, with functions for C, as `eigentol-build` generates them.
+/// Mechanisms in separate files, with C functions, as `eigentol-build` generates them.
 #[deny(warnings, unused, clippy::all, clippy::pedantic)]
 pub mod for_c {
     include!(concat!(env!("OUT_DIR"), "/ball.rs"));
@@ -40,12 +39,12 @@ mechanism! {
     }
 }
 
-/// The moment that the hinge lacks to stay at `theta`, N m.
+/// The moment missing to hold the hinge at `theta`, N m.
 pub fn imbalance(theta: f64, omega: f64, design: &[f64; 3]) -> f64 {
     SprungPendulum.residual(&[theta], &[omega], design)[0]
 }
 
-/// The same in single precision.
+/// The same moment as [`imbalance`], in single precision.
 pub fn imbalance_f32(theta: f32, omega: f32, design: &[f32; 3]) -> f32 {
     SprungPendulum.residual(&[theta], &[omega], design)[0]
 }

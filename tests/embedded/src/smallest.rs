@@ -1,4 +1,4 @@
-//! Mechanisms that have as little as a mechanism can have.
+//! The smallest possible mechanisms.
 
 use eigentol::mechanism;
 

@@ -1,4 +1,4 @@
-//! The functions for C are the kernels: the same bits in the order of the header, and nothing where an argument is null.
+//! Checks that the C functions are the kernels: the same bits in the order of the header, and no output if an argument is null.
 #![allow(unsafe_code)]
 
 use std::ffi::CStr;
@@ -13,14 +13,14 @@ const B: [f64; 3] = [2.1, 3.3, 0.7];
 const V: [f64; 2] = [1.5, -0.6];
 const A: [f64; 2] = [-2.5, 0.8];
 
-/// What is there before a function writes, and what has to be there behind what it writes.
+/// Fills the results before a call, and must still be there beyond the end of each result afterwards.
 const UNTOUCHED: f64 = 12345.0;
 
-/// The state, and pointers to as many results as asked for, each with room for `R` numbers.
+/// Calls a function with the state and pointers to the requested number of results, each with room for `R` numbers.
 macro_rules! call {
     ($function:ident($($argument:expr),*) -> [$($result:ident: $length:expr),*]) => {
         $(let mut $result = [UNTOUCHED; $length + 1];)*
-        // SAFETY: the lengths are those of the header, with one number more behind each result.
+        // SAFETY: the lengths are those in the header, plus one number after each result.
         let code = unsafe { $function($($argument,)* $($result.as_mut_ptr()),*) };
         assert_eq!(code, 0);
         $(
@@ -192,10 +192,10 @@ fn constants_name_places() {
 
 fn violation(b: [f64; 3]) -> Option<&'static str> {
     let mut text = null();
-    // SAFETY: the lengths are those of the header.
+    // SAFETY: the lengths are those in the header.
     let code = unsafe { swing_violation(U.as_ptr(), b.as_ptr(), &raw mut text) };
     assert_eq!(code, 0);
-    // SAFETY: text that lives for ever.
+    // SAFETY: the text has static lifetime.
     (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_str().unwrap_or_default())
 }
 
@@ -223,7 +223,7 @@ fn null_is_answered_by_the_position_of_the_argument() {
     let [x, y, z] = &mut numbers;
     let (x, y, z) = (x.as_mut_ptr(), y.as_mut_ptr(), z.as_mut_ptr());
     let mut text = c"untouched".as_ptr();
-    // SAFETY: nothing is read or written where an argument is null.
+    // SAFETY: nothing is read or written if an argument is null.
     let codes = unsafe {
         [
             swing_residual(null(), u, b, x),
@@ -249,7 +249,7 @@ fn null_stands_for_lists_without_entries() {
     let q = [0.1, 0.2, 0.3];
     let (mut residual, mut margin) = ([UNTOUCHED; 3], [UNTOUCHED]);
     let (none, nowhere) = (null(), null_mut());
-    // SAFETY: the lengths are those of the header.
+    // SAFETY: the lengths are those in the header.
     let codes = unsafe {
         [
             ball_c::ball_residual(q.as_ptr(), none, none, residual.as_mut_ptr()),
@@ -261,11 +261,11 @@ fn null_stands_for_lists_without_entries() {
     };
     assert_eq!(codes, [0, 0, 0, 0, 1]);
     assert!(residual.iter().all(|entry| entry.is_finite()));
-    // axes z, y, x: the volume is the cosine of the turn in the middle
+    // axes z, y, x: the volume is the cosine of the middle rotation
     assert!((margin[0] - 0.2_f64.cos()).abs() < 1e-15);
 }
 
-/// A result may be written over an argument.
+/// A result may overwrite an argument.
 #[test]
 fn results_may_overlap_arguments() {
     let mut numbers = Q;

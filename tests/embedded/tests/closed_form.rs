@@ -1,4 +1,4 @@
-//! A mechanism without the standard library, in double and in single precision.
+//! A mechanism without the standard library, in double and single precision.
 
 use eigentol_embedded::{imbalance, imbalance_f32};
 

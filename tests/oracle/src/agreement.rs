@@ -1,8 +1,8 @@
-//! Compares any [`Kernels`] of a model with the oracle, at a random state.
+//! Compares any [`Kernels`] of a model with the oracle at a random state.
 //!
-//! A result that is a small difference of large terms cannot be compared relative to itself. The size of its terms is
-//! measured: the oracle evaluates the mechanism a second time with the whole ground turned, which changes nothing but
-//! the rounding, and rounding errors are one part in 2^52 of the terms.
+//! A result that is a small difference of large terms cannot be compared relative to itself, so the size of its terms
+//! is measured. The oracle evaluates the mechanism a second time with the whole ground rotated, which changes only the
+//! rounding; rounding errors are about 2^-52 of the terms.
 
 use std::fmt::Write;
 
@@ -41,8 +41,8 @@ pub struct Case {
 }
 
 impl Case {
-    /// A random state of a model: nowhere near an equilibrium, every drive on, every design variable off its nominal
-    /// value, every direction full.
+    /// A random state of a model: not near any equilibrium, every drive on, every design variable off its nominal
+    /// value, no zero component in any direction.
     pub fn random(model: &Model, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let n = model.free().len();
@@ -80,12 +80,12 @@ impl Case {
     }
 }
 
-/// One returned array.
+/// One array that a kernel returns.
 struct Array {
     kernel: &'static str,
     name: &'static str,
     shape: Vec<usize>,
-    /// Entries with the same index here are of one kind and share the size of their terms; all entries if `None`.
+    /// Entries with equal indices here are of one kind and share a term size; `None` if all entries are of one kind.
     kind: Option<usize>,
     values: Vec<f64>,
 }
@@ -255,15 +255,15 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
     list
 }
 
-/// A lower bound on the size of terms, relative to the largest of all kernels: what is zero for a reason that only one
-/// ground frame shows (all terms vanish in it) need not be smaller than the rounding of everything else.
+/// A lower bound on the size of terms, relative to the largest of all kernels. A result can be zero because all its
+/// terms vanish in one particular ground frame; it need not be more accurate than the rounding of everything else.
 const FLOOR: f64 = 1e-4;
 
-/// For each entry of an array the size of the terms that the entries of its kind are sums of.
+/// For each entry of an array, the size of the terms summed in the entries of its kind.
 fn sizes(value: &Array, turned: &Array) -> Vec<f64> {
     let terms = |(a, b): (&f64, &f64)| a.abs().max((a - b).abs() / f64::EPSILON);
     let single: Vec<f64> = value.values.iter().zip(&turned.values).map(terms).collect();
-    // The rounding error of one entry may happen to vanish, those of its kind do not all.
+    // The rounding error of a single entry may happen to vanish, but not those of all entries of its kind.
     let of_kind = |kind: usize| {
         let kin = (0..single.len()).filter(|&flat| value.kind_of(flat) == kind);
         kin.map(|flat| single[flat]).fold(0.0, f64::max)
@@ -273,13 +273,13 @@ fn sizes(value: &Array, turned: &Array) -> Vec<f64> {
         .collect()
 }
 
-/// What the oracle says at one random state of a model.
+/// The oracle's results at one random state of a model.
 pub struct Reference<'a> {
     model: &'a Model,
     seed: u64,
     case: Case,
     arrays: Vec<Array>,
-    /// Of the terms of each entry of each array.
+    /// Term size of each entry of each array.
     sizes: Vec<Vec<f64>>,
 }
 
@@ -311,7 +311,7 @@ impl<'a> Reference<'a> {
     /// Compares every kernel with the oracle.
     ///
     /// # Errors
-    /// Every entry that differs, and the declaration.
+    /// Lists every entry that differs, and the declaration.
     pub fn compare(&self, kernels: &dyn Kernels) -> Result<(), String> {
         let mut report = String::new();
         let found = arrays(kernels, &self.case);
@@ -348,7 +348,7 @@ fn compare_array(report: &mut String, expected: &Array, sizes: &[f64], found: &[
     for (flat, size) in sizes.iter().enumerate() {
         let (right, value) = (values[flat], found[flat]);
         let difference = (value - right).abs();
-        // NaN is no agreement.
+        // NaN is not agreement.
         let agrees = difference <= TOLERANCE * size;
         if !agrees {
             let indices = expected.indices(flat);

@@ -1,21 +1,20 @@
-//! What generated code offers, over vectors of `f64`: the contract of the runtime's `Mechanism`, kernel by kernel.
+//! The kernels of generated code over vectors of `f64`: the contract of the runtime's `Mechanism`, kernel by kernel.
 //!
-//! Matrices are flattened row by row. Where a kernel returns derivatives of matrices, the index of differentiation is
-//! the outermost one.
+//! Matrices are flattened by rows. Where a kernel returns derivatives of matrices, the index of differentiation is the outermost.
 
 use crate::matrices::{
     Along, Linear, LinearPartials, ModeFunctional, Oracle, PencilFunctional, ResidualFunctional,
     State,
 };
 
-/// Where a kernel is evaluated: `q`, `u`, `b`; or a direction there: `dq`, `du`, `db`.
+/// A point of evaluation `q`, `u`, `b`, or a direction `dq`, `du`, `db` there.
 pub type At<'a> = [&'a [f64]; 3];
 
 /// Partial derivatives of a scalar by coordinates, inputs and design variables.
 pub type Gradient = [Vec<f64>; 3];
 
-/// The vectors `left`, `acceleration`, `velocity`, `position` of the bilinear form of the linearised matrices, or their
-/// direction.
+/// The vectors `left`, `acceleration`, `velocity`, `position` of the bilinear form of the linearised matrices, or a
+/// direction in them.
 pub type Pencil<'a> = [&'a [f64]; 4];
 
 /// The kernels of one mechanism.
@@ -23,7 +22,7 @@ pub trait Kernels {
     /// `g(0, 0, q; u, b)`.
     fn residual(&self, at: At) -> Vec<f64>;
 
-    /// `g` at rest as inertia and applied forces, `g = inertia - applied`.
+    /// `g` at rest, split into inertia and applied forces: `g = inertia - applied`.
     fn residual_parts(&self, at: At) -> [Vec<f64>; 2];
 
     /// `g(qddot, qdot, q; u, b)`.
@@ -56,7 +55,7 @@ pub trait Kernels {
     /// Gradient of `w^T g` at rest.
     fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient;
 
-    /// The moment of a vibration about the spin of the bodies, and its bound.
+    /// The moment of a vibration about the spin axes of the bodies, and its bound.
     fn whirl(&self, at: At, real: &[f64], imaginary: &[f64]) -> Vec<f64>;
 
     /// Directional derivative of [`Kernels::mode_gradient`].

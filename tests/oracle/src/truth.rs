@@ -10,7 +10,7 @@ impl Truth {
     /// Reads a file of `truth/` by its name without extension.
     ///
     /// # Panics
-    /// When there is no such file, or it is not JSON.
+    /// When the file does not exist or is not JSON.
     pub fn load(name: &str) -> Self {
         let path = format!("{}/../truth/{name}.json", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
@@ -20,7 +20,7 @@ impl Truth {
     /// A field.
     ///
     /// # Panics
-    /// When there is none.
+    /// When the field is missing.
     pub fn get(&self, field: &str) -> Self {
         self.find(field)
             .unwrap_or_else(|| panic!("no field {field}"))
@@ -61,10 +61,10 @@ impl Truth {
         self.0.as_str().expect("a text").to_owned()
     }
 
-    /// Yes or no.
+    /// A Boolean.
     ///
     /// # Panics
-    /// When it is neither.
+    /// When the value is not a Boolean.
     pub fn truth(&self) -> bool {
         self.0.as_bool().expect("true or false")
     }

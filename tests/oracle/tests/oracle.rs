@@ -1,4 +1,4 @@
-//! The oracle against a second derivation of it, against finite differences, and against known answers.
+//! Checks the oracle against a second derivation, finite differences and known solutions.
 
 #[path = "oracle/closed_forms.rs"]
 mod closed_forms;

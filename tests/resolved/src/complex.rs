@@ -15,7 +15,7 @@ pub(super) struct HyperComplex {
 }
 
 impl HyperComplex {
-    /// Without infinitesimals.
+    /// A constant, without infinitesimal parts.
     pub(super) fn constant(value: Complex<f64>) -> Self {
         Self {
             re: Hyper::constant(value.re),
@@ -23,7 +23,7 @@ impl HyperComplex {
         }
     }
 
-    /// One complex number for each of the infinitesimals.
+    /// One complex number per infinitesimal part.
     pub(super) fn parts(self) -> [Complex<f64>; Hyper::PARTS] {
         let (re, im) = (self.re.parts(), self.im.parts());
         std::array::from_fn(|part| Complex::new(re[part], im[part]))

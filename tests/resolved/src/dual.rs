@@ -1,4 +1,4 @@
-//! Dual numbers of the `num-dual` crate as a scalar for generated code: derivatives that owe nothing to the compiler's
+//! Dual numbers of the `num-dual` crate as a scalar for generated code: derivatives independent of the compiler's
 //! differentiation.
 
 use num_dual::Dual64;

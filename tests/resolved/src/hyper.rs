@@ -1,11 +1,11 @@
-//! Hyper-dual numbers of the `num-dual` crate as a scalar for generated code: exact first and second derivatives that owe
-//! nothing to the compiler's differentiation.
+//! Hyper-dual numbers of the `num-dual` crate as a scalar for generated code: exact first and second derivatives
+//! independent of the compiler's differentiation.
 
 use num_dual::HyperDual64;
 
 use crate::num_dual::scalar;
 
-/// A value, its derivatives along two directions and the mixed second one.
+/// A value, its derivatives along two directions, and the mixed second derivative.
 #[derive(Clone, Copy, Debug)]
 pub struct Hyper(pub HyperDual64);
 

@@ -1,12 +1,12 @@
-//! Total derivatives, first and second, by solving the whole problem again in hyper-dual numbers: equilibrium, matrices,
-//! eigenpairs. No formula of a derivative occurs here, neither adjoint nor Nelson's; where the product has one, this is what
-//! it must agree with.
+//! First and second total derivatives, obtained by solving the whole problem again in hyper-dual numbers: equilibrium,
+//! matrices, eigenpairs. No derivative formula is used here, neither adjoint nor Nelson's; where the product uses one, it
+//! must agree with this.
 //!
 //! A solution `x` of `F(x; p) = 0` in doubles becomes one in hyper-dual numbers by repeating `x -= J^-1 F(x; p)` with the
-//! Jacobian of the doubles: each repetition makes one more order of the infinitesimals exact.
+//! Jacobian in doubles: each repetition makes one more order of the infinitesimals exact.
 //!
-//! Variables are the design variables, then the inputs. Of the compiler only the kernels `residual`, `linear` and
-//! `outputs` are used, and the stiffness of `residual_and_stiffness` where Newton's method needs some Jacobian.
+//! Variables are the design variables, then the inputs. The only compiler kernels used are `residual`, `linear` and
+//! `outputs`, and the stiffness from `residual_and_stiffness` where Newton's method needs a Jacobian.
 
 mod complex;
 pub mod dual;
@@ -22,7 +22,7 @@ pub use modes::{ComplexDerived, GeneralMode, UndampedMode};
 
 use crate::hyper::Hyper;
 
-/// A number with all its total derivatives by the variables: design variables first, then inputs.
+/// A number with all its total derivatives: by design variables first, then by inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derived {
     /// The number itself.
@@ -33,13 +33,13 @@ pub struct Derived {
     pub hessian: Vec<Vec<f64>>,
 }
 
-/// Pairs of variables `i <= j`, the order of the solutions in hyper-dual numbers.
+/// Pairs of variables `i <= j`, in the order of the hyper-dual solutions.
 fn pairs(variables: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..variables).flat_map(move |i| (i..variables).map(move |j| (i, j)))
 }
 
 impl Derived {
-    /// Puts together what was found along each of [`pairs`]; for no variables, from a single solution.
+    /// Assembles the derivatives found along each of [`pairs`]; with no variables, the value of the single solution.
     fn collect(variables: usize, solutions: impl Iterator<Item = Hyper>) -> Self {
         let solutions: Vec<[f64; 4]> = solutions.map(Hyper::parts).collect();
         let mut gradient = vec![0.0; variables];

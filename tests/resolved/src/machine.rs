@@ -1,4 +1,4 @@
-//! Equilibria in hyper-dual numbers, and the matrices there.
+//! Equilibria in hyper-dual numbers, and their matrices.
 
 use eigentol::Real;
 use eigentol_compiler::compile;
@@ -11,10 +11,10 @@ use super::{Derived, pairs};
 use crate::hyper::Hyper;
 use eigentol_consistency::interpreter::interpret;
 
-/// Repetitions of the Newton step in hyper-dual numbers: two make the second order exact, the others remove rounding.
+/// Repetitions of the Newton step in hyper-dual numbers: two make the second order exact, the rest remove rounding.
 pub(super) const REPETITIONS: usize = 4;
 
-/// A declaration, its kernels run by an interpreter.
+/// A declaration whose kernels are run by an interpreter.
 pub struct Machine {
     program: Program,
     coordinates: usize,
@@ -23,18 +23,18 @@ pub struct Machine {
     nominal: Vec<f64>,
 }
 
-/// A machine at one equilibrium: the same equilibrium once for every pair of variables, differentiated along the two.
+/// A machine at one equilibrium, solved once for every pair of variables and differentiated along both.
 pub struct State {
     /// `q*`.
     pub coordinates: Vec<f64>,
-    /// Design variables and inputs: what is differentiated by.
+    /// Number of design variables and inputs: the variables of differentiation.
     pub(super) variables: usize,
-    /// No unknown is a speed or belongs to a constraint on velocities: every mode moves mass by `Mhat`.
+    /// No unknown is a speed or belongs to a velocity constraint: every mode has mass in `Mhat`.
     pub(super) holonomic: bool,
     pub(super) solutions: Vec<Solution>,
 }
 
-/// An equilibrium differentiated along two directions. Matrices row by row.
+/// An equilibrium differentiated along two directions. Matrices are stored by rows.
 pub(super) struct Solution {
     pub(super) coordinates: Vec<Hyper>,
     pub(super) mass: Vec<Hyper>,
@@ -47,10 +47,10 @@ impl Machine {
     /// Compiles a declaration.
     ///
     /// # Panics
-    /// With what the compiler has to say against it.
+    /// With the compiler's messages, if it refuses the declaration.
     pub fn new(declaration: &str) -> Self {
         let tokens = declaration.parse().expect("the text has tokens");
-        // The runtime's way to do without partials of large mechanisms is no concern here: none are used.
+        // The compiler omits the partial derivatives of large mechanisms; none are used here.
         let limits = Limits {
             explicit_partials: 0,
             motion_linear: 0,
@@ -80,8 +80,8 @@ impl Machine {
             .unwrap_or_else(|| panic!("there is a kernel {name}"))
     }
 
-    /// Eigenvalues of the whole pencil at given coordinates, equilibrium or not, as [`State::eigenvalues`]: also where
-    /// `Khat` is singular and there is no [`State`].
+    /// Eigenvalues of the whole pencil at given coordinates, which need not be an equilibrium, as in
+    /// [`State::eigenvalues`]: also available where `Khat` is singular and there is no [`State`].
     pub fn eigenvalues(&self, u: &[f64], b: &[f64], q: &[f64]) -> Vec<Complex<f64>> {
         let n = self.coordinates;
         let mut linear = interpret(self.kernel("linear"), &[q, u, b]).into_iter();
@@ -90,7 +90,7 @@ impl Machine {
         upper_half(&[stiffness, damping, mass].map(|matrix| matrix.map(Complex::from)))
     }
 
-    /// Newton's method in doubles: coordinates and the last Jacobian.
+    /// Newton's method in doubles; returns the coordinates and the last Jacobian.
     fn settle(&self, u: &[f64], b: &[f64], start: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
         let n = self.coordinates;
         let kernel = self.kernel("residual_and_stiffness");
@@ -106,7 +106,7 @@ impl Machine {
                 .expect("an equilibrium that is not critical");
             let length = step.amax();
             let relative = length / (1e-3 + q.amax());
-            // Rounding: the steps shrink no more.
+            // Only rounding is left: the steps no longer shrink.
             if relative <= 1e-15 || relative <= 1e-10 && length >= last {
                 return (q.as_slice().to_vec(), stiffness);
             }
@@ -116,10 +116,10 @@ impl Machine {
         panic!("no equilibrium from {start:?}: still moving by {last:e} at {q}");
     }
 
-    /// The equilibrium that Newton's method reaches from `start`, differentiated by everything.
+    /// The equilibrium that Newton's method reaches from `start`, differentiated by all variables.
     ///
     /// # Panics
-    /// When there is none, or when `Khat` is singular there.
+    /// When none is found, or when `Khat` is singular there.
     pub fn at(&self, u: &[f64], b: &[f64], start: &[f64]) -> State {
         let (inputs, design) = (self.inputs, self.nominal.len());
         assert_eq!([u.len(), b.len()], [inputs, design]);
@@ -177,7 +177,7 @@ impl Machine {
 }
 
 impl State {
-    /// One number of every solution.
+    /// Assembles one number from all solutions.
     pub(super) fn derived(&self, number: impl Fn(usize, &Solution) -> Hyper) -> Derived {
         let numbers = self.solutions.iter().enumerate();
         Derived::collect(

@@ -1,4 +1,4 @@
-//! Modes with all their derivatives: undamped ones, and those of the whole pencil.
+//! Undamped modes and modes of the whole pencil, with all their derivatives.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -24,9 +24,9 @@ pub struct ComplexDerived {
 pub struct UndampedMode {
     /// The eigenvalue.
     pub lambda: Derived,
-    /// Its root, the frequency, if it is positive.
+    /// The square root of the eigenvalue, the frequency, if it is positive.
     pub omega: Option<Derived>,
-    /// `phi`; its lead is positive.
+    /// `phi`, with its lead component positive.
     pub shape: Vec<Derived>,
     /// The component of largest magnitude.
     pub lead: usize,
@@ -42,15 +42,15 @@ pub struct GeneralMode {
     pub magnitude: Derived,
     /// `-Re s / |s|`, the damping ratio.
     pub damping_ratio: Derived,
-    /// `phi`; its lead is real and positive.
+    /// `phi`, with its lead component real and positive.
     pub right: Vec<ComplexDerived>,
-    /// `psi`; its lead is real and positive.
+    /// `psi`, with its lead component real and positive.
     pub left: Vec<ComplexDerived>,
-    /// The components of largest magnitude of `phi` and `psi`; the first one where several are as large.
+    /// The components of largest magnitude of `phi` and `psi`; in case of a tie, the first.
     pub leads: [usize; 2],
 }
 
-/// A matrix polynomial in hyper-dual numbers, lowest coefficient first, row by row.
+/// A matrix polynomial in hyper-dual numbers, lowest coefficient first, each by rows.
 type Polynomial = Vec<Vec<Hyper>>;
 
 fn transposed(matrix: &[Hyper], n: usize) -> Vec<Hyper> {
@@ -91,7 +91,7 @@ impl State {
         polynomial.iter().map(values).collect()
     }
 
-    /// A pair refined in every solution, its shape normalised; `None` where it is not simple.
+    /// An eigenpair refined in every solution, with normalised shape; `None` where it is not simple.
     #[allow(clippy::type_complexity)]
     fn refined(
         &self,
@@ -127,23 +127,23 @@ impl State {
         ]
     }
 
-    /// Eigenvalues of `Khat` and `Mhat` by their real parts.
+    /// Eigenvalues of `Khat` and `Mhat`, ordered by real part.
     pub fn undamped_eigenvalues(&self) -> Vec<Complex<f64>> {
         let mut all = eigenvalues(&self.values(&Self::undamped(&self.solutions[0])));
         all.sort_by(|a, b| a.re.total_cmp(&b.re));
         all
     }
 
-    /// Eigenvalues of the whole pencil with `Im s >= 0`, by magnitude. All of them are checked by their sum, which is
-    /// `-tr(Mhat^-1 Chat)`.
+    /// Eigenvalues of the whole pencil with `Im s >= 0`, by magnitude. The sum of all eigenvalues is checked: it must
+    /// be `-tr(Mhat^-1 Chat)`.
     ///
     /// # Panics
-    /// When the sum is another.
+    /// When the sum differs.
     pub fn eigenvalues(&self) -> Vec<Complex<f64>> {
         upper_half(&self.values(&Self::general(&self.solutions[0])))
     }
 
-    /// All undamped modes, ascending in `lambda`; `None` for one that is repeated and has no derivative of its own.
+    /// All undamped modes, ascending in `lambda`; `None` for a repeated eigenvalue, which has no derivative of its own.
     pub fn undamped_modes(&self) -> Vec<Option<UndampedMode>> {
         let all = self.undamped_eigenvalues();
         let mode = |s: &Complex<f64>| separate(*s, &all).then(|| self.undamped_mode(s.re))?;
@@ -164,8 +164,8 @@ impl State {
         })
     }
 
-    /// All modes of the whole pencil in the order of [`State::eigenvalues`]; `None` for one that is repeated and has no
-    /// derivative of its own.
+    /// All modes of the whole pencil in the order of [`State::eigenvalues`]; `None` for a repeated eigenvalue, which
+    /// has no derivative of its own.
     pub fn general_modes(&self) -> Vec<Option<GeneralMode>> {
         let all = self.eigenvalues();
         let mode =
@@ -173,10 +173,10 @@ impl State {
         all.iter().map(mode).collect()
     }
 
-    /// The mode near the eigenvalue `s`, with given leads of `phi` and `psi` or the largest components.
+    /// The mode near the eigenvalue `s`, with the given lead components of `phi` and `psi`, or their largest ones.
     ///
     /// # Panics
-    /// When right and left pair, solved one without the other, disagree about the eigenvalue.
+    /// When the right and left pairs, solved independently, disagree about the eigenvalue.
     pub fn general_mode(&self, s: Complex<f64>, leads: [Option<usize>; 2]) -> Option<GeneralMode> {
         let n = self.order();
         let adjoint = |solution: &Solution| {

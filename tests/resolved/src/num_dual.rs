@@ -1,6 +1,6 @@
 //! Numbers of the `num-dual` crate as scalars for generated code.
 
-/// Implements [`Real`](eigentol::Real) and what it needs for a wrapper of a number of `num-dual`.
+/// Implements [`Real`](eigentol::Real) and its supertraits for a wrapper of a `num-dual` number.
 macro_rules! scalar {
     ($scalar:ident of $inner:ident) => {
         impl PartialOrd for $scalar {
@@ -26,7 +26,7 @@ macro_rules! scalar {
                 let (sin, cos) = num_dual::DualNum::sin_cos(&self.0);
                 (Self(sin), Self(cos))
             }
-            /// In axes turned to the value itself, where the quotient is defined: that of `num-dual` divides by `x`.
+            /// In axes aligned with the value itself, where the quotient is defined: `num-dual`'s own formula divides by `x`.
             fn atan2(self, x: Self) -> Self {
                 let (x0, y0) = (Self::constant(x.0.re), Self::constant(self.0.re));
                 let turned = (self * x0 - x * y0) / (x * x0 + self * y0);
@@ -36,7 +36,7 @@ macro_rules! scalar {
             fn powi(self, exponent: i32) -> Self {
                 Self(num_dual::DualNum::powi(&self.0, exponent))
             }
-            /// By the terms of the piece, which are differentiated like everything else.
+            /// Evaluates the terms of the segment, which are then differentiated like everything else.
             fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
                 let started = pieces.iter().rev().find(|piece| self.0.re >= piece[0]);
                 let [start, coefficients @ ..] = *started.unwrap_or(&pieces[0]);

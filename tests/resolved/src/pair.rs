@@ -13,20 +13,20 @@ type Matrix = DMatrix<Complex<f64>>;
 pub(super) struct Pair {
     pub(super) s: Complex<f64>,
     shape: DVector<Complex<f64>>,
-    /// The component that is 1: the largest, the first one where several are as large.
+    /// The component held at 1: the largest, or the first of equally large ones.
     pub(super) lead: usize,
-    /// Of `[A(s), A'(s) phi; e_lead^T, 0]`.
+    /// Factors of `[A(s), A'(s) phi; e_lead^T, 0]`.
     factors: LU<Complex<f64>, Dyn, Dyn>,
 }
 
-/// The first component that is as large as any.
+/// The first of the largest components.
 fn lead(shape: &DVector<Complex<f64>>) -> usize {
     let most = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
     let large = |x: &Complex<f64>| x.norm() >= most * (1.0 - 1e-9);
     shape.iter().position(large).unwrap_or(0)
 }
 
-/// The size of eigenvalues that the largest entries suggest.
+/// The order of magnitude of the eigenvalues, estimated from the largest entries.
 fn typical(coefficients: &[Matrix]) -> f64 {
     let degree = coefficients.len() - 1;
     (coefficients[0].camax() / coefficients[degree].camax()).powf(1.0 / degree as f64)
@@ -52,8 +52,8 @@ fn bordered(
 }
 
 impl Pair {
-    /// The pair near the eigenvalue `s`, with a given lead or the largest component. `None` where the eigenvalue is not
-    /// simple.
+    /// The pair near the eigenvalue `s`, with the given lead component or the largest one. `None` where
+    /// the eigenvalue is not simple.
     pub(super) fn near(
         coefficients: &[Matrix],
         s: Complex<f64>,
@@ -62,9 +62,9 @@ impl Pair {
         let n = coefficients[0].nrows();
         let mut s = s;
         let size = |s: Complex<f64>| s.norm().max(1e-6 * typical(coefficients));
-        // Beside the eigenvalue, where `A` is regular.
+        // Close to the eigenvalue, where `A` is regular.
         let factors = evaluate(coefficients, s + 1e-9 * size(s))[0].clone().lu();
-        // Real for a real eigenvalue: the pair then stays real.
+        // Real for a real eigenvalue, so that the pair stays real.
         let imaginary = if s.im == 0.0 { 0.0 } else { 0.11 };
         let start = |i: usize, _| Complex::new(1.0 + 0.37 * i as f64, imaginary * i as f64);
         let mut shape = DVector::from_fn(n, start);
@@ -100,7 +100,7 @@ impl Pair {
         None
     }
 
-    /// The pair of neighbouring matrices, row by row in hyper-dual numbers: eigenvalue and shape.
+    /// The eigenpair of slightly different matrices, given by rows in hyper-dual numbers: eigenvalue and shape.
     pub(super) fn refine(&self, coefficients: &[&[Hyper]]) -> (HyperComplex, Vec<HyperComplex>) {
         let n = self.shape.len();
         let mut s = HyperComplex::constant(self.s);

@@ -1,9 +1,10 @@
-//! Eigenvalues of a matrix polynomial in doubles: the method of Ehrlich and Aberth on its determinant (O. Aberth, Iteration
-//! methods for finding all zeros of a polynomial simultaneously, 1973). Bounded, and nothing like the product's solvers.
+//! Eigenvalues of a matrix polynomial in doubles: the Ehrlich-Aberth method applied to its determinant (O. Aberth,
+//! Iteration methods for finding all zeros of a polynomial simultaneously, 1973). The iteration count is bounded, and the
+//! method is unlike the product's solvers.
 
 use nalgebra::{Complex, DMatrix};
 
-/// Sweeps over all eigenvalues at most.
+/// The most sweeps over all eigenvalues.
 const SWEEPS: usize = 2000;
 
 /// `A(s) = sum_k s^k coefficients[k]` and its derivative by `s`.
@@ -21,7 +22,7 @@ pub(super) fn evaluate(
     [value, slope]
 }
 
-/// All eigenvalues; repeated ones to a root of the working accuracy. The highest coefficient is regular.
+/// All eigenvalues; repeated ones only to a root of the working accuracy. The leading coefficient must be regular.
 pub(super) fn eigenvalues(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex<f64>> {
     let mut found = starts(coefficients);
     let mut settled = vec![false; found.len()];
@@ -45,7 +46,7 @@ pub(super) fn eigenvalues(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex
                 found[i] -= step;
                 settled[i] = step.norm() <= 1e-14 * found[i].norm() + 1e-16 * most;
             } else {
-                // Two approximations have met, or the step has no size: leave the place.
+                // Two approximations have met, or the step is not finite: move away.
                 found[i] *= Complex::new(1.01, 0.01);
             }
         }
@@ -53,11 +54,11 @@ pub(super) fn eigenvalues(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex
     found
 }
 
-/// Those of a real quadratic pencil with `Im s >= 0`, by magnitude. All of them are checked by their sum, which is
-/// `-tr(M^-1 C)`.
+/// Eigenvalues of a real quadratic pencil with `Im s >= 0`, by magnitude. The sum of all eigenvalues is checked: it
+/// must be `-tr(M^-1 C)`.
 ///
 /// # Panics
-/// When the sum is another.
+/// When the sum differs.
 pub(super) fn upper_half(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex<f64>> {
     let mut all = eigenvalues(coefficients);
     let most = all.iter().map(|s| s.norm()).fold(0.0, f64::max);
@@ -76,14 +77,14 @@ pub(super) fn upper_half(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex<
     all
 }
 
-/// `p / p'` of `p = det A`, from `p' / p = tr(A^-1 A')`; nothing where `A` is singular.
+/// `p / p'` of `p = det A`, from `p' / p = tr(A^-1 A')`; `None` where `A` is singular.
 fn newton_step(coefficients: &[DMatrix<Complex<f64>>], s: Complex<f64>) -> Option<Complex<f64>> {
     let [value, slope] = evaluate(coefficients, s);
     let quotient = value.lu().solve(&slope)?;
     Some(quotient.trace().inv())
 }
 
-/// Every eigenvalue somewhere near the size that the diagonals suggest, in different directions.
+/// Start values: magnitudes estimated from the diagonals, in different directions.
 fn starts(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex<f64>> {
     let (n, degree) = (coefficients[0].nrows(), coefficients.len() - 1);
     let sizes: Vec<f64> = (0..n)

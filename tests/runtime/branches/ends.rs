@@ -1,4 +1,4 @@
-//! Where branches begin and end, and which are found.
+//! Where branches begin and end, and which branches are found.
 
 use super::*;
 
@@ -74,7 +74,7 @@ fn branches_end_at_the_edge_of_a_domain_and_at_infinity() {
     assert!(away.special().is_empty());
     near(away.branches[0].points.last().unwrap().value, 1.0, 1e-5);
 
-    // A point mass on a spinning plate is thrown out at its critical speed; the damping says nothing here.
+    // A point mass on a spinning plate is thrown outwards at its critical speed; damping plays no part here.
     let design = [0.5, 40.0, 60.0, 0.3];
     let plate = of(&Derived(Plate), &design, &[0.0; 2], range(0.0, 10.0), None);
     assert_eq!(plate.branches[0].ends[1], BranchEnd::Escape, "{plate}");
@@ -88,7 +88,7 @@ fn the_least_mechanisms_have_branches() {
         ends(&nothing.branches[0]),
         [&BranchEnd::Low, &BranchEnd::High]
     );
-    // A free coordinate rests anywhere: no line of equilibria to follow.
+    // A free coordinate is in equilibrium anywhere: there is no branch to follow.
     let free = branches(&Derived(Free), &[0.0], &[], &[7.0], &range(1.0, 2.0), None).unwrap();
     assert!(
         matches!(free.branches[0].ends[1], BranchEnd::Lost(_)),
@@ -97,7 +97,7 @@ fn the_least_mechanisms_have_branches() {
     assert_eq!(free.branches[0].points.len(), 1);
 }
 
-/// Random fields of fourth order: what a search finds anywhere in the range lies on a branch.
+/// Random quartic fields: every equilibrium that a search finds in the range lies on a branch.
 #[test]
 fn no_equilibrium_of_a_random_field_is_missed() {
     let mut state = 1_u64;
@@ -112,7 +112,7 @@ fn no_equilibrium_of_a_random_field_is_missed() {
     for trial in 0..40 {
         let mut b: [f64; 7] = std::array::from_fn(|_| random());
         if trial % 3 == 0 {
-            // A mirror: q0 and -q0 are equivalent.
+            // Mirror symmetry: q0 and -q0 are equivalent.
             (b[1], b[4], b[6]) = (0.0, 0.0, 0.0);
         }
         if trial % 2 == 0 {
@@ -177,7 +177,7 @@ fn no_equilibrium_of_a_random_field_is_missed() {
                         .count()
                 })
                 .sum();
-            // An odd field has an odd number of zeros, nine at most; the search may miss some.
+            // An odd field has an odd number of zeros, at most nine; the search may miss some.
             assert!(passes % 2 == 1 && passes <= 9, "{trial} {value}: {passes}");
             assert!(passes >= there.len(), "{trial} {value}: {passes}");
         }

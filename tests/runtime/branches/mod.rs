@@ -1,4 +1,4 @@
-//! Branches of equilibria: followed through folds and into each other, located to rounding, each once.
+//! Branches of equilibria: followed through folds and into each other, located to rounding, each found once.
 
 mod ends;
 mod pendulums;
@@ -42,7 +42,7 @@ fn near(actual: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// All branches of a machine with one input, checked for what holds of any branch.
+/// All branches of a machine with one input, checked for the properties of every branch.
 fn of(
     machine: &dyn DirectionalKernels,
     b: &[f64],
@@ -98,7 +98,7 @@ fn assert_sound(machine: &dyn Kernels, branch: &Branch, settings: &Continuation)
         let at = &point.equilibrium;
         assert_eq!(at.inputs, [point.value]);
         assert!(at.relative_residual <= 2e-10);
-        // A tangent keeps the residual at zero.
+        // A tangent leaves the residual at zero.
         let (by_input, _) = machine.residual_partials(&at.coordinates, &at.inputs, &at.design);
         for (i, by_input) in by_input.iter().enumerate() {
             let (mut sum, mut size) =

@@ -59,7 +59,7 @@ fn the_pendulum_bends_to_both_sides() {
 
 #[test]
 fn the_bent_branch_leads_to_the_hanging_one() {
-    // Downwards from a bent state: through the pitchfork into the other branches.
+    // Downwards from a bent state, through the pitchfork into the other branches.
     let found = of(&Pendulum, &BAR, &[0.3], range(6.0, 1.0), None);
     assert_eq!(found.branches.len(), 3);
     close(only(&found).value, W.sqrt(), 1e-13);
@@ -110,7 +110,7 @@ fn the_double_pendulum_has_two_pitchforks() {
             }
         }
     }
-    // 50-digit reference of an ordinary solve at 4 rad/s, met by the line between two points.
+    // 50-digit reference from an ordinary solve at 4 rad/s, met by the line between two points.
     let bent = &found.branches[2];
     let after = bent
         .points

@@ -1,4 +1,4 @@
-//! Settings, reports, and values that make no sense.
+//! Settings, reports, and meaningless values.
 
 use super::*;
 

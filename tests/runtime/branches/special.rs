@@ -72,7 +72,7 @@ fn branches_exchange_their_stability() {
             let off = (q - d) * (q - e - s * (point.value - d));
             near(off, 0.0, 1e-15);
         }
-        // Straight lines, also where they cross: there the second order of the equations tells the directions.
+        // Straight lines, also where they cross: there the second-order terms of the equations give the directions.
         let level = branch
             .points
             .iter()
@@ -143,7 +143,7 @@ fn two_critical_directions_at_once_are_told() {
         None,
     );
     assert_eq!(only(&equal).kind, SpecialKind::Degenerate);
-    // Close together, but apart: both pitchforks, and the second ones on the arms.
+    // Close together but separate: both pitchforks, and the secondary ones on the arms.
     for e in [1e-2, 1e-5] {
         let apart = of(&Derived(NearlyTwo), &[e], &[0.0; 2], range(0.0, 1.9), None);
         assert_eq!(apart.branches.len(), 9);

@@ -1,4 +1,4 @@
-//! Derivatives of equal eigenvalues along a direction, against closed forms, and what the reports say of the others.
+//! Directional derivatives of equal eigenvalues against closed forms, and what reports say about single-mode derivatives.
 
 use eigentol::{
     DampingKind, Description, Error, Family, Real, Shared, Study, Violation, mechanism,
@@ -27,8 +27,8 @@ mechanism! {
     }
 }
 
-/// Two equal unit masses with stiffness 100 and damping 2. `c` and `f` are the stiffnesses by which the second acts on the first
-/// and the first on the second, `d` damps the first alone.
+/// Two equal unit masses with stiffness 100 and damping 2. `c` and `f` are the stiffnesses through which the second acts on the
+/// first and the first on the second; `d` damps only the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Twins;
 
@@ -74,7 +74,7 @@ impl Model for Twins {
     }
 }
 
-/// `d(K - lambda M)` is `dkx e_x e_x^T + dkn n n^T + dk` on a plane without directions of its own, `n = (0.6, 0.8)`.
+/// `d(K - lambda M)` is `dkx e_x e_x^T + dkn n n^T + dk` in a plane without preferred directions, `n = (0.6, 0.8)`.
 #[test]
 fn a_square_shaft_splits_as_the_direction_says() {
     let study = Study::new(SquareShaft);
@@ -106,7 +106,7 @@ fn a_square_shaft_splits_as_the_direction_says() {
     }
 }
 
-/// Single-mode numbers are all the same, 1/2 of the trace or whatever the basis makes of it; none is printed.
+/// Single-mode derivatives are all arbitrary, either half the trace or dependent on the basis; none is printed.
 #[test]
 fn numbers_of_a_cluster_are_not_printed_as_ordinary_ones() {
     let study = Study::new(SquareShaft);
@@ -129,7 +129,7 @@ fn numbers_of_a_cluster_are_not_printed_as_ordinary_ones() {
     let found = study.modes().unwrap();
     assert_eq!(found.cluster_of(0), [0, 1]);
     assert!(found.cluster_of(2).is_empty());
-    // Apart they are ordinary again.
+    // Separated, they are ordinary modes again.
     let apart = study.design(SquareShaft::kx, 40.0);
     assert_eq!(apart.modes().unwrap().cluster_of(1), [1]);
     assert!(
@@ -148,7 +148,7 @@ fn numbers_of_a_cluster_are_not_printed_as_ordinary_ones() {
     within(slope, 0.25, 1e-12);
 }
 
-/// `s^2 + 2 s + 100 = 0` twice: `ds = -mu / (2 s + 2)`, `mu` the eigenvalues of `[[s dd, dc], [df, 0]]`.
+/// `s^2 + 2 s + 100 = 0` twice: `ds = -mu / (2 s + 2)`, with `mu` the eigenvalues of `[[s dd, dc], [df, 0]]`.
 #[test]
 fn damped_twins_split_as_the_direction_says() {
     let study = Study::new(Derived(Twins));
@@ -176,7 +176,7 @@ fn damped_twins_split_as_the_direction_says() {
                 .map(|(i, value)| (found.eigenvalues[i] - value).norm())
                 .fold(0.0, f64::max)
         };
-        // Equal real parts leave their order to rounding.
+        // With equal real parts their order depends on rounding.
         assert!(
             apart([0, 1]).min(apart([1, 0])) < 1e-12,
             "{found:?} {expected:?}"

@@ -1,4 +1,4 @@
-//! General modes: whirling pairs, flutter that draws near, defective and overdamped roots.
+//! General modes: whirling pairs, approaching flutter, defective and overdamped roots.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ const KY: DesignVariable<Derived<Plate>> = DesignVariable::new(2);
 const DAMPING: DesignVariable<Derived<Plate>> = DesignVariable::new(3);
 const STIFFNESS: DesignVariable<Derived<Follower>> = DesignVariable::new(0);
 
-/// `kx = ky = 50`, `m = 0.5`: 10 rad/s in both directions at rest; the stiffnesses vary with standard deviation 0.4.
+/// `kx = ky = 50`, `m = 0.5`: 10 rad/s in both directions at rest; the stiffnesses have standard deviation 0.4.
 fn plate(speed: f64, damping: f64) -> Study<Derived<Plate>> {
     Study::new(Derived(Plate))
         .family(Family::General)
@@ -36,7 +36,7 @@ fn speed_splits_a_double_frequency_by_plus_and_minus_the_speed() {
     let study = plate(0.0, 0.0);
     let (state, found) = (study.equilibrium().unwrap(), study.modes().unwrap());
     let couplings = modal_couplings(study.mechanism(), &state, &found, &[0, 1]).unwrap();
-    // Eigenvalues of the matrix by the speed: +-i, so trace 0 and determinant 1.
+    // Eigenvalues of the matrix of derivatives by the speed: +-i, so trace 0 and determinant 1.
     let [a, b, c, d] = *couplings.by_input[0].as_flattened() else {
         panic!("two modes")
     };
@@ -47,7 +47,7 @@ fn speed_splits_a_double_frequency_by_plus_and_minus_the_speed() {
     let mean = found[0].mean.as_ref().unwrap();
     within((mean.value - Complex::new(0.0, 10.0)).norm(), 0.0, 1e-13);
     within(mean.by_input[0].norm(), 0.0, 1e-13);
-    // ds/dk = i / (2 m omega), half of it each; sorted like two normal values.
+    // ds/dk = i / (2 m omega), half of it for each; sorted like two normal values.
     within(
         (mean.by_design[KX.index()] - Complex::new(0.0, 0.05)).norm(),
         0.0,
@@ -101,7 +101,7 @@ fn the_mean_damping_ratio_moves_as_each_of_two_equal_ones() {
     close(ratio.sigma, (0.02 / 10.0_f64).hypot(by_stiffness), 1e-9);
 }
 
-/// Ziegler's column loses its stability at `load / stiffness = (7 - sqrt 8) / 2`, where two frequencies merge:
+/// Ziegler's column loses stability at `load / stiffness = (7 - sqrt 8) / 2`, where two frequencies merge:
 /// `2 lambda^2 + (2 p - 7 k) lambda + k^2 = 0`.
 fn critical_load() -> f64 {
     0.5 * (7.0 - 8.0_f64.sqrt())
@@ -114,7 +114,7 @@ fn column(load: f64) -> Study<Derived<Follower>> {
         .tolerance(STIFFNESS, 0.01)
 }
 
-/// The two `s` with positive imaginary part at a stiffness.
+/// The two `s` with positive imaginary part at a given stiffness.
 fn column_roots(load: f64, k: f64) -> [Complex; 2] {
     let (b, root) = (
         7.0 * k - 2.0 * load,
@@ -149,13 +149,13 @@ fn column_moments(load: f64) -> [(f64, f64); 2] {
 
 #[test]
 fn merging_frequencies_agree_with_monte_carlo_and_count_flutter() {
-    // 0.9 standard deviations of the stiffness before flutter.
+    // Flutter is 0.9 standard deviations of the stiffness away.
     let study = column(0.997 * critical_load());
     let found = study.clusters().unwrap();
     let [found] = found.as_slice() else {
         panic!("{found:?}")
     };
-    // The distance is that of the discriminant from zero, to first order.
+    // The distance is the first-order distance of the discriminant from zero.
     let discriminant = |k: f64| (7.0 * k - 2.0 * 0.997 * critical_load()).powi(2) - 8.0 * k * k;
     let slope = (discriminant(1.0 + 1e-6) - discriminant(1.0 - 1e-6)) / 2e-6;
     let distance = discriminant(1.0) / (slope * 0.01 / 3.0);
@@ -183,7 +183,7 @@ fn next_to_a_defective_root_the_spread_is_right_or_refused() {
             let study = column(load);
             let found = study.clusters().unwrap();
             let [found] = found.as_slice() else {
-                // Before flutter and far enough away, or both roots of a flutter far beyond.
+                // Far enough before flutter, or both roots far beyond it.
                 assert!(power == 2, "{power} {side}");
                 continue;
             };
@@ -241,7 +241,7 @@ fn a_defective_root_has_no_sigma() {
 
 #[test]
 fn overdamped_roots_form_a_pair() {
-    // At rest the x direction alone: s = -c/2m +- sqrt((c/2m)^2 - kx/m), critical at c = 8.944.
+    // The x direction alone at rest: s = -c/2m +- sqrt((c/2m)^2 - kx/m), critical at c = 8.944.
     let study = plate(0.0, 9.0)
         .design(KX, 40.0)
         .design(KY, 4000.0)
@@ -280,7 +280,7 @@ fn overdamped_roots_form_a_pair() {
 
 #[test]
 fn critically_damped_roots_are_defective() {
-    // c = 2 sqrt(k m) in one direction, then in both: one and two double roots at -10.
+    // c = 2 sqrt(k m) in one direction, then in both: one or two double roots at -10.
     let both = plate(0.0, 10.0);
     let one = both.clone().design(KY, 4000.0);
     for (study, count) in [(one, 2), (both, 4)] {
@@ -296,7 +296,7 @@ fn critically_damped_roots_are_defective() {
             assert!(summary.first.modes[*mode].growth().is_none());
         }
     }
-    // Equal overdamped motions are double roots that are not defective.
+    // Equal overdamped motions are double roots, but not defective.
     let found = plate(0.0, 20.0).clusters().unwrap();
     assert_eq!(found.len(), 2);
     assert!(found.iter().all(|cluster| cluster.spread.is_ok()));

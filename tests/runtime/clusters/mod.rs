@@ -1,4 +1,4 @@
-//! Modes that tolerances mix: closed forms, and Monte Carlo of the whole problem.
+//! Modes mixed by tolerances: closed forms, and Monte Carlo on the whole problem.
 
 mod directional;
 mod general;
@@ -26,7 +26,7 @@ fn independent<const P: usize>(sigma: [f64; P]) -> Tolerances {
     Tolerances::new(sigma, 1.0, None).unwrap()
 }
 
-/// Mean, standard deviation and their standard errors (the second one for tails no heavier than normal ones).
+/// Mean, standard deviation and their standard errors (the second for tails no heavier than normal).
 #[derive(Clone, Copy, Debug)]
 struct Moments {
     mean: f64,
@@ -46,7 +46,7 @@ impl Moments {
         }
     }
 
-    /// Both agree within five standard errors, and `model` times the standard deviation for what the model leaves out.
+    /// Both agree within five standard errors, plus `model` times the standard deviation for model error.
     #[track_caller]
     fn agrees(&self, found: Option<Statistics>, model: f64) {
         let found = found.unwrap();
@@ -57,7 +57,7 @@ impl Moments {
     }
 }
 
-/// Every sample of a Monte Carlo run of the whole problem, sorted by a quantity of its eigenvalues.
+/// Every sample of a Monte Carlo run on the whole problem, sorted by a quantity of its eigenvalues.
 fn sorted(run: &MonteCarlo, quantity: impl Fn(Complex) -> f64) -> Vec<Vec<f64>> {
     let one = |sample: &eigentol::tolerance::Sample| {
         let values = sample.eigenvalues.iter().map(|s| quantity(s.unwrap()));
@@ -68,13 +68,13 @@ fn sorted(run: &MonteCarlo, quantity: impl Fn(Complex) -> f64) -> Vec<Vec<f64>> 
     run.all.as_ref().unwrap().iter().map(one).collect()
 }
 
-/// Samples that share no random number with those of the clusters.
+/// Samples that share no random numbers with the cluster's own.
 fn run<M: BatchKernels + Clone>(study: &Study<M>) -> MonteCarlo {
     let study = study.clone().seed(91).samples(4096).keep_samples(true);
     study.monte_carlo().unwrap()
 }
 
-/// Every sorted member and the splitting agree with the sampled ones.
+/// Every sorted member and the splitting agree with the sampled values.
 #[track_caller]
 fn agree(found: &SortedSpread, samples: &[Vec<f64>], model: f64) {
     let count = found.members.len();

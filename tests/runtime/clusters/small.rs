@@ -1,4 +1,4 @@
-//! Small matrices alone: distributions known in closed form, and what is refused.
+//! Small matrices: distributions known in closed form, and refused inputs.
 
 use std::f64::consts::PI;
 
@@ -24,7 +24,7 @@ fn undamped(
     sample_cluster(&couplings, tolerances, &ClusterSampling::default())
 }
 
-/// `s = i 10 + i (matrix)`: the eigenvalues of the real matrices show in the frequencies.
+/// `s = i 10 + i (matrix)`: the eigenvalues of the real matrices appear in the frequencies.
 fn turned(values: &[f64], slopes: &[Vec<f64>], tolerances: &Tolerances) -> ClusterSpread {
     let turn = |values: &[f64]| values.iter().map(|&x| Complex::new(0.0, x)).collect();
     let slopes: Vec<Vec<Complex>> = slopes.iter().map(|own| turn(own)).collect();
@@ -52,7 +52,7 @@ fn split_pair_is_rayleigh() {
     within(high_value.sigma.unwrap(), sigma, 4.0 * error);
     within(low_value.mean + high_value.mean, 200.0, 1e-11);
     within(lambda.splitting.unwrap().mean, 2.0 * mean, 8.0 * error);
-    // Frequencies about 10 rad/s.
+    // Frequencies near 10 rad/s.
     let frequency = found.frequency.highest().unwrap();
     assert_eq!(
         (frequency.value.as_ref().unwrap().count, frequency.without),
@@ -89,7 +89,7 @@ fn members_are_sorted_and_their_mean_is_the_trace() {
 
 #[test]
 fn general_matrices_of_any_size_meet_symmetric_ones() {
-    // The same symmetric matrices: lambda by rotations, Im s by the complex iteration.
+    // Symmetric matrices by both methods: lambda by rotations, Im s by the complex iteration.
     for m in 1..6 {
         let slope = |k: usize| -> Vec<f64> {
             let element = |i: usize, j: usize| ((3 * i * j + 2 * (i + j) + k) as f64).sin();
@@ -125,7 +125,7 @@ fn a_cluster_of_one_is_normal_and_loses_its_frequency_below_zero() {
 
 #[test]
 fn nonsymmetric_pairs_flutter() {
-    // [[3, x], [-x, 3]]: always the pair 3 +- i |x|; turned, frequency 3 and growth -+ |x|, half-normal.
+    // [[3, x], [-x, 3]]: always the pair 3 +- i |x|; rotated, frequency 3 and growth -+ |x|, half-normal.
     let one = turned(
         &[3.0, 3.0],
         &[vec![0.0, 1.0, -1.0, 0.0]],
@@ -149,7 +149,7 @@ fn nonsymmetric_pairs_flutter() {
     let (low, high) = (low.value.as_ref().unwrap(), high.value.as_ref().unwrap());
     assert!(low.max < 0.0 && high.min > 0.0);
     close(low.min, -highest.max / highest.max.hypot(3.0), 1e-12);
-    // [[3 + y, x], [-x, 3 - y]]: real where |y| > |x|, one half of the samples.
+    // [[3 + y, x], [-x, 3 - y]]: real where |y| > |x|, in half of the samples.
     let slopes = [vec![0.0, 1.0, -1.0, 0.0], vec![1.0, 0.0, 0.0, -1.0]];
     let half = turned(&[3.0, 3.0], &slopes, &independent([1.0, 1.0]));
     within(half.unstable as f64, 2048.0, 128.0);

@@ -1,4 +1,4 @@
-//! Verdicts: each doubt where its cause is, none where there is none, and a sentence for each.
+//! Verdicts: each warning appears where its cause is present and nowhere else, with one sentence each.
 
 use eigentol::summary::{Doubt, Summary};
 use eigentol::tolerance::Outcome;
@@ -80,8 +80,8 @@ fn near_the_critical_speed_nothing_is_trusted() {
     );
 }
 
-/// At 1.000004 of the critical speed no term of the series says anything: against the exact distribution, by quadrature over
-/// both branches, `lambda = w - u^2` below `u^2 = w = 3 g / (2 L)` and `u^2 - w^2 / u^2` beyond.
+/// At 1.000004 times the critical speed no term of the series is meaningful. Compared with the exact distribution, by
+/// quadrature over both branches: `lambda = w - u^2` below `u^2 = w = 3 g / (2 L)` and `u^2 - w^2 / u^2` beyond.
 #[test]
 fn at_the_critical_speed_sampling_is_what_to_use() {
     let speed = 3.836;
@@ -155,7 +155,7 @@ fn wide_tolerances_bend() {
         &summary.to_string(),
         &["% below that of second order", "use Monte Carlo", " no\n"],
     );
-    // Samples tell by how much first order misses.
+    // Samples show how large the first-order error is.
     let measured = pendulum(7.0, 0.6);
     assert!(matches!(
         measured.trust[0].doubts[..],
@@ -204,12 +204,12 @@ fn mixed_modes_have_no_sigma_of_their_own() {
         .find(|line| line.trim_start().starts_with("1 "))
         .unwrap();
     assert_eq!(row.matches(" -").count(), 5, "{row}");
-    // First order alone points there.
+    // Only first order raises a warning there.
     says(
         &summary.first.to_string(),
         &["Each mode is taken alone", "summary"],
     );
-    // Equal frequencies, where second order does not exist either.
+    // Equal frequencies, for which second order does not exist either.
     let equal = Study::new(Derived(Pair)).summary().unwrap();
     assert!(matches!(
         &equal.trust[0].doubts[..],
@@ -220,7 +220,7 @@ fn mixed_modes_have_no_sigma_of_their_own() {
 #[test]
 fn a_vibration_about_to_grow_says_so() {
     let summary = plate(0.5, 0.02, 0.01);
-    // The damping ratio of the stable samples is normal, cut off at two standard deviations.
+    // The damping ratio of the stable samples is normal, truncated at two standard deviations.
     let hazard = (-2.0_f64).exp() / std::f64::consts::TAU.sqrt() / 0.977_249_868;
     let cut = (1.0 - 2.0 * hazard - hazard * hazard).sqrt();
     for trust in &summary.trust {
@@ -244,7 +244,7 @@ fn a_vibration_about_to_grow_says_so() {
     says(&summary.to_string(), &["begins to grow 2.0"]);
     let growing = plate(0.5, -0.02, 0.01);
     says(&growing.to_string(), &["the vibration grows"]);
-    // Without damping nothing moves the growth, rounding apart.
+    // Without damping nothing changes the growth, except rounding.
     let conservative = plate(0.5, 0.0, 0.0);
     assert!(conservative.trusted(), "{conservative}");
     let first = &conservative.first.modes[0];
@@ -253,7 +253,7 @@ fn a_vibration_about_to_grow_says_so() {
 
 #[test]
 fn an_oscillation_about_to_cease_says_so() {
-    // At rest in x: (Im s)^2 = k/m - (c/2m)^2 with m = 0.5, k = 40: c = 8.9 is just below critical damping.
+    // In x at rest: (Im s)^2 = k/m - (c/2m)^2 with m = 0.5, k = 40; c = 8.9 is just below critical damping.
     let summary = plate(0.0, 8.9, 0.05);
     let near = summary
         .trust
@@ -263,7 +263,7 @@ fn an_oscillation_about_to_cease_says_so() {
             _ => None,
         });
     let (mode, distance) = near.unwrap();
-    // Variances of (Im s)^2 by k and c.
+    // Variances of (Im s)^2 due to k and c.
     let sigma = (0.1_f64 / 0.5).hypot(2.0 * 8.9 * 0.05);
     close(distance, (80.0 - 8.9_f64.powi(2)) / sigma, 1e-9);
     assert!(summary.first.modes[mode].distance_to_critical > 4.5);
@@ -286,7 +286,8 @@ fn an_oscillation_about_to_cease_says_so() {
     );
 }
 
-/// On both sides of each threshold, from closed forms. Those of what samples can judge count where there are none.
+/// On both sides of each threshold, from closed forms. Thresholds on quantities that samples can judge apply only
+/// without samples.
 #[test]
 fn thresholds_are_where_they_are_said_to_be() {
     let w = 1.5 * GRAVITY;
@@ -318,8 +319,8 @@ fn thresholds_are_where_they_are_said_to_be() {
         let growing = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
         assert_eq!(plate.trust[0].doubts.iter().any(growing), doubted);
     }
-    // Beyond, omega = sqrt(u^2 - w^2 / (u l)^2), which bends: with r = omega'' sigma / (sqrt(2) omega') first order misses
-    // second by 1 - 1 / sqrt(1 + r^2).
+    // Beyond, omega = sqrt(u^2 - w^2 / (u l)^2), which is curved: with r = omega'' sigma / (sqrt(2) omega') first order
+    // differs from second by 1 - 1 / sqrt(1 + r^2).
     let speed = 5.0_f64;
     let rest = (w / speed).powi(2);
     let omega = (speed * speed - rest).sqrt();

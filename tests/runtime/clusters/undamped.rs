@@ -1,4 +1,4 @@
-//! Undamped modes: repeated, nearly repeated, veering, crossing and far ones; three at once.
+//! Undamped modes: repeated, nearly repeated, veering, crossing and well-separated ones; three at once.
 
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ const C: DesignVariable<Derived<Pair>> = DesignVariable::new(2);
 
 type PairStudy = Study<Derived<Pair>>;
 
-/// Standard deviations of `k1`, `k2` and `c` at `k1 = 100`, `k2 = 100 + gap`, `c = mean`.
+/// The pair at `k1 = 100`, `k2 = 100 + gap`, `c = mean`, with standard deviations `sigma` of `k1`, `k2` and `c`.
 fn pair(gap: f64, mean: f64, sigma: [f64; 3]) -> PairStudy {
     Study::new(Derived(Pair))
         .sigma_level(1.0)
@@ -94,7 +94,7 @@ fn clusters_agree_with_monte_carlo_of_the_whole_problem() {
 
 #[test]
 fn what_mixes_modes_counts_as_well_as_what_moves_them_apart() {
-    // Nothing moves lambda_1 - lambda_2 at first order: first order alone sees no neighbour.
+    // At first order nothing moves lambda_1 - lambda_2: first order alone sees no neighbour.
     let study = pair(2.0, 0.0, [0.0, 0.0, 1.0]);
     let first = study.first_order().unwrap();
     assert!(first.trusted() && first.modes[0].frequency().unwrap().sigma < 1e-12);
@@ -102,7 +102,7 @@ fn what_mixes_modes_counts_as_well_as_what_moves_them_apart() {
     // sigma(k2 - k1) = 0.5, 2 sigma(c) = 2.
     let both = pair(2.0, 0.0, [0.3, 0.4, 1.0]);
     close(only(both.clusters().unwrap()).distance, 0.8, 1e-12);
-    // Beyond TRUSTED_DISTANCE = 4.5 they are no cluster, and second order sees the little that is left.
+    // Beyond TRUSTED_DISTANCE = 4.5 they are not a cluster, and second order captures the small remaining effect.
     assert_eq!(
         pair(8.99, 0.0, [0.0, 0.0, 1.0]).clusters().unwrap().len(),
         1
@@ -129,7 +129,7 @@ fn without_tolerances_only_rounding_makes_a_cluster() {
 
 #[test]
 fn three_equal_modes_have_order_statistics() {
-    // Three independent normal values: mean of the greatest 3 / (2 sqrt(pi)), variance of the middle one 1 - sqrt(3)/pi.
+    // Three independent normal values: the mean of the largest is 3 / (2 sqrt(pi)), the variance of the middle one 1 - sqrt(3)/pi.
     let study = Study::new(Derived(Triple));
     let found = only(study.clusters().unwrap());
     assert_eq!(found.modes, [0, 1, 2]);
@@ -155,10 +155,10 @@ fn three_modes_that_mix_agree_with_monte_carlo() {
     let study = coupled(101.0);
     let spread = only(study.clusters().unwrap()).spread.unwrap();
     agree(&spread.frequency, &sorted(&run(&study), |s| s.im), 0.0);
-    // The third one far away leaves a pair.
+    // With the third one far away, a pair remains.
     let pair = only(coupled(150.0).clusters().unwrap());
     assert_eq!(pair.modes, [0, 1]);
-    // A chain 1 - 2 - 3 whose ends are apart is one cluster.
+    // A chain 1 - 2 - 3 with distant ends is one cluster.
     let chain = Study::new(Derived(Triple))
         .design(DesignVariable::new(0), 94.0)
         .design(DesignVariable::new(2), 106.0);

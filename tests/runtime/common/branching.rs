@@ -1,4 +1,4 @@
-//! Mechanisms whose branches of equilibria have closed forms. Unit masses; `g` stands in each description.
+//! Mechanisms whose equilibrium branches have closed forms. Unit masses; each description gives `g`.
 
 use eigentol::{
     CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared, Violation,
@@ -79,7 +79,7 @@ law!(
 );
 
 law!(
-    /// Limit points that meet: `(q - a)^4 - u`, at `u = 0`, where the curve of equilibria is flat.
+    /// Coinciding limit points: `(q - a)^4 - u`; at `u = 0` the equilibrium curve is flat.
     Flat, 1, 1, symmetric: true, METRE, ["a" = 0.3],
     |q, u, b, c| {
         let s = (q[0] - b[0]) * (q[0] - b[0]);
@@ -88,7 +88,7 @@ law!(
 );
 
 law!(
-    /// Transcritical: `(q - d) (q - e - s (u - d))`, branches `q = d` and `q = e + s (u - d)` cross at
+    /// Transcritical: `(q - d) (q - e - s (u - d))`; the branches `q = d` and `q = e + s (u - d)` cross at
     /// `u = d + (d - e) / s`.
     Exchange, 1, 3, symmetric: true, METRE, ["d" = 0.0, "e" = 0.0, "s" = 1.0],
     |q, u, b, c| [(q[0] - b[0]) * (q[0] - b[1] - b[2] * (u - b[0]))]
@@ -101,8 +101,8 @@ law!(
 );
 
 law!(
-    /// Subcritical pitchfork that comes back: `q^5 - q^3 + (a - u) q`, arms `u = a - q^2 + q^4`, folds at `q^2 = 1/2`,
-    /// `u = a - 1/4`.
+    /// Subcritical pitchfork that turns back: `q^5 - q^3 + (a - u) q`, arms `u = a - q^2 + q^4`, folds at
+    /// `q^2 = 1/2`, `u = a - 1/4`.
     Quintic, 1, 1, symmetric: true, METRE, ["a" = 1.0],
     |q, u, b, c| {
         let s = q[0] * q[0];
@@ -179,7 +179,7 @@ law!(
 );
 
 law!(
-    /// Snap-through with a lopsided coupling, `q1 = q0/2`: `q0^3 - (1 - k/2) q0 + u`.
+    /// Snap-through with a non-symmetric coupling, `q1 = q0/2`: `q0^3 - (1 - k/2) q0 + u`.
     LopsidedSnap, 2, 1, symmetric: false, METRE, ["k" = 0.2],
     |q, u, b, c| [
         q[0] * q[0] * q[0] - q[0] + b[0] * q[1] + u,
@@ -188,7 +188,7 @@ law!(
 );
 
 law!(
-    /// Two coordinates in a potential of fourth order with all lower terms at will, and a lopsided term `s`:
+    /// Two coordinates in a quartic potential with adjustable lower-order terms, and a non-symmetric term `s`:
     /// `q_i^3 + sum_j a_ij q_j + e_i - u q_i + c q_0 q_1 (..) + s (q_1, 0)`.
     Field, 2, 7, symmetric: false, METRE,
     ["a00" = 0.0, "a01" = 0.0, "a11" = 0.0, "c" = 0.0, "e0" = 0.0, "e1" = 0.0, "s" = 0.0],
@@ -200,13 +200,13 @@ law!(
 );
 
 law!(
-    /// Nothing resists and nothing drives it.
+    /// No resistance and no drive.
     Free, 1, 0, symmetric: true, METRE, [],
     |q, u, b, c| [c(0.0) * q[0] * u]
 );
 
 law!(
-    /// No coordinate at all.
+    /// No coordinates at all.
     Nothing, 0, 0, symmetric: true, METRE, [],
     |q, u, b, c| *q
 );

@@ -1,9 +1,9 @@
-//! Uniform bars hinged in series on a spinning shaft, absolute angles from the downward axis, all in one plane that
-//! turns with the shaft:
+//! Uniform bars hinged in series on a spinning shaft, with absolute angles from the downward axis, all in one plane
+//! that turns with the shaft:
 //!
 //! `T = 1/2 sum A_jk cos(q_j - q_k) qdot_j qdot_k + Omega^2/2 sum A_jk sin q_j sin q_k`, `V = -g sum B_j cos q_j`,
-//! `A_jj = L_j^2 (m_j/3 + S_j)`, `A_jk = L_j L_k (m_k/2 + S_k)` for `j < k`, `B_j = L_j (m_j/2 + S_j)`, `S_j` the mass
-//! beyond bar `j`. Design variables: lengths, then masses.
+//! `A_jj = L_j^2 (m_j/3 + S_j)`, `A_jk = L_j L_k (m_k/2 + S_k)` for `j < k`, `B_j = L_j (m_j/2 + S_j)`, with `S_j` the
+//! mass beyond bar `j`. Design variables: lengths, then masses.
 
 use std::array::from_fn;
 

@@ -1,5 +1,5 @@
-//! A mechanism from nothing but its equations of motion: every other method by nested dual numbers. An oracle that
-//! shares no code with the compiler.
+//! A mechanism defined by its equations of motion alone; every other method follows by nested dual numbers. An oracle
+//! that shares no code with the compiler.
 
 use eigentol::{
     Array, Description, Gradient, GradientOf, Linear, LinearPartials, Mechanism, PartialsOf, Real,
@@ -42,7 +42,7 @@ pub trait Model: Clone + Sync {
         None
     }
 
-    /// A model with outputs says what they are.
+    /// The outputs, for models that have any.
     fn outputs<T: Real>(
         &self,
         _: &Self::Coordinates<T>,
@@ -65,7 +65,7 @@ fn along<T: Real, A: Array<T>, D: Array<Dual<T>>>(x: &A, dx: &A) -> D {
     D::from_fn(|i| Dual::new(x.as_ref()[i], dx.as_ref()[i]))
 }
 
-/// The values `x`, of which number `j` moves.
+/// The values `x`, with a unit derivative in number `j`.
 fn unit<T: Real, D: Array<Dual<T>>>(x: &impl Array<T>, j: usize) -> D {
     D::from_fn(|i| Dual::new(x.as_ref()[i], T::constant(if i == j { 1.0 } else { 0.0 })))
 }
@@ -291,7 +291,7 @@ impl<X: Model> Mechanism for Derived<X> {
         velocity: &X::Coordinates<T>,
         position: &X::Coordinates<T>,
     ) -> GradientOf<Self, T> {
-        // The derivative of `left^T g` along the three vectors, from rest.
+        // The derivative of `left^T g` along the three vectors, taken at rest.
         let rest: X::Coordinates<Dual<T>> = zeros();
         let functional = |q: &X::Coordinates<Dual<T>>,
                           u: &X::Inputs<Dual<T>>,

@@ -1,5 +1,5 @@
-//! A dual number over any `Real`: nested, it gives exact derivatives of any order, which is how the hand-written
-//! mechanisms of these tests get theirs.
+//! A dual number over any `Real`. Nested, it gives exact derivatives of any order; the hand-written mechanisms of these
+//! tests get their derivatives this way.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};

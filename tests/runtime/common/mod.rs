@@ -1,4 +1,4 @@
-//! Mechanisms written by hand, independent of the compiler.
+//! Hand-written mechanisms, independent of the compiler.
 #![allow(
     dead_code,
     unreachable_pub,
@@ -6,7 +6,7 @@
     reason = "each test uses some of it"
 )]
 
-/// How many unknowns, inputs, design variables and outputs a mechanism has.
+/// The numbers of unknowns, inputs, design variables and outputs of a mechanism.
 macro_rules! sizes {
     ($n:literal, $u:literal, $p:literal, $o:literal) => {
         type Coordinates<T: Copy> = [T; $n];
@@ -53,7 +53,7 @@ pub const NUMBER: Unit = Unit {
     scale: 1.0,
 };
 
-/// Standard gravity as the paper has it, m/s^2.
+/// Standard gravity as given in the paper, m/s^2.
 pub const GRAVITY: f64 = 9.81;
 
 pub const fn coordinate(name: &'static str, unit: Unit) -> CoordinateInfo {

@@ -1,4 +1,4 @@
-//! Small mechanisms that stress one thing each.
+//! Small mechanisms, each testing one feature.
 
 use eigentol::{DampingKind, Description, Real, Shared, Violation};
 
@@ -61,8 +61,8 @@ impl Model for Plate {
     }
 }
 
-/// One coordinate with a given stiffness, a cubic spring and a constant force:
-/// `mass qddot + k q + cubic q^3 - force`. Nothing is required of the values.
+/// One coordinate with a given stiffness, a cubic spring and a constant force: `mass qddot + k q + cubic q^3 - force`.
+/// Any values are allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring;
 
@@ -100,7 +100,7 @@ impl Model for Spring {
     }
 }
 
-/// Two bars under a compressive load that follows the second one (Ziegler): `Khat` is not symmetric.
+/// Two bars under a compressive follower load on the second one (Ziegler): `Khat` is not symmetric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follower;
 
@@ -142,7 +142,7 @@ impl Model for Follower {
     }
 }
 
-/// Two unit masses: `Khat = [[k1, c], [c, k2]]`, so that `c` mixes the two coordinates.
+/// Two unit masses: `Khat = [[k1, c], [c, k2]]`, so that `c` couples the two coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair;
 
@@ -180,7 +180,7 @@ impl Model for Pair {
     }
 }
 
-/// Three unit masses with any symmetric `Khat`; design: its diagonal, then `k12`, `k13`, `k23`.
+/// Three unit masses with any symmetric `Khat`; design variables: its diagonal, then `k12`, `k13`, `k23`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triple;
 
@@ -230,8 +230,8 @@ impl Model for Triple {
 }
 
 /// A point mass on a plate that turns at `omega` about the origin, held by a pretensioned radial spring, `k (r + a)`, and free to
-/// slip about the axis. `r* = k a / (m omega^2 - k)`; with `omega^2 > k / m` its radial stiffness `k - m omega^2` is
-/// negative, and `s^2 = 0` or `-(k / m + 3 omega^2)`.
+/// slip about the axis. `r* = k a / (m omega^2 - k)`; with `omega^2 > k / m` its radial stiffness `k - m omega^2` is negative,
+/// and `s^2 = 0` or `-(k / m + 3 omega^2)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slipping;
 
@@ -274,9 +274,9 @@ impl Model for Slipping {
     }
 }
 
-/// A unit mass on a plate that turns at `omega`, on springs of stiffness 1 that harden, `q_i + q_i^3`, in `x` about `e`. Beyond
-/// `omega = 1` gyroscopic forces alone hold it near the axis, `x* = -e / (omega^2 - 1)` about, and two stable equilibria
-/// lie far outside.
+/// A unit mass on a plate that turns at `omega`, on hardening springs of unit stiffness, `q_i + q_i^3`, in `x` about `e`.
+/// Beyond `omega = 1` only gyroscopic forces hold it near the axis, at `x* = -e / (omega^2 - 1)` approximately, and two stable
+/// equilibria lie far outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Supercritical;
 
@@ -315,8 +315,7 @@ impl Model for Supercritical {
     }
 }
 
-/// Two unit masses on stiffnesses 1 and 4 whose damping peaks at `u = 1` and `u = 3`: each is overdamped in a range of its
-/// own.
+/// Two unit masses on stiffnesses 1 and 4 whose damping peaks at `u = 1` and `u = 3`: each is overdamped in its own range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overdamped;
 

@@ -1,4 +1,4 @@
-//! The paper's single rotating pendulum with every method written out by hand:
+//! The paper's single rotating pendulum with every method written by hand:
 //! `g = J (qddot - Omega^2 sin q cos q) + m g L/2 sin q`, `J = m L^2/3`. Design variables: `m`, `l`.
 
 use eigentol::{
@@ -12,14 +12,14 @@ use super::{GRAVITY, KILOGRAM, METRE, RAD, SPEED, coordinate, design, input, pos
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pendulum;
 
-/// `3 g / (2 L)` for `L = 1 m`: square of the critical speed.
+/// `3 g / (2 L)` for `L = 1 m`: the square of the critical speed.
 pub const W: f64 = 1.5 * GRAVITY;
 
 fn c<T: Real>(value: f64) -> T {
     T::constant(value)
 }
 
-/// Moment of inertia and static moment `m g L/2`.
+/// Moment of inertia and first moment times gravity, `m g L/2`.
 fn moments<T: Real>(b: &[T; 2]) -> (T, T) {
     (b[0] * b[1] * b[1] / c(3.0), b[0] * b[1] * c(GRAVITY / 2.0))
 }

@@ -19,7 +19,7 @@ fn through(low: f64, high: f64) -> Range {
     Range::new(OMEGA, low, high).steps(20)
 }
 
-/// `sqrt(3 g / (2 L))`, and how it moves with `m`, `L`, `g`.
+/// `sqrt(3 g / (2 L))` and its derivatives by `m`, `L`, `g`.
 fn critical() -> (f64, [f64; 3]) {
     let speed = (1.5 * 9.81_f64).sqrt();
     (speed, [0.0, -0.5 * speed, 0.5 * speed / 9.81])
@@ -47,7 +47,7 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
         1e-9,
     );
 
-    // The same with the length stated twice.
+    // The same bar with its length stated twice.
     let twice = Derived(Bar::<2>);
     let start = [0.3, 0.9, 0.0, 0.0];
     let found = critical_state(&twice, &[0.0], &b, &start, through(0.5, 6.0)).unwrap();
@@ -59,8 +59,8 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
     );
 }
 
-/// Second derivatives of `(3 g / 2 L)^(1/2)`, a constraint stated once and twice; of a limit point in minimal coordinates and with a
-/// loop.
+/// Second derivatives of `(3 g / 2 L)^(1/2)` with a constraint stated once and twice, and of a limit point in minimal coordinates
+/// and with a loop.
 #[test]
 fn critical_values_bend_with_the_design() {
     let bar = |machine: &dyn CurvatureKernels, start: &[f64]| {
@@ -167,7 +167,7 @@ fn a_press_gives_way_at_its_greatest_torque() {
     let wanted = critical_sensitivity(&Derived(PressByAngle), &angle).unwrap();
     let found = critical_sensitivity(&Derived(Press), &own).unwrap();
     all_near(&found, &wanted, 1e-9);
-    // Beyond the limit the branch turns back; it is followed on either side.
+    // The branch turns back at the limit; it is followed on both sides.
     let settings = Continuation::new(OMEGA, 0.0, 40.0);
     let found = branches(&Derived(Press), &[0.0], &b, &start, &settings, None).unwrap();
     let folds = found.special();
@@ -210,7 +210,7 @@ fn resonances_lie_where_minimal_coordinates_have_them() {
     }
 }
 
-/// On springs that pull to the axis a spinning pendulum loses its stiffness where `kx + m g / L = m omega^2`.
+/// On springs that pull towards the axis a spinning pendulum loses its stiffness where `kx + m g / L = m omega^2`.
 #[test]
 fn a_general_mechanism_loses_its_stiffness_where_its_shadow_does() {
     let mut b = nominal::<Spherical>();

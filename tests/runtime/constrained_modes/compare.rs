@@ -1,4 +1,4 @@
-//! One mechanism in two sets of unknowns: what has to be the same.
+//! Compares one mechanism in two sets of unknowns.
 
 use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::modes;
@@ -56,7 +56,7 @@ pub(crate) fn all_near(a: &[f64], b: &[f64], tolerance: f64) {
     }
 }
 
-/// The same modes: eigenvalues, behaviour, small residuals and honest errors.
+/// Requires equal modes: eigenvalues, behaviour, small residuals and valid error estimates.
 #[track_caller]
 pub(crate) fn same_modes(a: &Modes, b: &Modes, tolerance: f64) {
     assert_eq!(a.modes.len(), b.modes.len());
@@ -106,7 +106,7 @@ pub(crate) fn same_sensitivities(a: &Sensitivities, b: &Sensitivities, tolerance
     }
 }
 
-/// Modes, derivatives in three ways, and Hessians of a mechanism with constraints against the one without.
+/// Modes, derivatives by three methods, and Hessians of a mechanism with constraints against the one without.
 #[track_caller]
 pub(crate) fn same_mechanism(a: &State, b: &State) {
     same_modes(&a.modes, &b.modes, 1e-11);

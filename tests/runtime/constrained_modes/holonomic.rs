@@ -1,4 +1,4 @@
-//! Mechanisms held by constraints on positions, each beside itself in minimal coordinates: the same inputs and the same
+//! Mechanisms with position constraints, each paired with a version in minimal coordinates that has the same inputs and
 //! design variables.
 
 use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared};
@@ -34,8 +34,8 @@ const fn described(
     }
 }
 
-/// The paper's bar in the vertical plane of a spinning shaft, by the place `x` (radial), `z` (down) of its tip.
-/// `COPIES` is how often its length is stated, each time as another function of the place.
+/// The paper's bar in the vertical plane of a spinning shaft, described by the position `x` (radial), `z` (down) of its
+/// tip. `COPIES` is the number of times its length is stated, each time as a different function of the position.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bar<const COPIES: usize>;
 
@@ -134,7 +134,7 @@ const CRANK: &[DesignInfo] = &[
 ];
 
 /// A slider-crank on a turntable: crank angle `theta`, slider at `x` on a spring about `x0`, massless rod of length `l`,
-/// a constant torque on the crank. `free` is a pendulum on the slider's frame that nothing else touches.
+/// constant torque on the crank. `free` is an otherwise unconnected pendulum on the slider's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SliderCrank;
 
@@ -169,7 +169,7 @@ impl Model for SliderCrank {
     }
 }
 
-/// The same by the crank angle alone.
+/// The same slider-crank, with the crank angle as its only coordinate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CrankByAngle;
 
@@ -212,7 +212,7 @@ const CHAIN: &[DesignInfo] = &[
 ];
 const G: f64 = 9.81;
 
-/// Two point masses on rods, in the vertical plane of a spinning shaft, a spring from the second mass to the point
+/// Two point masses on rods in the vertical plane of a spinning shaft, with a spring from the second mass to the point
 /// (0.6 m, 1 m): four coordinates, two lengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chain;
@@ -266,7 +266,7 @@ impl Model for Chain {
     }
 }
 
-/// The same by two absolute angles.
+/// The same chain, described by two absolute angles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ChainByAngles;
 
@@ -293,7 +293,7 @@ impl Model for ChainByAngles {
         let square = u[0] * u[0];
         let (s1, c1) = q[0].sin_cos();
         let (s2, c2) = q[1].sin_cos();
-        // Accelerations and places, x radial, z down; forces on each mass, projected on its velocities.
+        // Accelerations and positions, x radial, z down; forces on each mass, projected on its velocities.
         let (x1, x2, z2) = (l1 * s1, l1 * s1 + l2 * s2, l1 * c1 + l2 * c2);
         let ax1 = l1 * (c1 * a[0] - s1 * v[0] * v[0]);
         let az1 = -(l1 * (s1 * a[0] + c1 * v[0] * v[0]));
@@ -324,8 +324,8 @@ const SPHERE: &[DesignInfo] = &[
     design("e", NUMBER, 1.0, 0.01),
 ];
 
-/// A point mass on a rod of length `L` on a turntable (axis vertical), two springs to the point `e` (0.3 m, 0.2 m), a damper
-/// in the turning frame: gyroscopic and damped.
+/// A point mass on a rod of length `L` on a turntable with vertical axis, with two springs to the point `e` (0.3 m, 0.2 m)
+/// and a damper in the turning frame: gyroscopic and damped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spherical;
 
@@ -391,7 +391,7 @@ impl Model for Spherical {
     }
 }
 
-/// The same by `x` and `y`.
+/// The same pendulum, described by `x` and `y`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SphericalByPlane;
 
@@ -439,7 +439,7 @@ fn crank_design<T: Real>(torque: T, [r, l, k, x0]: [T; 4]) -> [T; 7] {
     [c(0.02), c(1.5), r, l, k, x0, torque]
 }
 
-/// The slider-crank at rest, its torque the input: it gives way where the torque is greatest.
+/// The slider-crank at rest with its torque as the input: it gives way where the torque is largest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Press;
 

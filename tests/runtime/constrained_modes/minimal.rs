@@ -1,4 +1,4 @@
-//! Constraints on positions against minimal coordinates.
+//! Position constraints against minimal coordinates.
 
 use eigentol::clusters::modal_couplings;
 use eigentol::sensitivity::sensitivities;
@@ -56,7 +56,7 @@ fn a_chain_of_two_rods_is_two_angles() {
         all_near(&own.at.coordinates[..4], &[x, z, tip[0], tip[1]], 1e-11);
         same_mechanism(&own, &other);
         for r in 0..2 {
-            // Both are normalised by the same kinetic energy: shapes differ by the sign at most.
+            // Both are normalised by the same kinetic energy: shapes differ at most in sign.
             let minimal = other.modes.modes[r].shape.map(|value| value.re);
             let own = own.modes.modes[r].shape.map(|value| value.re);
             let places = [
@@ -84,7 +84,7 @@ fn a_spherical_pendulum_on_a_turntable_is_its_shadow() {
     }
 }
 
-/// Shapes with their reactions, left and right, move as solving again says.
+/// Derivatives of left and right shapes, reactions included, against solving again.
 #[test]
 fn shapes_move_with_the_design() {
     let start = [0.1, 0.1, 1.1, 0.0];
@@ -123,7 +123,7 @@ fn shapes_move_with_the_design() {
     }
 }
 
-/// The same stiffness in all directions: two equal frequencies, one cluster, of which the mean has derivatives.
+/// Equal stiffness in all directions: two equal frequencies form one cluster, whose mean has derivatives.
 #[test]
 fn equal_frequencies_are_a_cluster() {
     let b = [0.7, 1.2, 6.0, 6.0, 0.0, 0.0];
@@ -155,7 +155,7 @@ fn a_length_stated_twice_or_thrice_changes_nothing() {
     }
 }
 
-/// Two lengths that agree at the nominal design only.
+/// Two lengths that agree only at the nominal design.
 mod contradictory {
     use eigentol::{DampingKind, Description, Real, Shared};
 

@@ -1,4 +1,4 @@
-//! Modes and what follows from them where constraints and speeds take part: every mechanism against itself in minimal
+//! Modes, and everything derived from them, with constraints and speeds: every mechanism against its version in minimal
 //! coordinates or against a closed form.
 
 mod branches;

@@ -1,4 +1,4 @@
-//! Speeds and constraints on velocities against closed forms.
+//! Speeds and velocity constraints against closed forms.
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{CurvatureKernels, Kernels, Linear};
@@ -34,8 +34,7 @@ fn solved(mechanism: &dyn Kernels, v: f64, b: &[f64], start: &[f64]) -> (Equilib
     (at, found)
 }
 
-/// A root of a real cubic `c3 s^3 + c2 s^2 + c1 s + c0` and the coefficients' derivatives: value and slopes by Newton's
-/// method from `start`.
+/// A root of the real cubic `c3 s^3 + c2 s^2 + c1 s + c0`, by Newton's method from `start`.
 fn root<const P: usize>(
     polynomial: &impl Fn(&[f64; P], f64) -> [f64; 4],
     b: &[f64; P],
@@ -52,8 +51,8 @@ fn root<const P: usize>(
     s
 }
 
-/// Derivative of the root by variable `j` (the speed after the last), by implicit differentiation; the coefficients are
-/// polynomials of low degree, for which wide differences are exact but for rounding.
+/// Derivative of the root by variable `j` (the speed comes last), by implicit differentiation. The coefficients are
+/// polynomials of low degree, for which wide differences are exact except for rounding.
 fn slope<const P: usize>(
     polynomial: &impl Fn(&[f64; P], f64) -> [f64; 4],
     b: &[f64; P],
@@ -89,7 +88,7 @@ fn near_complex(a: Complex, b: Complex, tolerance: f64, scale: f64) {
     );
 }
 
-/// Eigenvalues, first derivatives in two ways and second derivatives of all modes against the roots of a cubic.
+/// Eigenvalues, first derivatives by two methods and second derivatives of all modes against the roots of a cubic.
 fn against_cubic<const P: usize>(
     mechanism: &dyn CurvatureKernels,
     b: [f64; P],
@@ -199,7 +198,7 @@ fn a_caster_has_the_roots_of_its_cubic() {
     }
 }
 
-/// The speed from which on the caster shimmies: `c1 c2 = c0 c3`.
+/// The speed above which the caster shimmies: `c1 c2 = c0 c3`.
 fn shimmy(b: &[f64; 8]) -> f64 {
     let [m, j, a, centre, k, kt, _, damper] = *b;
     let lever = a - centre;
@@ -265,8 +264,8 @@ fn a_driven_disk_has_the_roots_of_its_cubic() {
     }
 }
 
-/// A free disk: `s^2 = -(C (C + m r^2) spin^2 / A - m g r) / (A + m r^2)`, and two zero eigenvalues: it may roll at another
-/// speed, or in a circle.
+/// A free disk: `s^2 = -(C (C + m r^2) spin^2 / A - m g r) / (A + m r^2)`, and two zero eigenvalues, because it may roll at
+/// another speed or in a circle.
 #[test]
 fn a_free_disk_stands_by_its_spin() {
     let [m, r, axial, transverse] = [2.0, 0.3, 0.1, 0.05];
@@ -302,7 +301,7 @@ fn a_free_disk_stands_by_its_spin() {
             }
             assert!(!found.stable());
         }
-        // A neutral mode that is all speed is recognised as itself.
+        // A neutral mode consisting only of a speed is recognised as the same mode.
         let order = match_modes(&found, &found, &linear);
         assert!(order.iter().enumerate().all(|(i, place)| *place == Some(i)));
     }
@@ -338,7 +337,7 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
             }
         }
     }
-    // Nothing holds the speed: a neutral mode that is all speed.
+    // Nothing holds the speed: a neutral mode consisting only of a speed.
     let free = [m, j, a, 0.0];
     let mechanism: &dyn Kernels = &Derived(Sleigh);
     let linear = mechanism.linear(&[2.0, 0.0, 0.0, 0.0], &[2.0], &free);
@@ -348,7 +347,7 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
     near(found.modes[0].shape[0].norm(), 1.0, 1e-14, 1.0);
 }
 
-/// Shapes, left and right, against modes of the design moved.
+/// Derivatives of left and right shapes against modes at a changed design.
 #[test]
 fn shapes_with_speeds_move_with_the_design() {
     let start = [0.0, 0.3, 1.5, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -388,7 +387,7 @@ fn shapes_with_speeds_move_with_the_design() {
     }
 }
 
-/// The bar by its tip, its length also held as a rate: one constraint on velocities that says nothing new.
+/// The bar described by its tip, with its length also held as a rate: a redundant velocity constraint.
 #[derive(Clone, Copy, Debug)]
 struct Rated;
 
@@ -452,7 +451,7 @@ fn a_constraint_stated_again_as_a_rate_changes_nothing() {
     }
 }
 
-/// A mass that slides freely beside one that a dashpot stops: it rests anywhere, and drifts.
+/// A mass that slides freely beside one stopped by a dashpot: it rests anywhere, and drifts.
 #[test]
 fn a_free_mass_drifts() {
     static DRIFT: Shared<Description> = Shared::Static(&Description {

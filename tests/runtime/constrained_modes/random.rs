@@ -1,5 +1,4 @@
-//! Random bordered pencils: every root is one, left and right, no two are the same, and there are as many as there is
-//! freedom.
+//! Random bordered pencils: every reported root is one, left and right; no two are the same; and their number matches the freedom.
 
 use eigentol::kernels::Linear;
 use eigentol::modes::modes_of;
@@ -12,7 +11,7 @@ const NONE: Unit = Unit {
     scale: 1.0,
 };
 
-/// A generator of this test's own, uniform in (-1, 1).
+/// The test's own random number generator, uniform in (-1, 1).
 struct Random(u64);
 
 impl Random {
@@ -25,14 +24,14 @@ impl Random {
     }
 }
 
-/// How many unknowns of each role.
+/// The number of unknowns in each role.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
     coordinates: usize,
     speeds: usize,
     positions: usize,
     velocities: usize,
-    /// Rows that repeat combinations of others of their kind.
+    /// Rows that are combinations of other rows of the same kind.
     copies: [usize; 2],
 }
 
@@ -134,7 +133,7 @@ fn linear(sizes: Sizes, random: &mut Random) -> Linear {
     found
 }
 
-/// Brings unknowns, and with them the equations of motion, to units that differ by orders of magnitude.
+/// Rescales unknowns, and with them the equations of motion, to units that differ by orders of magnitude.
 fn rescale(linear: &mut Linear, random: &mut Random) {
     let n = linear.mass.row_count();
     let units = Vector::from_fn(n, |_| 10_f64.powf(2.0 * random.next()));

@@ -1,4 +1,4 @@
-//! Mechanisms with speeds and constraints on velocities, written with quasi-velocities.
+//! Mechanisms with speeds and velocity constraints, written with quasi-velocities.
 
 use eigentol::{
     CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared, Unit,
@@ -58,7 +58,7 @@ macro_rules! no_forces {
     };
 }
 
-/// A massless trail of length `a` pulled at speed `v`: `a theta' + v sin theta = 0`, `s = -v / a`.
+/// A massless trail of length `a` towed at speed `v`: `a theta' + v sin theta = 0`, `s = -v / a`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trail;
 
@@ -85,8 +85,8 @@ impl Model for Trail {
     no_forces! {2, 1}
 }
 
-/// A caster at speed `v`: its kingpin moves sideways by `y` on a spring `k`, the fork with mass `m` at a distance `b` behind
-/// the kingpin and inertia `J` about its centre trails by `theta`; the wheel at a distance `a` does not slip sideways. A
+/// A caster at speed `v`. Its kingpin moves sideways by `y` on a spring `k`; the fork, of mass `m` at distance `b` behind
+/// the kingpin and inertia `J` about its centre, trails by `theta`; the wheel at distance `a` does not slip sideways. A
 /// torsion spring `kt` about the angle `t0` keeps the wheel pushing, a damper `c` resists:
 /// `(J + m (a - b)^2) s^3 + (m v (a - b) + c) s^2 + (k a^2 + kt) s + k a v = 0`.
 #[derive(Clone, Copy, Debug)]
@@ -131,7 +131,7 @@ impl Model for Caster {
         let [m, j, a, centre, k, kt, t0, damper] = *b;
         let (sin, cos) = q[1].sin_cos();
         let (alpha, omega) = (acceleration[1], velocity[1]);
-        // Centre (v t - b cos, y - b sin), its acceleration and the velocity it has by theta, b (sin, -cos).
+        // Centre (v t - b cos, y - b sin), its acceleration, and its velocity due to theta, b (sin, -cos).
         let ax = centre * (alpha * sin + omega * omega * cos);
         let ay = acceleration[0] - centre * (alpha * cos - omega * omega * sin);
         let mu = q[2];
@@ -146,9 +146,9 @@ impl Model for Caster {
     no_forces! {3, 8}
 }
 
-/// A disk on a plane: lean `phi` and height `z` of the centre, its speeds forward, to the left and in yaw, and the spin:
-/// free ([`Disk`]), or driven at `v` over the radius with a yaw damper `c` ([`DrivenDisk`]). Axial inertia `C`, transverse
-/// `A`.
+/// A disk on a plane: lean `phi` and height `z` of the centre; its speeds forward, to the left and in yaw; and its spin,
+/// either free ([`Disk`]) or driven at `v` over the radius with a yaw damper `c` ([`DrivenDisk`]). Axial inertia `C`,
+/// transverse inertia `A`.
 fn disk<T: Real, const N: usize>(
     (phi, z, forward, side, yaw, spin): (T, T, T, T, T, T),
     (phi_rate, phi_rate_2, z_rate_2): (T, T, T),
@@ -281,8 +281,8 @@ impl Model for DrivenDisk {
     no_forces! {8, 5}
 }
 
-/// A sleigh on a knife edge at a distance `a` behind its centre, pushed by `d (v - forward)`:
-/// `s = -d / m` and `-m a v / (J + m a^2)`. Without push (`d = 0`) any speed is steady.
+/// A sleigh on a knife edge at distance `a` behind its centre, pushed by `d (v - forward)`: `s = -d / m` and
+/// `-m a v / (J + m a^2)`. Without a push (`d = 0`) any speed is steady.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sleigh;
 

@@ -1,4 +1,4 @@
-//! Tolerances of mechanisms with constraints: sample by sample those of minimal coordinates.
+//! Tolerances of mechanisms with constraints match those in minimal coordinates, sample by sample.
 
 use eigentol::tolerance::Outcome;
 use eigentol::{Coordinate, Error, Input, Study};
@@ -85,7 +85,7 @@ fn every_sample_is_that_of_minimal_coordinates() {
     let first = chain().first_order().unwrap();
     for (sampled, first) in own.modes.iter().zip(&first.modes) {
         let (sampled, first) = (sampled.as_ref().unwrap(), first.frequency().unwrap());
-        // 600 samples tell a standard deviation to 3 %.
+        // 600 samples determine a standard deviation to 3 %.
         near(sampled.sigma.unwrap(), first.sigma, 0.12, first.sigma);
         near(sampled.mean, first.mean, 0.15, first.sigma);
     }
@@ -118,7 +118,7 @@ fn damped_samples_are_those_of_minimal_coordinates() {
     }
 }
 
-/// First order of a caster against its samples.
+/// First order against samples for a caster.
 #[test]
 fn a_caster_varies_as_its_first_order_says() {
     let study = Study::new(Derived(Caster))
@@ -139,7 +139,7 @@ fn a_caster_varies_as_its_first_order_says() {
     assert_eq!(oscillating, 1);
 }
 
-/// Every question has an answer without modes.
+/// Every question has an answer even without modes.
 #[test]
 fn a_held_mechanism_has_no_modes_and_no_surprises() {
     let study = Study::new(Derived(Held))
@@ -175,7 +175,7 @@ fn a_held_mechanism_has_no_modes_and_no_surprises() {
     ));
 }
 
-/// A driven disk from standing to rolling: the same modes all the way, and a Campbell diagram of them.
+/// A driven disk from standstill to rolling: the same modes all along, and their Campbell diagram.
 #[test]
 fn modes_with_speeds_keep_their_identity_along_a_sweep() {
     let start = [0.0, 0.3, 1.0];

@@ -5,7 +5,7 @@ use super::bordered::bordered;
 use super::models::{FOUR_BAR, FourBar, Parallelogram, SLIDER, SliderCrank, Truss};
 use crate::common::close;
 
-/// Where two circles about `a` and `b` meet, on the left of the way from `a` to `b` or on the right.
+/// Intersection of two circles about `a` and `b`, to the left or right of the direction from `a` to `b`.
 fn meeting(a: [f64; 2], b: [f64; 2], radii: [f64; 2], left: bool) -> [f64; 2] {
     let d = [b[0] - a[0], b[1] - a[1]];
     let square = d[0] * d[0] + d[1] * d[1];
@@ -62,7 +62,7 @@ fn without_held_coordinates_there_is_no_assembly_mode() {
     let found = assemble(&bordered(FourBar), &[0.0], &FOUR_BAR, &start, &[]).expect("it closes");
     assert_eq!(found.mode, None);
     assert!(!found.singular);
-    // Reactions are what balances best, not what stood in their places.
+    // Reactions are those that balance best, not their start values.
     assert!(found.coordinates[4].abs() < 1e3);
 }
 
@@ -91,7 +91,7 @@ fn a_slider_crank_far_from_closed() {
 #[test]
 fn dead_centres_are_reported() {
     let [_, _, _, l1, l2, ..] = SLIDER;
-    // The slider is held where crank and rod are in line: the crank does not follow.
+    // The slider is held where crank and rod are in line: this does not determine the crank.
     let study = Study::new(bordered(SliderCrank))
         .start(Coordinate::new(6), l1 + l2)
         .guess(Coordinate::new(2), 0.2)
@@ -102,11 +102,11 @@ fn dead_centres_are_reported() {
     assert!(found.singular && found.margin < 1e-6, "{}", found.margin);
     assert_eq!(found.mode, None);
     assert!(found.coordinates[2].abs() < 1e-5);
-    // The mechanism itself is in no singular configuration: it has one freedom there as elsewhere.
+    // The mechanism itself is not in a singular configuration: it has one freedom there as elsewhere.
     assert!(!found.constraints.singular);
     assert_eq!(found.constraints.freedom, 1);
     assert!(found.to_string().contains("dead centre"));
-    // Held by the crank, the same state is none.
+    // With the crank held, the same state is not singular.
     let other = Study::new(bordered(SliderCrank))
         .start(Coordinate::new(2), 0.0)
         .guess(Coordinate::new(3), 0.5)
@@ -130,7 +130,7 @@ fn a_flat_parallelogram_is_singular() {
         (found.constraints.freedom, found.constraints.redundant),
         (1, 1)
     );
-    // Hanging in line with the platform it is in equilibrium, but nothing linear describes how it swings.
+    // Hanging in line with the platform it is in equilibrium, but no linear model describes its swinging.
     let study = Study::new(bordered(Parallelogram))
         .input(eigentol::Input::new(0), std::f64::consts::FRAC_PI_2)
         .guess(Coordinate::new(0), 0.8);
@@ -177,14 +177,14 @@ fn too_many_held_coordinates() {
         text.contains("hold fewer") && text.contains("`crank`"),
         "{text}"
     );
-    // Held where they fit, they are no obstacle.
+    // Held at compatible values, they cause no conflict.
     let start = [0.0, 0.4, 0.7, 0.5, 0.0, 0.0, 0.0];
     assemble(&bordered(FourBar), &[0.0], &FOUR_BAR, &start, &held).expect("it closes");
 }
 
 #[test]
 fn an_unfortunate_start_is_left() {
-    // All coordinates zero: the bars have no length and no direction.
+    // With all coordinates zero the bars have no length and no direction.
     let zero = assemble(&bordered(Truss), &[0.0], &[2.0, 1.3, 0.5], &[0.0; 4], &[]);
     close(zero.expect("it closes").coordinates[1].abs(), 1.2, 1e-12);
     let nan = assemble(

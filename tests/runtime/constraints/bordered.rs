@@ -1,5 +1,5 @@
-//! Mechanisms of point masses and bodies in absolute coordinates: `M qddot + grad (V + mu . Phi) = 0`, `Phi = 0`, which is
-//! the gradient of `V + mu . Phi` by all unknowns. Every row of the bordered system comes out of one function.
+//! Mechanisms of point masses and bodies in absolute coordinates: `M qddot + grad (V + mu . Phi) = 0`, `Phi = 0`, where the
+//! static part is the gradient of `V + mu . Phi` by all unknowns. Every row of the bordered system comes from one function.
 
 use eigentol::{
     Array, CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared,
@@ -17,10 +17,10 @@ pub(crate) trait Lagrangian: Clone + Sync {
 
     const DESCRIPTION: Description;
 
-    /// Masses of the coordinates, zero in the places of reactions.
+    /// Masses of the coordinates, with zeros in place of reactions.
     fn masses<T: Real>(&self, b: &Self::Design<T>) -> Self::Coordinates<T>;
 
-    /// `V + mu . Phi`, centrifugal potential included.
+    /// `V + mu . Phi`, including the centrifugal potential.
     fn value<T: Real>(
         &self,
         x: &Self::Coordinates<T>,
@@ -92,7 +92,7 @@ pub(crate) const fn described(
     }
 }
 
-/// A reaction of a constraint on positions.
+/// A reaction of a position constraint.
 pub(crate) const fn reaction(name: &'static str, symbol: &'static str) -> CoordinateInfo {
     CoordinateInfo {
         name: Shared::Static(name),

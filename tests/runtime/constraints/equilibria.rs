@@ -32,7 +32,7 @@ fn a_point_on_a_rod_is_a_pendulum() {
         };
         assert!((x - l * sin).abs() < 1e-12 * l, "{factor}: {x}");
         close(y, -l * cos, 1e-12);
-        // The rod pulls: weight and centrifugal force along it.
+        // The rod is in tension: weight and centrifugal force along it.
         close(
             force,
             m * GRAVITY * cos + m * omega * omega * l * sin * sin,
@@ -57,7 +57,7 @@ fn unstable_states_are_left_and_kept() {
         close(stable.coordinates[2], 2.0 * GRAVITY, 1e-12);
         assert!(stable.left_unstable_region && stable.stability == Stability::Stable);
     }
-    // At rest on a fast turntable the bottom is a saddle; the start tells the side.
+    // At rest on a fast turntable the bottom is a saddle; the start value decides the side.
     for side in [-1.0, 1.0] {
         let start = [side * 1e-2, -0.7, 0.0];
         let out = equilibrium(&bordered(Point), &[6.0], &b, &start, Policy::Stable).expect("out");
@@ -74,7 +74,7 @@ fn a_structure_cannot_move() {
     let (weight, height, half) = (2.0 * GRAVITY, 1.2, 0.5);
     assert!(state.coordinates[0].abs() < 1e-14);
     close(state.coordinates[1], -height, 1e-14);
-    // Joint equations: (left - right) half / l = load, (left + right) height / l = weight.
+    // Equilibrium of the joint: (left - right) half / l = load, (left + right) height / l = weight.
     let (sum, difference) = (weight * 1.3 / height, 7.0 * 1.3 / half);
     close(state.coordinates[2], 0.5 * (sum + difference), 1e-13);
     close(state.coordinates[3], 0.5 * (sum - difference), 1e-13);
@@ -195,7 +195,7 @@ struct MinimalSlider {
 }
 
 impl MinimalSlider {
-    /// Centres and angles as in the absolute coordinates.
+    /// Centres and angles, as in the absolute coordinates.
     fn places<T: Real>(&self, t: T) -> [T; 7] {
         let [_, _, _, l1, l2, ..] = SLIDER.map(T::constant);
         let half = T::constant(0.5);
@@ -247,14 +247,14 @@ fn a_slider_crank_under_gravity() {
         let mut direction = [0.0; 13];
         direction[..7].copy_from_slice(&rates);
         close(rayleigh(&state, &direction), lambda, 1e-9);
-        // The slider's equation is the spring against the pin.
+        // The slider's equation: the spring balances the pin force.
         let spring = SLIDER[5] * (state.coordinates[6] - SLIDER[6]);
         assert!((spring + state.coordinates[11]).abs() < 1e-10 * (1.0 + spring.abs()));
         assert_eq!(state.stability, Stability::Stable);
     }
 }
 
-/// Total derivatives, reactions included, against differences of re-solved states.
+/// Total derivatives, including reactions, against differences of re-solved states.
 fn check_shift(study: &Study<impl Kernels>, scale: impl Fn(usize) -> f64) {
     let state = study.equilibrium().expect("an equilibrium");
     let shift = study.equilibrium_shift().expect("regular");
@@ -320,7 +320,7 @@ fn several_starts_find_both_ends() {
         .seed(3);
     let found = find_equilibria(&bordered(Point), &[6.0], &[2.0, 0.7], &[0.1; 3], &search)
         .expect("valid values");
-    // Two stable ones outside, the bottom and the top.
+    // Two stable ones outside, plus the bottom and the top.
     assert_eq!(
         found.len(),
         4,

@@ -46,7 +46,7 @@ impl Lagrangian for Point {
     }
 }
 
-/// The same with the rod stated twice, once in millimetres and with a length of its own.
+/// The same point with the rod stated twice, the second time in millimetres and with a separate length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Twice;
 
@@ -133,7 +133,7 @@ impl Lagrangian for FourBar {
     }
 }
 
-/// On a turntable about the vertical through `O`.
+/// The potential on a turntable about the vertical through `O`.
 pub(crate) fn four_bar_potential<T: Real>(p: &[T; 4], omega: T, b: &[T; 8]) -> T {
     let stretch = distance(p[2], p[3]) - b[7];
     let radii = b[0] * p[0] * p[0] + b[1] * p[2] * p[2];
@@ -141,7 +141,7 @@ pub(crate) fn four_bar_potential<T: Real>(p: &[T; 4], omega: T, b: &[T; 8]) -> T
         - c::<T>(0.5) * omega * omega * radii
 }
 
-/// A crank `O A` (bar), a rod `A B` (bar) and a slider along `x` on a spring, each body in absolute coordinates of its centre.
+/// A crank `O A` (bar), a rod `A B` (bar) and a slider along `x` on a spring, each body in the absolute coordinates of its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SliderCrank;
 
@@ -212,7 +212,7 @@ impl Lagrangian for SliderCrank {
     }
 }
 
-/// A platform hung on three equal parallel bars, one more than it needs; gravity turned by the input from `-y` to `+x`.
+/// A platform hung on three equal parallel bars, one of them redundant; the input rotates gravity from `-y` to `+x`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Parallelogram;
 
@@ -262,7 +262,7 @@ impl Lagrangian for Parallelogram {
     }
 }
 
-/// A point on two bars: a structure, which cannot move.
+/// A point on two bars: an immobile structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Truss;
 

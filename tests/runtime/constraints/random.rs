@@ -1,5 +1,5 @@
-//! Hanging chains of three point masses, with springs, on a turntable: from wherever they start, a stable equilibrium is
-//! found, and the potential in minimal coordinates has a minimum there.
+//! Hanging chains of three point masses with springs on a turntable: from any start a stable equilibrium is found, at
+//! which the potential in minimal coordinates has a minimum.
 
 use std::array::from_fn;
 
@@ -9,7 +9,7 @@ use super::bordered::{Lagrangian, bordered, described, distance, reaction};
 use crate::common::dual::Dual;
 use crate::common::{GRAVITY, METRE, NUMBER, SPEED, coordinate, design, input, sizes};
 
-/// Masses, lengths, spring rates; the springs pull to fixed points.
+/// Masses, lengths, spring rates; the springs pull towards fixed points.
 const DESIGN: &[DesignInfo] = &[
     design("m1", NUMBER, 1.0, 0.0),
     design("m2", NUMBER, 1.0, 0.0),
@@ -80,7 +80,7 @@ impl Lagrangian for Chain {
     }
 }
 
-/// The second rod twice, once by the square of its length, and the sum of the first and the third.
+/// States the second rod twice, once by the square of its length, and adds the sum of the first and the third.
 #[derive(Clone, Copy)]
 struct Redundant;
 
@@ -124,7 +124,7 @@ impl Lagrangian for Redundant {
     }
 }
 
-/// `V` of the three angles from the downward axis.
+/// `V` as a function of the three angles from the downward axis.
 fn by_angles<T: Real>(t: &[T; 3], omega: T, b: &[T; 9]) -> T {
     let mut p = [T::constant(0.0); 6];
     let mut at = (T::constant(0.0), T::constant(0.0));

@@ -12,7 +12,7 @@ fn a_rod_stated_twice() {
     let state = study.equilibrium().expect("an equilibrium");
     assert!(state.coordinates[0].abs() < 1e-12);
     close(state.coordinates[1], -0.7, 1e-14);
-    // Together they carry the weight; alike in terms of the forces they cause.
+    // Together they carry the weight, sharing it equally in terms of the resulting forces.
     let [.., rod, again] = state.coordinates[..] else {
         panic!("two reactions")
     };
@@ -44,7 +44,7 @@ fn rods_that_contradict_each_other() {
         panic!("0.7 m is not 0.701 m");
     };
     assert_eq!(reason, NotClosed::Contradiction);
-    // Rows count by their sizes: both are half a millimetre from what they want, the second says it in millimetres.
+    // Rows are weighted by their size: both are violated by half a millimetre, the second one in units of millimetres.
     assert!(
         (gap.abs() - 0.5e-3).abs() < 1e-6 || (gap.abs() - 0.5).abs() < 1e-3,
         "{gap}"
@@ -62,7 +62,7 @@ fn a_platform_on_three_bars() {
             .guess(Coordinate::new(2), 0.1);
         let mut nearest = study.clone().policy(Policy::Nearest);
         if turn == 0.0 {
-            // Newton's method on the whole leaves the constraints on its way.
+            // Newton's method on the whole system leaves the constraint surface on its way.
             nearest = nearest.guess(Coordinate::new(0), 0.3);
         }
         let nearest = nearest.equilibrium().expect("an equilibrium");
@@ -81,7 +81,7 @@ fn a_platform_on_three_bars() {
         assert_eq!(state.stability, Stability::Stable);
         let forces = &state.coordinates[3..];
         close(forces.iter().sum(), m * GRAVITY, 1e-12);
-        // Which of them carries what is not determined; the least has no moment.
+        // The distribution among them is undetermined; the least solution has no moment.
         close(forces[0], forces[2], 1e-12);
         assert!(forces.iter().all(|&force| force > 1.0));
     }
@@ -100,7 +100,7 @@ fn a_bar_that_does_not_fit() {
     let Error::NotAssembled { gap, others, .. } = error else {
         panic!("{text}");
     };
-    // The outer bars give way too: they and the middle one are a millimetre apart.
+    // The outer bars yield too: they differ from the middle one by a millimetre.
     assert_eq!(others.len(), 2);
     let gaps = others.iter().map(|(_, gap)| *gap).chain([gap]);
     let (least, most) = gaps.fold((0.0_f64, 0.0_f64), |(a, b), gap| (a.min(gap), b.max(gap)));

@@ -6,7 +6,7 @@ use super::models::{FOUR_BAR, FourBar};
 
 #[test]
 fn samples_that_do_not_close_are_counted() {
-    // The longest bar reaches over the others but for a millimetre.
+    // The longest bar is one millimetre short of the sum of the others.
     let reach = FOUR_BAR[2] + FOUR_BAR[3] + FOUR_BAR[4];
     let study = Study::new(bordered(FourBar))
         .input(Input::new(0), 0.0)
@@ -31,7 +31,7 @@ fn samples_that_do_not_close_are_counted() {
             other => panic!("{other:?}: {:?}", sample.design),
         }
     }
-    // One standard deviation short of closing: a sixth of them.
+    // One standard deviation from not closing: one sixth of the samples.
     assert!(
         (40..100).contains(&run.counts.not_assembled),
         "{:?}",

@@ -1,4 +1,4 @@
-//! Questions about one state: deviations do what their inputs do.
+//! Questions about one state: a deviation has the same effect as its input.
 
 use super::{
     Double, Governor, OMEGA, Single, Spherical, all_deviate, frequency, frequency_slopes, nominal,
@@ -19,7 +19,7 @@ use eigentol::summary::summary;
 use eigentol::tolerance::{first_order, output_tolerances};
 use eigentol::{Complex, Output, Quantity, Tolerances};
 
-/// All derivatives of a state by deviations against those by inputs, and the rest against the mechanism without deviations.
+/// Checks all derivatives of a state by deviations against those by inputs, and the others against the mechanism without deviations.
 fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
     let plain: &dyn Kernels = machine;
     let deviating = all_deviate(machine);
@@ -27,7 +27,7 @@ fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
     let own = b.len();
     let (plain_state, plain_modes) = solved(plain, u, &b, start);
     let (at, modes) = solved(&deviating, u, &deviating.design(&b), start);
-    // What was found without is what would have been found with them.
+    // A state found without deviations equals the state found with them.
     assert_eq!(at, plain_state.with_deviations(&deviating));
     assert_eq!(modes, plain_modes.with_deviations(&deviating));
 
@@ -131,7 +131,7 @@ fn derivatives_by_deviations_are_those_by_inputs() {
     state(&Governor, &[5.0], &[0.4, -0.5, 20.0]);
 }
 
-/// `sqrt(u^2 - c^2 / u^2)` with a speed that deviates, of the pendulum by hand and of the compiled one.
+/// `sqrt(u^2 - c^2 / u^2)` with a deviating speed, for the hand-written and the compiled pendulum.
 fn of_the_pendulum(machine: &dyn SummaryKernels, speed: f64, sigma: f64) {
     let deviating = DeviatingInputs::new(machine, &[OMEGA]).unwrap();
     let (at, modes) = solved(&deviating, &[speed], &deviating.design(&[3.0, 1.0]), &[1.0]);
@@ -167,7 +167,7 @@ fn a_wandering_speed_spreads_the_frequency_as_the_closed_form() {
     }
 }
 
-/// Speed and length together, and correlated.
+/// Speed and length together, also correlated.
 #[test]
 fn deviations_take_part_in_correlations() {
     let deviating = all_deviate(&Pendulum);
@@ -182,7 +182,7 @@ fn deviations_take_part_in_correlations() {
     close(sigma, (rates[1] * 0.01 - rates[2] * 0.1).abs(), 1e-12);
 }
 
-/// The height of the tip of a bar and twice its speed, of which the latter depends on the input itself.
+/// The tip height of a bar and twice its speed, the latter a direct function of the input.
 #[test]
 fn outputs_spread_with_inputs() {
     let deviating = all_deviate(&Spherical);
@@ -198,7 +198,7 @@ fn outputs_spread_with_inputs() {
     assert!(spread.spreads[1].as_ref().unwrap().sigma > 0.03);
 }
 
-/// Two equal stiffnesses `1 - u`: both eigenvalues fall with `u`. Two nearly equal ones move along.
+/// Two equal stiffnesses `1 - u`: both eigenvalues decrease with `u`. Two nearly equal ones move together.
 #[test]
 fn clusters_move_with_inputs() {
     let rotor = Derived(Rotor);

@@ -1,4 +1,4 @@
-//! Values of an input at which something happens, the input itself deviating.
+//! Input values at which an event occurs, when the input itself deviates.
 
 use super::{CRITICAL, Double, OMEGA, Single, all_deviate, frequency_slopes, solved};
 use crate::common::branching::Snap;
@@ -16,7 +16,7 @@ use eigentol::sweep::{
 };
 use eigentol::{DampingKind, Description, Policy, Real, Shared, Tolerances};
 
-/// The set value moves by minus the deviation, whatever the design does.
+/// The set value moves by minus the deviation, independently of the design.
 fn critical_moves_back<K: CurvatureKernels>(
     machine: &K,
     b: &[f64],
@@ -81,7 +81,7 @@ fn a_critical_speed_spreads_with_the_speed() {
 }
 
 /// Where the frequency meets a multiple of the speed, both deviate: the set value moves by minus the deviation. A fixed
-/// excitation does not deviate, and the set value moves back all the same.
+/// excitation frequency does not deviate, but the set value moves back all the same.
 #[test]
 fn crossings_move_back_by_the_deviation() {
     let deviating = all_deviate(&Pendulum);
@@ -130,7 +130,7 @@ fn crossings_move_back_by_the_deviation() {
     }
 }
 
-/// An input beside the swept one: speeds of resonance against differences of the located ones.
+/// With a second input besides the swept one: derivatives of resonance speeds against differences of located ones.
 #[test]
 fn crossings_move_with_another_input() {
     let deviating = all_deviate(&Double);
@@ -156,7 +156,7 @@ fn crossings_move_with_another_input() {
     close(slopes[5], difference, 1e-5);
 }
 
-/// `qddot + (d - u) qdot + 4 q`: it grows where `u > d`.
+/// `qddot + (d - u) qdot + 4 q`: the mode grows where `u > d`.
 #[derive(Clone, Copy, Debug)]
 struct Fed;
 
@@ -207,7 +207,7 @@ fn flutter_begins_earlier_by_the_deviation() {
     close(slopes[1], -1.0, 1e-14);
 }
 
-/// A Campbell diagram of a bar whose speed wanders.
+/// A Campbell diagram of a bar with fluctuating speed.
 #[test]
 fn a_campbell_diagram_has_the_spread_of_the_speed() {
     let deviating = all_deviate(&Single);
@@ -241,7 +241,7 @@ fn a_campbell_diagram_has_the_spread_of_the_speed() {
     close(diagram.crossings[0].sigma().unwrap(), 0.1, 1e-12);
 }
 
-/// States of a mechanism that deviates are those of the mechanism at the moved input.
+/// States of a deviating mechanism equal those of the mechanism at the shifted input.
 #[test]
 fn a_fixed_deviation_moves_the_input() {
     let deviating = all_deviate(&Single);

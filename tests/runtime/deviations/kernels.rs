@@ -1,4 +1,4 @@
-//! Every kernel against that of the mechanism at moved inputs, to the last bit, and derivatives by deviations against differences.
+//! Every kernel against the mechanism's own at shifted inputs, to the last bit, and derivatives by deviations against differences.
 
 use super::{Double, Single, Spherical, all_deviate};
 use crate::common::chain::DOUBLE;
@@ -18,13 +18,13 @@ fn numbers(n: usize, seed: usize) -> Vector {
     Vector::from_fn(n, |i| 0.3 + (((seed * 7 + i * 5) % 11) as f64) / 11.0)
 }
 
-/// Deviations of which the last is of an input that has one already.
+/// Deviations, of which the last belongs to an input that already has one.
 fn repeated<K: Kernels>(kernels: &K) -> DeviatingInputs<'_, K> {
     let inputs = (0..kernels.sizes().inputs).chain([0]).map(Input::new);
     DeviatingInputs::new(kernels, &inputs.collect::<Vec<_>>()).unwrap()
 }
 
-/// Inputs and own design variables that stand for inputs and all design variables.
+/// The inputs and own design variables that correspond to the given inputs and all design variables.
 fn applied(sizes: Sizes, u: &[f64], b: &[f64]) -> (Vector, Vector) {
     let (own, deviations) = b.split_at(sizes.design);
     let mut u = Vector::from(u);
@@ -35,7 +35,7 @@ fn applied(sizes: Sizes, u: &[f64], b: &[f64]) -> (Vector, Vector) {
     (u, own.into())
 }
 
-/// Derivatives by all design variables that stand for those by inputs and own design variables.
+/// Derivatives by all design variables, assembled from those by inputs and own design variables.
 fn joined(by_input: &[f64], by_design: &[f64]) -> Vec<f64> {
     [by_design, by_input, &by_input[..1]].concat()
 }
@@ -53,7 +53,7 @@ fn same_rows(found: &Matrix, by_input: &Matrix, by_design: &Matrix) {
     }
 }
 
-/// Both partial derivatives from the kernel that computes them together.
+/// Both partial derivatives, from the kernel that computes them together.
 fn partials_of(
     kernels: &dyn Kernels,
     q: &[f64],
@@ -79,7 +79,7 @@ fn lists<const N: usize>(vectors: &[Vector; N]) -> [&[f64]; N] {
     vectors.each_ref().map(|vector| &**vector)
 }
 
-/// One state of the mechanism, and the same stated with deviations.
+/// Compares one state of the mechanism with the same state expressed by deviations.
 fn one_state<K: CurvatureKernels + MotionKernels>(machine: &K) {
     let deviating = repeated(machine);
     let (plain, found): (&dyn Kernels, &dyn Kernels) = (machine, &deviating);
@@ -303,7 +303,7 @@ fn derivatives_by_deviations_are_what_differences_show() {
     differences(&Spherical);
 }
 
-/// A batch that starts from other numbers.
+/// A batch initialised to other numbers.
 const BEFORE: Batch = Batch([7.0; WIDTH]);
 
 fn list(from: &[Batch], state: usize) -> Vector {
@@ -314,7 +314,7 @@ fn same_batch(found: &[Batch], state: usize, expected: &[f64]) {
     assert_eq!(list(found, state), expected);
 }
 
-/// Room for three matrices, row by row, of each of so many variables.
+/// Storage for three matrices, by rows, for each of the variables.
 fn room(entries: usize) -> eigentol::Linear<Vec<Batch>> {
     eigentol::Linear {
         mass: vec![BEFORE; entries],
@@ -354,7 +354,7 @@ fn same_linear(
     }
 }
 
-/// Eight states against each by itself; what was in the results before does not matter.
+/// Eight states at once against each one alone; the previous contents of the results do not matter.
 fn eight_states<K: BatchKernels>(machine: &K, instructions: Instructions) {
     let deviating = repeated(machine);
     let batches: &dyn BatchKernels = &deviating;
@@ -473,7 +473,7 @@ fn an_impossible_input_is_a_violation() {
     let violation = deviating.violation(&u, &light).expect("a negative mass");
     assert_eq!(violation.quantity, "mass of bar");
     assert_eq!(violation.value, -0.5);
-    // Of ranges of design variables the mechanism knows, of others nothing is claimed.
+    // The mechanism knows ranges of its own design variables; nothing is claimed for the others.
     let mut reach = Vector::zeros(5);
     assert!(deviating.possible_within(&u, &b, &reach));
     assert!(!deviating.possible_within(&u, &light, &reach));
@@ -505,7 +505,7 @@ fn deviations_are_described() {
     ));
 }
 
-/// As a table that is known by its trait alone, and of which another one is made.
+/// A table known only by its trait, from which another one is made.
 #[test]
 fn any_table_will_do() {
     let (once, u, b) = (

@@ -1,4 +1,4 @@
-//! A forbidden band around an input that deviates: the band deviates with it.
+//! A forbidden band around a deviating input: the band deviates with it.
 
 use super::{CRITICAL, OMEGA, Single, all_deviate, solved};
 use crate::common::close;
@@ -7,7 +7,8 @@ use eigentol::{Error, Quantity, Tolerances};
 
 const SIGMA: f64 = 0.1;
 
-/// The margin of the bar against a tenth of its speed, which is set to `speed` and deviates by `deviation` about.
+/// The margin of the bar from a tenth of its speed, which is set to `speed` with mean `deviation` and standard
+/// deviation `sigma`.
 fn margin(speed: f64, deviation: f64, sigma: f64, band: Band) -> Result<ModeMargin, Error> {
     let deviating = all_deviate(&Single);
     let mut b = deviating.design(&[3.0, 1.0]);
@@ -26,7 +27,7 @@ fn tail(low: f64) -> f64 {
     parts.sum::<f64>() * step
 }
 
-/// The frequency over the speed, `sqrt(1 - c^2 / v^4)`, grows with the speed: it reaches nine tenths where `v^4 = c^2 / 0.19`.
+/// The ratio of frequency to speed, `sqrt(1 - c^2 / v^4)`, increases with the speed: it reaches 0.9 where `v^4 = c^2 / 0.19`.
 #[test]
 fn the_band_is_around_the_speed_that_it_is() {
     let speed = 5.6_f64;
@@ -42,7 +43,7 @@ fn the_band_is_around_the_speed_that_it_is() {
     let distance = (0.9 - ratio) / (SIGMA * slope);
     close(found.distance, distance, 1e-10);
     close(found.first_order, tail(distance), 1e-7);
-    // The parabola is in the band between two deviations.
+    // The parabola lies in the band between two deviations.
     let root = (slope * slope + 2.0 * bend * (0.9 - ratio)).sqrt();
     let [near, far] = [root, -root].map(|root| (root - slope) / (bend * SIGMA));
     close(found.corrected.value, tail(near) - tail(far), 1e-7);
@@ -54,7 +55,7 @@ fn the_band_is_around_the_speed_that_it_is() {
     );
 }
 
-/// Derivatives by the set speed and by the mean of its deviation, against differences.
+/// Derivatives by the set speed and by the mean deviation, against differences.
 #[test]
 fn its_derivatives_are_what_differences_show() {
     let band = Band::around(OMEGA, 0.1);
@@ -68,7 +69,7 @@ fn its_derivatives_are_what_differences_show() {
     close(by_deviation, expected, 1e-6);
 }
 
-/// A mean deviation of a set speed is that speed.
+/// A mean deviation of the set speed is equivalent to that speed.
 #[test]
 fn a_mean_deviation_moves_the_speed() {
     let beside = Band::Between {
@@ -93,7 +94,7 @@ fn a_mean_deviation_moves_the_speed() {
     }
 }
 
-/// Without a tolerance of the input nothing changes, and a band about zero has no fractions to deviate by.
+/// Without a tolerance on the input nothing changes, and a band about zero has no relative width.
 #[test]
 fn exact_inputs_and_none() {
     let found = margin(5.6, 0.0, 0.0, Band::around(OMEGA, 0.1))

@@ -1,5 +1,5 @@
-//! Mechanisms whose inputs deviate: kernels, and every question that takes tolerances, against the mechanism at moved inputs
-//! and closed forms.
+//! Mechanisms with deviating inputs: kernels, and every question involving tolerances, against the mechanism at shifted
+//! inputs and closed forms.
 
 mod analyses;
 mod events;
@@ -92,7 +92,7 @@ const GRAVITY: f64 = 9.81;
 /// Square of the critical speed of [`Single`].
 const CRITICAL: f64 = 1.5 * GRAVITY;
 
-/// A mechanism all of whose inputs deviate, in their order.
+/// A mechanism in which all inputs deviate, in order.
 fn all_deviate<K: Kernels + ?Sized>(kernels: &K) -> DeviatingInputs<'_, K> {
     let inputs: Vec<Input> = (0..kernels.sizes().inputs).map(Input::new).collect();
     DeviatingInputs::new(kernels, &inputs).unwrap()
@@ -109,7 +109,7 @@ fn solved(kernels: &dyn Kernels, u: &[f64], b: &[f64], start: &[f64]) -> (Equili
     (state, found)
 }
 
-/// Frequency of a uniform bar of 1 m on a shaft at speed `u`, hanging or not.
+/// Frequency of a uniform bar of 1 m on a shaft at speed `u`, hanging or swung out.
 fn frequency(u: f64) -> f64 {
     let square = u * u;
     if square > CRITICAL {
@@ -119,7 +119,7 @@ fn frequency(u: f64) -> f64 {
     }
 }
 
-/// Its first two derivatives above the critical speed, of `sqrt(u^2 - c^2 / u^2)`.
+/// The first two derivatives of `sqrt(u^2 - c^2 / u^2)`, the frequency above the critical speed.
 fn frequency_slopes(u: f64) -> [f64; 2] {
     let square = CRITICAL * CRITICAL;
     let (first, second) = (

@@ -1,4 +1,4 @@
-//! Monte Carlo with a speed that wanders against quadrature.
+//! Monte Carlo with a fluctuating speed against quadrature.
 
 use super::{CRITICAL, Double, OMEGA, Single, all_deviate, frequency, solved};
 use crate::common::pendulum::Pendulum;
@@ -7,7 +7,7 @@ use eigentol::scalar::Instructions;
 use eigentol::tolerance::{Sampling, monte_carlo};
 use eigentol::{MonteCarlo, Tolerances};
 
-/// Mean and standard deviation of `value` of a normal variable, by the midpoint rule.
+/// Mean and standard deviation of `value` for a normal variable, by the midpoint rule.
 fn moments(mean: f64, sigma: f64, value: impl Fn(f64) -> f64) -> (f64, f64) {
     const STEPS: usize = 400_000;
     let sum = |f: &dyn Fn(f64) -> f64| -> f64 {
@@ -48,7 +48,7 @@ fn sampled(
     monte_carlo(&deviating, &at, &modes, &tolerances, &sampling).unwrap()
 }
 
-/// Far above the critical speed, 3.836 rad/s, and about it, where samples hang or have left the vertical.
+/// Far above the critical speed, 3.836 rad/s, and near it, where samples hang or have left the vertical.
 #[test]
 fn monte_carlo_matches_quadrature() {
     let best = Some(Instructions::best());
@@ -61,7 +61,7 @@ fn monte_carlo_matches_quadrature() {
             let found = run.modes[0].as_ref().unwrap();
             let error = (found.mean - mean).abs() / found.standard_error.unwrap();
             assert!(error < 4.0, "{speed}: mean {} is not {mean}", found.mean);
-            // Its standard error from the sample itself, by the fourth moment.
+            // Its standard error from the sample itself, through the fourth moment.
             let own = run
                 .all
                 .as_ref()
@@ -79,7 +79,7 @@ fn monte_carlo_matches_quadrature() {
     }
 }
 
-/// Every sample has the frequency of its own speed.
+/// Every sample has the frequency at its own speed.
 #[test]
 fn every_sample_is_the_closed_form() {
     let best = Some(Instructions::best());
@@ -94,7 +94,7 @@ fn every_sample_is_the_closed_form() {
             let speed = speed + sample.design[2];
             hanging += usize::from(speed * speed < CRITICAL);
             let (found, expected) = (sample.frequencies[0].unwrap(), frequency(speed));
-            // A frequency near zero is the root of a difference.
+            // A frequency near zero is the square root of a difference.
             let error = (found * found - expected * expected).abs();
             assert!(error <= 1e-9 * speed * speed, "{speed}: {found} {expected}");
         }
@@ -102,7 +102,7 @@ fn every_sample_is_the_closed_form() {
     }
 }
 
-/// Samples in vectors against samples one by one, speed, load and lengths at once.
+/// Samples in vectors against samples one by one, with speed, load and lengths varying together.
 #[test]
 fn side_by_side_is_one_by_one() {
     let deviating = all_deviate(&Double);

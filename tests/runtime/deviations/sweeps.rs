@@ -1,4 +1,4 @@
-//! Sweeps of an input that deviates.
+//! Sweeps of a deviating input.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ fn values(count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Points and derivatives, with these instructions or one by one.
+/// Points and derivatives, with the given instruction set or one by one.
 fn swept(
     machine: &dyn BatchKernels,
     (u, b): (&[f64], &[f64]),
@@ -48,7 +48,7 @@ fn compare(machine: &dyn BatchKernels, (u, b): (&[f64], &[f64]), start: &[f64]) 
         let other = swept(machine, (u, b), start, Some(set));
         assert!(format!("{other:?}") == format!("{together:?}"), "{set:?}");
     }
-    // Rounding tells which were solved side by side.
+    // Rounding differences reveal which points were solved in vectors.
     let differ = alone.iter().zip(&together).filter(|(a, b)| a != b).count();
     assert!(differ >= 30, "{differ}");
     assert_eq!(alone.len(), together.len());
@@ -95,7 +95,7 @@ fn slopes_along_a_sweep_are_the_closed_form() {
     }
 }
 
-/// A sweep with a deviation is the sweep of the moved values.
+/// A sweep with a fixed deviation equals the sweep of the shifted values.
 #[test]
 fn a_fixed_deviation_moves_the_sweep() {
     let deviating = all_deviate(&Single);

@@ -1,4 +1,4 @@
-//! Statistics of samples against the exact distribution of the rotating bar.
+//! Sample statistics against the exact distribution of the rotating bar.
 
 use eigentol::Study;
 use eigentol_statistics::normal;
@@ -16,7 +16,7 @@ const WEIGHT: f64 = 1.5 * 9.81;
 
 impl Exact {
     /// Where the bar hangs down, `f^2 = 3 g / (2 l) - omega^2`; where it is swung out, `f^2 = omega^2 - (3 g / (2 l omega))^2`.
-    /// Lengths between these two have lower frequencies.
+    /// Lengths between the two with frequency `f` have lower frequencies.
     fn cdf(&self, f: f64) -> f64 {
         let square = self.omega * self.omega;
         let shorter = WEIGHT / (square + f * f);
@@ -69,7 +69,7 @@ impl Exact {
     }
 }
 
-/// Everything that is reported of `samples` lies within some of its own standard errors of the exact distribution.
+/// Every reported quantity of `samples` is within a few of its own standard errors of the exact distribution.
 fn compare(samples: usize) {
     for (omega, tolerance) in [(2.0, 0.03), (3.82, 0.06), (6.0, 0.12)] {
         let exact = Exact {
@@ -102,7 +102,7 @@ fn compare(samples: usize) {
             sigma,
             found.sigma_error.unwrap(),
         );
-        // Of a normal distribution, times what the tails of these make of it.
+        // The error for a normal distribution, times a factor for the tails of these.
         within(
             "skewness",
             found.skewness.unwrap(),
@@ -112,7 +112,7 @@ fn compare(samples: usize) {
         let n = samples as f64;
         for p in [0.001, 0.01, 0.1, 0.5, 0.9, 0.99, 0.999] {
             let (own, truth) = (found.quantile(p).unwrap(), exact.quantile(p));
-            // By the exact distribution itself: the share below what is reported.
+            // In terms of the exact distribution: the probability below the reported value.
             let share = exact.cdf(own.value);
             let bucket = exact.cdf(own.value + own.error) - exact.cdf(own.value - own.error);
             within(

@@ -1,4 +1,4 @@
-//! Quantities of modes as responses: sampled side by side where Monte Carlo does so.
+//! Quantities of modes as responses: sampled in vectors where Monte Carlo does so.
 
 use eigentol::kernels::SummaryKernels;
 use eigentol::propagation::{Points, Sampler, Samples, sampled};
@@ -22,7 +22,7 @@ fn how(samples: &Samples) -> &str {
     facts.find(|fact| fact.0 == "solved").expect("a fact").1
 }
 
-/// The same samples one by one.
+/// The same samples, solved one by one.
 fn alone<M: SummaryKernels>(study: &Study<M>, sampler: &Sampler<'_>) -> Samples {
     let solved = study.solve().unwrap();
     let (at, modes) = (&solved.equilibrium, &solved.modes);
@@ -40,13 +40,13 @@ fn side_by_side_as_one_by_one() {
     let uniform = Distribution::uniform(0.9, 1.2).unwrap();
     for (study, side_by_side) in [
         (bar(), true),
-        // Some bars are so long or short that no batch vouches for them.
+        // Some bars are so long or short that the batch cannot guarantee them.
         (bar().tolerance(Bar::l, 0.7), true),
         (
             bar().distribution(Bar::l, uniform).tolerance(Bar::m, 0.2),
             true,
         ),
-        // Hanging down just below the critical speed: not a clear minimum.
+        // Hanging just below the critical speed: not a clear minimum.
         (bar().input(Bar::omega, 3.83), false),
     ] {
         for points in [Points::Random, Points::LatinHypercube, Points::Sobol] {
@@ -81,7 +81,7 @@ fn side_by_side_as_one_by_one() {
             assert_eq!(a.share, b.share);
         }
     }
-    // Another quantity of the mode, a response that is none, and a mechanism that is not solved side by side.
+    // Another quantity of the mode, a response that is not one, and a mechanism that is not solved in vectors.
     let growth = Response::Mode {
         mode: 0,
         quantity: Quantity::Growth,
@@ -97,7 +97,7 @@ fn side_by_side_as_one_by_one() {
     assert_eq!(how(&plate.unwrap()), "one by one");
 }
 
-/// Any set of instructions gives the bits of the best; `None` gives those of designs that are solved one by one.
+/// Any instruction set gives the same bits as the best one; `None` gives those of designs solved one by one.
 #[test]
 fn questions_about_responses_use_the_vectors_that_are_chosen() {
     let rotor = Study::new(Rotor).input(Rotor::omega, 300.0).samples(500);
@@ -116,7 +116,7 @@ fn questions_about_responses_use_the_vectors_that_are_chosen() {
     assert!(own == alone(&study, &sampler));
 }
 
-/// Whether the bits of every answer of two studies are the same, or of none.
+/// Whether every answer of two studies has the same bits, or none has.
 #[track_caller]
 fn answers<M: SummaryKernels>(a: &Study<M>, b: &Study<M>, same: bool) {
     let wanted = &[FREQUENCY];

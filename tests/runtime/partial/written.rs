@@ -1,4 +1,4 @@
-//! Parts of a run that were written and read again: the same bits; what cannot be is refused with a reason.
+//! Parts of a run written and read again have the same bits; unreadable ones are refused with a reason.
 
 use eigentol::propagation::{Points, Sampler, Samples};
 use eigentol::response::Response;
@@ -44,7 +44,7 @@ fn parts_that_were_written_are_merged_to_the_same_bits() {
             whole.modes[0].as_ref().unwrap().quantile(0.9)
         );
     }
-    // A run that was stopped is resumed from what was written.
+    // A stopped run is resumed from the written file.
     let study = plate();
     let mut part = read(&text(&study.samples_between(500..777).unwrap()));
     study.resume_samples(&mut part, &study.sampling()).unwrap();
@@ -82,7 +82,7 @@ fn responses_that_were_written_are_merged_to_the_same_bits() {
 fn another_version_of_the_format_is_refused() {
     let written = text(&bar().samples_between(0..10).unwrap());
     assert!(written.starts_with(r#"{"format":1,"#));
-    // Whatever else a later version may have.
+    // The format of any other version.
     for other in ["2", "0"] {
         let later = format!(r#"{{"format":{other},"shards":[]}}"#);
         let reason = refused(&later);
@@ -125,7 +125,7 @@ fn what_was_cut_off_or_changed_is_refused() {
     assert!(refused(&kept.to_string()).contains("do not fit together"));
 }
 
-/// Thirty times as many samples take little more room: more buckets have values.
+/// Thirty times as many samples take little more space: only more buckets are occupied.
 #[test]
 fn what_is_written_does_not_grow_with_the_samples() {
     let length = |samples: u64| {

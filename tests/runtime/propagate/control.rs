@@ -1,4 +1,4 @@
-//! The Taylor model as a control variate: right within its error, which is much smaller than that of plain samples.
+//! The Taylor model as a control variate: accurate within its stated error, which is much smaller than that of plain samples.
 
 use eigentol::propagation::{
     Controlled, ControlledSpread, Method, Points, Propagation, Sampler, controlled, sampled,
@@ -20,7 +20,7 @@ fn of(tolerances: &Tolerances, samples: u64, seed: u64) -> (Controlled, Propagat
     })
 }
 
-/// Over many seeds: errors in units of the stated error scatter by one, and the stated worth is that of the errors.
+/// Over many seeds, the errors in units of the stated error have unit scatter, and the stated gain matches the actual errors.
 #[test]
 fn the_stated_error_is_that_of_many_runs() {
     for (k, length) in lengths().into_iter().enumerate() {
@@ -35,7 +35,7 @@ fn the_stated_error_is_that_of_many_runs() {
                 ((value - truth) / error).powi(2)
             });
             let mean = squares.sum::<f64>() / runs.len() as f64;
-            // Of 60 runs; heavy tails of what is left make the error of an error large.
+            // From 60 runs; heavy tails of the remainder make the error of the error large.
             assert!((0.4..2.5).contains(&mean), "{mean}");
         };
         check(&|run| (run.mean.value, run.mean.error.unwrap()), exact.mean);
@@ -53,12 +53,12 @@ fn it_is_worth_many_plain_samples() {
     let (own, plain) = (found.spreads[0].unwrap(), spread(&plain, 0));
     assert_eq!(own.model, Method::SecondOrder);
     let ratio = (plain.mean.error.unwrap() / own.mean.error.unwrap()).powi(2);
-    // The variance of plain samples has one degree of freedom less.
+    // The variance of plain samples has one degree of freedom fewer.
     close(own.worth, ratio, 2e-3);
     assert!(own.worth > 500.0 && own.worth_of_sigma > 50.0, "{own:?}");
 }
 
-/// A linear response is known without samples.
+/// A linear response is known exactly, without samples.
 #[test]
 fn a_linear_response_is_exact() {
     let tolerances = Tolerances::new([0.0, 0.0, 0.1, 0.2, 0.3], 1.0, None).unwrap();
@@ -73,7 +73,7 @@ fn a_linear_response_is_exact() {
     assert!(own.worth > 1e10 && own.mean.error.unwrap() < 1e-7);
 }
 
-/// `a^4` with `a = 1 + x`: its mean is `1 + 6 s^2 + 3 s^4`, of which the model has all but the last.
+/// `a^4` with `a = 1 + x`: its mean is `1 + 6 s^2 + 3 s^4`, of which the model contains all but the last term.
 #[test]
 fn a_mean_that_the_model_misses() {
     let s: f64 = 0.3;

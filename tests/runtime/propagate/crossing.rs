@@ -33,7 +33,7 @@ fn a_resonance_and_its_derivatives() {
             assert!(gradient[0].abs() < 1e-12);
             close(gradient[1], -0.5 * speed(length) / length, 1e-11);
         }
-        // It lies beyond the range.
+        // The resonance lies beyond the range.
         let found = responses.with_gradients(&mut room, &[3.0, 2.0]).unwrap();
         assert_eq!((&found.values[0], &found.gradients[0]), (&None, &None));
     });
@@ -130,7 +130,7 @@ fn an_onset_of_flutter() {
         root / i,
         -root * e / (i * i),
     ];
-    // In order: by `m`, `k` through the root, by `e`, `i` through the ratio.
+    // In order: `m` and `k` act through the square root, `e` and `i` through the ratio.
     let second = |a: usize, b: usize| match (a.min(b), a.max(b)) {
         (0, 0) => 0.75 * onset / (m * m),
         (0, 1) => -0.25 * onset / (m * k),

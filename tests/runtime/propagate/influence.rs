@@ -1,4 +1,4 @@
-//! Where the scatter comes from: exact for linear responses and products.
+//! Sources of the scatter: exact for linear responses and products.
 
 use eigentol::propagation::{Effort, influence};
 
@@ -7,7 +7,7 @@ use crate::common::close;
 
 const SIGMAS: [f64; 5] = [0.0, 0.0, 0.1, 0.2, 0.05];
 
-/// Of `a + 2 b - 3 c` every share is that of its variance; of `a b` the product adds to the totals alone.
+/// For `a + 2 b - 3 c` every share is the variable's share of the variance; for `a b` the product adds only to the total indices.
 #[test]
 fn indices_of_simple_responses() {
     let tolerances = Tolerances::new(SIGMAS, 3.0, None).unwrap();
@@ -33,7 +33,7 @@ fn indices_of_simple_responses() {
         assert!((own.rank_correlation.unwrap() - own.correlation.unwrap()).abs() < 0.05);
     }
     close(own.determination.unwrap(), 1.0, 1e-12);
-    // a b about (1, 2), the half-widths wide: the corners of each variable by itself.
+    // a b about (1, 2), at the half-widths: the corners of each variable separately.
     let product = &all.responses[1].variables;
     assert_eq!(
         product.iter().map(|own| own.variable).collect::<Vec<_>>(),
@@ -46,7 +46,7 @@ fn indices_of_simple_responses() {
     assert!(product[2].total.unwrap().value.abs() < 1e-12);
 }
 
-/// A product about zero has no first-order index at all, and everything in total.
+/// A product about zero has zero first-order indices, and only total ones.
 #[test]
 fn interaction() {
     let about_zero = |half: f64| Distribution::uniform(-half, half).unwrap();
@@ -70,7 +70,7 @@ fn interaction() {
     }
 }
 
-/// Variables that depend on each other have no shares; what does not vary has none either.
+/// Dependent variables have no shares; nor does a response that does not vary.
 #[test]
 fn what_has_no_indices() {
     let correlation = eigentol::Matrix::from_fn(5, 5, |i, j| match (i, j) {
@@ -103,7 +103,7 @@ fn what_has_no_indices() {
     });
 }
 
-/// Reports name responses and variables under the operating point.
+/// Reports name responses and variables below the operating point.
 #[test]
 fn reports() {
     let study = bar().tolerance(Bar::l, 0.03).samples(512);
@@ -124,7 +124,7 @@ fn reports() {
     }
 }
 
-/// A speed that wanders is a variable like any other.
+/// A fluctuating speed is a variable like any other.
 #[test]
 fn inputs_with_tolerances() {
     let study = bar().tolerance(Bar::omega, 0.3).samples(4096);

@@ -1,4 +1,4 @@
-//! Quadrature: exact for polynomials, near to exact for smooth responses, refused where a node has no value.
+//! Quadrature: exact for polynomials, nearly exact for smooth responses, refused where a node has no value.
 
 use eigentol::Matrix;
 use eigentol::propagation::{Method, quadrature};
@@ -21,7 +21,7 @@ fn statistics_of_the_exact_distribution() {
         let (sigma, skewness) = (found.sigma.unwrap(), found.skewness.unwrap());
         for (one, truth) in [(found.mean, exact.mean), (sigma, exact.sigma)] {
             let error = (one.value - truth).abs();
-            // What the midpoint rule leaves out of the tails is below 1e-5 of a standard deviation.
+            // The tails omitted by the midpoint rule are below 1e-5 of a standard deviation.
             assert!(
                 error <= one.error.unwrap() + 2e-5 * exact.sigma,
                 "{one:?} {truth}"
@@ -32,7 +32,7 @@ fn statistics_of_the_exact_distribution() {
     }
 }
 
-/// A linear response and a product of two variables: means, variances and covariances exact, in five variables on a sparse grid.
+/// A linear response and a product of two variables: means, variances and covariances are exact on a sparse grid in five variables.
 #[test]
 fn polynomials_are_exact() {
     let sigmas = [0.0, 0.0, 0.1, 0.2, 0.05];
@@ -80,7 +80,7 @@ fn permutations() {
     );
     assert_eq!(one.spreads[0], other.spreads[1]);
     assert_eq!(one.covariance[0][1], other.covariance[1][0]);
-    // a b is the same when a = 1 +- 0.1 and b = 2 +- 0.2 change their relative tolerances' places.
+    // a b is unchanged when a = 1 +- 0.1 and b = 2 +- 0.2 exchange their relative tolerances.
     let (one, other) = (
         of([0.0, 0.0, 0.1, 0.4, 0.0], outputs()),
         of([0.0, 0.0, 0.2, 0.2, 0.0], outputs()),

@@ -1,4 +1,4 @@
-//! Samples: statistics with errors that hold, merged in any split to the same bits.
+//! Samples: statistics with reliable error estimates, merged from any split to the same bits.
 #![allow(clippy::single_range_in_vec_init, reason = "lists of ranges")]
 
 use std::sync::Mutex;
@@ -11,7 +11,7 @@ use crate::common::close;
 
 const ALL: [Points; 3] = [Points::Random, Points::LatinHypercube, Points::Sobol];
 
-/// Every number within so many of its own errors of the truth, and the error itself below what the points promise.
+/// Every number is within a few of its own errors of the truth, and the error itself is below what the points promise.
 #[test]
 fn statistics_of_the_exact_distribution() {
     for (seed, length) in lengths().into_iter().enumerate() {
@@ -28,7 +28,7 @@ fn statistics_of_the_exact_distribution() {
             close(found.nominal.unwrap(), frequency(1.0), 1e-12);
             let within = |value: f64, error: Option<f64>, exact: f64, most: f64| {
                 let error = error.unwrap();
-                // Eight randomisations tell a standard error within a factor of two.
+                // Eight randomisations determine a standard error within a factor of two.
                 assert!(
                     (value - exact).abs() <= 6.0 * error + 1e-7,
                     "{points:?} {value} {exact} {error}"
@@ -45,7 +45,7 @@ fn statistics_of_the_exact_distribution() {
             for quantile in &found.quantiles {
                 let truth = exact.quantile(quantile.probability);
                 let density = 0.5 * exact.sigma;
-                // A bucket of the sketch is up to 0.004 of a standard deviation wide per standard deviation.
+                // A bucket of the sketch is up to 0.004 standard deviations wide per standard deviation.
                 let bucket = 0.02 * exact.sigma;
                 let error = quantile.error.unwrap_or(density) + bucket;
                 within(quantile.value, Some(error), truth, density + bucket);
@@ -55,7 +55,7 @@ fn statistics_of_the_exact_distribution() {
     }
 }
 
-/// Over many seeds errors scatter about zero by as much as is stated: no bias of balanced points, whose means take no degree of freedom
+/// Over many seeds errors scatter about zero as stated: balanced points cause no bias, as their means take no degree of freedom
 /// from their variances.
 #[test]
 fn stated_errors_are_those_of_many_runs() {
@@ -82,7 +82,7 @@ fn stated_errors_are_those_of_many_runs() {
                     sums[k] += z / seeds as f64;
                 }
             }
-            // Student's t of seven degrees of freedom has a variance of 1.4.
+            // Student's t with seven degrees of freedom has a variance of 1.4.
             for (square, sum) in squares.into_iter().zip(sums) {
                 assert!((0.3..3.0).contains(&square), "{points:?} {squares:?}");
                 assert!(f64::abs(sum) < 0.8, "{points:?} {sums:?}");
@@ -121,7 +121,7 @@ fn splits_merge_to_the_same_bits() {
     }
 }
 
-/// A value of a run that was stopped is that of the samples that were done, and the rest can be added.
+/// The value from a stopped run covers the samples done so far, and the rest can be added.
 #[test]
 fn a_run_that_is_stopped_can_be_resumed() {
     let tolerances = varied(lengths()[0].clone());
@@ -139,7 +139,7 @@ fn a_run_that_is_stopped_can_be_resumed() {
         assert_eq!(part.ranges(), [0..1024]);
         assert_eq!(part.counts().total(), 1024);
         let so_far = part.propagation().unwrap();
-        // Six of eight randomisations are missing: there is no error to be told.
+        // Six of eight randomisations are missing, so no error can be estimated.
         assert_eq!(spread(&so_far, 0).mean.error, None);
         let rest = whole.clone().range(Some(1024..4096));
         part.merge(sampled(responses, &tolerances, &rest).unwrap())
@@ -182,7 +182,7 @@ fn covariance_of_responses() {
     let sum = 0.1_f64.powi(2) + 0.4_f64.powi(2) + 0.15_f64.powi(2);
     let product = (2.0 * 0.1_f64).powi(2) + 0.2_f64.powi(2) + (0.1_f64 * 0.2).powi(2);
     let both = 2.0 * 0.01 + 2.0 * 0.04;
-    // Plain samples have a standard error of some 1.4 % of these covariances.
+    // Plain samples have a standard error of about 1.4 % of these covariances.
     const WITHIN: f64 = 4e-3;
     close(all.covariance[0][0].unwrap(), sum, WITHIN);
     close(all.covariance[1][1].unwrap(), product, WITHIN);
@@ -198,7 +198,7 @@ fn covariance_of_responses() {
     assert_eq!(all.with_design[1][0], Some(0.0));
 }
 
-/// Two variables of correlation 1 are one variable with both effects.
+/// Two variables with correlation 1 act as one variable with both effects.
 #[test]
 fn correlation_1_is_a_shared_variable() {
     let ones = [[1.0, 1.0], [1.0, 1.0]];
@@ -214,7 +214,7 @@ fn correlation_1_is_a_shared_variable() {
             .propagation()
             .unwrap()
     });
-    // Three times the standard normal number behind both.
+    // Three times the standard normal number underlying both.
     let alone = Tolerances::new([0.0, 0.0, 0.3, 0.0, 0.0], 1.0, None).unwrap();
     let one = ask_sum(outputs(), |responses| {
         sampled(responses, &alone, &sampler)
@@ -227,7 +227,7 @@ fn correlation_1_is_a_shared_variable() {
     close(sigma(&all), 0.3, 1e-3);
 }
 
-/// Speeds near the critical one: samples hang straight down or have no equilibrium of their own; none is lost.
+/// Speeds near the critical one: samples hang straight down or have no distinct equilibrium; none is lost.
 #[test]
 fn samples_without_values_are_counted() {
     let tolerances = varied(Distribution::uniform(-0.5, 1.5).unwrap());
@@ -279,7 +279,7 @@ fn a_sampler_that_makes_no_sense_is_refused() {
     });
 }
 
-/// Nothing varies: every sample is the nominal one.
+/// Nothing varies: every sample equals the nominal one.
 #[test]
 fn without_tolerances_nothing_is_spread() {
     let tolerances = varied(Distribution::constant(1.0).unwrap());

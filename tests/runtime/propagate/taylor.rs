@@ -1,4 +1,4 @@
-//! First and second order for any distribution, and the choice between all methods.
+//! First and second order for any distribution, and the automatic choice of method.
 
 use eigentol::Law;
 use eigentol::propagation::{
@@ -9,7 +9,7 @@ use eigentol::sweep::Range;
 use super::*;
 use crate::common::close;
 
-/// First and second derivative of the frequency by the length: `f^2 = u^2 - n^2`, `n = 1.5 g / (u l)`.
+/// First and second derivatives of the frequency by the length: `f^2 = u^2 - n^2`, `n = 1.5 g / (u l)`.
 fn slopes(length: f64) -> (f64, f64) {
     let (n, f) = (1.5 * GRAVITY / (SPEED * length), frequency(length));
     let slope = n * n / (length * f);
@@ -46,7 +46,7 @@ fn model(length: &Distribution, second: bool) -> [f64; 3] {
     [mean, sigma, power(3) / sigma.powi(3)]
 }
 
-/// The moments of the model are exact whatever the distribution: those of the closed form's Taylor polynomial.
+/// The moments of the model are exact for any distribution: those of the Taylor polynomial of the closed form.
 #[test]
 fn moments_of_the_polynomial() {
     for length in [
@@ -71,7 +71,7 @@ fn moments_of_the_polynomial() {
     }
 }
 
-/// A skew law: the third moment of the variable enters the variance, not only the fourth.
+/// A skewed distribution: the variance contains the third moment of the variable, not only the fourth.
 #[test]
 fn variance_knows_the_third_moment() {
     let length = Distribution::triangular(0.9, 0.9, 1.2).unwrap();
@@ -82,7 +82,7 @@ fn variance_knows_the_third_moment() {
     assert!((own.mean.value / mean - 1.0).abs() < 1e-7);
 }
 
-/// The error that is stated holds the exact distribution, and is smaller for second order.
+/// The stated error covers the exact distribution, and is smaller for second order.
 #[test]
 fn errors_hold() {
     for length in lengths() {
@@ -118,7 +118,7 @@ fn quantiles_of_the_models() {
             );
         }
     }
-    // Normal to first order: exact.
+    // Normal to first order, hence exact.
     let [first, _] = both(&varied(Distribution::normal(1.0, 0.01).unwrap()));
     close(
         spread(&first, 0).quantiles[6].value,
@@ -127,7 +127,7 @@ fn quantiles_of_the_models() {
     );
 }
 
-/// Linear outputs are exact to first order, several of them with their covariance; a product is to second order.
+/// Linear outputs are exact to first order, including their covariance; a product is exact to second order.
 #[test]
 fn a_linear_response() {
     let laws = [Law::Uniform, Law::Triangular, Law::Normal];
@@ -156,7 +156,7 @@ fn a_linear_response() {
                 1e-12,
             );
         }
-        // a0 = 1, b0 = 2: first order leaves `sigma_a sigma_b` out, and says so.
+        // a0 = 1, b0 = 2: first order omits `sigma_a sigma_b`, and reports this.
         let [linear, exact] = [&all, &second].map(|all| spread(all, 1).sigma.unwrap());
         let truth = (4.0 * a + b + a * b).sqrt();
         close(exact.value, truth, 1e-12);
@@ -215,7 +215,7 @@ mechanism! {
     }
 }
 
-/// Modes that are equal have no second derivatives of their own.
+/// Equal modes have no second derivatives of their own.
 #[test]
 fn first_order_where_there_is_no_second() {
     let study = Study::new(Twins).tolerance(Twins::m, 0.01);
@@ -233,7 +233,7 @@ fn first_order_where_there_is_no_second() {
     assert_eq!(spread(&all, 0).mean.error, None);
 }
 
-/// Dependent variables that are not normal have no closed form: samples of the model, with their error.
+/// Dependent non-normal variables have no closed form: the model is sampled, and its error is given.
 #[test]
 fn dependent_variables() {
     let length = Distribution::uniform(0.97, 1.03).unwrap();
@@ -258,7 +258,7 @@ fn dependent_variables() {
     close(with_mass / by_length, 0.6 * (0.1 / 0.03), 1e-2);
 }
 
-/// The choice by cost, its reason, and what becomes of a node without value.
+/// The choice by cost, its reason, and the treatment of a node without a value.
 #[test]
 fn the_method_follows_the_cost() {
     let range = Range::new(Bar::omega.any(), 0.5, 8.0).steps(20);
@@ -288,7 +288,7 @@ fn the_method_follows_the_cost() {
     assert_eq!(of(&[FREQUENCY], &tolerances, 4).method, Method::SecondOrder);
     let found = of(&critical, &tolerances, 21 * 4095);
     assert_eq!(found.method, Method::Tensor { nodes: 7 });
-    // sqrt(1.5 g / l): mean and sigma by its series to fourth order.
+    // sqrt(1.5 g / l): mean and sigma from its series to fourth order.
     let (speed, s) = ((1.5 * GRAVITY).sqrt(), 0.02_f64.powi(2));
     let own = spread(&found, 0);
     close(

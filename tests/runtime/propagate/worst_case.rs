@@ -1,4 +1,4 @@
-//! Worst cases: corners of the box, monotonic or not.
+//! Worst cases at the corners of the box, for monotonic and other responses.
 
 use eigentol::propagation::worst_case;
 use eigentol::sweep::Range;
@@ -33,7 +33,7 @@ fn a_monotonic_response() {
     }
 }
 
-/// The corners of a linear response, exact in each variable by itself.
+/// The corners of a linear response, exact in each variable separately.
 #[test]
 fn a_linear_response() {
     let tolerances = Tolerances::new([0.0, 0.0, 0.1, 0.2, 0.3], 3.0, None).unwrap();
@@ -52,7 +52,7 @@ fn a_linear_response() {
     assert!(sum.is_monotonic() && product.is_monotonic());
 }
 
-/// A product of two variables about zero is greatest in two corners and least in two; gradients alone see one of each.
+/// A product of two variables about zero is largest in two corners and smallest in two; gradients alone find one of each.
 #[test]
 fn a_response_that_turns() {
     let limits = [1.5, 3.0].map(|high| Distribution::uniform(-1.0, high).unwrap());
@@ -87,7 +87,7 @@ mechanism! {
     }
 }
 
-/// A response that is stationary at the nominal design is not constant: gradients there are zero.
+/// A response that is stationary at the nominal design is not constant, although its gradient there is zero.
 #[test]
 fn a_stationary_response_turns() {
     let study = Study::new(Balance)
@@ -109,7 +109,7 @@ fn a_stationary_response_turns() {
     close(ends(1).0, -0.1, 1e-15);
     close(ends(1).1, 0.1, 1e-15);
     assert!(!parabola.is_monotonic() && !saddle.is_monotonic());
-    // What has no effect stays nominal.
+    // A variable without effect stays nominal.
     assert_eq!(parabola.greatest.as_ref().unwrap().design[2], 1.0);
 }
 
@@ -126,7 +126,7 @@ fn a_corner_without_value_is_said() {
     assert_eq!(found.missing.len(), 1);
     assert_eq!(found.missing[0].outcome, Outcome::Unphysical);
     assert_eq!(found.missing[0].design[1], -0.5);
-    // The nominal design is the least that was seen with a value, and its gradient says that it is not the least there is.
+    // The nominal design is the smallest value seen, and its gradient shows that it is not the minimum.
     let least = found.least.as_ref().unwrap();
     assert!(!least.confirmed && least.design[1] == 1.0 && !found.is_monotonic());
 }

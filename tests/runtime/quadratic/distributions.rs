@@ -1,4 +1,4 @@
-//! The second-order model in variables that are off centre or not normal, against exact moments and probabilities.
+//! The second-order model in off-centre or non-normal variables, against exact moments and probabilities.
 
 use super::close;
 use eigentol::second_order::{Quadratic, margin};
@@ -14,7 +14,7 @@ fn quadratic(value: f64, slopes: &[f64], curvature: &[&[f64]]) -> Quadratic {
     }
 }
 
-/// Normal variables with means beside the nominal values: the model about these means, whose coefficients are written out.
+/// Normal variables whose means differ from the nominal values: the model about these means, with its coefficients written out.
 #[test]
 fn means_beside_the_nominal_values() {
     let model = quadratic(2.0, &[1.0, -3.0], &[&[0.5, 0.2], &[0.2, -1.0]]);
@@ -49,7 +49,7 @@ fn means_beside_the_nominal_values() {
     }
 }
 
-/// `x + x^2` of a uniform `x` in (-1, 1): moments by integration, probabilities by solving for `x`.
+/// `x + x^2` for a uniform `x` in (-1, 1): moments by integration, probabilities by solving for `x`.
 #[test]
 fn a_uniform_variable() {
     let model = quadratic(0.0, &[1.0], &[&[2.0]]);
@@ -78,8 +78,8 @@ fn a_uniform_variable() {
     );
 }
 
-/// The same tolerance in percent of the value: a band at 2.2 standard deviations has 1.4 % of a normal variable and nothing of a
-/// uniform one, whose limits are nearer.
+/// The same relative tolerance: a band at 2.2 standard deviations contains 1.4 % of a normal variable and nothing of a uniform
+/// one, whose limits are closer.
 #[test]
 fn a_band_sees_the_distribution() {
     let model = quadratic(0.0, &[1.0, 1.0], &[&[0.0; 2], &[0.0; 2]]);
@@ -95,7 +95,7 @@ fn a_band_sees_the_distribution() {
     assert!(of_normal < 1e-3);
 }
 
-/// Variables that are one: the same as a model in a single variable.
+/// Fully correlated variables: equivalent to a model in a single variable.
 #[test]
 fn complete_correlation() {
     let model = quadratic(0.0, &[1.0, 0.5], &[&[0.3, 0.1], &[0.1, 0.2]]);

@@ -48,7 +48,7 @@ fn one_variable_has_closed_forms() {
     assert_eq!(all.derivatives.unwrap().by_mean, 0.0);
 }
 
-/// The model about a shifted nominal design: value and slopes follow, curvature stays.
+/// The model about a shifted nominal design: value and slopes change, curvature does not.
 fn shifted(model: &Quadratic, k: usize, by: f64) -> Quadratic {
     let mut x = [0.0; 4];
     x[k] = by;
@@ -86,7 +86,7 @@ fn derivatives_match_differences() {
             let by_high =
                 difference(&|h| of(&model, &tolerances, (band.0, band.1 + h)).first_order);
             within(slopes.by_high, by_high, 1e-9);
-            // A band around a running speed u, and a quantity that moves with it at the rate 0.3.
+            // A band around a running speed u, and a quantity with derivative 0.3 by this speed.
             let along = difference(&|h| {
                 let moved = Quadratic {
                     value: model.value + 0.3 * h,
@@ -95,7 +95,7 @@ fn derivatives_match_differences() {
                 of(&moved, &tolerances, (band.0 + 0.9 * h, band.1 + 1.1 * h)).first_order
             });
             within(slopes.along(0.3, 0.0, 0.9, 1.1), along, 1e-9);
-            // All that moves the first-order spread: a common factor of the slopes.
+            // Everything that changes the first-order standard deviation: a common factor of the slopes.
             let sigma = of(&model, &tolerances, band).sigma;
             let by_sigma = difference(&|h| {
                 let moved = Quadratic {
@@ -138,7 +138,7 @@ fn nothing_varies() {
     assert_eq!((inside.first_order, inside.corrected.value), (1.0, 1.0));
     assert_eq!(inside.distance, f64::NEG_INFINITY);
     assert_eq!(of(&model, &still, (7.0, 9.0)).distance, 0.0);
-    // No slope, yet curvature: first order sees nothing, the corrected probability does.
+    // Curvature without slope: first order sees nothing, the corrected probability does.
     let flat = Quadratic {
         value: 0.0,
         slopes: [0.0].into(),
@@ -165,7 +165,7 @@ fn nonsense_is_refused() {
     };
     let found = margin(&broken, &tolerances, (0.0, 1.0));
     assert!(matches!(found, Err(Error::NotFinite { .. })));
-    // Derivatives beyond the range of a double are left out; the rest stands.
+    // Derivatives beyond the range of a double are omitted; the others remain.
     let steep = Quadratic {
         value: 0.0,
         slopes: [1e-300].into(),

@@ -1,4 +1,4 @@
-//! Statistics of a quantity known to second order: against quadrature, closed forms, sampling and reference numbers.
+//! Statistics of a quantity known to second order, against quadrature, closed forms, sampling and reference numbers.
 
 mod distributions;
 mod margin;
@@ -29,7 +29,7 @@ fn independent(sigma: impl Into<Vector>) -> Tolerances {
     Tolerances::new(sigma, 1.0, None).unwrap()
 }
 
-/// Four correlated variables and a model of all of them.
+/// Four correlated variables, and a model in all of them.
 fn coupled() -> (Quadratic, Tolerances) {
     let model = Quadratic {
         value: 7.0,
@@ -60,7 +60,7 @@ fn value_at(model: &Quadratic, x: &[f64]) -> f64 {
     model.value + (0..p).map(slope).sum::<f64>() + (0..p * p).map(bend).sum::<f64>()
 }
 
-/// Standard normal numbers of a generator of this test's own (SplitMix64 and Box-Muller).
+/// Standard normal numbers from the test's own generator (SplitMix64 and Box-Muller).
 struct Normal(u64);
 
 impl Normal {
@@ -78,7 +78,7 @@ impl Normal {
     }
 }
 
-/// Lower factor of a covariance matrix, for the test's own draws.
+/// Lower factor of a covariance matrix, for the test's own samples.
 fn factor(tolerances: &Tolerances) -> Matrix {
     let sigma = tolerances.sigmas();
     let mut lower = Matrix::zeros(sigma.len(), sigma.len());

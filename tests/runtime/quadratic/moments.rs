@@ -39,7 +39,7 @@ fn moments_are_those_of_quadrature() {
     close(moments.mean, mean, 1e-14);
     close(moments.mean_shift, mean - 7.0, 1e-12);
     close(moments.sigma, sigma, 1e-13);
-    // Degree 8 is within the rule.
+    // Degree 8 is within the exactness of the rule.
     let standard = |power: i32| expectation(&|f| ((f - mean) / sigma).powi(power));
     close(moments.skewness, standard(3), 1e-12);
     close(moments.excess_kurtosis, standard(4) - 3.0, 1e-12);
@@ -69,7 +69,7 @@ fn chi_square_has_its_known_moments() {
     close(moments.excess_kurtosis, 4.0, 1e-15);
 }
 
-/// Numbers of 80-digit arithmetic: gradient, Hessian, first-order sigma, mean shift and sigma of second order.
+/// From 80-digit arithmetic: gradient, Hessian, first-order sigma, and second-order mean shift and sigma.
 #[test]
 fn moments_of_the_pendulums_match_reference() {
     // Single pendulum at 4.5 rad/s by length and speed.
@@ -140,7 +140,7 @@ fn nonlinearity_compares_the_orders() {
         curvature: [[3.0]].into(),
     };
     let small = model.nonlinearity(&independent([0.1])).unwrap();
-    // Shift 3 * 0.01 / 2 and spread 3 * 0.01 / sqrt(2), both over 0.2.
+    // Shift 3 * 0.01 / 2 and standard deviation 3 * 0.01 / sqrt(2), both over 0.2.
     close(small.mean_shift, 0.075, 1e-14);
     close(small.spread, 0.03 / 2.0_f64.sqrt() / 0.2, 1e-14);
     close(small.largest(), small.spread, 1e-15);
@@ -182,7 +182,7 @@ fn extreme_scales_keep_their_digits() {
         close(moments.skewness, expected.skewness, 1e-13);
         close(moments.excess_kurtosis, expected.excess_kurtosis, 1e-13);
     }
-    // Design variables of scale 1e-160 and 1e160 beside each other.
+    // Design variables of scale 1e-160 and 1e160 together.
     let mixed = Quadratic {
         value: 0.0,
         slopes: [1e160, -2e-160].into(),
@@ -195,7 +195,7 @@ fn extreme_scales_keep_their_digits() {
         curvature: [[0.0, 0.2], [0.2, -0.7]].into(),
     };
     let expected = plain.moments(&independent([0.3, 0.4])).unwrap();
-    // -0.7e-320 is subnormal: three digits.
+    // -0.7e-320 is subnormal, with three digits.
     close(moments.sigma, expected.sigma, 1e-3);
     close(moments.skewness, expected.skewness, 1e-2);
 }

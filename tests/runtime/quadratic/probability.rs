@@ -26,7 +26,7 @@ fn chance(model: &Quadratic, band: (f64, f64)) -> Probability {
     found
 }
 
-/// The value is right within `1e-11` and within the error that is stated with it.
+/// The value is correct within `1e-11` and within its stated error.
 fn agrees(model: &Quadratic, band: (f64, f64), expected: f64) {
     let found = chance(model, band);
     within(found.value, expected, found.error.max(1e-14));
@@ -37,7 +37,7 @@ fn agrees(model: &Quadratic, band: (f64, f64), expected: f64) {
 #[test]
 fn without_curvature_the_tails_keep_their_digits() {
     let model = diagonal(&[(3.0, 0.0), (-4.0, 0.0)]);
-    // Tails of the normal distribution in 50-digit arithmetic.
+    // Tails of the normal distribution from 50-digit arithmetic.
     close(
         chance(&model, (25.0, ALL)).value,
         2.866_515_718_791_939e-7,
@@ -62,7 +62,7 @@ fn without_curvature_the_tails_keep_their_digits() {
 
 #[test]
 fn chi_square_of_one_to_seven_degrees() {
-    // Independent of the number of squares being even: upper tail by the recurrence Q(k + 2) = Q(k) + density terms.
+    // For even and odd numbers of squares: the upper tail by the recurrence Q(k + 2) = Q(k) + density terms.
     fn upper(degrees: usize, x: f64) -> f64 {
         let half = 0.5 * x;
         let mut tail = if degrees.is_multiple_of(2) {
@@ -105,7 +105,7 @@ fn chi_square_of_one_to_seven_degrees() {
     }
 }
 
-/// Complementary error function by its continued fraction or series, of the test's own.
+/// Complementary error function by its continued fraction or series, implemented here.
 fn erfc(x: f64) -> f64 {
     if x < 2.5 {
         let (mut term, mut sum) = (x, x);
@@ -140,8 +140,8 @@ fn differences_of_squares_are_laplace() {
     }
 }
 
-/// Quadrature in 30-digit arithmetic over one of two variables, the other by its closed form: `(c1, nu1, c2, nu2, y)`
-/// and `P(X < y)`.
+/// From quadrature in 30-digit arithmetic over one of two variables, with a closed form for the other:
+/// `(c1, nu1, c2, nu2, y)` and `P(X < y)`.
 const TWO: [(f64, f64, f64, f64, f64, f64); 26] = [
     (0.3, 1.0, 0.5, 0.6, -0.2, 0.045_638_055_314_149_96),
     (0.3, 1.0, 0.5, 0.6, 0.0, 0.201_612_850_132_624_12),
@@ -277,7 +277,7 @@ fn intervals_at_the_edge_of_sense() {
         let found = model.probability_first_order(&tolerances, band);
         assert!(matches!(found, Err(Error::Setting { .. })));
     }
-    // Nothing varies: the nominal value is in or out.
+    // Nothing varies: the nominal value is either inside or outside.
     let still = independent([0.0; 4]);
     let of = |band| model.probability(&still, band).unwrap().value;
     assert_eq!(
@@ -290,14 +290,14 @@ fn intervals_at_the_edge_of_sense() {
 
 #[test]
 fn hundred_variables_of_low_rank() {
-    // One direction with curvature among a hundred variables: a single square and a normal term.
+    // One curved direction among a hundred variables: a single square and a normal term.
     let direction: [f64; 100] = core::array::from_fn(|i| 0.1 * if i % 3 == 0 { -1.0 } else { 1.0 });
     let model = Quadratic {
         value: 0.0,
         slopes: Vector::from_fn(100, |i| if i == 7 { 0.5 } else { 0.0 }),
         curvature: Matrix::from_fn(100, 100, |i, j| direction[i] * direction[j]),
     };
-    // c = 0.5 * direction[7] = 0.05 along it, the rest of the slope beside it.
+    // c = 0.5 * direction[7] = 0.05 along it, the rest of the slope perpendicular to it.
     let rest = (0.25_f64 - 0.0025).sqrt();
     let same = diagonal(&[(0.05, 1.0), (rest, 0.0)]);
     for band in [(-ALL, 0.0), (0.3, 1.0), (2.0, ALL)] {
@@ -305,8 +305,8 @@ fn hundred_variables_of_low_rank() {
     }
 }
 
-/// Many models of random signs and scales: never outside [0, 1], never NaN, falling in the edge, and the parts sum to 1
-/// within the stated errors.
+/// Many models with random signs and scales: never outside [0, 1], never NaN, monotonic in the limit, and the parts sum
+/// to 1 within the stated errors.
 #[test]
 fn random_models_stay_sane() {
     let mut normal = Normal(7);

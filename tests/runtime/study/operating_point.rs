@@ -1,4 +1,4 @@
-//! Values in declared units, on the way in and in reports: every report begins with the operating point it belongs to.
+//! Values in declared units, as input and in reports: every report begins with its operating point.
 
 use eigentol::second_order::Band;
 use eigentol::{Error, InDeclaredUnit, Input, Study, mechanism};

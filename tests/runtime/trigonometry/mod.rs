@@ -4,7 +4,7 @@ mod values;
 
 use eigentol::Real;
 
-/// Distance of `value` from `exact + lacking`, in units of the last place of `exact`.
+/// Distance of `value` from `exact + lacking`, in units in the last place of `exact`.
 fn units(value: f64, exact: f64, lacking: f64) -> f64 {
     let place = (exact.abs().next_up() - exact.abs()).max(f64::from_bits(1));
     ((value - exact) - lacking).abs() / place
@@ -22,7 +22,7 @@ fn stored_values_to_one_unit_in_the_last_place() {
     }
 }
 
-/// The measure itself: the neighbour of a right value is too far away.
+/// Tests the measure itself: the neighbour of a correct value is too far away.
 #[test]
 fn a_wrong_last_digit_is_seen() {
     let [x, sine, rest, ..] = values::EXACT[0];
@@ -30,7 +30,7 @@ fn a_wrong_last_digit_is_seen() {
     assert!(units(right.next_up().next_up(), sine, rest) > 1.0);
 }
 
-/// Side by side: the bits of one by one, whatever stands beside, and the sign of zero.
+/// In vectors: the same bits as one by one, whatever the neighbouring lanes, and the correct sign of zero.
 #[test]
 fn several_angles_at_once() {
     let angles = [
@@ -76,7 +76,7 @@ fn agrees_with_the_standard_library_everywhere() {
     for k in 0..300_000 {
         let size = [1e5, 10.0, 1.0, 1e-3, 1e9][k % 5];
         let x = size * (2.0 * uniform() - 1.0);
-        // Next to a multiple of pi/2 every second time.
+        // Every second one is close to a multiple of pi/2.
         let quarter = core::f64::consts::FRAC_PI_2;
         let x = if k % 2 == 0 {
             x

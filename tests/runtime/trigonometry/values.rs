@@ -1,4 +1,4 @@
-//! Sines and cosines of 80-digit arithmetic: `x`, then each as a double and what it lacks.
+//! Sines and cosines from 80-digit arithmetic: `x`, then each as a double and its remainder.
 #![allow(
     clippy::approx_constant,
     reason = "numbers next to a multiple of pi/2 are what is asked for"

@@ -1,4 +1,4 @@
-//! A rigid rotor in a soft bearing that is stiffer one way than the other, in coordinates that do not turn.
+//! A rigid rotor in a soft anisotropic bearing, in non-rotating coordinates.
 
 machine! {
     /// An overhung rotor: sway and tilt of its cage are coupled by the gyroscopic moment of the spinning disk.

@@ -1,4 +1,4 @@
-//! Placements on both sides, a joint declared against the flow, and a strut.
+//! Placements on both sides of a joint, a joint declared from child to parent, and a strut.
 
 machine! {
     /// A chair on a pole hinged to the rim of a carousel, the pole braced by a strut to the mast.

@@ -1,4 +1,4 @@
-//! A rotor in an oil film: matrices that are not symmetric, and curves over the speed and over a design variable.
+//! A rotor in an oil film: non-symmetric matrices, and curves over the speed and over a design variable.
 
 machine! {
     /// A rigid rotor in an oil film that couples its axes; stiffness and damping change with the speed, damping with the temperature.

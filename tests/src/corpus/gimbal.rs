@@ -1,4 +1,4 @@
-//! A gyroscope: two free turns, one driven, and a steady state although the wheel never rests.
+//! A gyroscope: two free rotations, one driven, and a steady state although the wheel never rests.
 
 machine! {
     /// A wheel at speed in two gimbals that springs hold upright, the inner one mounted askew.

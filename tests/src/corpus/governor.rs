@@ -1,4 +1,4 @@
-//! The steam engine's speed governor, one of its arms.
+//! One arm of the steam engine's speed governor.
 
 machine! {
     /// A flyball on an arm hinged beside the spindle, drawn in by a spring from the collar below; the collar's place is

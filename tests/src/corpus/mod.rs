@@ -1,20 +1,20 @@
-//! A corpus of machines in the language of `mechanism!`. Each declaration is written once and kept twice: compiled by the
-//! macro, and as text for the compiler's other doors. Together they use every construct of the language.
+//! A corpus of machines in the language of `mechanism!`. Each declaration is written once and kept in two forms: compiled
+//! by the macro, and as text for the compiler's other front ends. Together they use every construct of the language.
 
 use eigentol::Mechanism;
 
-/// Compiles a declaration and keeps its text beside it as `DECLARATION`.
+/// Compiles a declaration and keeps its text as `DECLARATION`.
 macro_rules! machine {
     ($($declaration:tt)*) => {
         eigentol::mechanism! { $($declaration)* }
-        /// The declaration, one token after the other.
+        /// The text of the declaration.
         pub const DECLARATION: &str = stringify!($($declaration)*);
     };
 }
 
 pub(crate) use machine;
 
-/// Does something to every machine of the corpus, whatever its size.
+/// Performs an operation on every machine of the corpus, whatever its size.
 pub trait Visitor {
     /// Called once for each machine with its name in `snake_case`, its declaration and the compiled type.
     fn visit<M: Mechanism + Copy + 'static>(
@@ -34,7 +34,7 @@ macro_rules! corpus {
             vec![$((stringify!($module), $module::DECLARATION)),*]
         }
 
-        /// Shows every machine to a visitor, in the order of [`corpus`].
+        /// Passes every machine to a visitor, in the order of [`corpus`].
         pub fn visit(visitor: &mut impl Visitor) {
             $(visitor.visit(stringify!($module), $module::DECLARATION, $module::$machine);)*
         }

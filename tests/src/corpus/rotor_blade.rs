@@ -1,4 +1,4 @@
-//! A helicopter blade: flap and lag are coupled by Coriolis forces.
+//! A helicopter blade with flap and lag coupled by Coriolis forces.
 
 machine! {
     /// An articulated rotor blade with its flap hinge inside its lag hinge, coned by gravity and preset pitch.

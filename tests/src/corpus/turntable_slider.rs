@@ -1,4 +1,4 @@
-//! A slide on a turntable with something swinging from it.
+//! A slide on a turntable with a pendulum hanging from it.
 
 machine! {
     /// A carriage on a radial slide of a turntable, with a pendulum hanging from it that swings across the slide.

@@ -1,4 +1,4 @@
-//! The five-bar: two chains whose ends coincide. Two freedoms with gyroscopic coupling.
+//! The five-bar: two chains whose ends coincide, with two gyroscopically coupled freedoms.
 
 use crate::corpus::machine;
 

@@ -1,4 +1,4 @@
-//! Geared rotors of which only the first is driven: the gear makes the second shaft run.
+//! Geared rotors of which only the first is driven; the gear drives the second shaft.
 
 use crate::corpus::machine;
 

@@ -1,4 +1,4 @@
-//! Geared rotors that nothing drives: the motor's torque and the losses settle the speed.
+//! Geared rotors without a drive: the motor torque and the losses determine the speed.
 
 use crate::corpus::machine;
 

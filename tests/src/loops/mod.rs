@@ -1,7 +1,7 @@
-//! Mechanisms with closed loops and couplings, whose answers in minimal coordinates are stored in `truth/loops.json`.
+//! Mechanisms with closed loops and couplings, whose solutions in minimal coordinates are stored in `truth/loops.json`.
 //!
-//! Their loops are closed in every way of the language: by joints that are cut as declared or where the compiler likes, by
-//! points that coincide, by distances, by couplings and equations of coordinates at rest and of running ones.
+//! Their loops are closed in every way that the language offers: cut joints, chosen by the declaration or by the compiler;
+//! coincident points; distances; couplings and equations of coordinates, both at rest and running.
 
 use crate::corpus::Visitor;
 
@@ -23,7 +23,7 @@ pub use governor::Governor;
 pub use porter_governor::PorterGovernor;
 pub use slider_crank::SliderCrank;
 
-/// Shows every mechanism to a visitor.
+/// Passes every mechanism to a visitor.
 pub fn visit(visitor: &mut impl Visitor) {
     visitor.visit("five_bar", five_bar::DECLARATION, FiveBar);
     visitor.visit("four_bar", four_bar::DECLARATION, FourBar);

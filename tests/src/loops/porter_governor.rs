@@ -1,4 +1,4 @@
-//! Porter's governor: massless links are distances.
+//! Porter's governor, with its massless links declared as distances.
 
 use crate::corpus::machine;
 

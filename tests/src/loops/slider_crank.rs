@@ -1,4 +1,4 @@
-//! The slider-crank: a loop of four joints, which the compiler cuts where it likes.
+//! The slider-crank: a loop of four joints, in which the compiler chooses the cut.
 
 use crate::corpus::machine;
 

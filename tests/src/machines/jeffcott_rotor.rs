@@ -1,4 +1,4 @@
-//! Jeffcott's rotor in coordinates that do not turn, with damping that does.
+//! Jeffcott's rotor in non-rotating coordinates, with rotating damping.
 //!
 //! For `z = x + i y`: `m z'' + (c_e + c_i) z' + (k - i W c_i) z = -i m g`. Forward whirl grows beyond
 //! `W = sqrt(k / m) (1 + c_e / c_i)`.

@@ -1,7 +1,7 @@
 //! Machines whose eigenvalues have closed forms: whirl, nutation, gyroscopic splitting, follower forces, rigid-body modes.
 //!
-//! They are declared and kept as those of the corpus are, but are not part of it: snapshots and the agreement of all kernels
-//! would gain nothing from them.
+//! They are declared and stored like those of the corpus, but are not part of it: they would add nothing to the snapshots or
+//! to the agreement checks of all kernels.
 
 use crate::corpus::Visitor;
 
@@ -19,7 +19,7 @@ pub use sliding_pair::SlidingPair;
 pub use spherical_pendulum::SphericalPendulum;
 pub use ziegler_column::ZieglerColumn;
 
-/// Shows every machine to a visitor.
+/// Passes every machine to a visitor.
 pub fn visit(visitor: &mut impl Visitor) {
     visitor.visit("jeffcott_rotor", jeffcott_rotor::DECLARATION, JeffcottRotor);
     visitor.visit("overhung_rotor", overhung_rotor::DECLARATION, OverhungRotor);

@@ -1,7 +1,7 @@
-//! A top that sleeps upright: held by its spin alone.
+//! A sleeping top: held upright by its spin alone.
 //!
-//! For the tilt `w = alpha + i beta`: `A w'' - i C W w' - m g h w = 0`, `A` about the pivot. Precession and nutation are
-//! `(C W -+ sqrt(C^2 W^2 - 4 A m g h)) / (2 A)`; below `C W = 2 sqrt(A m g h)` the top falls.
+//! For the tilt `w = alpha + i beta`: `A w'' - i C W w' - m g h w = 0`, with `A` about the pivot. Precession and
+//! nutation are `(C W -+ sqrt(C^2 W^2 - 4 A m g h)) / (2 A)`; below `C W = 2 sqrt(A m g h)` the top falls.
 
 use crate::corpus::machine;
 

@@ -1,7 +1,8 @@
-//! Two sliders that drift as one body once their anchor is gone.
+//! Two sliders that drift as one body once their anchor spring is removed.
 //!
-//! Frequencies `w` with `m1 m2 w^4 - (m1 kc + m2 (ka + kc)) w^2 + ka kc = 0`; with `ka = 0` they are
-//! 0, of a rigid motion whose eigenvalue `s = 0` is double and defective, and `sqrt(kc (m1 + m2) / (m1 m2))`.
+//! The frequencies `w` satisfy `m1 m2 w^4 - (m1 kc + m2 (ka + kc)) w^2 + ka kc = 0`. With `ka = 0` they are
+//! `sqrt(kc (m1 + m2) / (m1 m2))` and 0, the latter belonging to a rigid-body motion whose eigenvalue `s = 0` is double
+//! and defective.
 
 use crate::corpus::machine;
 

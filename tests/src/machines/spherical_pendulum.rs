@@ -1,7 +1,7 @@
-//! A spherical pendulum seen from a turning frame: a double frequency that the turning splits.
+//! A spherical pendulum seen from a turning frame: a double frequency that is split by the rotation.
 //!
-//! At rest both frequencies are `sqrt(g / l)`, in a frame that turns at `W` they are `sqrt(g / l) +- W`. Without the
-//! gyroscopic matrix both would stay `sqrt(g / l - W^2)`.
+//! At rest both frequencies are `sqrt(g / l)`; in a frame that turns at `W` they are `sqrt(g / l) +- W`. Without the
+//! gyroscopic matrix both would be `sqrt(g / l - W^2)`.
 
 use crate::corpus::machine;
 

@@ -1,8 +1,8 @@
-//! A towed caster wheel that shimmies: three eigenvalues, because the wheel decides the rate of the angle.
+//! A towed caster wheel that shimmies: it has three eigenvalues, because the wheel determines the rate of the angle.
 //!
-//! With `a` the trail, `m` all masses, `F = mass center + wheel a`, `I` the inertia about the pin:
-//! `(a (a m - F) + I - a F) s^3 + (v (a m - F) + a^2 damping + friction) s^2
-//! + (v a damping + a^2 stiffness + centering) s + v a stiffness = 0`.
+//! With the trail `a`, the total mass `m`, `F = mass center + wheel a` and the inertia `I` about the pin:
+//! `(a (a m - F) + I - a F) s^3 + (v (a m - F) + a^2 damping + friction) s^2 +
+//! (v a damping + a^2 stiffness + centering) s + v a stiffness = 0`.
 
 use crate::corpus::machine;
 

@@ -14,7 +14,7 @@ pub use disk::RollingDisk;
 pub use trailer::CirclingTrailer;
 pub use whipple::WhippleBicycle;
 
-/// Shows every machine to a visitor.
+/// Passes every machine to a visitor.
 pub fn visit(visitor: &mut impl Visitor) {
     visitor.visit("cart", cart::DECLARATION, PushedCart);
     visitor.visit("caster", caster::DECLARATION, TowedCaster);

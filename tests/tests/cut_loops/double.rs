@@ -1,16 +1,16 @@
-//! The double of a tree: a free joint in the place of one joint, which is declared once more to close the loop.
+//! The double of a tree: a free joint replaces one joint, which is declared again to close the loop.
 
 use eigentol_oracle::declaration::declaration;
 use eigentol_oracle::model::{Expr, ForceLaw, Joint, Model, Motion, Point, Step, Word};
 
 use super::pose::Embedding;
 
-/// How the double is closed.
+/// How the loop of the double is closed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closing {
-    /// The free joint has the placements of the one that is cut; else none.
+    /// Gives the free joint the placements of the cut one; otherwise it has none.
     pub(crate) placed: bool,
-    /// By constraints of points that say the same as the joint; else by the joint.
+    /// Closes the loop by point constraints equivalent to the joint; otherwise by the joint.
     pub(crate) by_constraints: bool,
 }
 
@@ -28,7 +28,7 @@ pub(crate) const LOOSE: [&str; 6] = [
     "loose_x", "loose_y", "loose_z", "loose_a", "loose_b", "loose_c",
 ];
 
-/// The declaration with the joint cut, and a free joint in its place.
+/// The declaration with the joint cut and a free joint in its place.
 pub(crate) fn cut_text(
     model: &Model,
     joint: usize,
@@ -84,7 +84,7 @@ fn cut_joint(model: &Model, joint: &Joint) -> String {
     format!("{}, cut;", line.trim_end_matches(';'))
 }
 
-/// What a fixed, revolute or spherical joint demands of two points.
+/// The constraints on two points that are equivalent to a fixed, revolute or spherical joint.
 fn constraints(joint: &Joint) -> String {
     let pin = "constraint pin: coincident(from: from_end, to: to_end);";
     let aligned = match (joint.word, &joint.steps[..]) {
@@ -100,7 +100,7 @@ fn constraints(joint: &Joint) -> String {
     format!("{pin} {aligned}")
 }
 
-/// Without the forces that a cut joint cannot have, as it has no coordinates.
+/// Removes forces that a cut joint cannot have, as it has no coordinates.
 pub(crate) fn without_forces_on(mut model: Model, joint: usize) -> Model {
     let on = |value: &Expr| {
         let mut found = false;

@@ -1,4 +1,4 @@
-//! A tree and the same with one joint cut.
+//! A tree, and the same tree with one joint cut.
 
 use std::collections::BTreeSet;
 use std::fmt::{self, Display};
@@ -17,7 +17,7 @@ use super::pose::{Embedding, embedding};
 
 struct Compiled {
     program: Program,
-    /// The coordinates among the unknowns, then the reactions.
+    /// The names of the unknowns: coordinates, then reactions.
     names: Vec<String>,
     reactions: usize,
 }
@@ -42,7 +42,7 @@ impl Compiled {
         })
     }
 
-    /// Every array that is compared, each a matrix with one row for each unknown.
+    /// Every array that is compared: a matrix with one row per unknown.
     fn arrays(&self, x: &[f64], u: &[f64], b: &[f64]) -> [DMatrix<f64>; 6] {
         let evaluate = |kernel: &str| {
             let found = self.program.evaluate(kernel, &[x, u, b]);
@@ -67,7 +67,7 @@ impl Compiled {
     }
 }
 
-/// `None` where nothing resists a coordinate.
+/// `None` if a coordinate has no resistance.
 fn resisted(text: &str) -> Option<Compiled> {
     Compiled::new(text)
         .inspect_err(|mistakes| {
@@ -77,7 +77,7 @@ fn resisted(text: &str) -> Option<Compiled> {
         .ok()
 }
 
-/// A tree, the joint that is cut in its double, and both compiled.
+/// A tree, the joint cut in its double, and both compiled.
 pub(crate) struct Pair {
     model: Model,
     joint: usize,
@@ -90,7 +90,7 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
-    /// `None` where no joint can be cut so, or where nothing resists a coordinate without the forces on the cut joint.
+    /// `None` if no joint can be cut this way, or if a coordinate has no resistance without the forces on the cut joint.
     pub(crate) fn new(plan: Plan, closing: Closing) -> Option<Self> {
         let mut random = Random::new(plan.seed);
         let tree = plan.model();
@@ -105,7 +105,7 @@ impl Pair {
         let places: Vec<usize> = (0..tree.joints.len())
             .filter(|&place| can_be_cut(&tree.joints[place]))
             .collect();
-        // a kind first, because most joints are hinges
+        // choose a kind first, because most joints are hinges
         let kinds: BTreeSet<Word> = places.iter().map(|&k| tree.joints[k].word).collect();
         let kinds: Vec<Word> = kinds.into_iter().collect();
         if kinds.is_empty() {
@@ -133,7 +133,8 @@ impl Pair {
             .collect();
         let embedding = embedding(&model.joints[joint], &own, &case.at[2], closing.placed);
         let text = cut_text(&model, joint, &embedding, closing);
-        // A body on a ball that turns freely about the vertical: no coordinate of the ball is that turn, one of the double is.
+        // A body on a ball joint that turns freely about the vertical: this rotation is a coordinate of the double but not of
+        // the ball joint.
         let cut = resisted(&text)?;
         Some(Self {
             model,
@@ -147,7 +148,7 @@ impl Pair {
         })
     }
 
-    /// `dQ/dq`, one row for each coordinate of the double.
+    /// `dQ/dq`, one row per coordinate of the double.
     fn tangent(&self) -> DMatrix<f64> {
         let free = self.model.free();
         let positions = self.cut.names.len() - self.cut.reactions;
@@ -207,12 +208,12 @@ impl Pair {
         })
     }
 
-    /// What the joint that is cut is called.
+    /// The keyword of the cut joint.
     pub(crate) fn word(&self) -> Word {
         self.model.joints[self.joint].word
     }
 
-    /// The largest error relative to the size of the terms; every difference where they disagree.
+    /// The largest error relative to the size of the terms; if they disagree, every difference.
     pub(crate) fn compare(&self, seed: u64) -> Result<f64, String> {
         let freedom = self.cut.names.len() - 2 * self.cut.reactions;
         let n = self.open.names.len();
@@ -243,7 +244,7 @@ impl Pair {
             "by input",
             "by design",
         ];
-        // Where the free joint has no placements, the state itself moves with the design.
+        // If the free joint has no placements, the state itself moves with the design.
         let compared = if self.closing.placed { 6 } else { 5 };
         for k in 0..compared {
             let rows = cut[k].rows_range(..positions);
@@ -277,7 +278,7 @@ impl Report {
         }
         for (one, other) in found.iter().zip(expected) {
             let error = (one - other).abs() / size.max(expected.amax()).max(1e-3);
-            // NaN is no agreement.
+            // NaN is not agreement.
             let agrees = error <= super::TOLERANCE;
             if !agrees {
                 self.text += &format!("{what}: {one:e}, not {other:e}\n");

@@ -1,5 +1,5 @@
-//! The pose that a joint gives its `to` side, as coordinates of a `free` joint: with first and second derivatives, in
-//! hyper-dual numbers. Shares nothing with the compiler.
+//! The pose that a joint gives its `to` side, as coordinates of a `free` joint, with first and second derivatives in
+//! hyper-dual numbers. Shares no code with the compiler.
 
 use eigentol::Real;
 use eigentol_oracle::model::{Joint, Motion, Placement, Step, Value};
@@ -148,16 +148,16 @@ impl Turns {
     }
 }
 
-/// Six coordinates of a `free` joint and their derivatives by those of the joint that it stands for.
+/// Six coordinates of a `free` joint, and their derivatives by the coordinates of the joint it replaces.
 pub(crate) struct Embedding {
     pub(crate) turns: Turns,
     pub(crate) value: [f64; 6],
-    /// By coordinate of the joint.
+    /// First derivatives, by coordinate of the joint.
     pub(crate) slope: Vec<[f64; 6]>,
     pub(crate) curvature: Vec<Vec<[f64; 6]>>,
 }
 
-/// With `placed` the free joint has the placements of the joint, without none.
+/// With `placed`, the free joint has the placements of the joint; otherwise none.
 pub(crate) fn embedding(joint: &Joint, q: &[f64], design: &[f64], placed: bool) -> Embedding {
     let pose = |along: [Option<usize>; 2]| {
         let moved = joint.steps.iter().zip(q).enumerate();
@@ -174,7 +174,7 @@ pub(crate) fn embedding(joint: &Joint, q: &[f64], design: &[f64], placed: bool) 
         from.then(motion).then(to.inverse())
     };
     let here = pose([None; 2]);
-    // Either is far from its singular pose where the other is near.
+    // Each is far from its singular pose where the other is near its own.
     let turns = match here.rotation[2][0].value().abs() < 0.7 {
         true => Turns::Zyx,
         false => Turns::Zxz,

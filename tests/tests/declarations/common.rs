@@ -1,4 +1,4 @@
-//! The declarations that the tests read, from one that is usual to one that uses everything.
+//! The declarations that the tests read, from an ordinary one to one that uses everything.
 
 use eigentol_compiler::model::mechanism::Mechanism;
 use eigentol_compiler::model::resolve::resolve;
@@ -73,7 +73,7 @@ pub(crate) const EVERYTHING: &str = "
 
 pub(crate) const WITHOUT_BODIES: &str = "mechanism Empty { }";
 
-/// Everything that an open mechanism may consist of beyond the hinges and sliders of the others.
+/// Everything that an open mechanism may contain beyond the hinges and sliders of the others.
 pub(crate) const OPEN_MECHANISM: &str = "
     pub mechanism OpenMechanism {
         input omega: rad/s; input thrust: kN;
@@ -143,7 +143,7 @@ pub(crate) const OPEN_MECHANISM: &str = "
         output gap = distance(grip, anchor) - slide;
     }";
 
-/// Every constraint, cut and coasting joints, and what refers to them. It is no machine that could be built.
+/// Every constraint, cut and coasting joints, and everything that refers to them. It is not a machine that could be built.
 pub(crate) const CLOSED_MECHANISM: &str = "
     pub mechanism ClosedMechanism {
         input omega: rad/s;
@@ -223,7 +223,7 @@ pub(crate) const CLOSED_MECHANISM: &str = "
         output wheel_speed = rate(idle);
     }";
 
-/// Every form of tolerance, with every law.
+/// Every form of tolerance, with every distribution law.
 pub(crate) const TOLERANCES: &str = "
     mechanism Fits {
         input omega: rpm +/- 1%;

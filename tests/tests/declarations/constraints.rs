@@ -105,7 +105,7 @@ fn a_wheel_has_an_axle_and_a_ball_has_none() {
     }
 }
 
-/// The value of an expression of coordinates, its unit, at given values of two coordinates.
+/// The value of an expression of coordinates, and its unit, at given values of two coordinates.
 fn equation_at(mechanism: &Mechanism, name: &str, at: [(&str, f64); 2]) -> (f64, String) {
     let ConstraintLaw::Equation { zero, unit } = law(mechanism, name) else {
         panic!("an equation");
@@ -290,7 +290,7 @@ fn the_text_of_a_mechanism_names_its_constraints() {
     }
 }
 
-/// `cut` and `coasting` are names like others where a name stands.
+/// `cut` and `coasting` are ordinary names where a name is expected.
 #[test]
 fn the_words_of_clauses_are_names_too() {
     let source = "mechanism Words {

@@ -1,4 +1,4 @@
-//! Springs and dampers on every free coordinate, and mechanisms of which only the equations are wanted.
+//! Springs and dampers on every free coordinate, and mechanisms of which only the equations are needed.
 
 use eigentol::Study;
 use eigentol_compiler::mechanics::Limits;
@@ -13,7 +13,7 @@ fn compiled(text: &str) -> Compilation {
     compile(tokens, Limits::default()).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
-/// How many mistakes the compiler finds.
+/// How many errors the compiler reports.
 fn refusals(text: &str) -> usize {
     match compile(text.parse().expect("tokens"), Limits::default()) {
         Ok(_) => 0,
@@ -28,14 +28,15 @@ fn kernel(compilation: &Compilation, name: &str, arguments: &[&[f64]]) -> Vec<Ve
     )
 }
 
-/// What `every` has put on the coordinates, as text.
+/// The forces that `every` adds to the coordinates, as text.
 fn of_every(mechanism: &Mechanism) -> Vec<String> {
     let text = mechanism.to_string();
     let lines = text.lines().filter(|line| line.starts_with("every "));
     lines.map(str::to_owned).collect()
 }
 
-/// Neither a driven coordinate nor one of a cut joint has springs, nor one that has its own; the loop is cut as without them.
+/// Driven coordinates, coordinates of cut joints, and coordinates with their own springs get none; the loop is cut in the
+/// same place as without them.
 #[test]
 fn every_free_coordinate_gets_what_it_has_not() {
     let gripper = compiled(every::DECLARATION);
@@ -66,7 +67,7 @@ const EXPECTED: [&str; 10] = [
     "displacement: damper on lift damping 3",
 ];
 
-/// The same as springs and dampers that are written one by one.
+/// Equivalent to springs and dampers written one by one.
 #[test]
 fn it_is_short_for_one_force_each() {
     let robot = |forces: &str| {
@@ -103,7 +104,7 @@ fn it_is_short_for_one_force_each() {
     assert_eq!(at(&short), at(&long));
 }
 
-/// A drone with a massless rotor: beside one that springs hold, nothing but the springs is missing.
+/// A drone with a massless rotor: compared with a drone held by springs, only the springs are missing.
 #[test]
 fn what_nothing_holds_has_kernels() {
     let drone = |more: &str| {
@@ -136,7 +137,7 @@ fn what_nothing_holds_has_kernels() {
     }
 }
 
-/// A coordinate that nothing resists, one that moves no mass, and one whose speed nothing determines.
+/// A coordinate without resistance, one without mass, and one whose speed is undetermined.
 #[test]
 fn without_a_steady_motion_there_are_kernels() {
     let spinning = |more: &str| {
@@ -154,7 +155,7 @@ fn without_a_steady_motion_there_are_kernels() {
     };
     assert_eq!(refusals(&spinning("")), 1);
     let alone = compiled(&spinning("kernels only;"));
-    // Positions first: (1/3) m l^2 and nothing. Of a speed, (1/2) m r^2 stands beside its rate, in the damping.
+    // Positions first: (1/3) m l^2 and zero. For a speed, (1/2) m r^2 multiplies its rate, in the damping matrix.
     let matrices = kernel(&alone, "linear", &[&[0.0; 3], &[], &[]]);
     assert_eq!(
         matrices[0][..],
@@ -166,8 +167,8 @@ fn without_a_steady_motion_there_are_kernels() {
     );
 }
 
-/// A study of a mechanism without a steady motion answers, or says why not: a bar that drifts, that falls, and one with a
-/// joint that moves no mass.
+/// A study of a mechanism without a steady motion gives a result or a reason: a drifting bar, a falling bar, and a bar
+/// with a massless joint.
 #[test]
 fn a_study_of_kernels_alone_answers() {
     const LIGHT: &str = "body frame: massless; joint shake: prismatic(x) from bar to frame;";

@@ -1,5 +1,5 @@
-//! Bodies welded together need an inertia that a body can have: the rule of the compiler and the requirement at run time
-//! against tensors put together with nalgebra.
+//! Welded bodies together need a physically possible inertia: checks the compiler's rule and the run-time requirement
+//! against tensors assembled with nalgebra.
 
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::{Compilation, compile};
@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Unit, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// A mass with its central inertia, in some frame.
+/// A mass with its central inertia in some frame.
 #[derive(Clone, Copy)]
 struct Mass {
     mass: f64,
@@ -25,7 +25,8 @@ impl Mass {
     }
 }
 
-/// By how much the greatest principal moment of masses together falls short of the sum of the other two, relative to their sum.
+/// By how much the largest principal moment of the combined masses falls short of the sum of the other two, relative to the
+/// sum of all three.
 fn surplus(masses: &[Mass]) -> f64 {
     let total: f64 = masses.iter().map(|m| m.mass).sum();
     let center = masses
@@ -54,7 +55,7 @@ impl Random {
         Vector3::new(self.signed(), self.signed(), self.signed()) * size
     }
 
-    /// A tensor with products, of a body or of none.
+    /// A tensor with products of inertia, physically possible or not.
     fn inertia(&mut self) -> Matrix3<f64> {
         let moments = self.vector(0.9).add_scalar(0.7);
         let turn = Rotation3::new(self.vector(3.0));
@@ -88,7 +89,7 @@ fn rigid(m: &Mass, scale: &str) -> String {
 /// Two bodies welded with placements on both sides, and a third welded to the second in the other direction.
 struct Weld {
     masses: [Mass; 3],
-    /// Axis, angle and offset on the `from` and the `to` side of two joints.
+    /// Axis, angle and offset on the `from` and `to` sides of two joints.
     sides: [(Vector3<f64>, f64, Vector3<f64>); 4],
 }
 
@@ -117,7 +118,7 @@ impl Weld {
         )
     }
 
-    /// The masses in the frame of the first, the last scaled by the design, as are the offsets of the first joint.
+    /// The masses in the frame of the first one; the last mass and the offsets of the first joint scale with the design.
     fn together(&self, scale: f64) -> Vec<Mass> {
         let mut third = self.masses[2];
         third.inertia *= scale;
@@ -200,7 +201,7 @@ fn welded_bodies_are_judged_together() {
             if holds { kept += 1 } else { broken += 1 }
         }
     }
-    // Every case occurs, among them that one body makes up for another.
+    // Every case occurs, including one body making up for another.
     let counts = [accepted, refused, kept, broken, made_up];
     assert!(counts.iter().all(|&count| count >= 5), "{counts:?}");
 }

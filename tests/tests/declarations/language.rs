@@ -1,4 +1,4 @@
-//! Every construct of the language arrives in the model as it is meant.
+//! Checks that every construct of the language reaches the model with its intended meaning.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,11 +1,11 @@
-//! The reference page shows declarations that the compiler accepts.
+//! Checks that the compiler accepts the declarations on the reference page.
 
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::Limits;
 
 use super::common::read;
 
-/// The code blocks of a page, with the language of their fence.
+/// The code blocks of a page, with their fence languages.
 fn code_blocks(page: &str) -> Vec<(&str, &str)> {
     let mut blocks = Vec::new();
     for (index, part) in page.split("```").enumerate() {

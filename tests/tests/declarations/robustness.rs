@@ -1,4 +1,4 @@
-//! No input whatever panics, and none is refused without a reason.
+//! No input causes a panic, and none is refused without a reason.
 
 use eigentol_compiler::base::diagnostics::Diagnostics;
 use eigentol_compiler::compile;
@@ -23,7 +23,7 @@ const FUZZED: [&str; 5] = [
     TOLERANCES,
 ];
 
-/// Runs the front half; counts what got how far.
+/// Runs the front half of the compiler; counts how many inputs reach each stage.
 fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
     let report = |errors: Diagnostics| assert!(!errors.into_compile_errors().is_empty());
     let ast = match parse(tokens.clone()) {
@@ -31,7 +31,7 @@ fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
         Err(errors) => {
             let syntax = errors.len();
             report(errors);
-            // The later stages look at what could be read.
+            // The later stages process whatever could be read.
             let all = compile(tokens, Limits::default()).expect_err("a syntax error");
             assert!(all.len() >= syntax);
             return survived(all);
@@ -116,7 +116,7 @@ fn mutated_declarations_are_refused_or_compiled_but_never_panic() {
         let tokens = mutate(source.parse().unwrap(), &mut random, &pool);
         survive(tokens, &mut stages);
     }
-    // Mutations that are all caught by the parser would test nothing behind it.
+    // Mutations that are all caught by the parser would test nothing beyond it.
     assert!(stages.iter().all(|&count| count > 20), "{stages:?}");
 }
 

@@ -1,4 +1,4 @@
-//! Tolerances: what is written, and what arrives of it in SI.
+//! Tolerances: from the written form to SI values.
 
 use eigentol_compiler::model::mechanism::{Law, Mechanism, Tolerance};
 use eigentol_compiler::model::resolve::resolve;
@@ -54,12 +54,12 @@ fn limits_of_a_design_variable_are_in_si() {
         ("1 m +/- 3%", 1.0, 0.03, -0.03),
         ("2 m +/- 3 mm", 2.0, 3e-3, -3e-3),
         ("-2 m +/- 1%", -2.0, 0.02, -0.02),
-        // As on drawings: the unit once, or at each.
+        // As on drawings: the unit once, or after each number.
         ("20 mm +0.1 -0 mm", 0.02, 1e-4, 0.0),
         ("20 mm +0.1 mm -0.05 mm", 0.02, 1e-4, -5e-5),
         ("20mm +0.1mm -50um", 0.02, 1e-4, -5e-5),
         ("-20 mm +0.1 -0.2 mm", -0.02, 1e-4, -2e-4),
-        // Both of one sign: the fits f7, p6 and h6 of 20 mm.
+        // Both limits of one sign: the fits f7, p6 and h6 of 20 mm.
         ("20 mm -0.020 -0.041 mm", 0.02, -2e-5, -4.1e-5),
         ("20 mm +0.035 +0.022 mm", 0.02, 3.5e-5, 2.2e-5),
         ("20 mm 0 -0.013 mm", 0.02, 0.0, -1.3e-5),
@@ -70,12 +70,12 @@ fn limits_of_a_design_variable_are_in_si() {
         ("3 kg +2% -1%", 3.0, 0.06, -0.03),
         ("3 kg 0 -1%", 3.0, 0.0, -0.03),
         ("3 kg +2% 0", 3.0, 0.06, 0.0),
-        // The upper limit is the greater one, also of a negative value.
+        // The upper limit is the greater one, also for a negative value.
         ("-5 mm +2 -1 %", -5e-3, 1e-4, -5e-5),
         ("7 +0.5 -0.25", 7.0, 0.5, -0.25),
         ("5 1/s +1 -2 1/s", 5.0, 1.0, -2.0),
         ("30 deg +1 -0.5 mrad", 30f64.to_radians(), 1e-3, -5e-4),
-        // What comes before the limits may be any value.
+        // The value before the limits may take any form.
         ("2 * 10 mm +0.1 -0.05 mm", 0.02, 1e-4, -5e-5),
         ("(19 mm + 1 mm) +0.1 mm -0.05 mm", 0.02, 1e-4, -5e-5),
         ("1 m + 2 m +3 mm -4 mm", 3.0, 3e-3, -4e-3),
@@ -87,7 +87,7 @@ fn limits_of_a_design_variable_are_in_si() {
     }
 }
 
-/// One signed number, three, or two with more behind them, are terms of a sum.
+/// One signed number, three, or two followed by more terms, are terms of a sum.
 #[test]
 fn other_sums_are_sums() {
     for (text, nominal) in [
@@ -139,7 +139,7 @@ fn a_law_follows_the_limits() {
     }
 }
 
-/// Values as they are; limits and places between them are those of the values.
+/// Values arrive unchanged; the limits, and the positions between them, follow from the values.
 #[test]
 fn a_list_says_what_a_value_may_be() {
     for (text, values) in [
@@ -277,7 +277,7 @@ fn an_input_wanders() {
     assert_near(input("rad/s +30 -10 rpm"), rpm, "rpm");
 }
 
-/// Words of laws are names and units like others where no law can stand.
+/// The keywords of laws are ordinary names and units where no law can appear.
 #[test]
 fn words_of_laws_are_no_keywords() {
     let mechanism = resolved(
@@ -344,7 +344,7 @@ fn one_of<'a, T>(random: &mut ChaCha8Rng, list: &'a [T]) -> &'a T {
     &list[random.next_u32() as usize % list.len()]
 }
 
-/// Limits, units, percentages and laws in every combination: the text says what the numbers it was made of say.
+/// Limits, units, percentages and laws in every combination: the text is read back as the numbers it was made from.
 #[test]
 fn random_tolerances_arrive_as_written() {
     let mut random = ChaCha8Rng::seed_from_u64(7);

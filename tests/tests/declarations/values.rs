@@ -1,4 +1,4 @@
-//! What is read is what was written, and values arrive in SI.
+//! Declarations are read as written, and values arrive in SI.
 
 use eigentol_compiler::base::ids::{BodyId, CoordinateId, JointId};
 use eigentol_compiler::model::evaluate::evaluate;
@@ -81,7 +81,7 @@ fn values_of_a_full_declaration() {
     assert!((constant("t1") - t1).abs() < 1e-14);
     let s1 = -r.powi(-4) - r.powi(4) / 16.0;
     assert!((constant("s1") - s1).abs() < 1e-9, "{}", constant("s1"));
-    // Earlier ones first, whatever the order of declaration.
+    // Prerequisites first, whatever the order of declaration.
     let order: Vec<String> = mechanism
         .constants
         .iter()

@@ -1,4 +1,4 @@
-//! Interpreter and generated code: every number the same to the last bit, for every kernel of every machine.
+//! Interpreter and generated code agree to the last bit in every number of every kernel of every machine.
 
 use eigentol::{Array, Kernels, Linear, LinearPartials, Mechanism, PartialsOf, Square};
 use eigentol_compiler::mechanics::Limits;
@@ -19,7 +19,8 @@ fn interpreted(name: &str, declaration: &str) -> Program {
     program(tokens(declaration)).unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"))
 }
 
-/// The compiler's own interpreter takes sine and cosine from the standard library, the runtime has its own: rounding apart.
+/// The compiler's interpreter takes sine and cosine from the standard library, while the runtime has its own: they agree
+/// except for rounding.
 fn near(found: &[Vec<f64>], expected: &[Vec<f64>], name: &str, kernel: &str) {
     for (found, expected) in found.iter().zip(expected) {
         assert_eq!(found.len(), expected.len(), "{name} {kernel}");
@@ -95,7 +96,7 @@ impl Visitor for Agreement {
     }
 }
 
-/// The generated distance from singular poses at `q`, `u`, `b`.
+/// The pose margin from generated code at `q`, `u`, `b`.
 fn pose_margin(machine: &dyn Kernels, arguments: &[Vec<f64>]) -> Option<f64> {
     let [q, u, b] = arguments else {
         panic!("three arguments")
@@ -112,7 +113,7 @@ fn generated_code_computes_what_the_interpreter_computes() {
     assert!(agreement.numbers > 50_000, "{}", agreement.numbers);
 }
 
-/// Requirements: broken one at a time, the generated check names what the interpreter finds not positive.
+/// Violates requirements one at a time: the generated check must name the quantity that the interpreter finds not positive.
 struct Requirements {
     broken: usize,
 }
@@ -133,7 +134,7 @@ impl Requirements {
         let program = interpreted(name, declaration);
         let kernel = program.kernel("violation").expect("a check");
         let description = machine.description();
-        // The curves of one begin at a higher speed.
+        // The curves of one machine start at a higher speed.
         let input = if name == "film_rotor" { 500.0 } else { 1.0 };
         let inputs = vec![input; description.inputs.len()];
         let nominal: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
@@ -169,7 +170,7 @@ fn generated_requirements_are_the_interpreters() {
     assert!(requirements.broken > 100, "{}", requirements.broken);
 }
 
-/// Where the compiler leaves the explicit partial derivatives to the runtime, they are those it would have written.
+/// Where the compiler leaves explicit partial derivatives to the runtime, they equal those it would have generated.
 struct Columns {
     machines: usize,
 }
@@ -221,11 +222,11 @@ fn large_machines_get_their_partials_column_by_column() {
     assert_eq!(columns.machines, 1);
 }
 
-/// Partial derivatives into a result that held those of other states.
+/// Writes partial derivatives into a result that held those of other states.
 #[derive(Default)]
 struct Reused {
     machines: usize,
-    /// Entries of the largest result of which not everything is set anew.
+    /// Number of entries in the largest result that is not completely overwritten.
     largest: usize,
 }
 
@@ -260,7 +261,7 @@ fn filled<M: Mechanism>(value: f64) -> Square<M, f64> {
     Array::filled(Array::filled(value))
 }
 
-/// What partial derivatives are first written into.
+/// An initial buffer for partial derivatives.
 fn zeros<M: Mechanism>() -> Box<PartialsOf<M, f64>> {
     let zero = Linear {
         mass: filled::<M>(0.0),
@@ -296,7 +297,7 @@ fn partials_into_a_used_result_are_those_of_a_new_one() {
     assert!(reused.largest > 4096, "{}", reused.largest);
 }
 
-/// A word of the language that no machine uses is a word that the tests above say nothing about.
+/// A keyword that no machine uses is not covered by the tests above.
 #[test]
 fn the_corpus_uses_the_whole_language() {
     let text: String = corpus()

@@ -1,4 +1,4 @@
-//! What constraints exert does no work on motions that they allow: the column of a reaction is the row of its constraint.
+//! Constraint reactions do no work on motions that the constraints allow: the column of a reaction is the row of its constraint.
 
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Limits, Role};
@@ -8,7 +8,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::Numbers;
 
-/// Every closing joint and constraint in space, on a body that is free otherwise.
+/// Every closing joint and constraint in space, on an otherwise free body.
 const CLOSING: [&str; 11] = [
     "joint c: fixed from ground to b at [0.1, 0.2, 0.3] rotated(x, 0.4), at [0.3, 0.1, 0.2] rotated(z, 0.7) on b, cut;",
     "joint c: revolute([1, 2, 2]) from ground to b at [0.1, 0.2, 0.3] rotated(x, 0.4), cut;",
@@ -41,7 +41,7 @@ fn in_space(closing: &str) -> String {
     )
 }
 
-/// Equations of positions and of velocities that were compared.
+/// Returns how many position and velocity equations were compared.
 fn compare(name: &str, declaration: &str) -> [usize; 2] {
     let tokens = declaration.parse().expect("tokens");
     let compilation =
@@ -122,7 +122,7 @@ fn reactions_do_no_work() {
     assert!(compared[0] >= 40 && compared[1] >= 20, "{compared:?}");
 }
 
-/// All that is demanded in space, three states each: 6 + 5 + 5 + 4 + 4 + 3 + 3 equations of joints, 3 + 2 + 2 + 1 of constraints.
+/// Every spatial constraint at three states: 6 + 5 + 5 + 4 + 4 + 3 + 3 equations from joints, 3 + 2 + 2 + 1 from constraints.
 #[test]
 fn reactions_in_space_do_no_work() {
     let equations: usize = CLOSING

@@ -1,6 +1,6 @@
-//! Kernels in single precision as rustc compiles them, and in dual numbers, which differentiate what the compiler has
-//! differentiated already. Those are interpreted: generated code does the same to the last bit, and rustc would need
-//! minutes to translate every kernel once more.
+//! Kernels in single precision as compiled by rustc, and in dual numbers, which differentiate what the compiler has
+//! already differentiated. The latter are interpreted: generated code gives the same bits, but rustc would need minutes
+//! to compile every kernel again.
 
 use eigentol::{Array, Kernels, Mechanism};
 use eigentol_compiler::program;
@@ -14,7 +14,7 @@ use eigentol_tests::wheels::{RollingDisk, TowedCaster, caster, disk};
 
 use super::Numbers;
 
-/// Kernels whose arguments are `q`, `u`, `b` alone.
+/// Kernels whose only arguments are `q`, `u`, `b`.
 const AT: [&str; 6] = [
     "residual",
     "residual_parts",
@@ -51,7 +51,7 @@ impl Visitor for SinglePrecision {
             let expected = evaluate(&machine, kernel, &arguments).expect("in the contract");
             let found = evaluate_at(&machine, kernel, &single).expect("in the contract");
             assert_eq!(found.len(), expected.len(), "{name} {kernel}");
-            // Arrays may cancel to nothing, but not all that a kernel returns.
+            // Single arrays may cancel to zero, but not everything that a kernel returns.
             let tolerance = 1e-3 * largest(&expected);
             for (found, expected) in found.iter().zip(&expected) {
                 let found: Vec<f64> = found.iter().copied().map(f64::from).collect();
@@ -69,12 +69,12 @@ fn single_precision_agrees_roughly() {
     assert_eq!(single.0, corpus().len());
 }
 
-/// Derivatives by duals of kernels against the kernels that return these derivatives.
+/// Compares derivatives of kernels in dual numbers with the kernels that return these derivatives.
 struct Duals {
     machines: usize,
 }
 
-/// `d kernel / d argument[which][entry]`, all returned arrays in a row.
+/// `d kernel / d argument[which][entry]`, with all returned arrays concatenated.
 fn slope(
     program: &Program,
     kernel: &str,
@@ -101,7 +101,7 @@ fn slope(
         .collect()
 }
 
-/// Nothing but a one at one place of one argument.
+/// Zero except for a one in one place of one argument.
 fn unit(lengths: &[usize], which: usize, entry: usize) -> Vec<Vec<f64>> {
     let zeros = |(argument, &length): (usize, &usize)| {
         (0..length)
@@ -115,12 +115,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// `x^T A x`, `A` row by row.
+/// `x^T A x`, with `A` by rows.
 fn form(matrix: &[f64], x: &[f64]) -> f64 {
     bilinear(x, matrix, x)
 }
 
-/// `x^T A y`, `A` row by row.
+/// `x^T A y`, with `A` by rows.
 fn bilinear(x: &[f64], matrix: &[f64], y: &[f64]) -> f64 {
     matrix
         .chunks(y.len())
@@ -148,7 +148,7 @@ impl Visitor for Duals {
         };
         let linear = value("linear", &at);
 
-        // Columns of a Jacobian, put together row by row.
+        // A Jacobian assembled from its columns, by rows.
         let jacobian = |kernel: &str, arguments: &[Vec<f64>], which: usize| -> Vec<f64> {
             let lengths: Vec<usize> = arguments.iter().map(Vec::len).collect();
             let columns: Vec<Vec<f64>> = (0..lengths[which])
@@ -398,7 +398,7 @@ fn flat_largest(matrix: &[impl AsRef<[f64]>]) -> f64 {
         .fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }
 
-/// Generated for most machines, differentiated column by column in the runtime's own duals for the largest.
+/// Generated for most machines; for the largest, differentiated column by column in the runtime's own duals.
 #[test]
 fn linearised_along_any_motion_as_dual_numbers_say() {
     let mut motion = AlongMotion::default();

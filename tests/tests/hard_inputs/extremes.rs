@@ -1,4 +1,4 @@
-//! The ends of the range of a double.
+//! The limits of the double-precision range.
 
 use eigentol::sensitivity::{
     sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium,
@@ -19,7 +19,7 @@ fn pendulum(omega: f64, l: f64, m: f64) -> Study<RotatingPendulum> {
         .design(RotatingPendulum::m, m)
 }
 
-/// Numbers about 1e9 are 1.2e-7 apart: `cos theta*` is 1 to 1e-9 at least, or there is no result.
+/// Numbers near 1e9 are 1.2e-7 apart: `cos theta*` is 1 to within 1e-9, or there is no result.
 #[test]
 fn starts_a_thousand_million_radians_away() {
     for start in [1e9, -1e9, 3e9, 1e10] {
@@ -40,8 +40,8 @@ fn starts_a_thousand_million_radians_away() {
     }
 }
 
-/// The moment of gravity, some 2700 N m, decides where the upper bar stands; what is left over as residual is thousands of
-/// times larger, and far more than rounding the coordinates explains. Relative to the lower bar's stiffness it is small.
+/// The moment of gravity, about 2700 N m, determines the angle of the upper bar. The remaining residual is thousands of
+/// times larger, and far more than coordinate rounding explains. Relative to the lower bar's stiffness it is small.
 #[test]
 fn a_short_bar_on_a_bar_round_the_world() {
     let study = Study::new(RotatingDoublePendulum)
@@ -62,7 +62,7 @@ fn a_short_bar_on_a_bar_round_the_world() {
     }
 }
 
-/// The upper bar hangs in no time scale near the lower one's, and still has to come to rest.
+/// The time scale of the upper bar is nowhere near that of the lower one, yet it must still come to rest.
 #[test]
 fn a_tiny_bar_under_a_long_one() {
     let study = |start: f64| {
@@ -83,7 +83,7 @@ fn a_tiny_bar_under_a_long_one() {
     }
 }
 
-/// `Khat (|q| + 0.001)` overflows, and a residual relative to infinity is zero.
+/// `Khat (|q| + 0.001)` overflows, and a residual relative to infinity would be zero.
 #[test]
 fn a_residual_is_not_measured_by_infinity() {
     let design = [7.015e151, 379.9, 4.708e77, 878.2, 333.1];
@@ -100,7 +100,7 @@ fn a_residual_is_not_measured_by_infinity() {
     }
 }
 
-/// The variance overflows, the shares of it need not.
+/// The variance overflows, but its shares need not.
 #[test]
 fn shares_of_a_huge_variance() {
     for width in [1e100, 1e154, 1e160, 1e200, f64::MAX] {
@@ -125,7 +125,7 @@ fn shares_of_a_huge_variance() {
     }
 }
 
-/// Where the adjoint says that a derivative is not finite, the explicit way may not answer NaN.
+/// Where the adjoint method reports that a derivative is not finite, the explicit method must not return NaN.
 #[test]
 fn both_ways_of_differentiating_refuse_alike() {
     let study = pendulum(-4.923, 4.256e-161, 0.1198).start(Coordinate::new(0), -1.8e-90);

@@ -1,4 +1,4 @@
-//! Monte Carlo: nothing is lost, nothing depends on threads.
+//! Monte Carlo: no sample is lost, and results do not depend on the number of threads.
 
 use eigentol::tolerance::Outcome;
 use eigentol::{DesignVariable, Mechanism, MonteCarlo, Study};
@@ -8,7 +8,7 @@ use eigentol_tests::corpus::turntable_slider::TurntableSlider;
 
 use eigentol_tests::unheld::{SprungMass, StandingBar};
 
-/// Counts sum to the samples, samples agree with counts, statistics with samples.
+/// Checks that counts sum to the samples, samples agree with counts, and statistics agree with samples.
 fn assert_complete(run: &MonteCarlo, samples: usize) {
     assert_eq!((run.samples, run.counts.total()), (samples, samples));
     let all = run.all.as_ref().expect("samples were asked for");
@@ -45,7 +45,8 @@ fn assert_complete(run: &MonteCarlo, samples: usize) {
     }
 }
 
-/// The same for any number of threads, another for another seed. Chunks are neither all full nor a multiple of threads.
+/// Checks for equal results with any number of threads and different ones with another seed. The chunks are neither all
+/// full nor a multiple of the threads.
 fn assert_reproducible(study: &Study<impl Mechanism>) -> MonteCarlo {
     const SAMPLES: usize = 2500;
     let run = |threads: usize, seed: u64| {
@@ -90,7 +91,7 @@ fn governor_and_slider() {
     assert_eq!(assert_reproducible(&study).counts.stable, 2500);
 }
 
-/// At the edge of what the spring can hold every outcome occurs, and all are counted.
+/// Near the limit of the spring's capacity every outcome occurs, and all are counted.
 #[test]
 fn samples_that_fail_are_counted() {
     let study = Study::new(SprungMass)

@@ -1,4 +1,4 @@
-//! What every result must satisfy, whatever was asked.
+//! Conditions that every result must satisfy, whatever the input.
 
 use eigentol::sensitivity::{
     equilibrium_shift, output_sensitivities, sensitivities, sensitivities_explicit,
@@ -21,11 +21,11 @@ pub(crate) fn assert_numbers(values: impl IntoIterator<Item: Borrow<f64>>, what:
     );
 }
 
-/// An equilibrium is one: its residual is small against the forces in it, or is what rounding its coordinates leaves; and
-/// when it is called stable, its stiffness is positive definite.
+/// Checks an equilibrium: its residual is small against the forces in it, or is explained by coordinate rounding; if it
+/// is called stable, its stiffness is positive definite.
 #[track_caller]
 pub(crate) fn assert_equilibrium(machine: &dyn Kernels, at: &Equilibrium) {
-    // Neighbouring values of a large coordinate are far apart.
+    // Adjacent values of a large coordinate are far apart.
     assert_settled(machine, at, |q| 1e-12 + 16.0 * f64::EPSILON * q.abs());
 }
 
@@ -98,7 +98,7 @@ fn assert_sensitivities(all: &Sensitivities, what: &str) {
     }
 }
 
-/// Everything that can be asked at an equilibrium: no answer holds a NaN.
+/// Requests every result available at an equilibrium: none may contain a NaN.
 pub(crate) fn assert_answers(machine: &dyn Kernels, at: &Equilibrium, tolerances: &Tolerances) {
     assert_equilibrium(machine, at);
     if let Ok(shift) = equilibrium_shift(machine, at) {

@@ -1,4 +1,4 @@
-//! States at the edge: nothing to hold the machine, starts far off or exactly on an unstable state, critical speeds.
+//! Limiting states: nothing to hold the machine, starts far away or exactly on an unstable state, critical speeds.
 
 use eigentol::{Behaviour, Coordinate, DesignVariable, Error, Policy, Stability, Study};
 use eigentol_oracle::truth::Truth;
@@ -10,7 +10,7 @@ use eigentol_tests::unheld::{Falling, FreeBar, SprungMass, StandingBar};
 
 const BOTH: [Policy; 2] = [Policy::Stable, Policy::Nearest];
 
-/// `x* = k rest / (k - m omega^2)`: none at `omega^2 = k / m`, a divergent one on the other side of the axis beyond.
+/// `x* = k rest / (k - m omega^2)`: none at `omega^2 = k / m`; beyond it a divergent one on the other side of the axis.
 #[test]
 fn a_spring_too_weak_for_the_speed() {
     let study = |omega: f64| Study::new(SprungMass).input(SprungMass::omega, omega);
@@ -45,7 +45,7 @@ fn a_spring_too_weak_for_the_speed() {
         assert_eq!((run.counts.divergent, run.counts.total()), (3000, 3000));
         assert_eq!(*run.modes, [None]);
     }
-    // Without a rest length every place will do at the critical speed.
+    // Without a rest length any position is an equilibrium at the critical speed.
     let anywhere = study(10.0)
         .design(SprungMass::rest, 0.0)
         .start(Coordinate::new(0), 0.3);
@@ -106,7 +106,7 @@ fn what_nothing_holds() {
     }
 }
 
-/// A start many turns away still leads to a state of rest, to what an angle of that size can resolve.
+/// A start many turns away still leads to a state of rest, within the resolution of an angle of that size.
 #[test]
 fn far_starts() {
     for start in [1e3, -1e3, 1e6, -1e6] {
@@ -121,7 +121,7 @@ fn far_starts() {
                 if policy == Policy::Stable {
                     assert_eq!(state.stability, Stability::Stable, "{start}, {omega}");
                     let cosine = (14.715 / (omega * omega)).min(1.0);
-                    // At such an angle neighbouring numbers are this far apart.
+                    // At this angle adjacent numbers are this far apart.
                     let coarse = 1e-9 + 8.0 * f64::EPSILON * start.abs();
                     let found = state.coordinates[0].cos();
                     assert!(
@@ -160,13 +160,13 @@ fn starts_on_the_unstable_state_above_the_critical_speed() {
             .equilibrium()
             .expect("a state");
         assert_eq!(kept.coordinates, [0.0; 2]);
-        // The second mode turns unstable at 7.19 rad/s.
+        // The second mode becomes unstable at 7.19 rad/s.
         let negative = if factor > 3.0 { 2 } else { 1 };
         assert_eq!(kept.stability, Stability::Divergent { negative });
     }
 }
 
-/// At the critical speed itself and one rounding beside it, whatever class is reported is true, and no answer is NaN.
+/// Exactly at the critical speed, and one rounding away from it, the reported class is correct and no answer is NaN.
 #[test]
 fn exactly_at_the_critical_speed() {
     let critical = Truth::load("P1").get("Omega_critical").number();
@@ -228,7 +228,7 @@ fn a_sweep_through_the_critical_speed_stays_on_stable_states() {
                 assert_eq!(bent, point.value > critical, "{}: {state:?}", point.value);
             }
             let modes = point.modes.expect("modes");
-            // The second mode never comes near zero.
+            // The second mode never approaches zero.
             assert!(
                 modes.frequencies()[1].is_some_and(|omega| omega > 6.0),
                 "{}",
@@ -238,7 +238,7 @@ fn a_sweep_through_the_critical_speed_stays_on_stable_states() {
     }
 }
 
-/// A length that vanishes in a joint's place is legal: the hinge of the lower bar on the axis itself.
+/// A vanishing length in a joint's placement is legal: the hinge of the lower bar then lies on the axis itself.
 #[test]
 fn tiny_lengths_are_solved_or_refused() {
     for length in [1e-300, 1e-150, 1e-20, 1e-9] {

@@ -1,4 +1,4 @@
-//! Values that no machine can have, and settings that make no sense: refused by name.
+//! Values that no machine can have, and settings that make no sense, are refused by name.
 
 use eigentol::{Coordinate, DesignVariable, Error, Input, Kernels, Mechanism, Study};
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
@@ -6,7 +6,7 @@ use eigentol_tests::corpus::{Visitor, corpus, visit};
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// Every place of every machine.
+/// Tests every place of every machine.
 struct EveryPlace(usize);
 
 impl Visitor for EveryPlace {
@@ -83,7 +83,7 @@ fn what_no_body_can_have_is_named() {
 
 #[test]
 fn settings_without_sense_are_named() {
-    // Bent outwards: at rest on the axis the tip's radius has no derivative.
+    // Bent outwards, because the tip radius has no derivative at rest on the axis.
     let study = || Study::new(RotatingDoublePendulum).input(RotatingDoublePendulum::omega, 4.0);
     let refused = |study: Study<_>, expected: &str| {
         for error in [
@@ -134,7 +134,7 @@ fn settings_without_sense_are_named() {
     ] {
         refused(study().correlation(identity(change)), "correlation matrix");
     }
-    // At the edge: fully correlated, singular, but semidefinite.
+    // Limiting case: fully correlated, singular, but semidefinite.
     let together = study().correlation([[1.0; 4]; 4]);
     assert!(together.first_order().is_ok());
 }
@@ -164,7 +164,7 @@ fn ranges_without_sense_are_named() {
             assert!(refused, "{low} to {high} in {steps}: {error:?}");
         }
     }
-    // A ratio that is no number crosses nothing.
+    // A ratio that is not finite crosses nothing.
     for ratio in NOT_FINITE {
         let found = study.crossings(omega, 0.1, 2.0, ratio);
         assert!(

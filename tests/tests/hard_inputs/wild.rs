@@ -1,4 +1,4 @@
-//! Values of any size: nothing panics, nothing hangs, and what is called a result is one.
+//! Values of any size: nothing panics or hangs, and every reported result is valid.
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::tolerance::Tolerances;
@@ -14,7 +14,7 @@ use proptest::test_runner::RngSeed;
 
 use super::sound::{assert_answers, assert_numbers};
 
-/// Of any size up to `10^powers`, zero, and sane numbers, so that every depth of the code is reached.
+/// Values up to `10^powers`, zero, and ordinary numbers, so that every depth of the code is reached.
 pub(crate) fn sized(powers: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
         1 => Just(0.0),
@@ -24,7 +24,7 @@ pub(crate) fn sized(powers: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
-/// As [`sized`], and mostly positive.
+/// Like [`sized`], but mostly positive.
 pub(crate) fn design(powers: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
         1 => sized(powers),
@@ -126,7 +126,7 @@ pub(crate) fn many() -> ProptestConfig {
 proptest! {
     #![proptest_config(many())]
 
-    /// Twenty orders of magnitude either way, starts of a million: products of several stay numbers.
+    /// Twenty orders of magnitude in either direction, with starts of a million: products of several values stay finite.
     #[test]
     fn any_size(
         which in 0..6_usize,

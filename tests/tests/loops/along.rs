@@ -1,4 +1,5 @@
-//! Along the speed: folds and resonances with their derivatives and spreads, and sweeps from rest through the file's points.
+//! Along the speed: folds and resonances with their derivatives and standard deviations, and sweeps from rest through the
+//! points of the file.
 
 use eigentol::branches::SpecialKind;
 use eigentol::sweep::Condition;
@@ -23,7 +24,7 @@ fn check_spread(case: &Case, event: &Truth, found: &EventTolerance, what: &str) 
     assert_close(spread.sigma, event.get("sigma").number(), 0.0, what);
 }
 
-/// Returns how many events were found.
+/// Returns the number of events found.
 fn check_events<M: Mechanism>(machine: M, name: &'static str) -> usize {
     let case = Case::new(name);
     let events = case.truth.get("events").list();
@@ -41,7 +42,7 @@ fn check_events<M: Mechanism>(machine: M, name: &'static str) -> usize {
             assert_eq!(state.kind, SpecialKind::Fold, "{what}");
             for (i, unknown) in study.description().coordinates.iter().enumerate() {
                 if let Some(expected) = event.get("coordinates").find(&unknown.name) {
-                    // A double root holds half of the digits, but not along the branch.
+                    // A double root keeps only half the digits, but not along the branch.
                     let off = state.equilibrium.coordinates[i] - expected.number();
                     assert!(off.abs() < 1e-6, "{what}: {} off by {off:e}", unknown.name);
                 }
@@ -77,7 +78,7 @@ fn folds_and_resonances() {
     assert_eq!(found, [1, 2, 2, 1]);
 }
 
-/// From rest to the last point of the file in a hundred steps: the assembly mode is kept, the modes keep their labels.
+/// Sweeps from rest to the last point of the file in a hundred steps: the assembly mode is kept, and the modes keep their labels.
 fn check_sweep<M: Mechanism>(machine: M, name: &'static str) {
     let case = Case::new(name);
     let points = case.points();

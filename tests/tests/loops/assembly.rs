@@ -1,4 +1,5 @@
-//! Assembly from values that close no loop: the held coordinates decide, the start values of the others choose the mode.
+//! Assembly from values at which no loop is closed: the held coordinates decide, and the start values of the others
+//! choose the assembly mode.
 
 use eigentol::equilibrium::{Assembly, AssemblyMode, assemble};
 use eigentol::{Coordinate, Error, Mechanism, Study};
@@ -7,7 +8,7 @@ use eigentol_tests::loops::{FiveBar, FourBar};
 use super::common::{Case, Point, assert_close};
 use super::study::study;
 
-/// Assembled with the named coordinates at the file's values and the others near them.
+/// Assembled with the named coordinates held at the file's values and the others starting near them.
 fn assembled(
     study: &Study<impl Mechanism>,
     case: &Case,
@@ -66,7 +67,7 @@ fn the_five_bar_holds_both_cranks() {
     check(FiveBar, "five_bar");
 }
 
-/// Bars that do not reach: which equation stays open is said, and by how much.
+/// If the bars do not reach, the error names the equation that stays open and its gap.
 #[test]
 fn bars_that_do_not_reach_are_told() {
     let case = Case::new("four_bar_open").with("spacing", 0.9);
@@ -84,7 +85,7 @@ fn bars_that_do_not_reach_are_told() {
     assert!(error.to_string().contains("close"), "{error}");
 }
 
-/// Both sides of one loop held at values that do not fit each other.
+/// Both sides of one loop are held at incompatible values.
 #[test]
 fn too_much_held_is_told() {
     let case = Case::new("four_bar_open").with("rocker", 0.23);

@@ -1,4 +1,4 @@
-//! The file's points, and comparisons.
+//! The points of the reference file, and comparisons with them.
 
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{
@@ -7,7 +7,7 @@ use eigentol_tests::loops::{
 };
 use nalgebra::Complex;
 
-/// Names of the file with the declarations they belong to.
+/// Names in the file, with their declarations.
 pub(crate) const LOOPS: [(&str, &str); 9] = [
     ("governor", governor::DECLARATION),
     ("porter_governor", porter_governor::DECLARATION),
@@ -20,10 +20,10 @@ pub(crate) const LOOPS: [(&str, &str); 9] = [
     ("geared_motor", geared_motor::DECLARATION),
 ];
 
-/// Relative error to which everything must match.
+/// Relative error within which everything must match.
 pub(crate) const TIGHT: f64 = 1e-9;
 
-/// A mechanism of the file.
+/// A mechanism in the file.
 pub(crate) struct Case {
     pub(crate) name: &'static str,
     pub(crate) truth: Truth,
@@ -31,7 +31,7 @@ pub(crate) struct Case {
     pub(crate) variables: Vec<String>,
     /// Nominal design.
     pub(crate) design: Vec<f64>,
-    /// Names of coordinates that decide all others.
+    /// Names of the coordinates that determine all others.
     pub(crate) independent: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ impl Case {
         }
     }
 
-    /// With another value of one design variable.
+    /// Changes the value of one design variable.
     pub(crate) fn with(mut self, variable: &str, value: f64) -> Self {
         let place = self.variables.iter().position(|name| name == variable);
         self.design[place.expect("a design variable")] = value;
@@ -88,7 +88,7 @@ impl Point {
         self.truth.get("modes").list()
     }
 
-    /// What counts as a derivative of something of size `size` by a variable: a hundredth of it per hundred percent.
+    /// The scale of a derivative of something of size `size` by a variable: one hundredth of the size per 100 % change.
     pub(crate) fn scale(&self, size: f64, variables: &[usize]) -> f64 {
         let per = |&variable: &usize| {
             let value = self.scales[variable].abs();
@@ -103,11 +103,11 @@ pub(crate) fn complex(value: &Truth) -> Complex<f64> {
     Complex::new(parts[0], parts[1])
 }
 
-/// Relative to the larger of the expected value and `scale`.
+/// Error relative to the larger of the expected value and `scale`.
 #[track_caller]
 pub(crate) fn assert_near(found: Complex<f64>, expected: Complex<f64>, scale: f64, what: &str) {
     let off = (found - expected).norm();
-    // NaN is no agreement.
+    // NaN is not agreement.
     let agrees = off <= TIGHT * expected.norm().max(scale);
     assert!(
         agrees,

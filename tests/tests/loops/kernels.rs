@@ -1,5 +1,5 @@
-//! The equations alone, without the runtime: at the file's equilibria they hold, with one set of reactions, the bordered
-//! pencil is singular at the file's eigenvalues, and its derivatives are theirs.
+//! The equations alone, without the runtime: at the file's equilibria they are satisfied with one set of reactions, the
+//! bordered pencil is singular at the file's eigenvalues, and its derivatives match the file's.
 
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Limits, Role};
@@ -22,7 +22,7 @@ impl Linear {
 
 struct Loop {
     program: Program,
-    /// Names of the unknowns and whether they are reactions.
+    /// Names of the unknowns, and whether each is a reaction.
     unknowns: Vec<(String, bool)>,
     outputs: Vec<String>,
     design: Vec<(String, f64)>,
@@ -110,7 +110,7 @@ impl Loop {
     }
 }
 
-/// The vectors of the smallest singular value: right, left.
+/// The right and left vectors of the smallest singular value.
 fn null(matrix: &DMatrix<Complex<f64>>) -> [DVector<Complex<f64>>; 2] {
     let svd = matrix.clone().svd(true, true);
     let place = svd.singular_values.imin();
@@ -119,7 +119,7 @@ fn null(matrix: &DMatrix<Complex<f64>>) -> [DVector<Complex<f64>>; 2] {
     [right, left]
 }
 
-/// What `Khat^-1` of a vector is where rows may depend on each other.
+/// `Khat^-1` applied to a vector, also where rows may depend on each other.
 fn solve(matrix: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     let size = matrix.amax();
     let svd = matrix.clone().svd(true, true);
@@ -244,8 +244,8 @@ fn equations_hold_in_minimal_coordinates() {
     }
 }
 
-/// One reaction for each equation: unknowns without reactions less equations are the freedom of the file, and one for
-/// each independent speed.
+/// One reaction per equation: unknowns other than reactions, minus equations, give the freedom in the file, plus one
+/// per independent speed.
 #[test]
 fn freedom_is_that_of_the_minimal_coordinates() {
     for (name, declaration) in LOOPS {
@@ -259,7 +259,7 @@ fn freedom_is_that_of_the_minimal_coordinates() {
     }
 }
 
-/// A comparison that cannot fail proves nothing.
+/// A comparison that cannot fail proves nothing: another length must be noticed.
 #[test]
 fn another_length_is_another_mechanism() {
     let case = Case::new("four_bar_open");

@@ -1,13 +1,13 @@
-//! The sign of reactions: among the unknowns, in the report and as outputs a reaction is what the `from` side exerts on the `to`
-//! side, of a distance the tension, of an equation the force in the direction in which its expression grows. For each kind of
-//! constraint statics by hand.
+//! The sign of reactions. Among the unknowns, in the report and as outputs, a reaction is the load of the `from` side on the
+//! `to` side; for a distance it is the tension, for an equation the force in the direction in which its expression grows. Each
+//! kind of constraint is checked by hand statics.
 
 use eigentol::{Equilibrium, Input, Kernels, Policy, Study, mechanism};
 use eigentol_tests::wheels::{PushedCart, RollingDisk};
 
 const WEIGHT: f64 = 2.0 * 9.81;
 
-/// The reaction of this name among the unknowns.
+/// The unknown that is the reaction of this name.
 #[track_caller]
 fn unknown(state: &Equilibrium, name: &str) -> f64 {
     let list = &state.description.coordinates;
@@ -130,7 +130,7 @@ mechanism! {
 
 #[test]
 fn the_moment_on_a_level_bar_turns_its_end_up() {
-    // About y a positive moment turns x to -z.
+    // A positive moment about y turns x towards -z.
     let moment = -WEIGHT * 0.3;
     check(&Study::new(Level), &[("level.about_y", moment)], &[moment]);
 }
@@ -219,7 +219,7 @@ fn a_cut_joint_has_the_sign_of_every_joint() {
 
 #[test]
 fn the_road_carries_a_wheel() {
-    // Upright at rest: nothing but the weight.
+    // Upright at rest: only the weight acts.
     let study = Study::new(RollingDisk)
         .guess(RollingDisk::height, 0.25)
         .policy(Policy::Nearest);
@@ -229,7 +229,7 @@ fn the_road_carries_a_wheel() {
         &[("contact.normal", weight), ("contact.lateral", 0.0)],
         &[0.0, weight],
     );
-    // In a circle to the left the road pushes to the left.
+    // On a circle to the left, the road pushes to the left.
     let study = study.input(Input::new(0), 4.0).input(Input::new(1), 0.2);
     let state = study.equilibrium().expect("an equilibrium");
     let values = study.outputs().expect("outputs").values;
@@ -237,7 +237,7 @@ fn the_road_carries_a_wheel() {
     assert!((unknown(&state, "contact.lateral") - aside).abs() < 1e-9 * weight);
     assert!((unknown(&state, "contact.normal") - up).abs() < 1e-9 * weight);
     assert!(aside > 1.0 && (up - weight).abs() < 1e-9 * weight);
-    // A push against drag, which the wheel, free on its axle, does not feel.
+    // A push against drag, which the wheel, free on its axle, does not transmit.
     let state = Study::new(PushedCart)
         .input(Input::new(0), 2.0)
         .equilibrium()

@@ -1,5 +1,5 @@
-//! Spreads beyond first order: moments of the second-order model from the file's second derivatives, and samples whose loops
-//! are closed anew.
+//! Standard deviations beyond first order: moments of the second-order model from the file's second derivatives, and samples
+//! in which the loops are closed again.
 
 use eigentol::Mechanism;
 use eigentol_oracle::truth::Truth;
@@ -14,8 +14,8 @@ use super::study::study;
 
 const SAMPLES: usize = 2000;
 
-/// Shift of the mean and standard deviation of `Im s`: `sum H_ii v_i / 2`, and the root of
-/// `sum (g_i)^2 v_i + sum (H_ij)^2 v_i v_j / 2`, `v` the variances.
+/// Shift of the mean, and standard deviation, of `Im s`: `sum H_ii v_i / 2`, and the root of
+/// `sum (g_i)^2 v_i + sum (H_ij)^2 v_i v_j / 2`, with the variances `v`.
 fn moments(case: &Case, mode: &Truth) -> [f64; 2] {
     let design = case.truth.get("design").list();
     let variance = |i: usize| (design[i].get("tolerance").number() / 3.0).powi(2);
@@ -53,7 +53,7 @@ fn check(machine: impl Mechanism, name: &'static str) {
         assert_close(own.moments.sigma, sigma, 0.0, &what);
 
         let statistics = sampled.modes[r].as_ref().expect("samples");
-        // Four standard errors, of the mean and of the standard deviation.
+        // Four standard errors of the mean and of the standard deviation.
         let count = SAMPLES as f64;
         let off = (statistics.mean - s.im - shift).abs();
         assert!(off < 4.0 * sigma / count.sqrt(), "{what}: {statistics:?}");
@@ -71,7 +71,7 @@ fn second_order_and_samples() {
     check(FourBar, "four_bar_crossed");
 }
 
-/// Samples of every point in vectors and one by one.
+/// Samples at every point, in vectors and one by one.
 fn in_vectors<M: Mechanism + Copy>(machine: M, name: &'static str) -> Vec<(String, [Compared; 2])> {
     let case = Case::new(name);
     let points = case.points().into_iter();

@@ -1,5 +1,5 @@
-//! The whole chain through the front door: assembly and equilibrium from rough values, modes, total derivatives in both ways,
-//! second derivatives, outputs with reactions among them, and first-order spreads.
+//! The complete workflow through the public interface: assembly and equilibrium from rough values, modes, total derivatives
+//! by both methods, second derivatives, outputs including reactions, and first-order standard deviations.
 
 use eigentol::equilibrium::Stability;
 use eigentol::second_order::SecondDerivatives;
@@ -17,7 +17,7 @@ use eigentol_tests::loops::{
 
 use super::common::{Case, Point, assert_close, assert_near, complex};
 
-/// A study of a point that starts from angles to the nearest tenth of a radian and displacements to the nearest centimetre, so
+/// A study of a point that starts from angles rounded to a tenth of a radian and displacements rounded to a centimetre, so
 /// that no loop is closed; speeds start from zero.
 pub(super) fn study<M: Mechanism>(machine: M, case: &Case, point: &Point) -> Study<M> {
     let mut study = Study::new(machine)
@@ -42,7 +42,7 @@ pub(super) fn study<M: Mechanism>(machine: M, case: &Case, point: &Point) -> Stu
     study
 }
 
-/// By design variable, then by the input.
+/// By design variables, then by the input.
 fn joined<T: Copy>(slopes: &Slopes<T>) -> Vec<T> {
     [&slopes.by_design[..], &slopes.by_input].concat()
 }
@@ -109,7 +109,7 @@ fn check_outputs(study: &Study<impl Mechanism>, case: &Case, point: &Point) {
     }
 }
 
-/// The mode of an eigenvalue, which is nowhere near another.
+/// The mode of an eigenvalue that is well separated from the others.
 fn place_of(modes: &Modes, s: Complex, what: &str) -> usize {
     let apart = |mode: &Mode| (mode.s - s).norm();
     let near = |&place: &usize| apart(&modes.modes[place]) < 1e-6 * s.norm();

@@ -1,14 +1,14 @@
-//! Two loops that share a body: two toggles, mirror images, that carry one slider.
+//! Two loops that share a body: two mirror-image toggles that carry one slider.
 //!
-//! Both have the same slider, so their elbows bend by the same angle to the same side of the mirror or to opposite sides: the
-//! positions are four circles, two for the slider below and two for it above the pivots. Where the toggles are straight, or
-//! folded, two circles cross: singular configurations. On the circle of opposite bends the potential is stationary there, on
-//! the other it is not: no equilibrium, but gaps of rounding let states stand at random a micrometre beside it, held by reactions
-//! of a million newtons.
+//! Both toggles have the same slider, so their elbows bend by the same angle, to the same side of the mirror or to opposite
+//! sides. The positions form four circles, two for the slider below and two for the slider above the pivots. Where the toggles
+//! are straight or folded, two circles cross: singular configurations. There the potential is stationary on the circle of
+//! opposite bends but not on the other. This is not an equilibrium, but rounding-sized gaps allow states at random places a
+//! micrometre away, held by reactions of a million newtons.
 //!
-//! Before such states were told from equilibria there were 13, 36, 270 equilibria for 20, 200, 2000 starts, 3, 24, 258 of
-//! them with reactions beyond 1e5 N, of these 2, 19, 193 "stable"; of 441 single starts 83 ended at one and 6 at none, with
-//! frequencies from 23 to 31 rad/s for one place.
+//! Before such states were distinguished from equilibria, 20, 200 and 2000 starts gave 13, 36 and 270 equilibria; 3, 24 and 258
+//! of them had reactions beyond 1e5 N, and of these 2, 19 and 193 were "stable". Of 441 single starts 83 ended at such a state
+//! and 6 at none, with frequencies from 23 to 31 rad/s for one place.
 
 use eigentol::branches::{Continuation, branches};
 use eigentol::equilibrium::Search;
@@ -45,7 +45,7 @@ const GRAVITY: f64 = 9.81;
 const OFFSET: f64 = 0.01;
 const WEIGHT: f64 = 7.0 * GRAVITY;
 
-/// One toggle, its pivot in the origin, by the bend of its elbow; `side` is one for a slider below.
+/// One toggle with its pivot at the origin, by the bend of its elbow; `side` is one for a slider below.
 #[derive(Clone, Copy)]
 struct Toggle {
     elbow: [f64; 2],
@@ -65,7 +65,7 @@ fn toggle(bend: f64, side: f64, offset: f64) -> Toggle {
     Toggle { elbow, pin }
 }
 
-/// A circle of positions: the second elbow bends as the first or against it.
+/// A circle of positions: the second elbow bends in the same sense as the first or in the opposite one.
 #[derive(Clone, Copy, Debug)]
 struct Circle {
     side: f64,
@@ -85,7 +85,7 @@ impl Circle {
         GRAVITY * (bars(a) + bars(b) + 3.0 * a.pin[1])
     }
 
-    /// Twice the kinetic energy by the square of the rate of the bend.
+    /// Twice the kinetic energy, divided by the square of the rate of the bend.
     fn inertia(self, bend: f64) -> f64 {
         let h = 1e-6;
         let (before, after) = (self.toggles(bend - h), self.toggles(bend + h));
@@ -112,7 +112,7 @@ impl Circle {
         (self.slope(bend + h) - self.slope(bend - h)) / (2.0 * h)
     }
 
-    /// Bends at which the potential is stationary, without those where circles cross.
+    /// Bends at which the potential is stationary, excluding those where circles cross.
     fn stationary(self) -> Vec<f64> {
         let steps = 20_000;
         let grid = |i: usize| std::f64::consts::TAU * ((i as f64 + 0.37) / steps as f64 - 0.5);
@@ -147,11 +147,11 @@ fn circles(offset: f64) -> [Circle; 4] {
     })
 }
 
-/// The force that a lower bar exerts on its pin: moments about the elbow of the lower bar, about the pivot of both.
+/// The force that a lower bar exerts on its pin, from moments about the elbow for the lower bar and about the pivot for both.
 fn pin_force(toggle: Toggle) -> [f64; 2] {
     let Toggle { elbow, pin } = toggle;
     let lever = [pin[0] - elbow[0], pin[1] - elbow[1]];
-    // Rows of moments `x F_z - z F_x` of the force on the bar, against those of the weights.
+    // Rows of moments `x F_z - z F_x` of the force on the bar, against the moments of the weights.
     let about_elbow = GRAVITY * 0.5 * lever[0];
     let about_pivot = GRAVITY * (0.5 * elbow[0] + 0.5 * (elbow[0] + pin[0]));
     let determinant = -lever[1] * pin[0] + lever[0] * pin[1];
@@ -171,13 +171,13 @@ fn search(starts: usize, seed: u64) -> Search {
     Search::new(lower, upper).starts(starts).seed(seed)
 }
 
-/// Turned to the side of `other`.
+/// The difference `angle - other`, wrapped to at most half a turn.
 fn apart(angle: f64, other: f64) -> f64 {
     let difference = angle - other;
     difference - std::f64::consts::TAU * (difference / std::f64::consts::TAU).round()
 }
 
-/// The bends of the elbows as the energy knows them, and the side.
+/// The bends of the elbows as used in the energy, and the side.
 fn bends(state: &State) -> ([f64; 2], f64) {
     let q = &state.coordinates;
     ([q[2], q[3]], q[4].signum())
@@ -305,7 +305,7 @@ fn equilibria_near_a_singular_configuration_are_kept_until_rounding_hides_them()
             offset,
             ..circles(OFFSET)[0]
         };
-        // The offset moves the place in proportion, but for its third power.
+        // The offset moves the place in proportion, except for its third power.
         let bend = -0.862_069 * offset;
         let omega = (circle.curvature(bend) / circle.inertia(bend)).sqrt();
         let study = from(0.1, 0.1, -2.2).design(Toggles::offset, offset);
@@ -387,7 +387,7 @@ mechanism! {
     }
 }
 
-/// Statics by hand: tension `m g l / (2 s)` at a sag `s`, which is the distance from the singular configuration.
+/// Hand statics: tension `m g l / (2 s)` at a sag `s`, the distance from the singular configuration.
 #[test]
 fn reactions_that_a_load_explains_may_be_great() {
     let weight = 2.0 * GRAVITY;
@@ -399,14 +399,14 @@ fn reactions_that_a_load_explains_may_be_great() {
         let state = study.equilibrium().expect("an equilibrium");
         assert!(!state.constraints.singular && state.stability == Stability::Stable);
         let expected = 0.5 * weight * length / sag;
-        // As far as the length as a number determines the sag.
+        // Within the accuracy to which the length, as a number, determines the sag.
         let rounding = 1e-12 + 1e-15 / (sag * sag);
         for found in &state.coordinates[2..] {
             let off = (found - expected).abs() / expected;
             assert!(off < rounding, "{sag}: {found}, not {expected}");
         }
     }
-    // Lengths that reach, to rounding, hold no weight.
+    // Lengths that just reach, to rounding, hold no weight.
     let study = Study::new(Taut)
         .design(Taut::length, 0.5)
         .guess(Taut::z, -0.1);

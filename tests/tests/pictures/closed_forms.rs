@@ -1,4 +1,4 @@
-//! Two machines whose places are known, and one of every shape.
+//! Two machines with known positions, and one with every shape.
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -14,7 +14,7 @@ fn read(text: &str) -> Interpreted {
     Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
-/// The angle of the crank decides: `x = base + r cos + sqrt(l^2 - (h - r sin)^2)`.
+/// The crank angle determines everything: `x = base + r cos + sqrt(l^2 - (h - r sin)^2)`.
 #[test]
 fn slider_crank() {
     let study = Study::new(SliderCrank);
@@ -58,7 +58,7 @@ fn slider_crank() {
     }
 }
 
-/// The axis of the flap turns with the pitch, and so on: a chain of joints of several motions by hand.
+/// The flap axis turns with the pitch, and so on: a chain of multi-axis joints, calculated by hand.
 #[test]
 fn universal_joint_on_a_screw() {
     let machine = read(
@@ -197,7 +197,7 @@ fn points_and_links_are_what_was_declared() {
     assert!(high[2] == 3.0, "{high:?}");
 }
 
-/// What is placed by an input moves with the deviation of that input.
+/// Items placed by an input move with the deviation of that input.
 #[test]
 fn inputs_that_deviate_move_what_they_place() {
     let machine = read(

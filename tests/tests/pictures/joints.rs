@@ -1,5 +1,5 @@
-//! Every machine: the two sides of a joint meet as the joint allows, those of joints that close loops too; declared points are where
-//! outputs say; wheels touch what they roll on.
+//! For every machine: the two sides of each joint, loop-closing joints included, meet as the joint allows; declared points are
+//! where the outputs say; wheels touch the surfaces they roll on.
 
 use eigentol::equilibrium::assemble;
 use eigentol::kernels::Kernels;
@@ -18,8 +18,8 @@ const TOLERANCE: f64 = 1e-9;
 /// A state of a machine: `q`, `u`, `b`.
 type State = [Vec<f64>; 3];
 
-/// Full values of the coordinates, no two alike; with constraints from there, or from where `truth/loops.json` has a solution, to
-/// the nearest place where they are met.
+/// Nonzero coordinates, all different; with constraints, the nearest assembled state to these or to a solution in
+/// `truth/loops.json`.
 fn state(machine: &Machine) -> State {
     let description = machine.picture.description();
     let mut q: Vec<f64> = (0..description.coordinates.len())
@@ -116,8 +116,7 @@ fn both_sides_of_a_joint_meet() {
     assert!(joints > 70 && cut >= 3, "{joints} joints, {cut} cut");
 }
 
-/// The values of these components of the points of a machine by its outputs; `None` where one of them is not constant in steady
-/// motion.
+/// These components of a machine's points, from its outputs; `None` if one of them is not constant in steady motion.
 fn outputs(
     machine: &Machine,
     [q, u, b]: &State,
@@ -158,7 +157,7 @@ fn points_are_where_outputs_say() {
         if scene.points.is_empty() {
             continue;
         }
-        // What turns with a drive has no constant components but those along its axis.
+        // A vector that turns with a drive has no constant components except along its axis.
         let choices: [&[usize]; 4] = [&[0, 1, 2], &[2], &[1], &[0]];
         let found = choices.iter().find_map(|axes| {
             let values = outputs(machine, &at, &scene, axes)?;
@@ -179,7 +178,7 @@ fn points_are_where_outputs_say() {
     assert!(compared > 30, "{compared} components");
 }
 
-/// A disk whose axle is inclined by `angle` to the normal has its centre at `radius sin(angle)`.
+/// A disk whose axle is inclined at `angle` to the normal has its centre at `radius sin(angle)`.
 #[test]
 fn wheels_touch_their_planes() {
     let mut wheels = 0;

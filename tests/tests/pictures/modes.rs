@@ -1,4 +1,4 @@
-//! Modes as poses: where they are, how far they go, that loops stay closed.
+//! Modes as sequences of poses: position, amplitude, and closed loops.
 
 use eigentol::picture::{ModePictures, Pose, Scene, scene};
 use eigentol::{Error, Input, Study};
@@ -9,7 +9,7 @@ use eigentol_tests::machines::JeffcottRotor;
 
 use crate::space::{Vector, add, dot, norm, scaled, subtract};
 
-/// A place of a body in a frame of a mode.
+/// The position of a point of a body in a frame of a mode.
 fn place(frame: &[Pose], body: usize, place: Vector) -> Vector {
     frame[body].place(place)
 }
@@ -43,7 +43,7 @@ fn frames_are_scenes_along_the_shape() {
     }
 }
 
-/// To first order: with a small share the tip goes as far as was asked for, whatever the mode.
+/// To first order: for a small share the tip moves by the requested amount, whatever the mode.
 #[test]
 fn what_moves_most_moves_by_the_share_of_the_size() {
     let solved = double_pendulum();
@@ -54,7 +54,7 @@ fn what_moves_most_moves_by_the_share_of_the_size() {
         let swing = solved.mode_pictures(mode, 4, share).expect("a swing");
         let tips = rest.bodies.iter().enumerate().flat_map(|(body, shown)| {
             shown.solids.iter().flat_map(move |solid| {
-                // A bar of this machine hangs from the origin of its body.
+                // The bar of this machine hangs from the origin of its body.
                 let end = scaled(2.0, solid.center);
                 [(body, end), (body, [0.0; 3])]
             })
@@ -72,7 +72,7 @@ fn what_moves_most_moves_by_the_share_of_the_size() {
     }
 }
 
-/// The two sides of every joint that turns meet in every frame, and the slider stays on its guide.
+/// The two sides of every revolute joint meet in every frame, and the slider stays on its guide.
 #[test]
 fn loops_stay_closed() {
     let study = Study::new(SliderCrank)
@@ -110,8 +110,8 @@ fn with(scene: &Scene, frame: &[Pose]) -> Scene {
     moved
 }
 
-/// Both modes of the rotor circle, in opposite senses as the ground sees them relative to the shaft: the centre stays as far from
-/// its place, and a quarter of a period turns it by a right angle.
+/// Both modes of the rotor are circular, in opposite senses as seen from the ground relative to the shaft: the centre keeps its
+/// distance from its equilibrium position and turns by a right angle in a quarter period.
 #[test]
 fn whirling_shapes_circle() {
     let study = Study::new(JeffcottRotor).input(JeffcottRotor::speed, 50.0);
@@ -139,7 +139,7 @@ fn whirling_shapes_circle() {
     }
 }
 
-/// The rim of a thin shaft would have to go round several times to move by a tenth of its length.
+/// The rim of a thin shaft would have to make several turns to move by a tenth of its length.
 #[test]
 fn slender_shafts_turn_by_half_a_radian() {
     let machine = Interpreted::from_text(
@@ -156,7 +156,7 @@ fn slender_shafts_turn_by_half_a_radian() {
     assert!((frames[0][0].rotation[2][1] + frames[2][0].rotation[2][1]).abs() < 1e-12);
 }
 
-/// Only coordinates move bodies: a mode of speeds and of nothing else shows the equilibrium.
+/// Only coordinates move bodies: a mode consisting of speeds alone shows the equilibrium.
 #[test]
 fn modes_of_speeds_alone_stand_still() {
     let machine = Interpreted::from_text(

@@ -1,5 +1,5 @@
-//! Random trees, half of them full of special cases, against the oracle: poses by products of matrices, seats and axes of joints,
-//! points, and solids by the inertia that their looks imply.
+//! Random trees, half of them full of special cases, against the oracle: poses by matrix products, seats and axes of joints,
+//! points, and the inertias implied by the drawn solids.
 
 use std::cell::Cell;
 
@@ -19,7 +19,7 @@ use crate::space::{Vector, add, difference, dot, scaled};
 /// Metres, and components of unit vectors.
 const TOLERANCE: f64 = 1e-11;
 
-/// What a picture shows otherwise than the oracle.
+/// How a picture differs from the oracle.
 fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
     let [q, _, b] = &case.at;
     let oracle = Oracle::new(model);
@@ -119,7 +119,7 @@ fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
 const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Whether an ellipsoid can have this central inertia `J`: `tr(J)/2 1 - J` has no negative eigenvalue beyond rounding. Random
-/// values of the design may turn a body that was possible into one that is not.
+/// design values may make a valid inertia invalid.
 fn of_a_body(inertia: &[[f64; 3]; 3]) -> bool {
     let trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
     let half = (0.5 + 1e-12) * trace;
@@ -131,10 +131,10 @@ fn of_a_body(inertia: &[[f64; 3]; 3]) -> bool {
     a >= 0.0 && a * d - b * b >= 0.0 && determinant >= 0.0
 }
 
-/// That of what is no such solid.
+/// The inertia of anything that is not a valid solid.
 const WRONG: [[f64; 3]; 3] = [[f64::NAN; 3]; 3];
 
-/// Central inertia of a uniform solid, from the textbook.
+/// Central inertia of a uniform solid, from textbook formulas.
 fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
     let round = |axis: Vector, about: f64, across: f64| -> [[f64; 3]; 3] {
         let entry = |i: usize, j: usize| {
@@ -143,7 +143,7 @@ fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
         };
         std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
     };
-    // Of squares of lengths along three perpendicular directions: sum (|a|^2 1 - a a^T).
+    // From squared lengths along three perpendicular directions: sum (|a|^2 1 - a a^T).
     let along = |axes: [Vector; 3], squares: [f64; 3]| -> [[f64; 3]; 3] {
         let sum: f64 = squares.iter().sum();
         let entry = |i: usize, j: usize| {
@@ -196,7 +196,7 @@ fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
     }
 }
 
-/// A random tree that the compiler accepts, with a state. Only the kernel of pictures is kept.
+/// A random tree accepted by the compiler, with a state. Only the picture kernel is kept.
 fn compiled(model: &Model, seed: u64) -> Option<(Compilation, Case)> {
     let limits = Limits {
         explicit_partials: 0,
@@ -244,8 +244,8 @@ fn pictures_of_many_random_trees_are_those_of_the_oracle() {
     agree_on(600);
 }
 
-/// A comparison that cannot fail proves nothing: every sign of every sum of the kernel turned round, every result exchanged with
-/// the next, every number that is not computed changed. What changes no result but zeros is not counted.
+/// A comparison that cannot fail proves nothing: flips every sign of every sum in the kernel, exchanges every result with the
+/// next, and changes every literal number. Changes that only affect zeros are not counted.
 #[test]
 fn every_wrong_sign_and_place_is_found() {
     let seen = Cell::new([0; 3]);
@@ -302,7 +302,7 @@ fn turned_round(operation: &Operation) -> Option<Operation> {
     }
 }
 
-/// How far two pictures are apart, by their numbers as text.
+/// The distance between two pictures, from the numbers in their text.
 fn difference_of(one: &Scene, other: &Scene) -> f64 {
     let numbers = |scene: &Scene| -> Vec<f64> {
         let text = serde_json::to_string(scene).expect("a scene is written");

@@ -1,4 +1,4 @@
-//! Places on robots against those of Pinocchio (`truth/urdf/reference.json`), on fixed bases and floating ones.
+//! Places on robots against those computed by Pinocchio (`truth/urdf/reference.json`), with fixed and floating bases.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Vectors for comparisons.
+//! Vector helpers for comparisons.
 
 pub(crate) type Vector = [f64; 3];
 
@@ -22,7 +22,7 @@ pub(crate) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The largest difference of two lists; infinite where one is longer or a difference is no number.
+/// The largest difference of two lists; infinite if their lengths differ or a difference is NaN.
 pub(crate) fn difference(found: &[f64], expected: &[f64]) -> f64 {
     if found.len() != expected.len() {
         return f64::INFINITY;

@@ -1,5 +1,5 @@
-//! `W1`, `W2`, `W3`: bars in series. The file's angles are absolute, a machine's coordinates are relative; frequencies and
-//! their derivatives do not depend on that.
+//! `W1`, `W2`, `W3`: bars in series. The file uses absolute angles and the machines use relative coordinates; frequencies
+//! and their derivatives do not depend on this.
 
 use eigentol::kernels::{BatchKernels, Linear};
 use eigentol::sensitivity::{
@@ -26,7 +26,7 @@ fn absolute(relative: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// `D^T a`: generalised forces of absolute angles from those of relative ones, `q = D theta`.
+/// `D^T a`: generalised forces of absolute angles from those of relative angles, `q = D theta`.
 fn absolute_forces(relative: &[f64]) -> Vec<f64> {
     let after = |j: usize| relative.get(j + 1).copied().unwrap_or(0.0);
     (0..relative.len())
@@ -51,7 +51,7 @@ fn study<M: Kernels>(machine: M, case: &Truth) -> Study<M> {
     values.into_iter().enumerate().fold(study, set)
 }
 
-/// Every point of one chain. Where the point lies above the critical speed, a frozen equilibrium must fail.
+/// Every point of one chain. Above the critical speed, holding the equilibrium fixed must give wrong results.
 fn check<M: BatchKernels + Copy>(machine: M, name: &str) {
     let case = Truth::load("w1_w2_w3").get(name);
     let mut above = 0;
@@ -60,7 +60,7 @@ fn check<M: BatchKernels + Copy>(machine: M, name: &str) {
         let what = format!("{name} at {omega} rad/s");
         let mut study = study(machine, &case).input(Input::new(0), omega);
         for i in 0..machine.sizes().coordinates {
-            // Leaning outwards, as the branch of the file does.
+            // Leaning outwards, like the branch in the file.
             study = study.start(Coordinate::new(i), if i == 0 { 0.9 } else { 0.1 });
         }
         let at = study.equilibrium().expect("an equilibrium");
@@ -91,7 +91,7 @@ fn check<M: BatchKernels + Copy>(machine: M, name: &str) {
         let mut misses = 0;
         for (r, expected) in point.get("domega_db").list().iter().enumerate() {
             let expected = expected.numbers();
-            // A mass that hardly matters: relative to the greatest derivative of the mode.
+            // For a mass with hardly any effect: relative to the largest derivative of the mode.
             let scale = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             for found in [&adjoint, &explicit] {
                 let found = found.modes[r].frequency().expect("it oscillates").by_design;

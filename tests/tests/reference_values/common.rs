@@ -1,13 +1,13 @@
-//! Comparisons, and totals of matrices along a moving equilibrium.
+//! Comparisons, and total derivatives of matrices along a moving equilibrium.
 
 use eigentol::kernels::{DirectionalKernels, Kernels, Linear};
 use eigentol::sensitivity::EquilibriumShift;
 use eigentol::{Equilibrium, Matrix, Modes, Vector};
 
-/// Relative error to which derivatives and frequencies must match.
+/// Relative error within which derivatives and frequencies must match.
 pub(crate) const TIGHT: f64 = 1e-9;
 
-/// The error of each number relative to the larger of the expected value and `scale`, which must not exceed 1e-9.
+/// Requires the error of each number, relative to the larger of the expected value and `scale`, not to exceed 1e-9.
 #[track_caller]
 pub(crate) fn assert_close(found: &[f64], expected: &[f64], scale: f64, what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
@@ -19,7 +19,7 @@ pub(crate) fn assert_close(found: &[f64], expected: &[f64], scale: f64, what: &s
     }
 }
 
-/// Coordinates of an equilibrium: relative 1e-9, or absolute 1e-12 where zero.
+/// Checks the coordinates of an equilibrium: 1e-9 relative, or 1e-12 absolute where zero.
 #[track_caller]
 pub(crate) fn assert_equilibrium(found: &[f64], expected: &[f64], what: &str) {
     assert_close(found, expected, 1e-3, what);
@@ -37,7 +37,7 @@ pub(crate) fn frequencies(modes: &Modes) -> Vec<f64> {
         .collect()
 }
 
-/// What a derivative is taken by.
+/// The variable of differentiation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum By {
     Input(usize),
@@ -56,7 +56,7 @@ pub(crate) fn moved(shift: &EquilibriumShift, by: By) -> Vector {
     }
 }
 
-/// `dM/db`, `dC/db`, `dK/db`, explicit and through the equilibrium: from explicit partials, and in one direction.
+/// `dM/db`, `dC/db`, `dK/db`, the explicit part plus the part through the equilibrium: from explicit partials, and in one direction.
 pub(crate) fn total_linear(
     machine: &dyn DirectionalKernels,
     at: &Equilibrium,

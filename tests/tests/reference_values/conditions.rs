@@ -1,4 +1,4 @@
-//! `P1`, `P2`, `P3`: every condition, every number of the undamped problem.
+//! `P1`, `P2`, `P3`: every condition and every number of the undamped problem.
 
 use eigentol::kernels::CurvatureKernels;
 use eigentol::sensitivity::{
@@ -13,7 +13,7 @@ use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
 
 use super::common::{By, TIGHT, assert_close, assert_equilibrium, flat, moved, total_linear};
 
-/// A machine at a condition, with the tolerances of the condition.
+/// A machine at a condition, with that condition's tolerances.
 pub(crate) fn study<M: Kernels>(machine: M, condition: &Truth, names: &[&str]) -> Study<M> {
     let parameters = condition.get("parameters");
     let omega = parameters.get("Omega").number();
@@ -44,8 +44,8 @@ fn omega_by(all: &Sensitivities, mode: usize, by: By) -> f64 {
     }
 }
 
-/// Checks every condition of a file; `names` are those of the design variables there, in the machine's order. Returns
-/// how many derivatives a frozen equilibrium gets wrong.
+/// Checks every condition of a file; `names` are the file's design variables in the machine's order. Returns the number
+/// of derivatives that are wrong if the equilibrium is held fixed.
 fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> usize {
     let mut wrong_when_frozen = 0;
     for condition in Truth::load(file).get("conditions").list() {
@@ -137,7 +137,7 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
                     );
                     wrong_when_frozen += 1;
                 }
-                // The file's spread counts the speed among the design variables.
+                // The file's standard deviation includes the speed among the design variables.
                 if let By::Input(_) = by(name) {
                     let design = condition.get("design").list();
                     let sigma = design
@@ -161,7 +161,7 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
 
 #[test]
 fn rotating_pendulum() {
-    // Two conditions above the critical speed, by length and by speed.
+    // Two conditions above the critical speed, with derivatives by length and by speed.
     assert_eq!(check(RotatingPendulum, "P1", &["L", "m"]), 4);
 }
 
@@ -172,10 +172,10 @@ fn rotating_double_pendulum() {
     assert_eq!(check(RotatingDoublePendulum, "P2", names), 20);
 }
 
-/// The modes leave the gyroscopic matrix out and say so; the undamped numbers are those of the file's `undamped_modes`.
+/// The modes omit the gyroscopic matrix and say so; the undamped numbers match the file's `undamped_modes`.
 #[test]
 fn sliders_on_a_spinning_plate() {
     let names = &["m", "kx", "ky", "x0", "y0", "cx", "cy"];
-    // Forces are linear and the mass matrix is constant: the moving equilibrium changes no matrix.
+    // Forces are linear and the mass matrix is constant, so the moving equilibrium does not change any matrix.
     assert_eq!(check(SlidersOnPlate, "P3", names), 0);
 }

@@ -1,4 +1,4 @@
-//! Critical speeds and resonances, and how they move with the design.
+//! Critical speeds and resonances, and their derivatives by the design.
 
 use eigentol::branches::SpecialKind;
 use eigentol::equilibrium::Policy;
@@ -51,7 +51,7 @@ fn of_the_double_bar() {
         .expect("a critical speed");
     let expected = truth.get("Omega_critical").number();
     assert_close(&[critical.value], &[expected], 0.0, "critical");
-    // On theta = 0 omega_1^2 = lambda_1 - Omega^2, so the critical speed moves as omega_1 does at rest.
+    // On theta = 0 omega_1^2 = lambda_1 - Omega^2, so the critical speed has the same derivative as omega_1 at rest.
     let mode_at_rest = truth.get("conditions").list()[0]
         .get("undamped_modes")
         .list()[0]
@@ -85,7 +85,7 @@ fn of_the_double_bar() {
     assert_eq!(resonances[0].mode, 0);
 }
 
-/// The hanging branch beyond its critical speed exists, unstable; its second mode still meets the speed.
+/// The hanging branch continues, unstable, beyond its critical speed; its second mode still meets the speed.
 #[test]
 fn of_the_double_bar_on_the_unstable_branch() {
     let truth = Truth::load("P2");
@@ -111,7 +111,7 @@ fn of_the_double_bar_on_the_unstable_branch() {
     }
 }
 
-/// 54 points from 8 rad/s down to the critical speed, each from the point before.
+/// 54 points from 8 rad/s down to the critical speed, each started from the previous one.
 #[test]
 fn the_bent_branch_is_followed() {
     let field = "bent_branch_sweep [Omega, theta1, theta2_abs, omega1, omega2]";
@@ -138,8 +138,8 @@ fn the_bent_branch_is_followed() {
     }
 }
 
-/// From rest upwards, with nothing set: both pendulums leave the axis by themselves at the critical speed, which the
-/// sweep reports; downwards they come back to it.
+/// From rest upwards with default settings, both pendulums leave the axis at the critical speed, which the sweep
+/// reports; downwards they return to it.
 #[test]
 fn a_default_sweep_bends_and_reports_the_critical_speed() {
     fn check<M: BatchKernels + Copy>(machine: M, critical: f64) {

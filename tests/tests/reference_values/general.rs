@@ -1,5 +1,5 @@
-//! `P1`, `P2`, `P3`: general modes with their first and second derivatives, Hessians of the frequencies, second-order
-//! moments.
+//! `P1`, `P2`, `P3`: general modes with their first and second derivatives, Hessians of the frequencies, and
+//! second-order moments.
 
 use eigentol::kernels::CurvatureKernels;
 use eigentol::second_order::{SecondDerivatives, mode_curvature};
@@ -13,7 +13,7 @@ use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
 use super::common::{By, assert_close};
 use super::conditions::study;
 
-/// What a name of the file is in the machine.
+/// The machine's variable for a name in the file.
 fn by(names: &[&str], name: &str) -> By {
     let design = names.iter().position(|other| *other == name);
     design.map_or(By::Input(0), By::Design)
@@ -43,7 +43,7 @@ fn assert_complex(found: Complex, expected: Complex, scale: f64, what: &str) {
     );
 }
 
-/// Compares a Hessian with the file's, entry by entry, relative to its greatest entry.
+/// Compares a Hessian with the file's, entry by entry, relative to its largest entry.
 fn assert_hessian(found: &SecondDerivatives<f64>, expected: &Truth, order: &[By], what: &str) {
     let rows: Vec<Vec<f64>> = expected.list().iter().map(Truth::numbers).collect();
     let scale = rows
@@ -57,8 +57,8 @@ fn assert_hessian(found: &SecondDerivatives<f64>, expected: &Truth, order: &[By]
     }
 }
 
-/// Hessians and second-order moments of the undamped modes of every condition; the moments where the file's design holds
-/// no input.
+/// Hessians and second-order moments of the undamped modes of every condition; moments only if the file's design
+/// contains no input.
 fn undamped<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) {
     let mut moments = 0;
     for condition in Truth::load(file).get("conditions").list() {
@@ -185,7 +185,7 @@ fn general_modes_of_the_sliders() {
     assert!(modes >= 4);
 }
 
-/// The damping ratio's own derivatives, where damping is a design variable, against those of `s` by hand.
+/// Derivatives of the damping ratio, with damping as a design variable, against derivatives calculated by hand from those of `s`.
 #[test]
 fn damping_ratios_follow_the_eigenvalue() {
     let study = Study::new(SlidersOnPlate)

@@ -1,4 +1,4 @@
-//! Monte Carlo against moments by quadrature: `w1_moments`, and closed integrals near the critical speed.
+//! Monte Carlo against moments by quadrature: `w1_moments`, and closed-form integrals near the critical speed.
 
 use eigentol::{MonteCarlo, Study};
 use eigentol_oracle::truth::Truth;
@@ -6,7 +6,7 @@ use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
 
 const SAMPLES: usize = 20_000;
 
-/// The pendulum with a tolerance on its length alone, sampled.
+/// Samples of the pendulum with a tolerance on its length only.
 fn sampled(omega: f64, half_width: f64) -> MonteCarlo {
     Study::new(RotatingPendulum)
         .input(RotatingPendulum::omega, omega)
@@ -19,7 +19,7 @@ fn sampled(omega: f64, half_width: f64) -> MonteCarlo {
         .expect("samples")
 }
 
-/// Mean and deviation within four standard errors, as a normal sample has them.
+/// Checks mean and standard deviation to within four standard errors of a normal sample.
 #[track_caller]
 fn assert_moments(run: &MonteCarlo, mean: f64, deviation: f64, what: &str) {
     assert_eq!(run.counts.stable, SAMPLES, "{what}");
@@ -54,7 +54,7 @@ fn moments_of_the_single_bar() {
     }
 }
 
-/// `omega(L)` over both branches, integrated over the normal density by the midpoint rule.
+/// Mean and standard deviation of `omega(L)` over both branches, integrated over the normal density by the midpoint rule.
 fn quadrature(omega: f64, sigma: f64) -> (f64, f64) {
     const STEPS: usize = 400_000;
     let (mut weight, mut first, mut second) = (0.0, 0.0, 0.0);
@@ -76,7 +76,7 @@ fn quadrature(omega: f64, sigma: f64) -> (f64, f64) {
     (mean, (second / weight - mean * mean).sqrt())
 }
 
-/// The very speed where first order fails: samples lie on both branches.
+/// Exactly at the speed where first order fails: samples lie on both branches.
 #[test]
 fn moments_across_the_critical_speed() {
     let critical = Truth::load("P1").get("Omega_critical").number();

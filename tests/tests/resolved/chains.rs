@@ -1,4 +1,4 @@
-//! `W1`, `W2`, `W3`: frequencies of bars in series and their first derivatives, equilibria bent and straight.
+//! `W1`, `W2`, `W3`: frequencies of bars in series and their first derivatives, at bent and straight equilibria.
 
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::{
@@ -8,7 +8,7 @@ use eigentol_tests::resolved::{Derived, Machine};
 
 use super::common::{assert_within, largest};
 
-/// The file keeps 17 digits of numbers that cancel.
+/// The file stores 17 digits of numbers that cancel.
 const TIGHT: f64 = 1e-9;
 
 fn check(declaration: &str, name: &str) {
@@ -18,7 +18,7 @@ fn check(declaration: &str, name: &str) {
     for point in case.get("points").list() {
         let omega = point.get("Omega").number();
         let what = format!("{name} at {omega} rad/s");
-        // Absolute angles there, relative ones here.
+        // The file has absolute angles, the machine relative ones.
         let theta = point.get("theta_star").numbers();
         let relative = |i: usize| theta[i] - if i > 0 { theta[i - 1] } else { 0.0 };
         let start: Vec<f64> = (0..theta.len()).map(relative).collect();

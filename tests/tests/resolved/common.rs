@@ -1,6 +1,6 @@
 //! Comparisons.
 
-/// Every error at most `tolerance`, relative to the larger of the expected value and `scale`.
+/// Requires every error to be at most `tolerance`, relative to the larger of the expected value and `scale`.
 #[track_caller]
 pub(crate) fn assert_within(
     tolerance: f64,
@@ -19,7 +19,7 @@ pub(crate) fn assert_within(
     }
 }
 
-/// As [`assert_within`] 1e-10.
+/// [`assert_within`] with a tolerance of 1e-10.
 #[track_caller]
 pub(crate) fn assert_close(found: &[f64], expected: &[f64], scale: f64, what: &str) {
     assert_within(1e-10, found, expected, scale, what);

@@ -1,4 +1,4 @@
-//! `P1`, `P2`, `P3`: every first and second derivative of the files, undamped and of the whole pencil.
+//! `P1`, `P2`, `P3`: every first and second derivative in the files, undamped and for the whole pencil.
 
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::{rotating_double_pendulum, rotating_pendulum, sliders_on_plate};
@@ -6,7 +6,7 @@ use eigentol_tests::resolved::{ComplexDerived, Derived, Machine};
 
 use super::common::{assert_close, largest};
 
-/// Where the variables of a file stand among those of a machine; the speed is the only input.
+/// The positions of a file's variables among those of a machine; the speed is the only input.
 struct Variables {
     names: Vec<String>,
     places: Vec<usize>,
@@ -41,7 +41,7 @@ impl Variables {
         self.places.iter().flat_map(pick).collect()
     }
 
-    /// A gradient of the file, whatever lists its fields hold.
+    /// A gradient from the file, whatever lists its fields contain.
     fn by_name<T>(&self, gradient: &Truth, read: impl Fn(&Truth) -> T) -> Vec<T> {
         let names = self.names.iter();
         names.map(|name| read(&gradient.get(name))).collect()
@@ -91,8 +91,8 @@ impl Variables {
     }
 }
 
-/// All conditions of a file; `design` are the names there in the machine's order. Returns how many second derivatives
-/// differ from zero.
+/// Checks all conditions of a file; `design` lists its names in the machine's order. Returns the number of nonzero
+/// second derivatives.
 fn check(declaration: &str, file: &str, design: &[&str]) -> usize {
     let machine = Machine::new(declaration);
     let mut curved = 0;
@@ -139,7 +139,7 @@ fn check(declaration: &str, file: &str, design: &[&str]) -> usize {
         let modes = state.general_modes();
         let of_pencil = condition.get("quadratic_modes");
         if file != "P3" {
-            // Without damping the file refers to the undamped modes.
+            // Without damping, the file refers to the undamped modes.
             for (mode, truth) in modes.iter().zip(&truths) {
                 let mode = mode.as_ref().expect("a simple mode");
                 for number in [&mode.s.im, &mode.magnitude] {

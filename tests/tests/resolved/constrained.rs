@@ -11,10 +11,10 @@ use eigentol_tests::tables;
 use super::common::assert_within;
 use super::product::Product;
 
-/// Inputs, and values near the equilibrium of the coordinates that are not near zero.
+/// Inputs, and approximate equilibrium values of the coordinates that are not close to zero.
 type Operation = (&'static [f64], &'static [(&'static str, f64)]);
 
-/// How the mechanisms of [`loops`] and [`wheels`] are run; `None` for those with redundant constraints, whose bordered
+/// Operating points of the mechanisms of [`loops`] and [`wheels`]; `None` for redundant constraints, whose bordered
 /// matrices are singular.
 fn operation(name: &str) -> Option<Operation> {
     Some(match name {
@@ -53,7 +53,7 @@ fn operation(name: &str) -> Option<Operation> {
         "geared_motor" => (&[2.0], &[("run_in", 90.0), ("run_out", -54.0)]),
         "caster" => (&[3.0], &[("spin", 37.0)]),
         "disk" => (&[8.0], &[("forward", 2.0)]),
-        // Its derivatives are stored: 27 variables would take this oracle too long.
+        // Its derivatives are stored in a file: with 27 variables this oracle would take too long.
         "whipple" => return None,
         "cart" => (&[6.0], &[("run", 2.5), ("spin", 16.7)]),
         "trailer" => return None,

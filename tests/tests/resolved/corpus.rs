@@ -1,4 +1,4 @@
-//! Every machine: derivatives by the product and by solving again.
+//! Every machine: the product's derivatives against those found by solving again.
 
 use eigentol::Error;
 use eigentol::equilibrium::Equilibrium;
@@ -13,11 +13,11 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::common::assert_within;
 
-/// First derivatives agree to this.
+/// Required agreement of first derivatives.
 const TIGHT: f64 = 1e-9;
 
-/// A derivative by a variable of value `b` counts from a hundredth of `value / b` on: below that it is the rounding of
-/// terms that cancel.
+/// A derivative by a variable of value `b` is significant from a hundredth of `value / b` upwards: smaller ones are
+/// rounding errors of cancelling terms.
 #[track_caller]
 fn assert_gradient(found: &[f64], expected: &Derived, variables: &[f64], what: &str) {
     assert_eq!(found.len(), variables.len(), "{what}");
@@ -33,7 +33,7 @@ fn assert_gradient(found: &[f64], expected: &Derived, variables: &[f64], what: &
 struct Gradients {
     points: usize,
     modes: usize,
-    /// Derivatives of equilibria that are not zero.
+    /// Nonzero derivatives of equilibria.
     shifts: usize,
     nonsymmetric: usize,
     repeated: usize,
@@ -53,7 +53,7 @@ impl Comparison for Gradients {
         let shift = equilibrium_shift(machine, at).expect("a shift");
         for (i, q) in state.equilibrium().into_iter().enumerate() {
             let found = [&shift.by_design[i][..], &shift.by_input[i]].concat();
-            // An angle or a displacement may be zero and move.
+            // An angle or a displacement may be zero and still move.
             let q = Derived {
                 value: q.value.abs() + 1e-3,
                 ..q
@@ -110,20 +110,20 @@ fn first_derivatives_of_equilibria_outputs_and_undamped_modes() {
     let mut gradients = Gradients::default();
     every_machine(&mut gradients);
     assert!(gradients.points >= corpus().len());
-    // Of the corpus, the bearing's rotor and the press, and the film's rotor twice; Jeffcott's rotor twice, and the column.
+    // From the corpus the bearing rotor and the press once and the film rotor twice; the Jeffcott rotor twice, and the column.
     assert_eq!(gradients.nonsymmetric, 7);
-    // Four isotropic states, two modes each.
+    // Four isotropic states with two modes each.
     assert_eq!(gradients.repeated, 8);
     assert!(gradients.modes > 55, "{}", gradients.modes);
     assert!(gradients.shifts > 150, "{}", gradients.shifts);
 }
 
-/// Every machine has modes of the whole pencil that can be differentiated, gyroscopic and damped ones among them.
+/// Every machine has differentiable modes of the whole pencil, including gyroscopic and damped ones.
 #[derive(Default)]
 struct Pencils {
     modes: usize,
     damped: usize,
-    /// Left shapes that are not the right ones.
+    /// Left shapes that differ from the right ones.
     one_sided: usize,
 }
 
@@ -168,7 +168,7 @@ fn distance(x: &ComplexDerived, y: &ComplexDerived) -> f64 {
     (value(x) - value(y)).norm()
 }
 
-/// Both equations hold, and both normalisations.
+/// Both eigenvalue equations hold, and both normalisations.
 fn assert_pair(mode: &GeneralMode, [m, c, k]: &[DMatrix<Complex<f64>>; 3], what: &str) {
     let s = value(&mode.s);
     let pencil = m * (s * s) + c * s + k;
@@ -184,7 +184,7 @@ fn assert_pair(mode: &GeneralMode, [m, c, k]: &[DMatrix<Complex<f64>>; 3], what:
             (pencil * &shape).camax() <= scale * shape.camax(),
             "{what}: {shape}"
         );
-        // Large components cancel in the sum: its rounding is that of its terms.
+        // Large components cancel in the sum, so its rounding is relative to its terms.
         let sizes = shape.map(|x| x.norm());
         let terms = sizes.dot(&(m.map(|x| x.norm()) * &sizes));
         assert!(

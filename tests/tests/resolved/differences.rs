@@ -1,12 +1,12 @@
-//! What no file stores, shapes above all: first derivatives against differences of values, second ones against differences
-//! of first ones, at equilibria settled anew.
+//! Quantities stored in no file, mainly shapes: first derivatives against differences of values, second derivatives
+//! against differences of first ones, with equilibria solved again.
 
 use eigentol_tests::corpus::{bearing_rotor, flap_lag_blade, governor, rotor_blade, screw_press};
 use eigentol_tests::resolved::{Derived, Machine, State, operating_points};
 
 use super::common::largest;
 
-/// Everything that a state offers, with leads and eigenvalues followed from `modes`.
+/// All quantities of a state, with lead components and eigenvalues followed from `modes`.
 fn numbers(
     state: &State,
     modes: &[(nalgebra::Complex<f64>, [usize; 2])],
@@ -41,7 +41,7 @@ fn numbers(
     list
 }
 
-/// Returns how many derivatives were compared.
+/// Returns the number of derivatives compared.
 fn check(name: &str, declaration: &str, relative_step: f64) -> usize {
     let machine = Machine::new(declaration);
     let point = &operating_points(name)[0];

@@ -1,9 +1,9 @@
-//! A mode solved again, of either family, in one form.
+//! A mode solved again, in one form for both families.
 
 use eigentol::sensitivity::Quantity;
 use eigentol_tests::resolved::{ComplexDerived, Derived, GeneralMode, UndampedMode};
 
-/// One mode solved again, of either family, its undamped shape as a complex one.
+/// One mode solved again, of either family; an undamped shape is stored as complex.
 pub(super) struct Expected {
     pub(super) s: Option<[Derived; 2]>,
     pub(super) lambda: Option<Derived>,

@@ -1,4 +1,4 @@
-//! A follower force and a rigid-body mode: nonsymmetric and singular stiffness, in closed form.
+//! A follower force and a rigid-body mode: non-symmetric and singular stiffness, in closed form.
 
 use eigentol_tests::machines::{sliding_pair, ziegler_column};
 use eigentol_tests::resolved::{Machine, State};
@@ -32,7 +32,7 @@ impl Column {
     }
 }
 
-/// The greatest real part of the eigenvalues.
+/// The largest real part of the eigenvalues.
 fn growth(state: &State) -> f64 {
     let parts = state.eigenvalues().into_iter().map(|s| s.re);
     parts.fold(f64::NEG_INFINITY, f64::max)
@@ -57,7 +57,7 @@ fn frequencies_under_a_follower_force() {
                 continue;
             }
             let x = (h + sign * root) / 4.0;
-            // Variables m, l, k, c and P, on which p depends by l, k and P: dx/dp = -2 x / (4 x - h).
+            // Variables m, l, k, c and P; p depends on l, k and P: dx/dp = -2 x / (4 x - h).
             let omega = (x * k / column.inertia()).sqrt();
             let dx = -2.0 * x / (4.0 * x - h);
             let by_p = 0.5 * omega / x * dx;
@@ -87,7 +87,7 @@ fn frequencies_under_a_follower_force() {
     }
 }
 
-/// `P l / k = 2.086`, undamped: two frequencies meet, and a growing pair leaves.
+/// `P l / k = 2.086`, undamped: two frequencies meet and give way to a growing pair.
 #[test]
 fn flutter_of_the_undamped_column() {
     let column = Column::new(0.0);
@@ -109,7 +109,7 @@ fn flutter_of_the_undamped_column() {
     assert_eq!(column.at(critical).general_modes(), [None, None]);
 }
 
-/// Damping, however small, takes a third of the load away: `41/28 + c^2 / (2 m l^2 k)`.
+/// Any damping, however small, reduces the flutter load by a third: `41/28 + c^2 / (2 m l^2 k)`.
 #[test]
 fn flutter_of_the_damped_column() {
     for damping in [1e-3, 0.1, 2.0] {
@@ -124,7 +124,7 @@ fn flutter_of_the_damped_column() {
     }
 }
 
-/// Without its anchor the pair drifts: `s = 0` twice, and one frequency.
+/// Without its anchor the pair drifts: a double eigenvalue `s = 0`, and one frequency.
 #[test]
 fn a_rigid_body_mode() {
     let machine = Machine::new(sliding_pair::DECLARATION);
@@ -140,7 +140,7 @@ fn a_rigid_body_mode() {
         (last.im - elastic).abs() < 1e-10 * elastic && last.re.abs() < 1e-10,
         "{last}"
     );
-    // One or both of the double zero, as rounding has it.
+    // One or both of the double zero, depending on rounding.
     assert!(!drifting.is_empty());
     for s in drifting {
         assert!(s.norm() < 1e-6 * elastic, "{s}");
@@ -156,7 +156,7 @@ fn a_rigid_body_mode() {
         for (mode, x) in state.undamped_modes().iter().zip(squares) {
             let mode = mode.as_ref().expect("a simple mode");
             assert_close(&[mode.lambda.value], &[x], 0.0, "lambda");
-            // By m1, m2, ka, kc, from the equation.
+            // Derivatives by m1, m2, ka, kc, from the equation.
             let slope = 2.0 * m1 * m2 * x - e;
             let gradient = [
                 m2 * x * x - coupling * x,

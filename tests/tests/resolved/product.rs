@@ -1,5 +1,5 @@
-//! The product's derivatives of every mode of every machine, both families: first and second ones of the eigenvalue and of
-//! what is asked of it, first ones of both shapes.
+//! The product's derivatives of every mode of every machine, in both families: first and second derivatives of the
+//! eigenvalue and of derived quantities, first derivatives of both shapes.
 
 use eigentol::equilibrium::Equilibrium;
 use eigentol::error::NoDerivative;
@@ -13,7 +13,7 @@ use eigentol_tests::resolved::{Comparison, ComplexDerived, Derived, State, every
 
 use super::expected::Expected;
 
-/// Relative errors allowed: of values and first derivatives, of second ones, of derivatives of shapes.
+/// Allowed relative errors: of values and first derivatives, of second derivatives, of shape derivatives.
 const FIRST: f64 = 1e-9;
 const SECOND: f64 = 2e-8;
 const SHAPES: f64 = 1e-8;
@@ -25,7 +25,7 @@ pub(super) struct Product {
     shapes: usize,
     one_sided: usize,
     outputs: usize,
-    /// Greatest errors relative to what is allowed, and where.
+    /// The largest errors relative to the allowed ones, and where they occur.
     worst: [(f64, String); 3],
 }
 
@@ -43,7 +43,7 @@ fn ordered<T: Copy>(all: &SecondDerivatives<T>) -> Vec<Vec<T>> {
     variables.clone().map(row).collect()
 }
 
-/// Sizes of the variables.
+/// Scales of the variables.
 fn sizes(at: &Equilibrium) -> Vec<f64> {
     let all = at.design.iter().chain(&at.inputs);
     all.map(|&x| if x == 0.0 { 1.0 } else { x.abs() }).collect()
@@ -51,7 +51,7 @@ fn sizes(at: &Equilibrium) -> Vec<f64> {
 
 impl Product {
     fn note(&mut self, kind: usize, error: f64, allowed: f64, what: &str) {
-        // Not a number is the worst error of all.
+        // NaN is the worst error of all.
         let ratio = if error.is_nan() {
             f64::INFINITY
         } else {
@@ -62,7 +62,7 @@ impl Product {
         }
     }
 
-    /// Sizes of derivatives to be expected of a number of size `size`: by it and the variables.
+    /// Checks first derivatives of a number of size `size`; the expected scale is `size` relative to each variable.
     fn first(&mut self, found: &[f64], expected: &Derived, b: &[f64], size: f64, what: &str) {
         assert_eq!(found.len(), b.len(), "{what}");
         for k in 0..b.len() {
@@ -214,8 +214,8 @@ impl Product {
     }
 }
 
-/// The components that the product made real: the greatest of coordinates and speeds that are; of a left vector beside
-/// constraints on velocities, of all unknowns.
+/// The components that the product makes real: the largest of the coordinates and speeds; for a left vector with
+/// velocity constraints, the largest of all unknowns.
 fn leads(mode: &Mode, description: &Description) -> [usize; 2] {
     let roles = || description.coordinates.iter().map(|info| info.role);
     let motions = roles()
@@ -280,7 +280,7 @@ impl Comparison for Product {
 }
 
 impl Product {
-    /// Every general mode.
+    /// Checks every general mode.
     pub(super) fn general(
         &mut self,
         what: &str,
@@ -316,7 +316,7 @@ impl Product {
         }
     }
 
-    /// Fails when an error is greater than allowed.
+    /// Fails if an error is larger than allowed.
     #[track_caller]
     pub(super) fn judge(self, modes: usize) {
         assert!(self.modes >= modes, "{} modes", self.modes);

@@ -1,4 +1,4 @@
-//! Hyper-dual numbers themselves, and the interpreter that runs kernels in them.
+//! Tests hyper-dual numbers themselves, and the interpreter that runs kernels in them.
 
 use eigentol::{Mechanism, Real};
 use eigentol_compiler::program;
@@ -9,7 +9,7 @@ use eigentol_tests::hyper::Hyper;
 
 use super::common::assert_close;
 
-/// `x` along the first direction, `y` along the second and a little along the first.
+/// `x` with a unit derivative along the first direction, `y` with one along the second and a small one along the first.
 fn variables(x: f64, y: f64) -> [Hyper; 2] {
     [
         Hyper::new([x, 1.0, 0.0, 0.0]),
@@ -17,7 +17,7 @@ fn variables(x: f64, y: f64) -> [Hyper; 2] {
     ]
 }
 
-/// Values and first derivatives by `f64` formulas, second ones by differences of these.
+/// Values and first derivatives against `f64` formulas, second derivatives against differences of these.
 #[test]
 fn functions_have_their_derivatives() {
     type Pair = (fn(Hyper) -> Hyper, fn(f64) -> [f64; 3]);
@@ -66,7 +66,7 @@ fn functions_have_their_derivatives() {
     }
 }
 
-/// In all quadrants and on the axes: gradient `(-y, x) / r^2`, and its derivative.
+/// In all quadrants and on the axes: the gradient `(-y, x) / r^2` and its derivative.
 #[test]
 fn angles_have_their_derivatives() {
     for (x, y) in [

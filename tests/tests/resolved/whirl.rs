@@ -1,7 +1,7 @@
-//! Rotors, a top and a turning pendulum: eigenvalues and their derivatives in closed form.
+//! Rotors, a top and a rotating pendulum: eigenvalues and their derivatives in closed form.
 //!
-//! Each is isotropic: with `z = x + i y` the two real equations are one complex `a z'' + b z' + d z = 0`, its roots and
-//! their conjugates are the eigenvalues.
+//! Each is isotropic: with `z = x + i y` the two real equations become one complex equation `a z'' + b z' + d z = 0`;
+//! its roots and their conjugates are the eigenvalues.
 
 use eigentol_tests::machines::{jeffcott_rotor, overhung_rotor, sleeping_top, spherical_pendulum};
 use eigentol_tests::resolved::{GeneralMode, Machine, State};
@@ -11,7 +11,7 @@ use super::common::{assert_close, largest};
 
 type C = Complex<f64>;
 
-/// `a s^2 + b s + d` and the derivatives of `a`, `b`, `d` by each variable.
+/// `a s^2 + b s + d`, and the derivatives of `a`, `b`, `d` by each variable.
 struct Equation {
     coefficients: [C; 3],
     derivatives: Vec<[C; 3]>,
@@ -26,7 +26,7 @@ fn imaginary(y: f64) -> C {
 }
 
 impl Equation {
-    /// Both roots, each turned to the upper half, with its derivatives.
+    /// Both roots, each mapped to the upper half-plane, with their derivatives.
     fn roots(&self) -> Vec<(C, Vec<C>)> {
         let [a, b, d] = self.coefficients;
         let root = (b * b - a * d * 4.0).sqrt();
@@ -70,7 +70,7 @@ fn check(state: &State, equation: &Equation, what: &str) {
     }
 }
 
-/// Both normalised: `y = +-i x` for every pair of an isotropic machine.
+/// Both shapes are normalised: `y = +-i x` for every pair of an isotropic machine.
 fn assert_circular(mode: &GeneralMode) {
     let [x, y] = &mode.right[..] else {
         panic!("two coordinates")
@@ -117,7 +117,7 @@ fn a_rotor_with_damping_that_turns() {
             ],
         };
         if speed == 0.0 {
-            // A double pair: no mode of its own.
+            // A double pair has no mode of its own.
             assert_eq!(state.general_modes(), [None, None]);
             let s = equation.roots()[0].0;
             for found in state.eigenvalues() {
@@ -200,7 +200,7 @@ fn a_sleeping_top() {
             ],
         };
         if spin < least {
-            // It falls in a spiral: growing and decaying, both of magnitude sqrt(m g h / A).
+            // It falls in a spiral: one growing and one decaying mode, both of magnitude sqrt(m g h / A).
             let mut found = modes(&state);
             found.sort_by(|x, y| x.s.re.value.total_cmp(&y.s.re.value));
             let mut roots = equation.roots();
@@ -229,7 +229,7 @@ fn a_sleeping_top() {
     }
 }
 
-/// First derivatives as above; second ones too, since the frequencies are so simple.
+/// First derivatives, and second ones as well, since the frequencies are so simple.
 #[test]
 fn a_pendulum_in_a_turning_frame() {
     let machine = Machine::new(spherical_pendulum::DECLARATION);
@@ -257,7 +257,7 @@ fn a_pendulum_in_a_turning_frame() {
                 assert_close(&number.gradient, &gradient, 1.0, &what);
                 let mut hessian = [0.0; 9];
                 hessian[0] = outer * 0.75 * omega / (l * l);
-                // What rounding leaves grows as the pairs approach each other.
+                // The remaining rounding error grows as the pairs approach each other.
                 let scale = 1.0 + 1e-3 / speed.powi(2);
                 assert_close(&number.hessian.concat(), &hessian, scale, &what);
             }

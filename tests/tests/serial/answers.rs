@@ -1,4 +1,4 @@
-//! Every answer about every machine, as JSON and back.
+//! Every result of every machine, written as JSON and read back.
 
 use std::fmt::Debug;
 
@@ -16,7 +16,7 @@ use eigentol_tests::resolved::{Operation, operating_points};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// Of more unknowns only what is cheap is asked.
+/// For more unknowns than this, only cheap results are requested.
 const SMALL: usize = 3;
 
 #[derive(Default)]
@@ -26,7 +26,7 @@ struct Answers {
 }
 
 impl Answers {
-    /// Comes back in a format for people and in one for machines.
+    /// Writes and reads back in a human-readable and in a binary format.
     fn plain<T: Serialize + DeserializeOwned + PartialEq + Debug>(
         &mut self,
         name: &str,
@@ -40,14 +40,14 @@ impl Answers {
         let from_bytes: T =
             postcard::from_bytes(&bytes).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
         for back in [from_text, from_bytes] {
-            // Debug tells infinite numbers, and zeros by their sign.
+            // Debug output distinguishes infinite numbers, and zeros by their sign.
             assert_eq!(format!("{back:?}"), format!("{answer:?}"), "{name}");
             assert_eq!(back, *answer, "{name}");
         }
         self.answered += 1;
     }
 
-    /// Comes back in a document; a refusal comes back, too.
+    /// Writes and reads back in a document, including errors.
     fn both<A: Answer + PartialEq + Debug>(&mut self, name: &str, answer: Result<A, Error>) {
         self.plain(name, &answer);
         let Ok(answer) = answer else {

@@ -1,9 +1,9 @@
-//! Every public type of the runtime that holds data can be written and read, or it is said here why not.
+//! Every public data type of the runtime can be written and read, or the reason why not is listed here.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What cannot be written, and why.
+/// Types that cannot be written, and why.
 const NOT_WRITTEN: [(&str, &str); 32] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
@@ -39,7 +39,7 @@ const NOT_WRITTEN: [(&str, &str); 32] = [
     ("Workspace", "room for computations"),
 ];
 
-/// The same of statistics.
+/// The same list for the statistics crate.
 const STATISTICS_NOT_WRITTEN: [(&str, &str); 20] = [
     ("CompensatedSum", "a sum under way"),
     ("Cursor", "borrows its sequence"),
@@ -74,7 +74,7 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Names of the public types of a text that are not written.
+/// Names of the public types in a source text that are not serialisable.
 fn not_written(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut written = false;
@@ -92,7 +92,7 @@ fn not_written(text: &str) -> Vec<String> {
                 }
             }
         }
-        // Attributes stand together before what they belong to.
+        // Attributes come together, before the item they belong to.
         if !(line.starts_with('#')
             || line.starts_with("///")
             || line.starts_with(' ')
@@ -104,7 +104,7 @@ fn not_written(text: &str) -> Vec<String> {
     found
 }
 
-/// Fails for a type of the folder that is neither written nor excused, and for an excuse that nobody needs.
+/// Fails for a type in the folder that is neither serialisable nor excused, and for an unused excuse.
 fn check(folder: &str, least: usize, excuses: &[(&str, &str)], by_macro: &[&str]) {
     let mut files = Vec::new();
     sources(

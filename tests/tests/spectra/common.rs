@@ -22,13 +22,13 @@ pub(crate) fn near(found: Complex, expected: Complex) {
     );
 }
 
-/// The design variables of a study, as many as are asked for.
+/// The design variables of a study, as a fixed-size array.
 pub(crate) fn design<const P: usize>(study: &Study<impl Kernels>) -> [f64; P] {
     let values = study.design_values().try_into();
     values.expect("a place for each design variable")
 }
 
-/// An event against its value and its derivatives by `design`; its standard deviation against theirs.
+/// Checks an event against its value and its derivatives by `design`, and its standard deviation against the resulting one.
 #[track_caller]
 pub(crate) fn event(
     found: &EventTolerance,

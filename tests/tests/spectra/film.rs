@@ -12,7 +12,7 @@ const RPM: f64 = std::f64::consts::TAU / 60.0;
 const BEGIN: f64 = 2000.0 * RPM;
 const END: f64 = 12000.0 * RPM;
 
-/// A curve of the declaration, by the oracle's own splines.
+/// A curve of the declaration, evaluated by the oracle's own splines.
 fn curve<const K: usize>(arguments: [f64; K], values: [f64; K]) -> impl Fn(f64) -> f64 {
     let points = arguments.into_iter().zip(values);
     let curve = Curve {
@@ -23,7 +23,8 @@ fn curve<const K: usize>(arguments: [f64; K], values: [f64; K]) -> impl Fn(f64) 
     move |x| curve.at(x)
 }
 
-/// How much stiffer the film is than what the rotor on its edge of stability needs: zero at the limit speed.
+/// The difference between the film's stiffness and the stiffness at which the rotor is at the stability limit: zero at
+/// the limit speed.
 ///
 /// `det(K - m w^2 + i w C) = 0` for real `w`: its imaginary part gives `m w^2 = k`, its real part `w^2`.
 fn excess([mass, film, temperature]: [f64; 3], speed: f64) -> f64 {
@@ -67,7 +68,7 @@ fn the_limit_speed_of_an_oil_film() {
         expected > 7000.0 * RPM && expected < 9500.0 * RPM,
         "{expected}"
     );
-    // The excess is smooth: its derivatives by differences.
+    // The excess is smooth, so finite differences give its derivatives.
     let by = |k: usize| {
         let step = 1e-5 * nominal[k];
         let (mut up, mut down) = (nominal, nominal);
@@ -89,7 +90,7 @@ fn the_limit_speed_of_an_oil_film() {
     event(only, expected, &slopes, &nominal, tolerances.half_widths());
 }
 
-/// What grows is the forward whirl, at about half the speed.
+/// The growing mode is forward whirl at about half the speed.
 #[test]
 fn oil_whirl_goes_forward_at_half_the_speed() {
     let nominal = design(&Study::new(FilmRotor));
@@ -113,7 +114,8 @@ fn oil_whirl_goes_forward_at_half_the_speed() {
     assert!((0.45..0.52).contains(&share), "{share}");
 }
 
-/// Curves say nothing beyond their ends: being asked there is an answer that names the curve and the end. The ends belong to them.
+/// Curves are undefined beyond their ends: evaluating there is an error that names the curve and the end. The
+/// ends themselves are valid.
 #[test]
 fn a_curve_ends() {
     let at = |speed: f64| {
@@ -138,7 +140,7 @@ fn a_curve_ends() {
     assert!(text.contains("viscosity"), "{text}");
 }
 
-/// Equal numbers are not enough: a tolerance moves each variable by itself.
+/// Equal values are not enough: a tolerance moves each variable independently.
 #[test]
 fn only_a_symmetric_matrix_has_a_symmetric_stiffness() {
     let is_symmetric = |xy: &str, yx: &str| {

@@ -1,4 +1,4 @@
-//! Ziegler's column: flutter under a load that follows, with and without damping.
+//! Ziegler's column: flutter under a follower load, with and without damping.
 
 use eigentol::{Behaviour, Error, Stability, Study};
 use eigentol_tests::machines::ZieglerColumn;

@@ -1,4 +1,4 @@
-//! Modes keep their identity along a sweep: through a crossing, and through a veering however coarse the sweep is.
+//! Modes keep their identity along a sweep: through a crossing, and through a veering however coarse the sweep.
 
 use eigentol::{Error, Study, mechanism};
 
@@ -25,7 +25,7 @@ fn pair(coupling: f64) -> Pair {
     Study::new(TunedPair).design(TunedPair::coupling, coupling)
 }
 
-/// Frequencies of the mode of a label along a sweep, and how much of it is motion of the first slider.
+/// Frequencies of the mode with a given label along a sweep, and the share of the first slider in its motion.
 fn branch(study: &Pair, values: &[f64], label: usize) -> Vec<(f64, f64)> {
     let swept = study.sweep(TunedPair::tuning, values).expect("a sweep");
     swept
@@ -56,9 +56,9 @@ fn uncoupled_modes_cross() {
     }
 }
 
-/// Coupled, the two never meet: the lower one turns from the first slider to the second. A sweep of four points finds the
-/// same as one of a thousand: across the middle each shape resembles the other mode's more (0.69) than its own (0.31), and
-/// modes that are not recognised are followed in smaller steps.
+/// Coupled, the two never meet: the lower one changes from the first slider to the second. A sweep of four points gives
+/// the same result as one of a thousand: across the middle each shape resembles the other mode's more (0.69) than its own
+/// (0.31), and modes that are not recognised are followed in smaller steps.
 #[test]
 fn coupled_modes_veer() {
     let study = pair(2.0);
@@ -75,7 +75,7 @@ fn coupled_modes_veer() {
         assert_eq!(fine[1000].1 > 0.9, !first_share);
         assert!(fine.windows(2).all(|pair| pair[0].0 < pair[1].0));
     }
-    // At the nearest approach each is half of both; single derivatives exist, and mix the two.
+    // At the closest approach each is half of both; single-mode derivatives exist, and mix the two.
     let near = study.clone().input(TunedPair::tuning, 100.0);
     let slopes = near.sensitivities().expect("derivatives");
     for (mode, omega) in slopes.modes.iter().zip([100.0_f64, 104.0]) {

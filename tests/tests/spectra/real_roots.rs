@@ -1,4 +1,4 @@
-//! Real eigenvalues: overdamped motions, rigid motions, loss of stability through zero.
+//! Real eigenvalues: overdamped motions, rigid-body motions, loss of stability through zero.
 
 use eigentol::{Behaviour, Family, Quantity, Study};
 use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
@@ -6,7 +6,7 @@ use eigentol_tests::machines::SlidingPair;
 
 use super::common::{close, design};
 
-/// At rest the sliders are two oscillators; with a strong damper one creeps back at two rates.
+/// At rest the sliders are two oscillators; with a strong damper one of them creeps back at two rates.
 #[test]
 fn overdamped_motions_are_modes_of_their_own() {
     let study = Study::new(SlidersOnPlate)
@@ -44,7 +44,7 @@ fn overdamped_motions_are_modes_of_their_own() {
         }
     }
     assert_eq!(creeping, 2);
-    // A spread of what does not oscillate is a spread of its rate.
+    // For a non-oscillating mode the standard deviation is that of its decay rate.
     let spread = study.relative_tolerance(SlidersOnPlate::cx, 0.03);
     let spread = spread.first_order().expect("a spread");
     let creeping = &spread.modes[0];

@@ -1,4 +1,4 @@
-//! Jeffcott's rotor with internal damping, and a disk that tilts.
+//! Jeffcott's rotor with internal damping, and a tilting disk.
 
 use eigentol::modes::Sense;
 use eigentol::sweep::Event;
@@ -59,7 +59,7 @@ fn whirl_forward_and_backward() {
     }
 }
 
-/// Internal damping drives forward whirl beyond `sqrt(k / m) (1 + c_e / c_i)`.
+/// Internal damping excites forward whirl beyond `sqrt(k / m) (1 + c_e / c_i)`.
 #[test]
 fn onset_of_instability_by_internal_damping() {
     let study = rotor();
@@ -80,7 +80,7 @@ fn onset_of_instability_by_internal_damping() {
         panic!("{found:?}")
     };
     event(only, expected, &slopes, &design, tolerances.half_widths());
-    // Slightly above, samples are on both sides; the shares follow the spread of the onset itself.
+    // Slightly above the onset, samples lie on both sides; their shares follow from the standard deviation of the onset.
     let sigma = only.sigma().expect("a spread");
     let run = study
         .clone()
@@ -93,7 +93,7 @@ fn onset_of_instability_by_internal_damping() {
     assert!((share - 0.8413).abs() < 0.03, "{share}");
 }
 
-/// The forward frequency meets the speed: with damping not quite at `sqrt(k / m)`.
+/// The forward frequency meets the speed: with damping, not exactly at `sqrt(k / m)`.
 #[test]
 fn synchronous_critical_speed() {
     let study = rotor();
@@ -110,7 +110,7 @@ fn synchronous_critical_speed() {
     let found = study
         .crossing_tolerances(JeffcottRotor::speed, 40.0, 120.0, 1.0)
         .expect("a search");
-    // Forward whirl crosses from below its damped frequency; the backward frequency crosses as well.
+    // The forward whirl frequency crosses from below at its damped value; the backward frequency crosses as well.
     assert_eq!(found.len(), 2);
     let forward = found
         .iter()
@@ -172,7 +172,7 @@ fn conical_whirl_and_its_critical_speeds() {
     }
 }
 
-/// The same through the Campbell diagram, with second order and four engine orders.
+/// The same disk in a Campbell diagram, with second order and four engine orders.
 #[test]
 fn the_campbell_diagram_of_the_disk() {
     let study = disk();
@@ -186,7 +186,7 @@ fn the_campbell_diagram_of_the_disk() {
     for label in diagram.labels() {
         let branch: Vec<_> = diagram.branch(label).collect();
         assert_eq!(branch.len(), values.len());
-        // One sense along the whole branch, from the first speed on.
+        // The whirl sense is constant along the whole branch, from the first speed on.
         let senses: Vec<Sense> = branch
             .iter()
             .filter_map(|(_, mode)| Some(mode.whirl?.sense()))

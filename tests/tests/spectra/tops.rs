@@ -1,4 +1,4 @@
-//! A top held by its spin, and a double frequency that turning splits.
+//! A top held up by its spin, and a double frequency split by rotation.
 
 use eigentol::clusters::modal_couplings;
 use eigentol::{Behaviour, Complex, Family, Stability, Study};
@@ -35,8 +35,8 @@ fn precession_and_nutation_of_a_sleeping_top() {
     assert_eq!(stability, Stability::Divergent { negative: 2 });
 }
 
-/// `sqrt(g / l) +- W` in the turning frame: a double frequency at rest, whose derivatives by the speed are +1 and -1 rad/s
-/// by rad/s, those of the cluster, of no single mode.
+/// `sqrt(g / l) +- W` in the turning frame: a double frequency at rest. Its derivatives by the speed, +1 and -1 rad/s per
+/// rad/s, belong to the cluster and not to a single mode.
 #[test]
 fn turning_splits_a_double_frequency() {
     let study: Study<SphericalPendulum> = Study::new(SphericalPendulum);
@@ -81,7 +81,7 @@ fn turning_splits_a_double_frequency() {
     }
 }
 
-/// A sweep keeps to what gyroscopic forces hold: the top sleeps on while its spin falls, until nothing holds it.
+/// A sweep follows a state held by gyroscopic forces: the top keeps sleeping as its spin decreases, until nothing holds it.
 #[test]
 fn a_sweep_follows_the_sleeping_top_until_it_falls() {
     let study: Study<SleepingTop> = Study::new(SleepingTop);
@@ -91,7 +91,7 @@ fn a_sweep_follows_the_sleeping_top_until_it_falls() {
     let spins: Vec<f64> = (0..20)
         .map(|step| threshold * (2.0 - 0.06 * f64::from(step)))
         .collect();
-    // Not exactly upright, as a start value from elsewhere would be.
+    // Not exactly upright, as with a start value taken from elsewhere.
     let study = study.start(SleepingTop::alpha, 1e-9);
     for point in &study.sweep(SleepingTop::spin, &spins).expect("a sweep") {
         let state = point.equilibrium.as_ref().expect("an equilibrium");

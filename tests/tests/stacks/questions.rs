@@ -13,22 +13,22 @@ use eigentol::second_order::Band;
 use eigentol::sensitivity::Quantity;
 use eigentol::{Error, Input, Output, Study};
 
-/// Where a machine has something to tell.
+/// Where the interesting ranges of a machine lie.
 #[derive(Clone, Copy)]
 pub(crate) struct Range {
-    /// Of values to sweep.
+    /// Range of the sweep.
     pub(crate) sweep: [f64; 3],
-    /// Of the branches.
+    /// Range of the branches.
     pub(crate) branches: [f64; 2],
-    /// In which a critical state lies.
+    /// Range that contains a critical state.
     pub(crate) critical: [f64; 2],
-    /// In which frequencies cross a multiple of the input.
+    /// Range in which frequencies cross a multiple of the input.
     pub(crate) crossings: [f64; 2],
     /// That multiple.
     pub(crate) order: f64,
 }
 
-/// A question by its name: the one that overflows its thread is named in the message.
+/// A question with its name: the one that overflows its stack is named in the message.
 pub(crate) type Question<M> = (&'static str, fn(&Study<M>, &Range));
 
 const BAND: Band = Band::Between {
@@ -51,7 +51,7 @@ fn mode<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -
     oscillates.expect("one that oscillates")
 }
 
-/// Unit steps of everything.
+/// Unit steps in all variables.
 fn direction<M: BatchKernels + CurvatureKernels + PictureKernels>(
     study: &Study<M>,
 ) -> (Vec<f64>, Vec<f64>) {
@@ -65,7 +65,7 @@ fn search<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>)
     Search::new(shifted(-0.01), shifted(0.01)).starts(1)
 }
 
-/// About one state.
+/// Questions about one state.
 pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>>
 {
     vec![
@@ -118,7 +118,7 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
     ]
 }
 
-/// The same of what is solved.
+/// Questions about one state of a solved study.
 pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels + PictureKernels>()
 -> Vec<Question<M>> {
     macro_rules! solved {
@@ -166,7 +166,7 @@ pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels + PictureKern
     questions
 }
 
-/// What is asked of chance: each solves the study, and asks what is solved.
+/// Statistical questions: each solves the study, then asks the solution.
 pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
     const SAMPLES: u64 = 8;
     fn response<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> Response {
@@ -183,7 +183,7 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
             Requirement::Stable,
         ]
     }
-    // That it is answered or refused is enough: what stands in the way of an overflow is the depth of the calls.
+    // An answer or an error will do: only the depth of the calls matters for overflow.
     fn replied<T>(answer: Result<T, Error>) {
         let _ = black_box(answer);
     }
@@ -228,7 +228,7 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
     ]
 }
 
-/// Along the first input.
+/// Questions along the first input.
 pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels>()
 -> Vec<Question<M>> {
     macro_rules! between {

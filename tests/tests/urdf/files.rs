@@ -1,4 +1,4 @@
-//! Files that are here, with numbers that are here: no Python is asked.
+//! Files and reference numbers stored in the repository: no Python needed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ fn panda() -> (Robot, Value) {
     )
 }
 
-/// Two fingers of which one follows the other.
+/// Two fingers, one of which follows the other.
 #[test]
 fn panda_is_that_of_pinocchio() {
     let (robot, truth) = panda();
@@ -36,7 +36,7 @@ fn panda_is_that_of_pinocchio() {
     assert_eq!(robot.import.names.len(), 0, "{:?}", robot.import.names);
 }
 
-/// What `reference.py` has written, on fixed bases and floating ones, with places of links.
+/// The numbers written by `reference.py`, for fixed and floating bases, with positions of links.
 #[test]
 fn robots_are_those_of_pinocchio() {
     let list: Value = serde_json::from_str(&read(&truth("urdf/reference.json"))).expect("JSON");
@@ -55,7 +55,7 @@ fn robots_are_those_of_pinocchio() {
     }
 }
 
-/// A comparison that cannot fail proves nothing: a mass off by one part in 10^8 shows.
+/// A comparison that cannot fail proves nothing: a mass that is off by one part in 10^8 is detected.
 #[test]
 fn a_small_fault_is_found() {
     let text = read(&truth("urdf/panda.urdf"));

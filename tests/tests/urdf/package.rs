@@ -1,4 +1,4 @@
-//! Every file of the package example-robot-data, where Python has it.
+//! Every file of the package example-robot-data, if Python has it.
 
 use std::env;
 use std::io::Write as _;
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::files::{read, truth};
 use super::reference::{Robot, options, texts};
 
-/// The folder of the robots, and the interpreter.
+/// The folder with the robots, and the interpreter.
 pub(crate) fn package() -> Result<(PathBuf, PathBuf), String> {
     let python =
         env::var_os("EIGENTOL_PYTHON").map_or_else(|| PathBuf::from("python3"), PathBuf::from);
@@ -28,7 +28,7 @@ pub(crate) fn package() -> Result<(PathBuf, PathBuf), String> {
     }
 }
 
-/// The package, or nothing and a line that says so.
+/// The package, or `None` and a message.
 pub(crate) fn package_or_skip(what: &str) -> Option<(PathBuf, PathBuf)> {
     let found = package();
     found.map_err(|why| println!("skipped: {what}: {why}")).ok()
@@ -55,7 +55,7 @@ pub(crate) fn urdf_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Numbers of Pinocchio; nothing and a line that says so where it is not there.
+/// Reference numbers from Pinocchio; `None` and a message if it is not available.
 fn reference(python: &Path, request: &Value) -> Option<Value> {
     let script = truth("urdf/reference.py");
     let mut child = Command::new(python)
@@ -84,7 +84,7 @@ fn reference(python: &Path, request: &Value) -> Option<Value> {
     Some(serde_json::from_slice(&output.stdout).expect("JSON"))
 }
 
-/// Robots of `truth/robots` whose inertias are those of their files.
+/// The robots of `truth/robots` whose inertias are unchanged from their files.
 #[test]
 fn robots_of_the_truth_are_those_of_pinocchio() {
     const FILES: [&str; 9] = [
@@ -115,7 +115,7 @@ fn robots_of_the_truth_are_those_of_pinocchio() {
     }
 }
 
-/// Every file that can be imported, on a fixed base and on a floating one, with places of a few links.
+/// Every importable file, with fixed and floating base, with the positions of a few links.
 #[test]
 fn every_file_gives_the_numbers_of_pinocchio() {
     let Some((folder, python)) = package_or_skip("all URDF files against Pinocchio") else {
@@ -133,7 +133,7 @@ fn every_file_gives_the_numbers_of_pinocchio() {
                 let own = Robot::new(&text, &replacing, &[]);
                 own.map(|own| (own, replacing))
             }) else {
-                // What is no body here either is another robot.
+                // A link that is not a body here makes it a different robot.
                 continue;
             };
             let points = robot.points(4);

@@ -1,4 +1,4 @@
-//! Kernels of an imported robot against numbers of Pinocchio.
+//! Kernels of an imported robot against numbers from Pinocchio.
 
 use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_consistency::interpreter::interpret;
@@ -6,10 +6,10 @@ use eigentol_consistency::subject::Subject;
 use eigentol_urdf::{Base, Import, Options, import};
 use serde_json::Value;
 
-/// Relative to the largest entry of an array.
+/// Tolerance relative to the largest entry of an array.
 pub(crate) const TOLERANCE: f64 = 1e-9;
 
-/// A robot as the numbers are for: springs and dampers on every coordinate, no others.
+/// The import options assumed by the reference numbers: springs and dampers on every coordinate, and no others.
 pub(crate) fn options(floating: bool) -> Options {
     let base = if floating {
         Base::Floating
@@ -26,7 +26,7 @@ pub(crate) struct Robot {
 }
 
 impl Robot {
-    /// With outputs that tell where some points are.
+    /// Compiles an import, with outputs for the positions of some points.
     pub(crate) fn new(text: &str, options: &Options, points: &[String]) -> Result<Self, String> {
         let import = import(text, options).map_err(|error| error.to_string())?;
         let mut declaration = import.declaration.clone();
@@ -44,12 +44,12 @@ impl Robot {
         Ok(Self { import, subject })
     }
 
-    /// The name in the file of what has this name in the declaration.
+    /// The name in the file for a name in the declaration.
     pub(crate) fn original<'a>(&'a self, name: &'a str) -> &'a str {
         self.import.names.get(name).map_or(name, String::as_str)
     }
 
-    /// The name in the declaration of what has this name in the file.
+    /// The name in the declaration for a name in the file.
     pub(crate) fn declared(&self, original: &str) -> String {
         let mut renamed = self.import.names.iter();
         let found = renamed.find(|(_, name)| *name == original);
@@ -63,7 +63,7 @@ impl Robot {
         free.map(|(name, _)| self.original(name)).collect()
     }
 
-    /// The points of the declaration by their names there, at most so many.
+    /// The first `count` points of the declaration, by name.
     pub(crate) fn points(&self, count: usize) -> Vec<String> {
         let lines = self.import.declaration.lines();
         let names = lines.filter_map(|line| line.trim().strip_prefix("point ")?.split(':').next());
@@ -72,7 +72,7 @@ impl Robot {
         names.into_iter().step_by(step).collect()
     }
 
-    /// The largest error of each quantity over all states. Reactions of couplings are zero, as if nothing followed anything.
+    /// The largest error of each quantity over all states. Reactions of couplings are set to zero, as if nothing were coupled.
     pub(crate) fn errors(
         &self,
         names: &[&str],
@@ -92,7 +92,7 @@ impl Robot {
         };
         let mut worst: Vec<(&'static str, f64)> = Vec::new();
         let mut compare = |what, found: &[f64], expected: &[f64]| {
-            // where a quantity is zero, the truth holds rounding errors of 1e-14
+            // where a quantity is zero, the reference contains rounding errors of 1e-14
             let size = expected.iter().fold(1e-4_f64, |size, x| size.max(x.abs()));
             let pairs = found.iter().zip(expected);
             let error = pairs.fold(0.0_f64, |worst, (a, b)| match (a - b).abs() / size {
@@ -137,7 +137,7 @@ impl Robot {
             compare("mass", &times(&motion[0]), &get("mass_w"));
             let linear = kernel("linear", &[&q, &[], &[]]);
             compare("stiffness", &times(&linear[2]), &get("rest_dq_w"));
-            // Of the largest robots this kernel would be too long.
+            // For the largest robots this kernel would be too long.
             if self.subject.program.kernel("motion_linear").is_some() {
                 let along = kernel("motion_linear", &moving);
                 compare("mass along a motion", &times(&along[0]), &get("mass_w"));
@@ -156,7 +156,7 @@ impl Robot {
         worst
     }
 
-    /// Panics where a quantity is off.
+    /// Panics if any quantity is wrong.
     pub(crate) fn assert_right(
         &self,
         what: &str,

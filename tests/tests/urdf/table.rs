@@ -1,4 +1,4 @@
-//! The table of all files in the documentation: what it says is what happens. `UPDATE_ROBOTS=1` writes it anew.
+//! Checks the table of all files in the documentation against the actual results. `UPDATE_ROBOTS=1` rewrites it.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -23,7 +23,7 @@ a floating base, their numbers are those of Pinocchio to 1e-9 (`tests/tests/urdf
 
 ";
 
-/// A file cut down to what the table says.
+/// The data of one file shown in the table.
 struct Row {
     file: String,
     counts: String,

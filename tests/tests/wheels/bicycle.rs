@@ -13,7 +13,7 @@ fn bicycle() -> Study<WhippleBicycle> {
     Study::new(WhippleBicycle)
 }
 
-/// Each entry relative to the greatest of its matrix.
+/// Compares each entry relative to the largest of its matrix.
 #[track_caller]
 fn same(found: &[Vec<f64>], expected: &[f64], tolerance: f64, what: &str) {
     let found = found.concat();
@@ -31,7 +31,7 @@ fn the_parameters_are_those_of_the_benchmark() {
     check_design::<WhippleBicycle>(&truth("bicycle").get("parameters"));
 }
 
-/// `M`, `v C1` and `g K0 + v^2 K2`, as printed in the paper and as its formulas say.
+/// `M`, `v C1` and `g K0 + v^2 K2`, against the printed values and the formulas of the paper.
 #[test]
 fn canonical_matrices() {
     let truth = truth("bicycle");
@@ -62,7 +62,7 @@ fn eigenvalues_and_their_derivatives() {
     }
 }
 
-/// The digits of Table 2; the last ones of the largest eigenvalues are off there.
+/// To the digits of Table 2; the last digits of its largest eigenvalues are inaccurate.
 #[test]
 fn published_eigenvalues() {
     let table = truth("bicycle").get("published").get("eigenvalues").list();
@@ -82,7 +82,7 @@ fn published_eigenvalues() {
     }
 }
 
-/// Two real eigenvalues meet and become the weave: the root of their distance from the speed.
+/// Two real eigenvalues merge into the weave mode: their distance grows as the square root of the distance in speed.
 #[test]
 fn the_double_root() {
     let double = truth("bicycle").get("double_root");
@@ -108,7 +108,7 @@ fn the_double_root() {
     assert!(near.iter().all(|(k, _)| slopes.modes[*k].clustered));
 }
 
-/// What each wheel carries, whatever the speed.
+/// The load on each wheel, independent of speed.
 #[test]
 fn wheel_loads() {
     let loads = truth("bicycle").get("loads");

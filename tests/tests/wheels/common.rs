@@ -6,7 +6,7 @@ use eigentol_oracle::truth::Truth;
 /// Relative error allowed.
 pub(crate) const TIGHT: f64 = 1e-9;
 
-/// Derivatives less than this share of the greatest relative one count as that large.
+/// Derivatives below this share of the largest relative one are judged as if they were that large.
 const SMALL: f64 = 1e-2;
 
 pub(crate) fn truth(mechanism: &str) -> Truth {
@@ -26,8 +26,8 @@ pub(crate) fn close(found: f64, expected: f64, scale: f64, what: &str) {
     );
 }
 
-/// Derivatives by variables of the given names and values; each relative to itself or to a hundredth of the one that
-/// moves most with a relative change of its variable.
+/// Compares derivatives by variables of the given names and values; each relative to itself, or to a hundredth of the
+/// derivative that is largest for a relative change of its variable.
 #[track_caller]
 pub(crate) fn close_slopes(
     found: &[Complex],
@@ -55,7 +55,7 @@ pub(crate) fn close_slopes(
     }
 }
 
-/// Real derivatives likewise.
+/// The same for real derivatives.
 #[track_caller]
 pub(crate) fn close_real_slopes(
     found: &[f64],
@@ -68,7 +68,7 @@ pub(crate) fn close_real_slopes(
     close_slopes(&real(found), &real(expected), values, names, what);
 }
 
-/// What a mechanism is made of.
+/// The description of a mechanism.
 pub(crate) fn description<M: Mechanism>() -> &'static Description {
     const { &M::DESCRIPTION }
 }
@@ -95,7 +95,7 @@ pub(crate) fn at<M: Mechanism>(study: &Study<M>, point: &Truth) -> Study<M> {
     study
 }
 
-/// The declared nominal values are those of the reference.
+/// Checks that the declared nominal values match the reference.
 pub(crate) fn check_design<M: Mechanism>(design: &Truth) {
     let declared = &description::<M>().design;
     assert_eq!(design.fields().len(), declared.len());
@@ -105,7 +105,7 @@ pub(crate) fn check_design<M: Mechanism>(design: &Truth) {
     }
 }
 
-/// All eigenvalues at a point of the reference, and all their derivatives.
+/// Checks all eigenvalues at a point of the reference, and all their derivatives.
 pub(crate) fn check_modes<M: Mechanism>(study: &Study<M>, point: &Truth) {
     let what = format!("{} at {:?}", description::<M>().name, study.input_values());
     let found = study

@@ -1,4 +1,4 @@
-//! Speeds at which something happens, found by the library, and how the parameters move them.
+//! Events along the speed, as found by the library, and their derivatives by the parameters.
 
 use eigentol::sweep::EventTolerance;
 use eigentol::{Behaviour, Error, Mechanism, Stability, Study};
@@ -7,7 +7,7 @@ use eigentol_tests::wheels::{CirclingTrailer, TowedCaster, WhippleBicycle};
 
 use super::common::{close, close_real_slopes, design_names, truth};
 
-/// An event against its speed, its derivatives, and the standard deviation that they give.
+/// Checks an event: its speed, its derivatives, and the resulting standard deviation.
 fn check_event<M: Mechanism>(study: &Study<M>, found: &EventTolerance, expected: &Truth) {
     let speed = expected.get("speed").number();
     let what = format!("{} at {speed}", study.description().name);
@@ -62,7 +62,7 @@ fn capsize_speed() {
     check_event(&study, &spread, &capsize);
 }
 
-/// Between the two speeds the bicycle stays upright by itself, below it weaves, above it capsizes.
+/// Between the two speeds the bicycle is self-stable; below them it weaves, above them it capsizes.
 #[test]
 fn stability_of_the_bicycle() {
     let study = Study::<WhippleBicycle>::new(WhippleBicycle);
@@ -122,7 +122,7 @@ fn shimmy_speeds() {
     }
 }
 
-/// On a circle smaller than its length the trailer has no steady motion; at that radius its last one folds.
+/// On a circle smaller than its length the trailer has no steady motion; at exactly that radius its last one folds.
 #[test]
 fn the_trailer_jackknifes() {
     let study = Study::<CirclingTrailer>::new(CirclingTrailer).input(CirclingTrailer::speed, 0.8);

@@ -1,12 +1,12 @@
-//! What rolls freely has a whole family of steady motions: modes are those of the one it is in, and what depends on which one
-//! that is has no answer but an error.
+//! Free rolling has a whole family of steady motions: modes belong to the current one, and quantities that depend on the
+//! choice of motion give an error.
 
 use eigentol::{Behaviour, Error, Stability, Study};
 use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk};
 
 use super::common::close;
 
-/// Without drag nothing decides how fast the disk turns about the vertical: one eigenvalue is zero, and
+/// Without drag nothing determines the yaw rate of the disk: one eigenvalue is zero, and
 /// `(A + m r^2) s^2 = m g r - (C + m r^2) C spin^2 / A`.
 #[test]
 fn a_disk_without_drag() {
@@ -38,7 +38,7 @@ fn a_disk_without_drag() {
         }
         assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
         assert_eq!(study.sensitivities().err(), Some(Error::CriticalState));
-        // A torque would turn it faster and faster.
+        // A torque would keep accelerating it.
         let turned = study.input(RollingDisk::torque, 0.1).equilibrium();
         assert!(
             matches!(turned, Err(Error::NoEquilibrium { .. })),
@@ -47,8 +47,9 @@ fn a_disk_without_drag() {
     }
 }
 
-/// Without drag no force gives the cart a steady speed, and without a force any speed is one. The pendulum swings against the
-/// cart: `s^2 = -g b l / (J - b^2 l^2 / m)`, `b` the bob, `J` its inertia about the hinge, `m` all masses.
+/// Without drag a force allows no steady speed of the cart, and without a force every speed is steady. The pendulum swings
+/// against the cart: `s^2 = -g b l / (J - b^2 l^2 / m)`, with the bob mass `b`, its inertia `J` about the hinge, and the
+/// total mass `m`.
 #[test]
 fn a_cart_without_drag() {
     let study = Study::<PushedCart>::new(PushedCart)
@@ -79,7 +80,7 @@ fn a_cart_without_drag() {
     assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
 }
 
-/// At rest the trailer stays at any angle: a single zero eigenvalue, because its rate is no state.
+/// At rest the trailer stays at any angle: a single zero eigenvalue, because its rate is not a state.
 #[test]
 fn a_trailer_at_rest() {
     let study = Study::<CirclingTrailer>::new(CirclingTrailer).input(CirclingTrailer::radius, 5.0);

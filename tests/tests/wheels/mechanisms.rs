@@ -1,4 +1,4 @@
-//! Four mechanisms with closed forms: steady motion, reactions, eigenvalues, and the derivatives of all of them.
+//! Four mechanisms with closed forms: steady motion, reactions, eigenvalues, and the derivatives of all these.
 
 use eigentol::{Kernels, Mechanism, Study};
 use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk, TowedCaster};
@@ -7,13 +7,13 @@ use super::common::{
     at, check_design, check_modes, close, close_real_slopes, design_names, input_names, truth,
 };
 
-/// Where a quantity of the reference is found: an unknown or an output, by name.
+/// Where to find a quantity of the reference: an unknown or an output, by name.
 enum Place {
     Unknown(&'static str),
     Output(&'static str),
 }
 
-/// A quantity of the steady motion and its derivatives, all inputs, then all design variables.
+/// A quantity of the steady motion and its derivatives by all inputs, then all design variables.
 fn found(study: &Study<impl Kernels>, place: &Place) -> (f64, Vec<f64>) {
     match place {
         Place::Unknown(name) => {
@@ -33,7 +33,7 @@ fn found(study: &Study<impl Kernels>, place: &Place) -> (f64, Vec<f64>) {
     }
 }
 
-/// All points of a mechanism: the quantities of its state in the order of the reference, its modes.
+/// Checks all points of a mechanism: the state quantities in the order of the reference, and the modes.
 fn check<M: Mechanism>(study: &Study<M>, name: &str, state: &[(&str, Place)]) {
     let reference = truth(name);
     check_design::<M>(&reference.get("design"));

@@ -51,7 +51,7 @@ fn a_coin_rolls_as_its_equations_say() {
             / (across + rolled);
         let turned = -rolled * yaw * rate * c / (along + rolled);
         let swung = (2.0 * across * yaw * rate * s - along * rate * n) / (across * c);
-        // Of the table on the coin: along the horizontal diameter, the axle, the steepest diameter.
+        // Force of the table on the coin: along the horizontal diameter, the axle, the steepest diameter.
         let force = [
             m * r * (turned + yaw * c * rate),
             m * r * (yaw * c * n - lean) + m * g * s,

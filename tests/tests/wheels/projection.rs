@@ -1,4 +1,4 @@
-//! From the bordered matrices to those of chosen coordinates, by elimination: nothing of the library is used.
+//! Reduces the bordered matrices to chosen coordinates by elimination, without using the library.
 
 use eigentol::kernels::Linear;
 use eigentol::{Description, Role};
@@ -6,14 +6,14 @@ use eigentol::{Description, Role};
 /// A dense matrix by rows.
 pub(crate) type Matrix = Vec<Vec<f64>>;
 
-/// Mass, damping and stiffness of the chosen coordinates alone.
+/// Mass, damping and stiffness of the chosen coordinates only.
 pub(crate) struct Projected {
     pub(crate) mass: Matrix,
     pub(crate) damping: Matrix,
     pub(crate) stiffness: Matrix,
 }
 
-/// Unknowns of one role.
+/// Indices of the unknowns with a given role.
 fn places(description: &Description, role: Role) -> Vec<usize> {
     let all = description.coordinates.iter().enumerate();
     all.filter(|(_, info)| info.role == role)
@@ -46,7 +46,7 @@ fn transpose(a: &Matrix) -> Matrix {
         .collect()
 }
 
-/// `X` with `a X = -b`, by elimination with pivots; `a` square and regular.
+/// `X` with `a X = -b`, by elimination with pivoting; `a` is square and regular.
 fn solve_negative(a: &Matrix, b: &Matrix) -> Matrix {
     let n = a.len();
     let mut rows: Matrix = a
@@ -77,8 +77,8 @@ fn solve_negative(a: &Matrix, b: &Matrix) -> Matrix {
     rows.into_iter().map(|row| row[n..].to_vec()).collect()
 }
 
-/// The equations of motion of the coordinates `kept`, of which as many must be free, all others following:
-/// displacements `P y`, velocities `Z ydot + E y`, powers of virtual velocities `Z`.
+/// The equations of motion in the coordinates `kept`, whose number must equal the freedom; all others follow:
+/// displacements `P y`, velocities `Z ydot + E y`, virtual velocities `Z`.
 pub(crate) fn onto(linear: &Linear, description: &Description, kept: &[usize]) -> Projected {
     let q = places(description, Role::Position);
     let v = places(description, Role::Speed);
@@ -112,7 +112,7 @@ pub(crate) fn onto(linear: &Linear, description: &Description, kept: &[usize]) -
     let virtual_velocities = [displacements.clone(), solve_negative(&speeds, &by_rates)].concat();
     let carried = [none, solve_negative(&speeds, &by_positions)].concat();
 
-    // Columns of a speed hold its acceleration in `Chat`, itself in `Khat`.
+    // The columns of a speed hold its rate in `Chat` and the speed itself in `Khat`.
     let moving = [&q[..], &v[..]].concat();
     let beside = |left: Matrix, right: Matrix| -> Matrix {
         left.into_iter()

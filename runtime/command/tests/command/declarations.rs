@@ -1,4 +1,4 @@
-//! The declarations in files are those of the Rust examples.
+//! The declarations in the files match those in the Rust examples.
 
 use std::fs;
 

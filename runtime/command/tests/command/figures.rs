@@ -1,4 +1,4 @@
-//! Figures beside answers.
+//! Figures written alongside answers.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! What somebody types who has just met the command, and what it answers.
+//! Input that a first-time user of the command types, and the answers.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use crate::program::{Run, answer, file, folder, pendulum, run, run_with_input};
 const ROTOR: &str = "jeffcott_rotor.mechanism";
 const PENDULUM: &str = "rotating_pendulum.mechanism";
 
-/// A mistake on the command line whose message has these parts.
+/// A command-line mistake whose message contains these parts.
 #[track_caller]
 fn hinted(arguments: &[&str], parts: &[&str]) {
     let Run { code, out, err } = run(arguments);
@@ -40,7 +40,7 @@ fn a_number_without_a_unit_is_answered_in_the_unit_of_the_declaration() {
     );
 }
 
-/// A bare number would count radians.
+/// A bare number would be taken as radians.
 #[test]
 fn degrees_are_written() {
     let folder = folder("degrees");
@@ -99,7 +99,7 @@ fn a_value_without_its_option_is_told_which() {
         &["modes", PENDULUM, "--set", "omega=1,5rad/s"],
         &["unexpected `,`", "`3.5`, not `3,5`"],
     );
-    // Nothing else is hidden by the hint.
+    // The hint does not hide anything else.
     hinted(&["modes", PENDULUM, "--figur", "a.svg"], &["'--figure'"]);
     let run = run(&["modes", "omega=5rad/s"]);
     assert_eq!(run.code, 3);

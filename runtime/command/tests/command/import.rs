@@ -1,4 +1,4 @@
-//! Robots of URDF files.
+//! Robots imported from URDF files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,12 @@ use eigentol_urdf::{Base, Options, Resistance};
 
 use crate::program::{Run, file, folder, run, run_with_input};
 
-/// Robots of other people's making.
+/// The folder of third-party robots.
 fn robots() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/truth/urdf")
 }
 
-/// The library's declarations are held against Pinocchio's numbers; the command prints the same text.
+/// The library's declarations are checked against Pinocchio's numbers; the command prints the same text.
 #[test]
 fn the_command_prints_what_the_library_gives() {
     let (mut count, mut imported) = (0, 0);
@@ -79,7 +79,7 @@ fn an_imported_robot_can_be_studied() {
     let modes = run_with_input(&["modes", "-"], &out);
     assert_eq!(modes.code, 0, "{}", modes.err);
     assert!(modes.out.contains("panda_joint7") && modes.out.contains("equilibrium, stable"));
-    // A robot is read on one page: no column for each joint, no fingers that tremble by 1e-18 m.
+    // A robot's modes fit on one page: no column for each joint, no fingers that tremble by 1e-18 m.
     assert!(modes.out.contains("largest components are shown"));
     assert!(modes.out.lines().all(|line| line.len() <= 150) && modes.out.lines().count() < 40);
     assert!(!modes.out.contains("e-1"), "{}", modes.out);

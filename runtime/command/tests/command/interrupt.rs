@@ -1,4 +1,4 @@
-//! Ctrl-C in the middle: what is done is kept.
+//! Ctrl-C during a run: finished work is kept.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -9,7 +9,7 @@ use eigentol_tables::csv;
 
 use crate::program::{PENDULUM, answer, command, examples, file, folder, pendulum, run};
 
-/// Waits until a program has its own handler of SIGINT: before that the signal would just end it.
+/// Waits until a program has its own SIGINT handler; before that the signal would simply terminate it.
 pub(crate) fn listens(child: &Child) {
     for _ in 0..600 {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
@@ -31,7 +31,7 @@ pub(crate) fn interrupt(child: &Child) {
     assert!(sent.unwrap().success());
 }
 
-/// More samples than any machine takes in the time of a test.
+/// More samples than any machine can finish during a test.
 fn endless(more: &[&str]) -> Child {
     let samples = ["--samples", "2000000000", "--threads", "1"];
     let mut command = command(&pendulum("sample", &[&samples[..], more].concat()));
@@ -54,7 +54,7 @@ fn samples_that_are_done_are_kept() {
     let output = child.wait_with_output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{err}");
-    // The first signal may have come before there was anything to keep.
+    // The first signal may arrive before there is anything to keep.
     if err.starts_with("stopped: nothing was written") {
         assert!(!path.exists());
         return;
@@ -94,7 +94,7 @@ fn an_answer_says_that_it_is_not_complete() {
     }
 }
 
-/// What cannot be shown half done leaves what was there.
+/// Output that cannot be shown half finished leaves the old file in place.
 #[test]
 fn what_has_no_half_leaves_the_old_file() {
     let path = folder("ended").join("sensitivities.csv");
@@ -115,7 +115,7 @@ fn what_has_no_half_leaves_the_old_file() {
     assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
 }
 
-/// Ctrl-C some seconds after the start, later if nothing was begun then: exit code 130, and what was written and said.
+/// Ctrl-C some seconds after the start, or later if nothing has begun by then: exit code 130; returns what was written and printed.
 fn stopped(arguments: &[&str]) -> (String, String) {
     for seconds in [4, 12, 36] {
         let mut command = command(arguments);
@@ -174,7 +174,7 @@ fn an_allocation_is_checked_by_the_samples_that_are_done() {
     );
 }
 
-/// Bars in series have a pitchfork for each, and branches from each of those.
+/// Each bar in series has a pitchfork, and each pitchfork has branches.
 #[test]
 fn branches_are_kept_as_far_as_they_came() {
     let folder = folder("half of the branches");
@@ -213,7 +213,7 @@ fn branches_are_kept_as_far_as_they_came() {
     );
 }
 
-/// What a command shows on a terminal, which the program `script` plays.
+/// A command's output on a terminal, which the program `script` emulates.
 #[cfg(target_os = "linux")]
 fn on_a_terminal(arguments: &[&str]) -> Option<String> {
     let own = env!("CARGO_BIN_EXE_eigentol");
@@ -258,7 +258,7 @@ fn long_work_shows_how_far_it_is() {
     }
 }
 
-/// No bar where nobody looks at it.
+/// No progress bar when the output is not a terminal.
 #[test]
 fn progress_is_for_terminals() {
     let run = run(&pendulum("sample", &["--samples", "500"]));

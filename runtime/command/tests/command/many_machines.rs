@@ -1,4 +1,4 @@
-//! The examples for many machines, run as they stand.
+//! The examples for many machines, run unchanged.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -25,7 +25,7 @@ fn has(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok()
 }
 
-/// The declaration from anywhere.
+/// The path of the declaration, usable from any folder.
 fn mechanism() -> PathBuf {
     examples().join(PENDULUM).canonicalize().unwrap()
 }

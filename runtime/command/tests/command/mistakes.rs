@@ -1,10 +1,10 @@
-//! Every mistake gets a message that says what to do, and its exit code.
+//! Every mistake gives a message that says what to do, and its exit code.
 
 use std::fs;
 
 use crate::program::{PENDULUM, Run, examples, file, folder, pendulum, run, run_with_input};
 
-/// A run that fails with this code and this message and answers nothing.
+/// A run that fails with this exit code and message and prints no answer.
 #[track_caller]
 fn refused(arguments: &[&str], expected: i32, parts: &[&str]) {
     let Run { code, out, err } = run(arguments);
@@ -81,7 +81,7 @@ warning: unused variable: `µ_bar`
     }
 }
 
-/// Wherever a file is cut off, there is a message and no panic.
+/// A truncated declaration gives a message and no panic, wherever it is cut off.
 #[test]
 fn a_truncated_declaration_is_refused_wherever_it_ends() {
     let text = fs::read_to_string(examples().join(PENDULUM)).unwrap();
@@ -311,7 +311,7 @@ fn study_files_with_mistakes() {
 
 #[test]
 fn no_equilibrium_is_an_answer() {
-    // The push upwards is never more than 9 N, the weight 9.81 N.
+    // The upward force is at most 9 N, the weight 9.81 N.
     let heavy = "mechanism Heavy { gravity 9.81 m/s^2 along -z; body block: point(mass: 1 kg);
         joint x: prismatic(z) from ground to block;
         force push: generalized(on: x, value: 9 N - (1 N/m^2) * x^2); }";

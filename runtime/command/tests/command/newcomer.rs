@@ -1,5 +1,5 @@
-//! What a newcomer does in his first hour, with the README and the first chapter of the guide alone: a clone, the commands, an edited
-//! tolerance, a mechanism of his own, a Rust project.
+//! A newcomer's first hour, with only the README and the first chapter of the guide: clone, commands, an edited tolerance, a new
+//! mechanism, a Rust project.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::process::Command;
 use crate::program::command_in;
 use crate::walkthrough::{Part, parts, walked, words};
 
-/// Builds of these tests go here, so that the newcomer need not build what is there.
+/// A shared build folder for these tests, so that the newcomer need not rebuild existing packages.
 fn target() -> (PathBuf, bool) {
     let profile = Path::new(env!("CARGO_BIN_EXE_eigentol")).parent().unwrap();
     (
@@ -35,7 +35,7 @@ fn cargo(folder: &Path, arguments: &[&str]) -> String {
     succeed(command.current_dir(folder).env("CARGO_TARGET_DIR", target))
 }
 
-/// A copy of what is committed; `None` where git or the history is missing.
+/// A copy of the committed files; `None` if git or the history is missing.
 fn clone(to: &Path) -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let clone = to.join("eigentol");
@@ -47,7 +47,7 @@ fn clone(to: &Path) -> Option<PathBuf> {
     cloned.then_some(clone)
 }
 
-/// Compares a page with what its commands print in a folder.
+/// Runs the commands of a page in a folder and compares their output with the page.
 fn follow(page: &Path, folder: &Path) {
     let text = fs::read_to_string(page).unwrap();
     assert_eq!(walked(&text, folder), text, "{}", page.display());
@@ -91,7 +91,7 @@ fn a_newcomer_gets_from_a_clone_to_his_own_rotor() {
             Part::Program(file, program) => {
                 let project = folder.join("fan");
                 fs::write(project.join(file), program).unwrap();
-                // The versions that are here; no others need to be.
+                // The versions already available; no others are needed.
                 fs::copy(clone.join("Cargo.lock"), project.join("Cargo.lock")).unwrap();
                 output = cargo(&project, &["run"]);
             }

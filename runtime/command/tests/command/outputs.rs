@@ -1,4 +1,4 @@
-//! Where answers go.
+//! Destinations of answers.
 
 use std::fs::{self, OpenOptions};
 use std::io::Read as _;
@@ -30,7 +30,7 @@ fn csv_has_units_in_its_headings() {
     assert!(states.contains("theta"), "{states}");
 }
 
-/// What was there stays when the answer does not come, and nothing is left beside it.
+/// If the answer fails, the old file stays and nothing is left beside it.
 #[test]
 fn a_failure_leaves_the_old_file() {
     let folder = folder("kept");
@@ -93,7 +93,7 @@ fn a_full_disk_is_reported() {
     );
 }
 
-/// Whoever reads may stop reading.
+/// The reader of a pipe may stop reading.
 #[test]
 fn a_broken_pipe_is_no_failure() {
     for arguments in [

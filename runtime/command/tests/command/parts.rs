@@ -1,4 +1,4 @@
-//! Runs in parts: the same bits as one run, and whatever does not belong together is refused.
+//! Runs in parts give the same bits as one run, and incompatible parts are refused.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ fn sample(more: &[&str]) -> String {
     answer(&pendulum("sample", &[&SAMPLES[..], more].concat()))
 }
 
-/// The parts of a run in files.
+/// Computes the parts of a run and returns their files.
 fn parts(folder: &str, count: usize) -> Vec<String> {
     let folder = crate::program::folder(folder);
     let part = |k: usize| {

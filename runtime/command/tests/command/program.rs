@@ -1,11 +1,11 @@
-//! Running the built command.
+//! Helpers that run the built command.
 
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// What a run left.
+/// The results of a run.
 pub(crate) struct Run {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -17,7 +17,7 @@ pub(crate) fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
 }
 
-/// The command, run beside the example declarations.
+/// The command, run in the folder of the example declarations.
 pub(crate) fn command(arguments: &[&str]) -> Command {
     command_in(&examples(), arguments)
 }
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &[&str]) -> Run {
     }
 }
 
-/// Runs with a text on standard input.
+/// Runs with text on standard input.
 pub(crate) fn run_with_input(arguments: &[&str], input: &str) -> Run {
     let mut child = command(arguments)
         .stdin(Stdio::piped())
@@ -61,14 +61,14 @@ pub(crate) fn run_with_input(arguments: &[&str], input: &str) -> Run {
     }
 }
 
-/// The standard output of a run that has to succeed.
+/// The standard output of a run that must succeed.
 pub(crate) fn answer(arguments: &[&str]) -> String {
     let Run { code, out, err } = run(arguments);
     assert_eq!((code, err.as_str()), (0, ""), "{arguments:?}");
     out
 }
 
-/// A folder of its own for a test, empty.
+/// A new empty folder for a test.
 pub(crate) fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("command")
@@ -78,7 +78,7 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// A file of a test with this content.
+/// Writes a test file with this content.
 pub(crate) fn file(folder: &Path, name: &str, content: &str) -> String {
     let path = folder.join(name);
     fs::write(&path, content).unwrap();
@@ -86,10 +86,10 @@ pub(crate) fn file(folder: &Path, name: &str, content: &str) -> String {
 }
 
 pub(crate) const PENDULUM: &str = "rotating_pendulum.mechanism";
-/// Where the pendulum swings out.
+/// An operating point at which the pendulum is swung out.
 pub(crate) const SPINNING: [&str; 4] = ["--set", "omega=5rad/s", "--start", "theta=60deg"];
 
-/// A question about the pendulum where it swings out.
+/// A question about the pendulum at that operating point.
 pub(crate) fn pendulum<'a>(question: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&[question, PENDULUM], &SPINNING[..], more].concat()
 }

@@ -1,4 +1,4 @@
-//! The commands of both READMEs and of the guide print what stands there.
+//! The commands in both READMEs and in the guide print the output shown there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ fn crate_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
 }
 
-/// Compares a text with what its commands print: the number of commands, and the first line that they change.
+/// Compares a text with the output of its commands: the number of commands, and the first line that differs.
 fn check(path: &Path, beside: &Path, at: &Path) -> (usize, Option<String>) {
     let text = fs::read_to_string(path).unwrap();
     let place = format!("{}/", at.display());

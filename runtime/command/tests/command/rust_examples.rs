@@ -24,7 +24,7 @@ use rotating_double_pendulum::{IndependentBars, RotatingDoublePendulum};
 use rotating_pendulum::RotatingPendulum;
 use whipple_bicycle::WhippleBicycle;
 
-/// The document that a question gives, asked beside the declarations.
+/// The document that a question gives, run in the folder of the declarations.
 fn document(question: &[&str], more: &[&str]) -> Value {
     let document: Value =
         serde_json::from_str(&answer(&[question, &["--json"], more].concat())).unwrap();
@@ -32,7 +32,7 @@ fn document(question: &[&str], more: &[&str]) -> Value {
     document
 }
 
-/// A column of numbers of the first table.
+/// A numeric column of the first table.
 fn column(document: &Value, name: &str) -> Vec<Option<f64>> {
     let columns = document["tables"][0]["columns"].as_array().unwrap();
     let found = columns.iter().find(|column| column["name"] == name);
@@ -42,7 +42,7 @@ fn column(document: &Value, name: &str) -> Vec<Option<f64>> {
     values.iter().map(Value::as_f64).collect()
 }
 
-/// Equal to 1e-12 of the greatest of them.
+/// Requires equality to 1e-12 of the largest value.
 #[track_caller]
 fn same(found: &[Option<f64>], expected: &[Option<f64>], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
@@ -65,7 +65,7 @@ fn same(found: &[Option<f64>], expected: &[Option<f64>], what: &str) {
     }
 }
 
-/// Modes, equilibrium, sensitivities and spreads at one point.
+/// Modes, equilibrium, sensitivities and standard deviations at one point.
 fn compare<M: SummaryKernels>(study: &Study<M>, point: &[&str]) {
     let ask = |command: &str, more: &[&str]| document(&[&[command], point].concat(), more);
     let solved = study.solve().unwrap();
@@ -177,7 +177,7 @@ fn the_bicycle() {
     compare(&study, &["whipple_bicycle.mechanism", "--set", "v=5m/s"]);
 }
 
-/// Along the speed, with everything that happens there.
+/// The rotor along its speed, with all its events.
 #[test]
 fn the_rotor_along_its_speed() {
     let rpm = |value: f64| InDeclaredUnit(value);

@@ -16,10 +16,10 @@ fn the_starter_project_builds() {
     let created = run(&["new", &project.display().to_string(), "--path", &library]);
     assert_eq!(created.code, 0, "{}", created.err);
 
-    // It lies in the folder of a workspace to which it does not belong.
+    // It lies inside the folder of a workspace to which it does not belong.
     let around = "[workspace]\nmembers = []\n";
     fs::write(folder.join("Cargo.toml"), around).unwrap();
-    // The versions that this workspace was built with are here; no others need to be.
+    // The versions used to build this workspace are available; no others are needed.
     fs::copy(root.join("Cargo.lock"), project.join("Cargo.lock")).unwrap();
     let output = Command::new(env!("CARGO"))
         .args(["run", "--offline", "--quiet"])

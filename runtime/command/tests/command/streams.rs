@@ -19,14 +19,14 @@ fn table_of_file(path: &Path) -> Table {
     parquet::read(fs::File::open(path).unwrap()).unwrap()
 }
 
-/// The table of a JSON document, which is made of all results at once.
+/// The table of a JSON document, which is written once all results are known.
 fn documented(arguments: &[&str], name: &str) -> Table {
     let text = answer(&[arguments, &["--json"]].concat());
     let tables = json::read_tables(text.as_bytes()).unwrap();
     tables.into_iter().find(|own| own.name == name).unwrap()
 }
 
-/// A question whose rows are streamed has those of its document, as CSV and as Parquet.
+/// The streamed rows of a question match those of its document, as CSV and as Parquet.
 #[track_caller]
 fn streams_what_is_documented(arguments: &[&str], streamed: &[&str], name: &str) {
     let whole = documented(arguments, name);
@@ -65,7 +65,7 @@ fn diagrams_and_branches_are_those_of_documents() {
     streams_what_is_documented(&branches, &branches, "branches");
 }
 
-/// There are columns for all motions that may come.
+/// There are columns for every motion that may occur.
 #[test]
 fn sweeps_are_those_of_documents() {
     let sweep = [&["sweep", ROTOR], &SPEEDS[..]].concat();
@@ -76,7 +76,7 @@ fn sweeps_are_those_of_documents() {
     for column in &whole.columns {
         let own = streamed.column(&column.name).unwrap();
         match (&own.values, &column.values) {
-            // A column without any word reads as one without numbers.
+            // A text column with no text reads back as a column without numbers.
             (Values::Numbers(own), Values::Texts(_)) => assert!(own.iter().all(Option::is_none)),
             (own, other) => assert_eq!(own, other, "{}", column.name),
         }
@@ -84,7 +84,7 @@ fn sweeps_are_those_of_documents() {
     assert!(answer(&sweep).starts_with("JeffcottRotor"));
 }
 
-/// A part that was done before comes first, and numbers say which samples they are.
+/// A part that already exists comes first, and the numbers identify the samples.
 #[test]
 fn resumed_samples_are_written_too() {
     let folder = folder("resumed rows");
@@ -110,7 +110,7 @@ fn forms_follow_from_the_ending_of_a_file() {
     assert_eq!(written("a.json", &[]), printed("--json"));
     assert_eq!(written("a.csv", &[]), printed("--csv"));
     assert_eq!(written("a.parquet", &[]), written("b.txt", &["--parquet"]));
-    // What is asked for in words wins.
+    // An explicit option takes precedence.
     assert_eq!(written("b.csv", &["--json"]), printed("--json"));
     let modes = table_of_file(&folder.join("a.parquet"));
     let text = printed("--csv");
@@ -153,7 +153,7 @@ fn nobody_has_to_read_all_rows() {
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
 }
 
-/// A run far longer than a test, its rows going to a file of this name.
+/// A run far longer than a test, writing its rows to the file of this name.
 struct Endless {
     child: Child,
     path: PathBuf,
@@ -180,7 +180,7 @@ impl Endless {
         begun
     }
 
-    /// Waits for something about the sizes of the old file and the new one.
+    /// Waits for a condition on the sizes of the old and the new file.
     fn until(&self, wanted: impl Fn(&[u64]) -> bool) {
         for _ in 0..2400 {
             let files = fs::read_dir(self.path.parent().unwrap()).unwrap();
@@ -193,12 +193,12 @@ impl Endless {
         panic!("not after two minutes");
     }
 
-    /// Waits until so many bytes are written beside the file that is there.
+    /// Waits until this many bytes are written beside the existing file.
     fn grows_to(&self, bytes: u64) {
         self.until(|sizes| sizes.iter().any(|size| *size >= bytes));
     }
 
-    /// Most memory that it has had, in kB.
+    /// Its peak memory, in kB.
     #[cfg(target_os = "linux")]
     fn most_memory(&self) -> u64 {
         let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
@@ -207,7 +207,7 @@ impl Endless {
         most.trim().parse().unwrap()
     }
 
-    /// Ctrl-C, and the values that are done by its message.
+    /// Sends Ctrl-C; returns the file and the number of finished values reported.
     fn interrupted(self) -> (PathBuf, usize) {
         interrupt(&self.child);
         let output = self.child.wait_with_output().unwrap();
@@ -226,7 +226,7 @@ impl Endless {
     }
 }
 
-/// The old file stays until then; the new one is whole, with all that is done.
+/// The old file stays until then; the new one is complete and contains all finished rows.
 #[test]
 fn ctrl_c_leaves_a_csv_file_with_what_is_done() {
     let endless = Endless::campbell("rows.csv");
@@ -245,7 +245,7 @@ fn ctrl_c_leaves_a_parquet_file_with_what_is_done() {
     assert_eq!(table_of_file(&path).rows(), done);
 }
 
-/// A point takes some kilobytes: were they kept, ten thousand would show.
+/// A point takes some kilobytes: if they were kept, ten thousand would show.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_the_rows() {

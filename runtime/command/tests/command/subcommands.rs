@@ -1,4 +1,4 @@
-//! What each subcommand answers.
+//! The answers of each subcommand.
 
 use crate::program::{PENDULUM, answer, file, folder, pendulum, run, run_with_input};
 
@@ -33,7 +33,7 @@ fn modes() {
     );
 }
 
-/// Both signs of the angle are equilibria: the start value chooses.
+/// Both signs of the angle are equilibria: the start value selects one.
 #[test]
 fn a_start_value_chooses_the_equilibrium() {
     let angle = |start: &str| {
@@ -99,7 +99,7 @@ fn tolerances_are_given_as_declarations_give_them() {
     assert!((sigma("l=30mm") / of_declaration - 1.0).abs() < 1e-12);
     assert!((sigma("l=+/- 1.5%") / of_declaration - 0.5).abs() < 1e-12);
     assert!((sigma("l=3% uniform") / of_declaration - 3.0_f64.sqrt()).abs() < 1e-12);
-    // Two values, three standard deviations of the declaration away on either side.
+    // Two values, each three of the declared standard deviations away.
     assert!((sigma("l=one of [0.97, 1.03] m") / of_declaration - 3.0).abs() < 1e-12);
     let weighted = sigma("l=one of [970, 1000, 1030] mm weighted [1, 2, 1]");
     assert!((weighted / of_declaration - 4.5_f64.sqrt()).abs() < 1e-12);
@@ -134,7 +134,7 @@ fn campbell() {
     }
 }
 
-/// Straight ahead the bicycle's coordinates are zero up to 1e-186: nobody reads that.
+/// Straight ahead the bicycle's coordinates are zero to within 1e-186: such noise must not be printed.
 #[test]
 fn branches_of_a_bicycle_are_free_of_noise() {
     let sweep = ["--sweep", "v=4..8m/s"];
@@ -164,7 +164,7 @@ fn samples_are_a_function_of_seed_and_stream() {
     let first = sample(&["--seed", "7"]);
     assert!(first.contains("200 samples, seed 7: 200 stable"), "{first}");
     assert_eq!(first, sample(&["--seed", "7", "--threads", "1"]));
-    // Not only in the line that names them.
+    // Also outside the line that names them.
     let numbers = |text: &str| text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
     assert!(!numbers(&first).is_empty());
     assert_ne!(numbers(&first), numbers(&sample(&["--seed", "8"])));
@@ -233,7 +233,7 @@ fn a_study_file_says_what_is_asked_again() {
     );
 }
 
-/// Bars whose lengths are the same in every sample are the double pendulum with one length.
+/// Bars whose lengths are equal in every sample are equivalent to a double pendulum with one length.
 #[test]
 fn correlations_of_a_study_file() {
     let folder = folder("correlated");
@@ -283,8 +283,8 @@ fn samples_can_be_kept() {
     assert_eq!(text.lines().count(), 21);
 }
 
-/// The frequency depends on the length alone and nearly linearly: the cheapest half-width is the widest that keeps the
-/// frequency above the limit with a probability of 0.999, so that its distance from the mean is 3.09 of its sigmas.
+/// The frequency depends only on the length, and nearly linearly. The cheapest half-width is the widest that keeps the
+/// frequency above the limit with probability 0.999, so that the limit is 3.09 sigmas from the mean.
 #[test]
 fn allocation_finds_the_widest_tolerance() {
     let (study, _) = study();
@@ -302,8 +302,8 @@ fn allocation_finds_the_widest_tolerance() {
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
 }
 
-/// `u_c = (1.5 g / l)^(1/2)`, and the frequency is `0.8 u` at `u = (1.5 g / (0.6 l))^(1/2)`: both fall with the length, so that the widest
-/// half-width is again where the limit is 3.09 sigmas away.
+/// `u_c = (1.5 g / l)^(1/2)`, and the frequency is `0.8 u` at `u = (1.5 g / (0.6 l))^(1/2)`: both decrease with the length, so
+/// that the widest half-width is again the one with the limit 3.09 sigmas away.
 #[test]
 fn allocation_for_values_of_an_input() {
     let folder = folder("events");

@@ -1,4 +1,4 @@
-//! Texts with commands, files and changes of files: what they show is what a reader gets.
+//! Documents with commands, files and edits: checks that a reader gets exactly what they show.
 //!
 //! | block | meaning |
 //! | --- | --- |
@@ -13,7 +13,7 @@ use std::path::Path;
 
 use crate::program::command_in;
 
-/// Set to write into the texts what commands print.
+/// Set this to write the output of the commands into the texts.
 pub(crate) const UPDATE: &str = "UPDATE_README";
 
 /// A part of a text.
@@ -21,19 +21,19 @@ pub(crate) const UPDATE: &str = "UPDATE_README";
 pub(crate) enum Part<'a> {
     /// Prose, and code that is not for a shell.
     Prose(&'a str),
-    /// Commands and what they print.
+    /// Commands and their output.
     Console(&'a str),
     /// A file and its content.
     File(&'a str, &'a str),
-    /// A file and how it changes.
+    /// A file and a change to it.
     Change(&'a str, &'a str),
-    /// Commands alone.
+    /// Commands without output.
     Shell(&'a str),
     /// A file and the program in it.
     Program(&'a str, &'a str),
 }
 
-/// The parts of a text, in order; fences belong to the prose.
+/// The parts of a text, in order; fences count as prose.
 pub(crate) fn parts(text: &str) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     let mut rest = text;
@@ -61,14 +61,14 @@ pub(crate) fn parts(text: &str) -> Vec<Part<'_>> {
     parts
 }
 
-/// What stands behind the next fence that opens a block, and where the block begins.
+/// The info string of the next opening fence, and the start of its block.
 fn next_fence(text: &str, from: usize) -> Option<(&str, usize)> {
     let open = from + text.get(from..)?.find("```")?;
     let end = open + text[open..].find('\n')?;
     Some((&text[open + 3..end], end + 1))
 }
 
-/// The text as it should be: commands are run in `folder`, where files are written and changed.
+/// The text as it should be: runs its commands in `folder`, where files are written and changed.
 pub(crate) fn walked(text: &str, folder: &Path) -> String {
     let mut new = String::new();
     for part in parts(text) {
@@ -94,7 +94,7 @@ pub(crate) fn walked(text: &str, folder: &Path) -> String {
     new
 }
 
-/// Replaces the lines of a file that follow `-` by those that follow `+`.
+/// Replaces the lines of a file given after `-` by those after `+`.
 pub(crate) fn apply(file: &Path, change: &str) {
     let text = fs::read_to_string(file).unwrap();
     let lines = |sign: char| -> String {
@@ -106,7 +106,7 @@ pub(crate) fn apply(file: &Path, change: &str) {
     fs::write(file, text.replacen(&old, &new, 1)).unwrap();
 }
 
-/// What a line of a shell prints in a folder, with `| head -N` as the only tool beside the command.
+/// The output of a shell line in a folder; `| head -N` is the only other tool supported.
 pub(crate) fn printed(line: &str, folder: &Path) -> String {
     let line = line.trim_start_matches("$ eigentol ");
     let (line, lines) = match line.split_once(" | head -") {
@@ -122,7 +122,7 @@ pub(crate) fn printed(line: &str, folder: &Path) -> String {
     text
 }
 
-/// The words of a line, quotes taken away.
+/// The words of a line, with quotes removed.
 pub(crate) fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quoted = false;

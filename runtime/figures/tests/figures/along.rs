@@ -13,7 +13,7 @@ use eigentol_figures::{
 
 use crate::machines::{Bars, Door, Pendulum, Rotor, bars, pendulum, rotor_diagram, save, values};
 
-/// All points of the curves of a panel whose label begins like this.
+/// All points of those curves of a panel whose label has this prefix.
 fn points<'a>(panel: &'a Panel, label: &str) -> Vec<&'a Point> {
     let own = panel
         .curves
@@ -139,7 +139,7 @@ fn a_part_of_a_diagram_shows_what_lies_in_it_at_true_width() {
             .iter()
             .any(|line| line.contains("times as wide"))
     );
-    // Modes are named where their curves end, too.
+    // Modes are also named at the ends of their curves.
     let names: Vec<&str> = panel.labels.iter().map(|own| &*own.text).collect();
     assert!(
         names.contains(&"mode 3") && names.contains(&"mode 4"),
@@ -197,7 +197,7 @@ fn modes_that_coalesce_are_drawn_without_a_gap() {
         for at in curve.pieces.iter().flatten() {
             let square = at[0] * at[0] / 4.0 - stiffness;
             let middle = -0.5 * at[0];
-            // (s - middle)^2 between two values of the sweep is taken to be linear: h^2 / 8 times its curvature is missed.
+            // (s - middle)^2 is interpolated linearly between two sweep values: the error is h^2 / 8 times its curvature.
             let own = match curve.label.ends_with("imaginary part") {
                 true => -at[1] * at[1],
                 false => (at[1] - middle).powi(2),
@@ -267,7 +267,7 @@ fn numbers(line: &str) -> Vec<f64> {
     words.filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Every event that the diagram has room for stands at its place, and its line of the caption has its value and sigma.
+/// Every event that fits into the diagram is at its place, and its caption line has its value and sigma.
 #[test]
 fn events_stand_where_they_happen_and_are_told_with_their_numbers() {
     let result = rotor_diagram(61);
@@ -325,7 +325,7 @@ fn events_stand_where_they_happen_and_are_told_with_their_numbers() {
     );
 }
 
-/// Bands lie about the frequencies, and about the damping ratios in percent.
+/// Bands surround the frequencies, and the damping ratios in percent.
 #[test]
 fn bands_lie_about_their_modes() {
     let result = rotor_diagram(31);
@@ -376,7 +376,7 @@ fn bands_lie_about_their_modes() {
     assert!(seen > 200, "{seen}");
 }
 
-/// The path of every eigenvalue begins at a ring and ends at a disc.
+/// The path of every eigenvalue starts at a ring and ends at a disc.
 #[test]
 fn a_root_locus_goes_from_rings_to_discs() {
     let result = rotor_diagram(21);
@@ -446,8 +446,8 @@ fn frequencies_are_those_of_the_sweep() {
     }
 }
 
-/// No piece of a branch ends in the open: where stability changes without a special point, as at the onset of flutter, the stable and
-/// the unstable stretch meet.
+/// No piece of a branch ends in the open: where stability changes without a special point, as at the onset of flutter, the stable
+/// and the unstable segments meet.
 #[test]
 fn stretches_of_a_branch_meet_where_flutter_begins() {
     let (low, high) = (0.0, 6000.0 * PI / 30.0);
@@ -604,7 +604,7 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
             assert_eq!(bar.at[1], statistics.mean - nominal);
         }
     }
-    // Three tolerances do not hide each other: means are apart by more than a hundredth of the axis somewhere.
+    // Three tolerances do not hide each other: somewhere their means differ by more than a hundredth of the axis.
     let length = means.y.range[1] - means.y.range[0];
     let heights = means.error_bars.iter().map(|own| own.bars[1].at[1]);
     let heights: Vec<f64> = heights.collect();

@@ -1,4 +1,4 @@
-//! Results with gaps, with one point, and with nothing in them.
+//! Results with gaps, with a single point, and without content.
 
 use eigentol_figures::{
     Error, Histogram, Style, branches, campbell, damping_ratios, eigenvalues, equilibria,

@@ -1,4 +1,4 @@
-//! Figures as files.
+//! Figures written to files.
 
 use eigentol_figures::figure::{Axis, Colour, Curve, Mark, Panel, Point, Shape};
 use eigentol_figures::{Error, Figure, Style, campbell};
@@ -28,7 +28,7 @@ fn figure(curves: usize) -> Figure {
     Figure::new("lines", vec!["a caption".to_owned()], vec![panel])
 }
 
-/// Lines as thick as curves.
+/// Counts lines as thick as curves.
 fn thick_lines(text: &str) -> usize {
     let document = roxmltree::Document::parse(text).expect("the file is XML");
     let lines = document
@@ -116,7 +116,7 @@ fn a_png_file_has_dark_letters_on_white() {
     let info = reader.next_frame(&mut pixels).unwrap();
     assert_eq!(info.width, 2880);
     let row = 3 * info.width as usize;
-    // The title is in the first 48 of 960ths of the width.
+    // The title is in the first 48 of 960 units of the width.
     let title = &pixels[..144 * row];
     let dark = title
         .chunks(3)

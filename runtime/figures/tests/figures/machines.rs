@@ -1,4 +1,4 @@
-//! Mechanisms that are drawn.
+//! The mechanisms used in the figures.
 
 use std::path::{Path, PathBuf};
 
@@ -83,7 +83,7 @@ mechanism! {
     }
 }
 
-/// Values evenly from `low` to `high`.
+/// Evenly spaced values from `low` to `high`.
 pub(crate) fn values(low: f64, high: f64, count: usize) -> Vec<f64> {
     let step = (high - low) / (count.max(2) - 1) as f64;
     (0..count).map(|k| low + step * k as f64).collect()
@@ -103,8 +103,8 @@ pub(crate) fn rotor_diagram(count: usize) -> Campbell {
     found.expect("the rotor runs at every speed")
 }
 
-/// Saves a figure where people can look at it, checks that it is clean, and hands on its text. PNG takes seconds without optimisation: only
-/// where the environment has `PNG`.
+/// Saves a figure for inspection, checks that it is clean, and returns its text. PNG takes seconds without optimisation, so it is
+/// written only if the environment variable `PNG` is set.
 pub(crate) fn save(figure: &Figure, name: &str) -> String {
     let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("figures");
     std::fs::create_dir_all(&folder).expect("a folder for figures");

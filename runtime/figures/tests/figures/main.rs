@@ -1,4 +1,4 @@
-//! Figures against the results that they show.
+//! Figures against the results they show.
 
 mod along;
 mod degenerate;

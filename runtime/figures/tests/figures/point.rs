@@ -14,7 +14,7 @@ fn numbers(line: &str) -> Vec<f64> {
     words.filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Whether numbers of five digits are these.
+/// Whether the numbers, printed to five digits, match.
 fn same(told: &[f64], expected: &[f64]) -> bool {
     let near = |(told, own): (&f64, &f64)| (told / own - 1.0).abs() < 1e-4;
     told.len() == expected.len() && told.iter().zip(expected).all(near)
@@ -88,7 +88,7 @@ fn a_histogram_has_area_one_and_so_have_its_densities() {
         let area: f64 = points.windows(2).map(area).sum();
         assert!((area - 1.0).abs() < 2e-3, "{} {area}", curve.label);
     }
-    // In Hz: the peak of first order, the mean of the second-order model, and the bars about the mean of the samples.
+    // In Hz: the first-order peak, the mean of the second-order model, and the bars about the sample mean.
     let scale = 1.0 / TAU;
     let own = first.modes[0].frequency().unwrap();
     let (mean, sigma) = (scale * own.mean, scale * own.sigma);
@@ -184,7 +184,7 @@ fn mode_shapes_are_relative_to_the_largest_component() {
     save(&figure, "mode_shapes");
 
     let figure = participation(&solved.modes, &solved.equilibrium, &Style::of(&study)).unwrap();
-    // Twice the kinetic energy is the product of the shape with M times the shape, coordinate by coordinate.
+    // Twice the kinetic energy is the shape times M times the shape, coordinate by coordinate.
     let mass = &solved.equilibrium.linear.mass;
     for (bars, mode) in figure.panels[0].bars.iter().zip(&solved.modes.modes) {
         let shape: Vec<f64> = mode.shape.iter().map(|own| own.re).collect();

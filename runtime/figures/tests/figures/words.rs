@@ -1,16 +1,16 @@
-//! Where the words of a drawing stand: inside of it, and none on another.
+//! Text in a drawing: inside its edges, and without overlaps.
 
 use eigentol_figures::Figure;
 use eigentol_figures::figure::{Axis, Colour, Curve, Mark, Panel, Shape};
 
 use crate::machines::save;
 
-/// Width of a letter as a share of its size: the mean over the letters of DejaVu Sans in the words of figures is 0.55.
+/// Width of a letter relative to its size: the mean for DejaVu Sans over the letters used in figures is 0.55.
 const LETTER: f64 = 0.56;
-/// Height of a line of letters, likewise.
+/// Height of a line of letters relative to its size.
 const LINE: f64 = 0.8;
 
-/// Words and their box: left, top, right, bottom.
+/// A text and its box: left, top, right, bottom.
 type Words = (String, [f64; 4]);
 
 fn words(svg: &str) -> (f64, f64, Vec<Words>) {
@@ -47,7 +47,7 @@ fn words(svg: &str) -> (f64, f64, Vec<Words>) {
     (size[2], size[3], all.collect())
 }
 
-/// No words are cut by the edge of the drawing, and none cover others: not those of the legend, the axes, the labels or the caption.
+/// No text is cut off by the edge of the drawing, and none overlaps another: legend, axes, labels and caption.
 pub(crate) fn assert_readable(svg: &str, name: &str) {
     let (width, height, all) = words(svg);
     for (k, (text, own)) in all.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A headless Chromium, spoken to by the Chrome DevTools Protocol: JSON over a WebSocket.
+//! A headless Chromium, controlled through the Chrome DevTools Protocol: JSON over a WebSocket.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
-/// Where browsers are looked for.
+/// Browser executables to look for.
 const PROGRAMS: [&str; 4] = [
     "chromium",
     "chromium-browser",
@@ -23,14 +23,14 @@ pub(crate) struct Chrome {
     socket: WebSocket<TcpStream>,
     session: String,
     number: u64,
-    /// What the page wrote to its console, and what went wrong in it.
+    /// Console messages and errors of the page.
     pub(crate) complaints: Vec<String>,
-    /// Addresses that were asked for.
+    /// Requested addresses.
     pub(crate) requests: Vec<String>,
 }
 
 impl Chrome {
-    /// Starts a browser; `None` where there is none.
+    /// Starts a browser; `None` if there is none.
     pub(crate) fn start(name: &str) -> Option<Self> {
         let profile = Path::new(env!("CARGO_TARGET_TMPDIR"))
             .join(format!("chrome-{name}-{}", std::process::id()));
@@ -60,7 +60,7 @@ impl Chrome {
             .map_while(Result::ok)
             .find_map(|line| Some(line.split_once("listening on ")?.1.to_owned()))
             .expect("a browser says where it listens");
-        // Somebody has to read what it writes, or it waits.
+        // Its output must be read, or it blocks.
         std::thread::spawn(move || lines.for_each(drop));
         let host = address.trim_start_matches("ws://");
         let host = host.split('/').next().expect("a host");
@@ -143,7 +143,7 @@ impl Chrome {
         }
     }
 
-    /// The value of an expression in the page; a promise is waited for.
+    /// The value of an expression in the page; promises are awaited.
     pub(crate) fn evaluate(&mut self, expression: &str) -> Value {
         let asked = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true, "userGesture": true });
         let answer = self.ask("Runtime.evaluate", asked);
@@ -154,13 +154,13 @@ impl Chrome {
         answer["result"]["value"].clone()
     }
 
-    /// All of the page, as PNG.
+    /// The whole page as PNG.
     pub(crate) fn screenshot(&mut self) -> Vec<u8> {
         let asked = json!({ "format": "png", "captureBeyondViewport": true });
         bytes(&self.ask("Page.captureScreenshot", asked)["data"])
     }
 
-    /// The page as it is printed.
+    /// The printed page.
     pub(crate) fn pdf(&mut self) -> Vec<u8> {
         let asked = json!({ "printBackground": true, "preferCSSPageSize": true });
         bytes(&self.ask("Page.printToPDF", asked)["data"])
@@ -181,7 +181,7 @@ impl Chrome {
             .to_owned()
     }
 
-    /// Moves, presses or releases the mouse, as a hand does.
+    /// Moves, presses or releases the mouse as a user would.
     pub(crate) fn mouse(&mut self, kind: &str, [x, y]: [f64; 2]) {
         let pressed = kind != "mouseMoved";
         let button = if pressed { "left" } else { "none" };
@@ -223,7 +223,7 @@ fn bytes(data: &Value) -> Vec<u8> {
 
 impl Drop for Chrome {
     fn drop(&mut self) {
-        // Asked to, it ends its other processes as well, which write to the profile.
+        // On this request it also ends its other processes, which write to the profile.
         let close = json!({ "id": 0, "method": "Browser.close" });
         let _ = self.socket.send(Message::text(close.to_string()));
         let ended = (0..100).any(|_| {

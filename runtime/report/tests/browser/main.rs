@@ -1,4 +1,4 @@
-//! Reports in a real browser, headless. Where there is none the tests say so.
+//! Reports in a real headless browser. The tests print a message if there is none.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod chrome;
@@ -19,7 +19,7 @@ fn declaration(name: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The rotor with everything that a report can have.
+/// The rotor with everything that a report can contain.
 fn rotor() -> Report<Interpreted> {
     let text = declaration("jeffcott_rotor");
     let mechanism = Interpreted::from_text(&text).expect("an example compiles");
@@ -44,7 +44,7 @@ fn save(report: &Report<Interpreted>, name: &str) -> PathBuf {
     path
 }
 
-/// A browser with the report of the rotor; `None`, and a word about it, where there is none.
+/// A browser showing the report of the rotor; if there is no browser, `None` and a message.
 fn opened(name: &str) -> Option<Chrome> {
     let file = save(&rotor(), name);
     let Some(mut chrome) = Chrome::start(name) else {
@@ -55,7 +55,7 @@ fn opened(name: &str) -> Option<Chrome> {
     Some(chrome)
 }
 
-/// The middle of an element on the screen, which it is brought to.
+/// The centre of an element on the screen, after scrolling to it.
 fn middle(chrome: &mut Chrome, element: &str) -> [f64; 2] {
     chrome.evaluate(&format!("{element}.scrollIntoView({{ block: 'center' }})"));
     ["left + box.width / 2", "top + box.height / 2"].map(|of| {
@@ -65,7 +65,7 @@ fn middle(chrome: &mut Chrome, element: &str) -> [f64; 2] {
     })
 }
 
-/// The chart of this title.
+/// Selects the chart with this title.
 fn chart(title: &str) -> String {
     format!(
         "[...document.querySelectorAll('figure')].find((own) => own.querySelector('h3').textContent === '{title}')"
@@ -94,14 +94,14 @@ fn the_page_is_drawn_without_a_complaint_and_loads_nothing() {
     let broken = "[...document.querySelectorAll('svg *')].filter((own) => \
         [...own.attributes].some(({ value }) => /NaN|Infinity|undefined/.test(value))).length";
     assert_eq!(chrome.evaluate(broken), json!(0));
-    // The page scrolls downwards only.
+    // The page scrolls only vertically.
     let wide = "document.documentElement.scrollWidth <= document.documentElement.clientWidth";
     assert_eq!(chrome.evaluate(wide), json!(true));
     fs::write(file.with_extension("png"), chrome.screenshot()).unwrap();
     fs::write(file.with_extension("pdf"), chrome.pdf()).unwrap();
 }
 
-/// What is wrong with the words of the charts: cut by the edge, covered by others, or under the legend.
+/// Faults of the chart texts: cut off by the edge, covered by others, or under the legend.
 const WORDS: &str = "(() => { const wrong = []; \
     const apart = (a, b) => a.left >= b.right - 1 || b.left >= a.right - 1 || a.top >= b.bottom - 3 || b.top >= a.bottom - 3; \
     for (const svg of document.querySelectorAll('figure .plot svg')) { \
@@ -134,14 +134,14 @@ fn no_words_of_a_chart_are_cut_or_covered() {
         assert!(charts > 10.0, "{charts}");
         assert_eq!(chrome.evaluate(WORDS), json!([]), "{width} pixels");
     }
-    // The check sees what is wrong.
+    // The check detects a fault.
     let moved = "{ const text = document.querySelector('figure .axes text'); text.setAttribute('x', '-60'); }";
     chrome.evaluate(moved);
     let found = chrome.evaluate(WORDS);
     assert!(found.as_array().is_some_and(|own| !own.is_empty()));
 }
 
-/// What a chart shows is what its figure has: as many curves, markers and bars, and an entry of the legend for each label.
+/// A chart shows everything in its figure: as many curves, markers and bars, and a legend entry for each label.
 #[test]
 fn charts_have_everything_of_their_figures() {
     let Some(mut chrome) = opened("structure") else {
@@ -172,7 +172,7 @@ fn charts_have_everything_of_their_figures() {
     assert_eq!(chrome.evaluate(wrong), json!([]));
 }
 
-/// Points, bands and bars stand where the numbers of the axes put them.
+/// Points, bands and bars are at the places given by the axis numbers.
 #[test]
 fn everything_stands_where_the_axes_say() {
     let Some(mut chrome) = opened("places") else {
@@ -217,7 +217,7 @@ fn everything_stands_where_the_axes_say() {
     assert_eq!(found.len(), 1, "{found:?}");
 }
 
-/// Printed, in the dark, or with a narrow window, the page is black on white and has everything.
+/// In print, in dark mode and in a narrow window the page is black on white and complete.
 #[test]
 fn a_dark_screen_does_not_hide_the_page() {
     let Some(mut chrome) = opened("dark") else {
@@ -244,7 +244,7 @@ fn the_pointer_and_the_keys_show_values() {
         &mut chrome,
         &format!("{figure}.querySelector('svg[tabindex]')"),
     );
-    // A point of the first curve, where it is drawn.
+    // The drawn position of a point of the first curve.
     let place = |axis: usize| {
         format!(
             "(() => {{ const svg = {figure}.querySelector('svg[tabindex]'); \
@@ -258,7 +258,7 @@ fn the_pointer_and_the_keys_show_values() {
     let tip = format!("{figure}.querySelector('.tip')");
     assert_eq!(chrome.evaluate(&format!("{tip}.hidden")), json!(false));
     let text = chrome.text(&format!("{tip}.textContent"));
-    // What the data have there.
+    // The data values there.
     let expected = chrome.text(&format!(
         "(() => {{ const {{ panels }} = JSON.parse({figure}.querySelector('script').textContent); \
           return panels[0].curves[0].pieces[0][20][0].toPrecision(6); }})()"
@@ -325,7 +325,7 @@ fn a_rectangle_zooms_and_a_double_click_shows_all() {
     assert_eq!(chrome.text(&ticks), all);
 }
 
-/// How many pixels of the large canvas differ from white, and a sum that tells pictures apart.
+/// The number of non-white pixels on the large canvas, and a checksum that distinguishes pictures.
 const PIXELS: &str = "(() => { const canvas = document.querySelector('canvas.view3d'); \
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height); \
     let [inked, sum] = [0, 0]; \
@@ -362,14 +362,14 @@ fn the_mechanism_is_seen_turned_and_moved() {
         start,
         "a period ends where it begins"
     );
-    // It moves by itself.
+    // It is animated by default.
     chrome.evaluate("[...document.querySelectorAll('.controls button')].find((own) => own.textContent === 'Play').click()");
     let moved = (0..100).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(30));
         chrome.evaluate(PIXELS) != start
     });
     assert!(moved);
-    // That pixels are read often is this test's doing.
+    // Frequent pixel reads are caused by this test.
     let own = |complaint: &String| !complaint.contains("willReadFrequently");
     assert!(
         !chrome.complaints.iter().any(own),
@@ -378,8 +378,8 @@ fn the_mechanism_is_seen_turned_and_moved() {
     );
 }
 
-/// Seen from the front: how far above that of x the letter of y stands, how far from it that of z, and the height and the width of
-/// what is filled. The rotor's gravity is along -y, and its disk turns about z.
+/// Seen from the front: how far the letter of y is above that of x, how far it is from that of z, and the height and width of the
+/// filled area. The rotor's gravity is along -y, and its disk turns about z.
 const FRONT: &str = "(() => { const own = CanvasRenderingContext2D.prototype; const { fillText, beginPath, lineTo, fill } = own; \
     const letters = {}; const all = []; let corners = []; \
     own.fillText = function (text, x, y) { letters[text] = y; }; \
@@ -407,7 +407,7 @@ fn a_table_is_copied_with_all_its_digits() {
     let Some(mut chrome) = opened("copy") else {
         return;
     };
-    // What would go to the clipboard is caught: a browser without a window may have none.
+    // Intercepts text bound for the clipboard, which a headless browser may lack.
     chrome.evaluate("document.execCommand = () => { window.caught = document.activeElement.value; return true; }");
     chrome.evaluate("Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => { throw new Error(); } } })");
     let button = "document.querySelector('#modes [data-copy]')";
@@ -425,7 +425,7 @@ fn a_table_is_copied_with_all_its_digits() {
     }
 }
 
-/// The frequencies that the report of the rotor has.
+/// The frequencies in the report of the rotor.
 fn rotor_modes() -> Vec<Option<f64>> {
     let mechanism = Interpreted::from_text(&declaration("jeffcott_rotor")).unwrap();
     let study = Study::new(mechanism);
@@ -434,7 +434,7 @@ fn rotor_modes() -> Vec<Option<f64>> {
     study.modes().unwrap().frequencies().to_vec()
 }
 
-/// A declaration whose every text tries to break out.
+/// A declaration in which every text tries to break out of its markup.
 #[test]
 fn words_from_outside_run_nothing() {
     let attack =

@@ -1,7 +1,7 @@
 //! Published problems. RP numbers are those of the reliability benchmark of TNO (Rozsas and Slobbe 2019, *Repository and
-//! Black-box Reliability Challenge 2019*); formulas as in `otbenchmark` of OpenTURNS. Its versions give different
-//! probabilities for some (RP25: 6.14e-6 and 4.1486e-5; RP28: 1.46e-7 and 1.763e-7; RP14: 7.52e-3). So each is computed here
-//! a second time, by integration over one or several variables, and compared with the version that this supports.
+//! Black-box Reliability Challenge 2019*), with the formulas of OpenTURNS's `otbenchmark`. Published versions give different
+//! probabilities for some problems (RP25: 6.14e-6 and 4.1486e-5; RP28: 1.46e-7 and 1.763e-7; RP14: 7.52e-3). Each is therefore
+//! computed here a second time, by integration over one or several variables, and compared with the version that this supports.
 
 use core::convert::Infallible;
 use core::f64::consts::{PI, SQRT_2};
@@ -48,7 +48,7 @@ fn off(found: &SampledProbability, exact: f64) {
     );
 }
 
-/// A lognormal variable of this mean and standard deviation, and its derivative by the standard normal one.
+/// A lognormal variable with this mean and standard deviation, and its derivative by the standard normal variable.
 fn lognormal(mean: f64, deviation: f64, z: f64) -> (f64, f64) {
     let zeta = (deviation / mean).powi(2).ln_1p().sqrt();
     let x = (mean.ln() - 0.5 * zeta * zeta + zeta * z).exp();
@@ -166,7 +166,7 @@ fn rp25() {
         Box::new(limit(2, |z| (-16.0 * z[0] + z[1] + 32.0, vec![-16.0, 1.0]))),
     ];
     let limits = limits.each_ref().map(|limit| limit.as_ref());
-    // Given x2, failure is for x1 between 2 + x2 / 16 and sqrt(8 x2 - 16).
+    // Given x2, failure occurs for x1 between 2 + x2 / 16 and sqrt(8 x2 - 16).
     let between = |x2: f64| {
         let upper = (8.0 * x2 - 16.0).max(0.0).sqrt();
         (below(upper) - below(2.0 + x2 / 16.0)).max(0.0)
@@ -178,7 +178,7 @@ fn rp25() {
 }
 
 /// Symmetric in its standard normal variables: two regions share a bend of the limit, and the nearest point of one of them
-/// is half of the answer.
+/// gives half of the answer.
 #[test]
 fn rp28() {
     let limits = [limit(2, |z| {
@@ -205,7 +205,7 @@ fn rp28() {
     off(&sampled(&limits, Failure::Any, &proposal), exact);
 }
 
-/// Flat to third order at the design point: second order sees nothing, sampling does.
+/// Flat to third order at the design point: second order shows no difference, sampling does.
 #[test]
 fn rp31() {
     let limits = [limit(2, |z| {
@@ -246,7 +246,7 @@ fn rp33() {
     close(system.series_bounds().upper, found.value, 1e-4);
 }
 
-/// Several regions of failure: not all of them need be found for the density of the nearest to reach the others.
+/// Several failure regions: not all of them need be found, as the density about the nearest reaches the others.
 #[test]
 fn rp53() {
     let limits = [limit(2, |z| {
@@ -269,7 +269,7 @@ fn rp53() {
     off(&sampled(&limits, Failure::Any, &proposal), exact);
 }
 
-/// Minimum of a maximum and a ball.
+/// The minimum of a maximum and a ball.
 #[test]
 fn rp57() {
     let value = |z: &[f64]| {
@@ -310,7 +310,7 @@ fn rp107() {
     close(at.probability(), below(-5.0), 1e-12);
 }
 
-/// Steps in the limit states mislead every search that trusts the slope at the origin.
+/// Steps in the limit states mislead every search that relies on the slope at the origin.
 #[test]
 fn rp110() {
     let first = limit(2, |z| match z[0] <= 3.5 {
@@ -354,7 +354,7 @@ fn rp111() {
     );
 }
 
-/// The series system of Waarts (2000), four limit states of which two are curved: exact by turning it 45 degrees.
+/// The series system of Waarts (2000), with four limit states of which two are curved: exact after a rotation by 45 degrees.
 #[test]
 fn four_branches() {
     let curved = |sign: f64| {

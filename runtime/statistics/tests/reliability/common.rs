@@ -1,4 +1,4 @@
-//! Limit states and exact values that several tests use.
+//! Limit states and exact values used by several tests.
 
 use core::convert::Infallible;
 

@@ -1,4 +1,4 @@
-//! Design points, and the traps that other programs fell into.
+//! Design points, and cases in which other programs failed.
 
 use core::cell::Cell;
 
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use crate::common::{below, close, density, design_point, limit, linear};
 
-/// `beta = 1.5`, found to the last digits, and nothing but the first two variables matters.
+/// `beta = 1.5` to the last digits; only the first two variables matter.
 #[test]
 fn linear_limits_are_exact_and_ignore_what_does_not_matter() {
     for irrelevant in [0, 1, 6, 400] {
@@ -28,8 +28,7 @@ fn linear_limits_are_exact_and_ignore_what_does_not_matter() {
     }
 }
 
-/// A curved limit of two variables (OpenTURNS issue 1447 has such a one): with hundreds of variables more it stays where it
-/// is.
+/// A curved limit in two variables (as in OpenTURNS issue 1447): hundreds of additional variables do not change the result.
 #[test]
 fn curved_limits_ignore_what_does_not_matter() {
     let curved = |dimension| {
@@ -70,7 +69,7 @@ fn units_do_not_matter() {
     }
 }
 
-/// The residuals mean what they say.
+/// Residuals have their stated meaning.
 #[test]
 fn design_points_lie_on_the_limit_and_on_its_normal() {
     let ball = limit(3, |z| {
@@ -108,7 +107,7 @@ fn a_limit_through_the_origin_has_beta_zero() {
     assert_eq!(at.importance_factors(), [1.0, 0.0]);
 }
 
-/// Nothing fails within reach: an error that says so, not a probability.
+/// No failure within reach gives an error that says so, not a probability.
 #[test]
 fn no_failure_is_an_error() {
     type Function = dyn Fn(&[f64]) -> (f64, Vec<f64>);
@@ -131,7 +130,7 @@ fn no_failure_is_an_error() {
     }
 }
 
-/// Far beyond what a probability can express: its logarithm can.
+/// Far below the smallest representable probability: its logarithm is still available.
 #[test]
 fn probabilities_below_the_least_number_have_a_logarithm() {
     let at = design_point(&linear(60.0, vec![1.0]));
@@ -143,7 +142,7 @@ fn probabilities_below_the_least_number_have_a_logarithm() {
     close(at.ln_probability(), expected, 1e-13);
 }
 
-/// Flat around the origin: the gradient is zero there.
+/// Flat around the origin, where the gradient is zero.
 #[test]
 fn flat_regions_are_crossed() {
     let flat = limit(2, |z| {
@@ -157,7 +156,7 @@ fn flat_regions_are_crossed() {
     close(form(&flat, &settings).unwrap().design_point.beta, 3.0, 1e-9);
 }
 
-/// What does not exist beyond 2.5: the first step overshoots, the search steps back.
+/// The limit state is undefined beyond 2.5: the first step overshoots, and the search steps back.
 #[test]
 fn searches_step_back_from_where_there_is_no_value() {
     let asked_beyond = Cell::new(0);
@@ -185,7 +184,7 @@ fn searches_step_back_from_where_there_is_no_value() {
     assert_eq!(found.evaluations.without_value, asked_beyond.get());
 }
 
-/// Flat around the origin, and no value where restarts begin: they are pulled back towards the origin.
+/// Flat around the origin, and undefined where restarts begin: they are pulled back towards the origin.
 #[test]
 fn starts_without_a_value_are_pulled_back() {
     let island = LimitFunction::new(1, |z: &[f64]| {
@@ -237,10 +236,10 @@ fn nothing_to_search_is_refused() {
     }
 }
 
-/// The origin leads to the apex, which is the farthest point of its neighbourhood; the nearest ones lie beside it.
+/// From the origin the search reaches the apex, the farthest point of its neighbourhood; the nearest points lie beside it.
 #[test]
 fn a_point_that_is_nearest_in_some_directions_only_is_left() {
-    // (b - z1) = k z0^2 / 2 with b k > 1: nearest where z1 = 1/k.
+    // (b - z1) = k z0^2 / 2 with b k > 1: the nearest points are at z1 = 1/k.
     let (b, k) = (4.0, 0.5);
     let valley = limit(2, move |z| {
         (b - z[1] - 0.5 * k * z[0] * z[0], vec![-k * z[0], -1.0])
@@ -249,7 +248,7 @@ fn a_point_that_is_nearest_in_some_directions_only_is_left() {
     let z0_square = 2.0 * (b - z1) / k;
     let expected = (z1 * z1 + z0_square).sqrt();
     assert!(expected < b);
-    // Without restarts, which would find the same.
+    // Without restarts, which would find the same point.
     let settings = FormSettings {
         restarts: 0,
         ..FormSettings::default()
@@ -258,7 +257,7 @@ fn a_point_that_is_nearest_in_some_directions_only_is_left() {
     close(found.beta, expected, 1e-8);
 }
 
-/// The optimiser takes over where the iteration goes in circles: strongly curved limits.
+/// The optimiser takes over where the iteration cycles: strongly curved limits.
 #[test]
 fn strongly_curved_limits() {
     for k in [5.0, 50.0, 500.0] {
@@ -292,7 +291,7 @@ fn sensitivities_are_derivatives() {
     let step = 1e-4;
     let difference = (at(10.0 + step).probability() - at(10.0 - step).probability()) / (2.0 * step);
     close(found.probability, difference, 1e-7);
-    // A curved limit whose parameter bends it.
+    // A curved limit with a parameter that affects its curvature.
     let bent = |theta: f64| {
         limit(2, move |z| {
             let value = 3.0 - z[0] - theta * (0.5 * z[1]).exp();

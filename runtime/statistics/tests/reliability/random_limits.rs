@@ -36,14 +36,14 @@ fn nearest(value: impl Fn(&[f64]) -> f64) -> Option<f64> {
 }
 
 proptest! {
-    // Always the same limits: a search for the nearest of all points can be led astray.
+    // Always the same limits: a search for the global minimum distance can be misled.
     #![proptest_config(ProptestConfig {
         cases: 40,
         rng_seed: RngSeed::Fixed(1),
         ..ProptestConfig::default()
     })]
 
-    /// Cubic polynomials with a wave.
+    /// Cubic polynomials plus a wave.
     #[test]
     fn random_limits(
         c in proptest::collection::vec(-1.0..1.0_f64, 8),

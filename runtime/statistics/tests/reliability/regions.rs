@@ -5,7 +5,7 @@ use eigentol_statistics::reliability::{FormSettings, LimitState, failure_regions
 
 use crate::common::{below, close, limit};
 
-/// Failure beyond 3 on one side and beyond 4 on the other; the search from the origin sees the far one only.
+/// Failure beyond 3 on one side and beyond 4 on the other; the search from the origin finds only the far region.
 fn two_sided() -> impl LimitState<Error = core::convert::Infallible> {
     limit(3, |z| {
         (
@@ -17,7 +17,7 @@ fn two_sided() -> impl LimitState<Error = core::convert::Infallible> {
 
 #[test]
 fn bulges_uncover_the_other_side() {
-    // Without restarts, the bulges are on their own.
+    // Without restarts, only the bulges are tested.
     let settings = FormSettings {
         restarts: 0,
         ..FormSettings::default()
@@ -31,7 +31,7 @@ fn bulges_uncover_the_other_side() {
     close(found.design_points[0].point[0], -3.0, 1e-9);
 }
 
-/// Regions at a right angle, one of them farther away.
+/// Regions at right angles, one farther away than the other.
 #[test]
 fn bulges_uncover_what_is_beside() {
     let corner = limit(2, |z| {
@@ -65,7 +65,7 @@ fn mixtures_sum_over_regions() {
     close(sampled.probability.value, below(-3.0) + below(-4.0), 0.03);
 }
 
-/// Infinitely many design points: a cap on their number, and the result says that there may be more.
+/// Infinitely many design points: their number is capped, and the result says that there may be more.
 #[test]
 fn a_ring_of_design_points_is_capped() {
     let ring = limit(2, |z| {

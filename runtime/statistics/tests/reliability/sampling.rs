@@ -50,7 +50,7 @@ fn probabilities_and_derivatives_of_a_linear_limit() {
     }
 }
 
-/// The standard error is that over seeds: 40 repetitions.
+/// The standard error matches the scatter over seeds, from 40 repetitions.
 #[test]
 fn standard_errors_are_right() {
     let limits = [linear(3.0, vec![-1.0])];
@@ -71,7 +71,7 @@ fn standard_errors_are_right() {
         ((run.probability.value - below(-3.0)) / run.probability.standard_error).powi(2)
     });
     let chi_square: f64 = squares.sum();
-    // 40 degrees of freedom: both tails beyond these have 1e-3.
+    // 40 degrees of freedom: both tails beyond these limits have probability 1e-3.
     assert!((17.9..73.5).contains(&chi_square), "{chi_square}");
 }
 
@@ -93,7 +93,7 @@ fn plain_monte_carlo_counts() {
         found.failures as f64 / 20_000.0,
         1e-12,
     );
-    // Of a share of yes and no: `p (1 - p) / (n - 1)`.
+    // For a binary share: `p (1 - p) / (n - 1)`.
     let share = found.failures as f64 / 20_000.0;
     let exact = (share * (1.0 - share) / 19_999.0).sqrt();
     close(found.probability.standard_error / exact, 1.0, 1e-9);
@@ -122,7 +122,7 @@ fn nothing_failed() {
     assert!(clopper_pearson(0, found.samples, 0.95).unwrap().upper < 2e-3);
 }
 
-/// A coefficient of variation of one failure says nothing.
+/// The coefficient of variation from a single failure is meaningless.
 #[test]
 fn a_few_failures_are_not_enough() {
     let limits = [linear(1.0, vec![-1.0])];
@@ -138,7 +138,7 @@ fn a_few_failures_are_not_enough() {
     assert_eq!(found.failures, 10);
 }
 
-/// Probabilities whose squares, and which themselves, are below the least number.
+/// Probabilities whose squares, or which themselves, are below the smallest representable number.
 #[test]
 fn extreme_tails() {
     for beta in [30.0, 45.0] {
@@ -154,7 +154,7 @@ fn extreme_tails() {
     }
 }
 
-/// Any range of samples can be computed by itself; batches that are joined in order give the bits of the whole.
+/// Any range of samples can be computed separately; batches joined in order give the same bits as the whole.
 #[test]
 fn ranges_join() {
     let limits = [linear(2.0, vec![-0.6, 0.8])];
@@ -201,7 +201,7 @@ fn several_requirements() {
     }
 }
 
-/// No value beyond 1; a failure that another requirement shows counts as one.
+/// No value beyond 1; a sample without a value still counts as a failure if another requirement fails.
 #[test]
 fn samples_without_a_value_are_counted_apart() {
     let partial = |threshold: f64| {
@@ -228,7 +228,7 @@ fn samples_without_a_value_are_counted_apart() {
     let off = |value: f64, exact: f64| assert!((value - exact).abs() < 0.012, "{value} {exact}");
     off(found.probability.value, below(1.0) - below(0.5));
     off(found.probability_without_value.value, below(-1.0));
-    // Drawn elsewhere, each sample has its weight, with a value or without.
+    // When sampling from elsewhere, each sample has its weight, with a value or without.
     let shifted = Proposal::mixture(vec![vec![1.0], vec![-0.5]], vec![2.0, 1.0]).unwrap();
     let found = Sampler::new(&limits, Failure::Any, &shifted, &settings)
         .unwrap()

@@ -7,7 +7,7 @@ use eigentol_statistics::reliability::{LimitFunction, LimitState, LimitValue, so
 
 use crate::common::{below, close, density, design_point, limit, mean};
 
-/// `unit (b - n . z + sum kappa_i (t_i . z)^2 / 2)` with orthonormal `n`, `t_1`, `t_2` that are not axes.
+/// `unit (b - n . z + sum kappa_i (t_i . z)^2 / 2)` with orthonormal `n`, `t_1`, `t_2` that are not coordinate axes.
 fn paraboloid(b: f64, kappa: [f64; 2], unit: f64) -> impl LimitState<Error = Infallible> {
     const AXES: [[f64; 3]; 3] = [
         [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0],
@@ -69,7 +69,7 @@ fn curvatures_of_paraboloids() {
     }
 }
 
-/// Two equal curvatures: `P(Z > b + k R^2/2)` with `R^2 / 2` exponential, in closed form
+/// Two equal curvatures: `P(Z > b + k R^2/2)` with `R^2 / 2` exponentially distributed, in closed form
 /// `Phi(-b) - exp(b/k + 1/(2 k^2)) Phi(-b - 1/k)`.
 #[test]
 fn formulas_on_a_paraboloid() {
@@ -85,7 +85,7 @@ fn formulas_on_a_paraboloid() {
         below(-b) / (1.0 + psi * k),
         1e-9,
     );
-    // Each closer than the one before.
+    // Each formula is closer than the previous one.
     let off = |p: f64| (p / exact - 1.0).abs();
     assert!(off(found.hohenbichler_rackwitz().unwrap()) < 0.5 * off(found.breitung().unwrap()));
     assert!(off(found.breitung().unwrap()) < 0.1 && off(below(-b)) > 0.5);
@@ -117,7 +117,7 @@ fn a_saddle() {
     close(found.tvedt().unwrap(), exact, 1e-9);
 }
 
-/// A failing origin: the complement of the mirrored limit.
+/// The origin fails: the probability is the complement of that of the mirrored limit.
 #[test]
 fn negative_beta_is_the_complement() {
     let exact = mean(|y| below(1.5 + 0.1 * y * y));
@@ -162,7 +162,7 @@ fn a_ball() {
     assert!(off(at.probability()) > 0.5);
 }
 
-/// The limit is a circle about the origin, `beta kappa = -1`: no formula holds.
+/// The limit is a circle about the origin, `beta kappa = -1`: none of the formulas is valid.
 #[test]
 fn too_much_curvature_is_refused() {
     let outside = limit(2, |z| {
@@ -202,7 +202,7 @@ fn too_much_curvature_is_refused() {
 #[test]
 fn one_variable_has_no_curvature() {
     let cubic = limit(1, |z| (8.0 - z[0].powi(3), vec![-3.0 * z[0] * z[0]]));
-    // The gradient at the origin is zero: restarts find the limit.
+    // The gradient at the origin is zero, so restarts find the limit.
     let at = design_point(&cubic);
     let found = sorm(&cubic, &at).unwrap();
     assert!(found.curvatures().is_empty());

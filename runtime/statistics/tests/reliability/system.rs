@@ -64,7 +64,7 @@ fn orthants() {
     assert!((found.value - exact).abs() < 6.0 * found.standard_error + 1e-9);
 }
 
-/// More requirements than variables: the matrix is singular, opposite limits exclude each other.
+/// More requirements than variables: the matrix is singular, and opposite limits exclude each other.
 #[test]
 fn singular_matrices() {
     let design_points = [
@@ -85,7 +85,7 @@ fn singular_matrices() {
     close(system.all_met(&settings).unwrap().value, 1.0 - exact, 1e-3);
 }
 
-/// Two requirements: Ditlevsen's bounds meet in the exact probability.
+/// For two requirements Ditlevsen's bounds coincide at the exact probability.
 #[test]
 fn bounds_of_a_pair_are_exact() {
     for r in [-0.5, 0.0, 0.9] {

@@ -1,4 +1,4 @@
-//! Samples that are a function of their index alone.
+//! Samples that depend only on their index.
 
 use eigentol_statistics::Error;
 use eigentol_statistics::summary::{Chunk, Partial, Plan, chunks};
@@ -14,13 +14,14 @@ pub(crate) fn uniform(stream: u64, sample: u64) -> f64 {
     ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Of a standard normal distribution, from a pair of uniform numbers (Box and Muller 1958).
+/// A standard normal number, from a pair of uniform numbers (Box and Muller 1958).
 pub(crate) fn normal(stream: u64, sample: u64) -> f64 {
     let radius = (-2.0 * (1.0 - uniform(2 * stream, sample)).ln()).sqrt();
     radius * (std::f64::consts::TAU * uniform(2 * stream + 1, sample)).cos()
 }
 
-/// Three quantities: a large mean with a small spread, one that every fifth sample lacks, one that has zeros of either sign.
+/// Three quantities: a large mean with a small standard deviation, one missing in every fifth sample, and one
+/// with zeros of either sign.
 pub(crate) fn quantities(sample: u64) -> [Option<f64>; 3] {
     let x = normal(7, sample);
     let y = 0.5 * x + uniform(8, sample);
@@ -37,7 +38,7 @@ pub(crate) fn plan() -> Result<Plan, Error> {
     Ok(plan.covariances(&[0, 1], &[1, 2])?.outcomes(2))
 }
 
-/// The samples of a range, in one go.
+/// The samples of a range, in one pass.
 pub(crate) fn gathered(samples: Range<u64>) -> Result<Partial, Error> {
     let mut partial = Partial::new(plan()?);
     add(&mut partial, samples)?;

@@ -1,4 +1,4 @@
-//! Statistics of samples against the distributions they are drawn from.
+//! Sample statistics against the distributions they are drawn from.
 
 use eigentol_statistics::summary::{Moments, Statistics};
 
@@ -11,7 +11,7 @@ fn of(value: impl Fn(u64) -> f64, count: u64) -> Statistics {
     Statistics::of(&Moments::of(&values), None).expect("values")
 }
 
-/// The errors are the ones that samples of these distributions have: five times the standard error of each moment.
+/// Errors are within those expected of samples of these distributions: five times the standard error of each moment.
 #[test]
 fn moments_are_those_of_the_distribution() {
     let exponential = |k| -(1.0 - uniform(11, k)).ln();
@@ -56,7 +56,7 @@ fn moments_are_those_of_the_distribution() {
 /// A value as a function of its index.
 type Value = fn(u64) -> f64;
 
-/// Standard errors are the scatter of what they belong to, over many experiments.
+/// Standard errors match the scatter of their statistics over many experiments.
 #[test]
 fn standard_errors_are_the_scatter() {
     const EXPERIMENTS: u64 = 2000;
@@ -91,7 +91,7 @@ fn standard_errors_are_the_scatter() {
                 scatter(&|s| s.excess_kurtosis).1,
                 scatter(&|s| s.kurtosis_error).0,
             );
-            // Without bias.
+            // Unbiased.
             assert!(scatter(&|s| s.excess_kurtosis).0.abs() < 0.03);
         }
     }

@@ -1,4 +1,4 @@
-//! What is refused leaves everything as it was.
+//! A refused operation leaves everything unchanged.
 
 use eigentol_statistics::Error;
 use eigentol_statistics::summary::{Chunk, LARGEST, Partial, Plan, Sketch, Sorted, chunks};

@@ -1,4 +1,4 @@
-//! Exact quantiles and their confidence.
+//! Exact quantiles and their confidence intervals.
 
 use eigentol_statistics::Error;
 use eigentol_statistics::summary::{Sketch, Sorted};
@@ -11,7 +11,7 @@ fn ranks(count: u32, p: f64, confidence: f64) -> Result<Option<(f64, f64, f64)>,
     Ok(interval.map(|found| (found.lower, found.upper, found.coverage)))
 }
 
-/// R: `quantile(c(2, 3, 5, 7, 11, 13, 17), type = 7)`; at 1/6 it is the second value, between them linear.
+/// R: `quantile(c(2, 3, 5, 7, 11, 13, 17), type = 7)`; at 1/6 it is the second value, and linear in between.
 #[test]
 fn quantiles_of_type_seven() -> Result<(), Error> {
     let values = Sorted::new(vec![17.0, 2.0, 13.0, 3.0, 11.0, 5.0, 7.0])?;
@@ -32,8 +32,8 @@ fn quantiles_of_type_seven() -> Result<(), Error> {
     Ok(())
 }
 
-/// Ranks and coverages of medians at 95 percent as tabulated (Conover, Practical Nonparametric Statistics, 3rd edition, section
-/// 3.2): exact sums of binomial coefficients.
+/// Ranks and coverages for medians at 95 percent as tabulated (Conover, Practical Nonparametric Statistics, 3rd edition,
+/// section 3.2): exact sums of binomial coefficients.
 #[test]
 fn intervals_of_medians() -> Result<(), Error> {
     assert_eq!(ranks(5, 0.5, 0.95)?, None);
@@ -56,8 +56,8 @@ fn intervals_of_medians() -> Result<(), Error> {
     Ok(())
 }
 
-/// Wilks (1941): 59 values are needed for their greatest to exceed the 95 percent quantile with 95 percent confidence, so with both
-/// ends at 90 percent; of 58 there is no upper end.
+/// Wilks (1941): 59 values are needed for their maximum to exceed the 95 percent quantile with 95 percent confidence, hence 90
+/// percent with both ends; with 58 values there is no upper end.
 #[test]
 fn intervals_of_tails() -> Result<(), Error> {
     assert_eq!(ranks(58, 0.95, 0.90)?, None);
@@ -72,7 +72,7 @@ fn intervals_of_tails() -> Result<(), Error> {
     Ok(())
 }
 
-/// For many values ranks approach those of the normal distribution: `n p -+ z sqrt(n p (1 - p))`.
+/// For many values ranks approach those from the normal distribution: `n p -+ z sqrt(n p (1 - p))`.
 #[test]
 fn intervals_of_many_values() -> Result<(), Error> {
     for (count, p) in [(1_000_000, 0.5), (1_000_000, 0.01), (300_000, 0.999)] {
@@ -83,7 +83,7 @@ fn intervals_of_many_values() -> Result<(), Error> {
             f64::from(count) * p,
             2.575_829_3 * (f64::from(count) * p * (1.0 - p)).sqrt(),
         );
-        // The skewness of the binomial distribution moves both ends by about one.
+        // The skewness of the binomial distribution shifts both ends by about one.
         assert!(
             (lower - (mean - half)).abs() < 2.5 && (upper - (mean + half)).abs() < 2.5,
             "{lower} {upper}"

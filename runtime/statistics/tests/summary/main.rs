@@ -1,6 +1,7 @@
-//! Summary statistics in one pass: the same bits however samples are split, against exact formulas and exact quantiles.
+//! Summary statistics in one pass: the same bits however the samples are split, checked against exact formulas and
+//! exact quantiles.
 
-// Lists of ranges may have just one.
+// A list of ranges may have just one element.
 #![allow(clippy::single_range_in_vec_init)]
 
 mod common;

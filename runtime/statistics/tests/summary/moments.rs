@@ -20,8 +20,8 @@ fn partial(columns: &[&[f64]], plan: &Plan) -> Result<Partial, Error> {
     Ok(partial)
 }
 
-/// Count, mean and central sums of numbers `origin + unit * k`, `k` integer, from exact integer sums of powers of `k`. All products
-/// must stay below `2^127`.
+/// Count, mean and central sums of numbers `origin + unit * k` with integer `k`, from exact integer sums of powers of `k`. All
+/// products must stay below `2^127`.
 struct Exact {
     n: f64,
     mean: f64,
@@ -50,7 +50,7 @@ impl Exact {
         }
     }
 
-    /// Whether the statistics are the same but for this relative error, as a share of the scale of each.
+    /// Checks that the statistics match to within this relative error, as a share of the scale of each.
     fn assert(&self, s: &Statistics, tolerance: f64) {
         let Self {
             n,
@@ -89,7 +89,7 @@ impl Exact {
 
 #[test]
 fn large_means_with_small_spreads() -> Result<(), Error> {
-    // Multiples of 2^-26, exact beside 1e8, with a spread of 1e-4; skewed, so that the third moment matters.
+    // Multiples of 2^-26, exact when added to 1e8, with a standard deviation of 1e-4; skewed, so that the third moment matters.
     let unit = 0.5_f64.powi(26);
     let skewed = |k| normal(1, k) + 0.3 * normal(2, k).powi(2);
     let integers: Vec<i64> = (0..10_000)
@@ -125,7 +125,7 @@ proptest! {
         Exact::of(&integers, origin, 1.0).assert(&statistics, 1e-12);
     }
 
-    /// The parts are as unlike as can be, which random samples are not.
+    /// The parts differ as much as possible, unlike random samples.
     #[test]
     fn merging_unlike_parts(
         left in prop::collection::vec(-1000_i64..-500, 1..40),
@@ -224,7 +224,7 @@ fn few_values() {
     );
     assert_eq!((two.skewness, two.excess_kurtosis), (None, None));
     let three = of(&[1.0, 2.0, 4.0]).expect("values");
-    // Of R's package e1071: skewness(c(1, 2, 4), type = 2).
+    // From R's package e1071: skewness(c(1, 2, 4), type = 2).
     assert!((three.skewness.expect("three") - 0.935_219_529_582_825).abs() < 1e-14);
     assert_eq!(three.excess_kurtosis, None);
     let single = Covariance::of(&Comoments::of(&[1.0], &[2.0, 5.0])).expect("a pair");

@@ -1,4 +1,4 @@
-//! State that was written and read again is the same to the last bit.
+//! State that is written and read back is the same to the last bit.
 
 use eigentol_statistics::Error;
 use eigentol_statistics::summary::Partial;

@@ -1,4 +1,4 @@
-//! Quantiles of sketches are within their errors of those of sorted values.
+//! Sketch quantiles are within their stated errors of the quantiles of sorted values.
 
 use eigentol_statistics::Error;
 use eigentol_statistics::summary::{Sketch, Sorted};
@@ -28,7 +28,7 @@ fn check(name: &str, values: &[f64], reference: f64, scale: f64) -> Result<(), E
             (found.value - exact).abs() <= found.error,
             "{name}, {p}: {found:?}, exact {exact}"
         );
-        // The error that is promised, of the neighbours of the quantile.
+        // The promised error, for the neighbours of the quantile.
         let position = (values.len() - 1) as f64 * p;
         let neighbours =
             [position.floor(), position.ceil()].map(|rank| sorted.values()[rank as usize]);
@@ -115,7 +115,7 @@ fn resolution_for_normal_values() -> Result<(), Error> {
     ] {
         let found = sketch.quantile(p)?;
         assert!(found.error <= limit * 0.2, "{p}: {found:?}");
-        // Where there are many values to a bucket, interpolation is much better than its bound.
+        // With many values per bucket, interpolation is much better than its bound.
         if (0.1..0.9).contains(&p) {
             let exact = sorted.quantile(p)?;
             assert!(
@@ -178,7 +178,7 @@ proptest! {
         reference in -40_i32..40,
         scale in -10_i32..10,
     ) {
-        // Few different numbers, many powers of two, values on the edges of buckets and on the reference.
+        // Few different numbers, many powers of two, and values on bucket edges and on the reference.
         let values: Vec<f64> = values.iter().map(|(n, e)| f64::from(*n) * 2_f64.powi(*e / 4)).collect();
         check("any", &values, f64::from(reference), 2_f64.powi(scale))?;
     }

@@ -1,4 +1,4 @@
-//! Any split, any order of merging and any number of threads: the same bits.
+//! Any split, any order of merging and any number of threads give the same bits.
 
 use eigentol_statistics::Error;
 use eigentol_statistics::summary::{Chunk, Partial, Plan, chunks};
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use crate::common::{add, gathered, plan, quantities, uniform};
 
-/// The bits of all that is reported.
+/// The bits of every reported number.
 fn bits(partial: &Partial) -> Result<Vec<u64>, Error> {
     let mut bits = Vec::new();
     for quantity in 0..3 {
@@ -44,7 +44,7 @@ fn bits(partial: &Partial) -> Result<Vec<u64>, Error> {
     Ok(bits)
 }
 
-/// The pieces between these cuts of `0..end`, in an order that `order` decides.
+/// The pieces between these cuts of `0..end`, in an order determined by `order`.
 fn pieces(mut cuts: Vec<u64>, end: u64, order: &[u64]) -> Vec<std::ops::Range<u64>> {
     cuts.extend([0, end]);
     cuts.sort_unstable();
@@ -72,7 +72,7 @@ proptest! {
         for piece in pieces(cuts, end, &order) {
             parts.push(gathered(piece)?);
         }
-        // Merge any two until one is left.
+        // Merge pairs until one is left.
         for choice in grouping.iter().cycle() {
             if parts.len() == 1 {
                 break;
@@ -135,7 +135,7 @@ fn any_number_of_threads_gives_the_same_bits() -> Result<(), Error> {
     Ok(())
 }
 
-/// The tree is not just any sum: without it, the bits depend on the split.
+/// The summation tree matters: with plain sums, the bits would depend on the split.
 #[test]
 fn the_samples_tell_splits_apart() {
     let sum = |samples: std::ops::Range<u64>| samples.filter_map(|k| quantities(k)[1]).sum::<f64>();
@@ -143,7 +143,7 @@ fn the_samples_tell_splits_apart() {
     assert!((1..3000).any(|cut| (sum(0..cut) + sum(cut..3000)).to_bits() != whole.to_bits()));
 }
 
-/// As many numbers as are printed: sixteen times the samples take a few more nodes, not sixteen times as many.
+/// Memory use in terms of the numbers printed: sixteen times the samples need a few more nodes, not sixteen times as many.
 #[test]
 fn memory_is_flat() -> Result<(), Error> {
     let plan = Plan::new(1).sketch(0, 0.5, 0.1)?;

@@ -1,10 +1,10 @@
-//! What the tests of files share.
+//! Shared helpers of the file tests.
 
 use std::io::{self, Write};
 
 use eigentol_tables::Table;
 
-/// All kinds of columns, numbers that are hard to write, and cells that are missing.
+/// All kinds of columns, numbers that are hard to write, and missing cells.
 pub(crate) fn table() -> Table {
     let mut table = Table::new("mixed");
     table.whole("mode", [Some(1), None, Some(3)]);
@@ -18,7 +18,7 @@ pub(crate) fn table() -> Table {
     table
 }
 
-/// Has room for so many bytes.
+/// A disk with room for this many bytes.
 pub(crate) struct Disk(pub(crate) usize);
 
 impl Write for Disk {

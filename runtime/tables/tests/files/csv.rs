@@ -1,4 +1,4 @@
-//! Tables written and read back, and files that cannot be.
+//! Tables written and read back, and unreadable files.
 
 use std::io;
 
@@ -36,7 +36,7 @@ fn what_is_not_finite_is_an_empty_cell() {
 #[test]
 fn a_file_that_is_cut_off_is_refused() {
     let text = csv::to_string(&table()).expect("text");
-    // Ends of lines that are the ends of rows: from there on a shorter table is left, which CSV cannot tell.
+    // Cuts at the end of a row leave a valid shorter table, which CSV cannot detect.
     let mut whole = 0;
     for end in 1..text.len() {
         match csv::read("cut", &text.as_bytes()[..end]) {

@@ -1,4 +1,4 @@
-//! Documents: what a program in another language sees, and documents that are refused.
+//! Documents as read by a program in another language, and refused documents.
 
 use std::io;
 
@@ -31,7 +31,7 @@ fn text() -> String {
     json::to_string(&modes()).expect("text")
 }
 
-/// The document with another value in a field.
+/// The document with a field set to another value.
 fn with(field: &str, value: Value) -> String {
     let mut document: Value = serde_json::from_str(&text()).expect("JSON");
     document[field] = value;
@@ -69,7 +69,7 @@ fn a_result_comes_back_with_its_description() {
     assert_eq!(tables(&back), tables(&modes()));
 }
 
-/// A mode without a neighbour is infinitely far from the next one.
+/// A mode without a neighbour has an infinite distance to the next one.
 #[test]
 fn what_is_infinite_is_a_word_in_the_result_and_missing_in_the_tables() {
     let study = Study::new(Swing).input(Swing::speed, InDeclaredUnit(60.0));
@@ -124,7 +124,7 @@ fn other_documents_are_refused() {
     );
 }
 
-/// Every list of the result in turn loses its last entry, or has one twice: refused, before anything is made of it.
+/// Each list of the result in turn loses its last entry or has it doubled: refused before anything is built from it.
 fn lists_of_other_lengths_are_refused<A: Answer>(answer: &A) {
     let text = json::to_string(answer).expect("text");
     let whole: Value = serde_json::from_str(&text).expect("JSON");
@@ -163,7 +163,7 @@ fn longer(all: &mut Vec<Value>) {
     all.extend(all.last().cloned());
 }
 
-/// Changes the list that comes after `left` others; whether there was one.
+/// Changes the list that comes after `left` others; returns whether there was one.
 fn resize(value: &mut Value, left: &mut usize, change: fn(&mut Vec<Value>)) -> bool {
     match value {
         Value::Array(all) if *left == 0 => {
@@ -226,7 +226,7 @@ fn damaged_results_do_no_harm() {
     lists_of_other_lengths_are_refused(&critical.expect("a critical speed"));
 }
 
-/// A document without them, or of a description that has changed.
+/// A document without them, or for a description that has changed.
 #[test]
 fn lengths_are_those_of_the_description_too() {
     let lost = serde_json::from_str::<Value>(&text()).expect("JSON");

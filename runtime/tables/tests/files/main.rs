@@ -1,4 +1,4 @@
-//! Files of every form: written, read back, cut off, of another version, on a disk that is full.
+//! Files of every format: written, read back, truncated, of another version, and on a full disk.
 
 mod common;
 mod csv;

@@ -1,4 +1,4 @@
-//! Parquet files written as rows come, read back, and files that cannot be.
+//! Parquet files written row by row and read back, and unreadable files.
 
 use std::io;
 
@@ -66,7 +66,7 @@ fn other_columns_are_refused_in_one_file() {
         writer.write(&other),
         Err(Error::OtherColumns { .. })
     ));
-    // The file goes on as if nothing had been asked.
+    // The rejected table leaves the file unaffected.
     writer.write(&table()).expect("written");
     writer.finish().expect("finished");
     assert_eq!(

@@ -22,7 +22,7 @@ impl Printer<'_> {
         format!("body {}: {text};", body.name)
     }
 
-    /// `mass: 1.0 kg` or `density: 7800.0 kg/m^3`, the density of a shape of so many dimensions.
+    /// `mass: 1.0 kg`, or `density: 7800.0 kg/m^3` per unit of length, area or volume according to `dimensions`.
     fn amount(&self, amount: Amount, dimensions: i8) -> String {
         match amount {
             Amount::Mass(mass) => self.mass(mass),

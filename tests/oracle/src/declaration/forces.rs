@@ -3,7 +3,7 @@
 use super::quantities::{Printer, symbol};
 use crate::model::{Coordinate, Curve, Expr, Force, ForceLaw, Motion, Unit};
 
-/// The curves of a law.
+/// The curves that a law uses.
 fn curves(law: &ForceLaw) -> Vec<&Curve> {
     match law {
         ForceLaw::Tension { tension: of, .. }
@@ -14,7 +14,7 @@ fn curves(law: &ForceLaw) -> Vec<&Curve> {
 }
 
 impl Printer<'_> {
-    /// The declarations of all curves, each once.
+    /// Declarations of all curves, each once.
     pub(super) fn curves(&self) -> Vec<String> {
         let forces = self.model.forces.iter();
         let mut known: Vec<&Curve> = Vec::new();
@@ -162,7 +162,7 @@ impl Printer<'_> {
         }
     }
 
-    /// An operand: in parentheses where something could tear it apart.
+    /// An operand, in parentheses where precedence requires them.
     fn factor(&self, expr: &Expr) -> String {
         match expr {
             Expr::Value(value, unit) => format!("({})", self.value(*value, *unit)),

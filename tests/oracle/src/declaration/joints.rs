@@ -66,7 +66,7 @@ impl Printer<'_> {
         format!("{word}({steps})")
     }
 
-    /// An axis; with a lead per turn where there is one.
+    /// An axis, with its lead per turn if it is a screw.
     fn single(&self, step: &Step) -> String {
         let axis = direction(&step.axis);
         let Motion::Screw { lead } = step.motion else {

@@ -8,7 +8,7 @@ mod quantities;
 use self::quantities::{Printer, quantity, symbol};
 use crate::model::{Model, Unit};
 
-/// The declaration of a model: what stands between the braces of `mechanism! { ... }`.
+/// The declaration of a model: the text between the braces of `mechanism! { ... }`.
 pub fn declaration(model: &Model) -> String {
     let print = Printer { model };
     let mut lines = Vec::new();

@@ -6,7 +6,7 @@ pub(super) struct Printer<'a> {
     pub(super) model: &'a Model,
 }
 
-/// The symbol of a unit; nothing for a plain number.
+/// The symbol of a unit; empty for a plain number.
 pub(super) fn symbol(unit: Unit) -> String {
     let known = match unit {
         Unit::Kilogram => "kg",
@@ -109,7 +109,7 @@ impl Printer<'_> {
         self.list(values, unit)
     }
 
-    /// A matrix by rows; one that is diagonal by its diagonal.
+    /// A matrix by rows, or by its diagonal if it is diagonal.
     pub(super) fn matrix(&self, matrix: &Matrix, unit: Unit) -> String {
         let entries = [matrix[0][0], matrix[1][1], matrix[2][2]];
         if diagonal(entries) == *matrix {
@@ -130,7 +130,7 @@ impl Printer<'_> {
         }
     }
 
-    /// ` at [..] rotated(axis, angle)`, or nothing.
+    /// ` at [..] rotated(axis, angle)`, or empty.
     pub(super) fn placement(&self, placement: &Placement) -> String {
         if *placement == Placement::NONE {
             return String::new();

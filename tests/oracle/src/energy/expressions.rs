@@ -1,17 +1,17 @@
-//! Expressions of coordinates and points; rates and lengths are numbers that their owner fills in.
+//! Expressions of coordinates and points; the caller supplies rates and lengths as numbers.
 
 use super::poses::{Poses, get};
 use crate::matrices::Scalar;
 use crate::model::{Coordinate, Expr};
 
-/// Values of what an energy cannot depend on.
+/// The quantities that an energy cannot depend on.
 pub(super) struct Rates<'a, D> {
     pub(super) of: &'a dyn Fn(Coordinate) -> D,
     pub(super) length: D,
     pub(super) length_rate: D,
 }
 
-/// An energy.
+/// Evaluates an energy.
 pub(super) fn evaluate<D: Scalar>(expr: &Expr, inputs: &[f64], poses: &Poses<D>) -> D {
     let none = Rates {
         of: &|_| unreachable!("an energy depends on no rate"),
@@ -21,7 +21,7 @@ pub(super) fn evaluate<D: Scalar>(expr: &Expr, inputs: &[f64], poses: &Poses<D>)
     evaluate_with(expr, inputs, poses, &none)
 }
 
-/// Any expression.
+/// Evaluates any expression.
 pub(super) fn evaluate_with<D: Scalar>(
     expr: &Expr,
     inputs: &[f64],

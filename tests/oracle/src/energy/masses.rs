@@ -6,7 +6,7 @@ use super::poses::{Four, get, multiply, norm, placed, transpose};
 use crate::matrices::Scalar;
 use crate::model::{Amount, Part, Shape, Value, Values};
 
-/// `P = sum +- X P_i X^T` over the parts, each in its placement `X`.
+/// `P = sum +- X P_i X^T` over the parts, each with its placement `X`.
 pub(super) fn pseudo_inertia<D: Scalar>(parts: &[Part], design: &[D]) -> Four<D> {
     let mut total = [[D::zero(); 4]; 4];
     for part in parts {
@@ -81,7 +81,7 @@ fn of_shape<D: Scalar>(shape: &Shape, design: &[D]) -> Four<D> {
             };
             (m, vector(center), table(moments))
         }
-        // A cylinder without another one.
+        // The outer cylinder minus the bore.
         Shape::Tube {
             mass,
             inner,

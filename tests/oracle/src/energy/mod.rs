@@ -1,8 +1,8 @@
-//! A second way to the same residual, by Lagrange's equations, that shares no kinematics with the oracle.
+//! Derives the same residual a second way, from Lagrange's equations, sharing no kinematics with the oracle.
 //!
 //! `g_i = d/dt (dL/dqdot_i) - dL/dq_i + dD/dqdot_i - Q_i` with `L = T - V`, Rayleigh's dissipation function `D` and the
-//! virtual work `Q_i dq_i` of forces that have neither energy nor dissipation function. Poses are 4 x 4 matrices from
-//! quaternions; the kinetic energy of a body is `1/2 tr(Xdot P Xdot^T)` with its pseudo-inertia
+//! virtual work `Q_i dq_i` of forces that have neither an energy nor a dissipation function. Poses are 4 x 4 matrices
+//! built from quaternions. The kinetic energy of a body is `1/2 tr(Xdot P Xdot^T)` with its pseudo-inertia
 //! `P = integral [r; 1] [r; 1]^T dm`, so neither angular velocities nor gyroscopic moments occur. Every derivative is a
 //! hyper-dual number.
 
@@ -29,7 +29,7 @@ struct Flow<'a, D> {
 }
 
 impl<'a, D: Scalar> Flow<'a, D> {
-    /// Poses and their rates.
+    /// Poses and their time rates.
     fn moving(&self) -> Poses<'a, Dual<D>> {
         let both = self.position.iter().zip(&self.speed);
         let position = both.map(|(&x, &v)| Dual::new(x, v)).collect();
@@ -57,7 +57,7 @@ pub fn residual(
         let drive = model.step(coordinate).drive.expect("it is driven");
         speed[index(&all, coordinate)] = drive.factor * inputs[drive.input];
     }
-    // Second part of each number: the rate of time.
+    // The second part of each number is its time rate.
     let in_time = |x: f64, rate: f64| HyperDual64::new(x, 0.0, rate, 0.0);
     let together = |values: &[f64], rates: &[f64]| -> Vec<HyperDual64> {
         let both = values.iter().zip(rates);
@@ -116,7 +116,7 @@ fn lagrangian<D: Scalar>(flow: &Flow<D>) -> D {
             .sum::<D>()
 }
 
-/// Potential energy of an element; zero where it has none.
+/// Potential energy of an element; zero if it has none.
 fn energy<D: Scalar>(flow: &Flow<D>, poses: &Poses<D>, law: &ForceLaw) -> D {
     let get = |v| get(v, &flow.design);
     match law {
@@ -166,7 +166,7 @@ fn energy<D: Scalar>(flow: &Flow<D>, poses: &Poses<D>, law: &ForceLaw) -> D {
     }
 }
 
-/// Rayleigh's function.
+/// Rayleigh's dissipation function.
 fn dissipation<D: Scalar>(flow: &Flow<D>) -> D {
     let poses = flow.moving();
     let get = |v| get(v, &flow.design);

@@ -1,4 +1,4 @@
-//! Poses as 4 x 4 matrices from quaternions.
+//! Poses as 4 x 4 matrices built from quaternions.
 
 use num_dual::Dual;
 
@@ -18,13 +18,13 @@ pub(super) fn lift<D: Scalar>(values: &[D]) -> Vec<Dual<D>> {
     values.iter().map(|&value| Dual::from_re(value)).collect()
 }
 
-/// Where everything is.
+/// The poses of all bodies and points.
 pub(super) struct Poses<'a, D> {
     model: &'a Model,
-    /// Of every coordinate.
+    /// Values of all coordinates.
     pub(super) coordinates: Vec<D>,
     pub(super) design: Vec<D>,
-    /// Of every body, in the ground.
+    /// Poses of all bodies in the ground.
     pub(super) bodies: Vec<Four<D>>,
 }
 
@@ -85,7 +85,7 @@ impl<'a, D: Scalar> Poses<'a, D> {
         (square(0) + square(1) + square(2)).sqrt()
     }
 
-    /// The frame of one point in that of another.
+    /// The frame of one point relative to another.
     pub(super) fn relative(&self, from: usize, to: usize) -> Four<D> {
         multiply(&inverse(&self.point(from)), &self.point(to))
     }

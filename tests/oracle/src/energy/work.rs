@@ -1,4 +1,4 @@
-//! Virtual work of forces that derive from no function.
+//! Virtual work of forces without an energy or dissipation function.
 
 use num_dual::Dual64;
 
@@ -7,7 +7,7 @@ use super::expressions::{Rates, evaluate_with};
 use super::poses::{Four, Poses, get, index, lift};
 use crate::model::{Expr, ForceLaw, Matrix, Values};
 
-/// `Q_i` of one coordinate: the work along its virtual displacement.
+/// `Q_i` of one coordinate: the virtual work along its displacement.
 pub(super) fn along(flow: &Flow<f64>, coordinate: usize) -> f64 {
     let mut displaced = lift(&flow.position);
     displaced[coordinate].eps = 1.0;
@@ -24,9 +24,9 @@ pub(super) fn along(flow: &Flow<f64>, coordinate: usize) -> f64 {
 struct Work<'a> {
     flow: &'a Flow<'a, f64>,
     coordinate: usize,
-    /// With the rates of time.
+    /// Poses with their time rates.
     moving: Poses<'a, Dual64>,
-    /// With the virtual displacement.
+    /// Poses with the virtual displacement.
     displaced: Poses<'a, Dual64>,
 }
 

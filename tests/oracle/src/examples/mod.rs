@@ -1,4 +1,4 @@
-//! Mechanisms with known answers.
+//! Mechanisms with known solutions.
 
 mod rotors;
 mod spatial;
@@ -55,7 +55,7 @@ fn gravity() -> [Value; 3] {
     [ZERO, ZERO, Value::Number(-9.81)]
 }
 
-/// The shaft that turns at `omega` about z.
+/// A model with a shaft that turns at `omega` about z.
 fn spinning(name: &str) -> Model {
     let mut spin = revolute("spin", Z, Frame::Ground, 0);
     spin.steps[0] = spin.steps[0].clone().driven(0, 1.0);
@@ -171,7 +171,7 @@ pub fn two_sliders(nominal: [f64; 7]) -> Model {
     model
 }
 
-/// The seven-joint arm of `truth/panda_arm.json`, all joints free.
+/// The seven-joint arm of `truth/panda_arm.json` with all joints free.
 pub fn arm(truth: &Truth) -> Model {
     let mut model = Model {
         inputs: Vec::new(),
@@ -209,7 +209,7 @@ pub fn arm(truth: &Truth) -> Model {
     model
 }
 
-/// Axis and angle of a rotation matrix by less than half a turn; nothing for the identity.
+/// Axis and angle (less than half a turn) of a rotation matrix; empty for the identity.
 fn axis_and_angle(r: &[f64]) -> Vec<([f64; 3], Value)> {
     // r - r^T = 2 sin(angle) [axis]x
     let axis = [r[7] - r[5], r[2] - r[6], r[3] - r[1]];

@@ -1,4 +1,4 @@
-//! A disk on a light elastic shaft (Jeffcott), in coordinates of the ground and of the shaft.
+//! A disk on a light elastic shaft (Jeffcott), in ground and in shaft coordinates.
 
 use super::{body, prismatic, spinning};
 use crate::model::{
@@ -38,7 +38,7 @@ fn point(model: &mut Model, frame: Frame) -> usize {
     model.points.len() - 1
 }
 
-/// Resistance of the medium to the disk.
+/// Drag of the surrounding medium on the disk.
 fn external(model: &mut Model, disk: usize, damping: f64) {
     let point = point(model, Frame::Body(disk));
     let law = ForceLaw::Drag {
@@ -49,7 +49,7 @@ fn external(model: &mut Model, disk: usize, damping: f64) {
     force(model, law);
 }
 
-/// Slides of the ground, then the driven turn; one bearing stiffness along each slide.
+/// Slides fixed in the ground, then the driven rotation; one bearing stiffness along each slide.
 pub fn jeffcott_in_the_ground(mass: f64, stiffness: [f64; 2], damping: f64) -> Model {
     let mut model = spinning("Jeffcott");
     model.bodies = vec![body("disk", disk(mass))];
@@ -73,7 +73,7 @@ pub fn jeffcott_in_the_ground(mass: f64, stiffness: [f64; 2], damping: f64) -> M
     model
 }
 
-/// Slides of the turning shaft, with its stiffness and its own (internal) damping.
+/// Slides fixed in the turning shaft, with the shaft's stiffness and internal damping.
 pub fn jeffcott_in_the_shaft(mass: f64, stiffness: f64, internal: f64, damping: f64) -> Model {
     let mut model = plain_in_the_shaft(mass);
     for joint in [1, 2] {
@@ -107,7 +107,7 @@ fn plain_in_the_shaft(mass: f64) -> Model {
     model
 }
 
-/// Coordinates of the ground, stiffness and internal damping by a bushing whose axes turn with the shaft.
+/// Ground coordinates, with stiffness and internal damping from a bushing whose axes turn with the shaft.
 pub fn steadied_by_the_shaft(mass: f64, stiffness: f64, internal: f64, damping: f64) -> Model {
     let mut model = jeffcott_in_the_ground(mass, [0.0; 2], damping);
     model.forces.clear();
@@ -137,7 +137,7 @@ pub fn steadied_by_the_shaft(mass: f64, stiffness: f64, internal: f64, damping: 
     model
 }
 
-/// Coordinates of the shaft, and a bearing in the ground that is stiffer one way than the other: no steady state.
+/// Shaft coordinates, with a ground-fixed bearing that is stiffer in one direction: no steady state.
 pub fn anisotropic_bearing(mass: f64, stiffness: [f64; 2]) -> Model {
     let mut model = plain_in_the_shaft(mass);
     let disk = point(&mut model, Frame::Body(2));

@@ -1,4 +1,4 @@
-//! Joints of several coordinates, and a screw.
+//! Multi-coordinate joints, and a screw.
 
 use super::{Y, Z, body, gravity, spinning};
 use crate::model::{
@@ -9,8 +9,8 @@ fn turn(name: &str, axis: [f64; 3]) -> Step {
     Step::new(Motion::Turn, axis).named(name)
 }
 
-/// A body on a spherical joint, turned about z at the first input, tilted freely about y, spinning about its own z at the
-/// second input.
+/// A body on a spherical joint: turned about z at the first input, free to tilt about y, spinning about its
+/// own z at the second input.
 pub fn top(shape: Shape, weight: Values) -> Model {
     let steps = vec![
         turn("precession", Z).driven(0, 1.0),
@@ -50,7 +50,7 @@ pub fn blade(shape: Shape) -> Model {
     model
 }
 
-/// A particle at the distance `arm` from a screw whose axis rises at an angle; it hangs below the axis at zero.
+/// A particle at distance `arm` from a screw whose axis is inclined by `rise`; at zero it hangs below the axis.
 pub fn screw_pendulum(mass: f64, arm: f64, lead: f64, rise: f64) -> Model {
     let (sine, cosine) = rise.sin_cos();
     let particle = Shape::Point {

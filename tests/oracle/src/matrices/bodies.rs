@@ -1,4 +1,4 @@
-//! Values of a design, and the mass, centre and central inertia of bodies.
+//! Values at a design point, and the mass, centre and central inertia of bodies.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use super::Scalar;
 use super::space::{Matrix, Pose, Vector, rotation, unit};
 use crate::model::{Amount, Part, Placement, Shape, Value, Values};
 
-/// Value of a number or of a multiple of a design variable.
+/// Evaluates a number or a multiple of a design variable.
 pub(crate) fn value<D: Scalar>(value: Value, design: &[D]) -> D {
     match value {
         Value::Number(number) => D::from(number),
@@ -18,7 +18,7 @@ pub(crate) fn vector<D: Scalar>(values: &Values, design: &[D]) -> Vector<D> {
     Vector(values.map(|component| value(component, design)))
 }
 
-/// Pose of a placement: the offset, then each rotation about the axes left by the one before.
+/// Pose of a placement: the offset, then each rotation about the axes resulting from the previous one.
 pub(crate) fn placement<D: Scalar>(placement: &Placement, design: &[D]) -> Pose<D> {
     let mut pose = Pose {
         origin: vector(&placement.offset, design),
@@ -39,7 +39,7 @@ pub(crate) struct Inertia<D> {
     pub(crate) tensor: Matrix<D>,
 }
 
-/// Axial symmetry about unit `a`: `transverse (I - a a^T) + axial a a^T`.
+/// Inertia with axial symmetry about the unit vector `a`: `transverse (I - a a^T) + axial a a^T`.
 fn symmetric<D: Scalar>(a: [f64; 3], axial: D, transverse: D) -> Matrix<D> {
     Matrix::identity().scaled(transverse) + Matrix::square(a).scaled(axial - transverse)
 }
@@ -82,13 +82,13 @@ pub(crate) fn inertia<D: Scalar>(parts: &[Part], design: &[D]) -> Inertia<D> {
     total
 }
 
-/// `m (d . d I - d d^T)`: what a mass adds to the inertia about a point at the distance `d` from its centre.
+/// `m (d . d I - d d^T)`: the inertia that a mass adds about a point at distance `d` from its centre.
 fn steiner<D: Scalar>(mass: D, d: Vector<D>) -> Matrix<D> {
     let square = Matrix(d.0.map(|x| d.0.map(|y| D::zero() - x * y)));
     (Matrix::identity().scaled(d.dot(d)) + square).scaled(mass)
 }
 
-/// Mass of an amount that fills a volume (a length, an area).
+/// Mass of an amount over a given volume (or length, or area).
 fn mass_of<D: Scalar>(amount: Amount, volume: D, design: &[D]) -> D {
     match amount {
         Amount::Mass(mass) => value(mass, design),
@@ -96,7 +96,7 @@ fn mass_of<D: Scalar>(amount: Amount, volume: D, design: &[D]) -> D {
     }
 }
 
-/// A shape in the frame of its part.
+/// Mass properties of a shape in the frame of its part.
 fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
     let get = |v: &Value| value(*v, design);
     match shape {
@@ -105,7 +105,7 @@ fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             center: vector(center, design),
             tensor: Matrix::constant([[0.0; 3]; 3]),
         },
-        // m L^2 / 12 across, nothing along.
+        // m L^2 / 12 across, zero along.
         Shape::Rod {
             mass,
             length,

@@ -1,17 +1,17 @@
-//! Scalars built on the residual, their gradients, and the directional derivatives of those gradients.
+//! Scalars built from the residual, their gradients, and directional derivatives of those gradients.
 
 use num_dual::Dual;
 
 use super::scalar::{along, rates, seeded, still};
 use super::{Oracle, Scalar, State};
 
-/// A scalar function of `(q, u, b)` and of further arguments that a gradient holds fixed.
+/// A scalar function of `(q, u, b)` and of further arguments, held fixed in a gradient.
 pub trait Functional {
     /// Its value.
     fn value<D: Scalar>(&self, oracle: &Oracle, at: [&[D]; 3], fixed: &[D]) -> D;
 }
 
-/// `phi^T (Khat - lambda Mhat) phi`; fixed: `phi`, then `lambda`.
+/// `phi^T (Khat - lambda Mhat) phi`; fixed arguments: `phi`, then `lambda`.
 #[derive(Clone, Copy, Debug)]
 pub struct ModeFunctional;
 
@@ -35,7 +35,7 @@ impl Functional for ModeFunctional {
     }
 }
 
-/// `left^T (Mhat acceleration + Chat velocity + Khat position)`; fixed: the four vectors one after the other.
+/// `left^T (Mhat acceleration + Chat velocity + Khat position)`; fixed arguments: the four vectors in this order.
 #[derive(Clone, Copy, Debug)]
 pub struct PencilFunctional;
 
@@ -53,7 +53,7 @@ impl Functional for PencilFunctional {
     }
 }
 
-/// `w^T g(0, 0, q; u, b)`; fixed: `w`.
+/// `w^T g(0, 0, q; u, b)`; fixed argument: `w`.
 #[derive(Clone, Copy, Debug)]
 pub struct ResidualFunctional;
 
@@ -68,12 +68,12 @@ impl Functional for ResidualFunctional {
     }
 }
 
-/// A direction in `(q, u, b)` and in the arguments a gradient holds fixed.
+/// A direction in `(q, u, b)` and in the fixed arguments of a gradient.
 #[derive(Clone, Copy, Debug)]
 pub struct Along<'a> {
     /// `dq`, `du`, `db`.
     pub at: [&'a [f64]; 3],
-    /// Of the fixed arguments.
+    /// Direction in the fixed arguments.
     pub fixed: &'a [f64],
 }
 
@@ -97,7 +97,7 @@ impl Oracle<'_> {
         })
     }
 
-    /// Directional derivative of [`Oracle::gradient`]; the arguments that the gradient held fixed move as well.
+    /// Directional derivative of [`Oracle::gradient`]; the arguments that the gradient holds fixed vary too.
     pub fn gradient_along(
         &self,
         functional: &impl Functional,

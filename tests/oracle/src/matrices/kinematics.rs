@@ -5,9 +5,9 @@ use super::space::{Matrix, Pose, Vector, rotation, unit};
 use super::{Oracle, Scalar};
 use crate::model::{Branch, Coordinate, Frame, Motion, Step};
 
-/// Where everything is, in the ground frame.
+/// The configuration of the mechanism in the ground frame.
 pub(crate) struct Configuration<D> {
-    /// The ground itself: the identity unless the oracle is turned.
+    /// The ground itself: the identity unless the oracle is rotated.
     pub(crate) ground: Pose<D>,
     /// Pose of each body.
     pub(crate) bodies: Vec<Pose<D>>,
@@ -17,7 +17,7 @@ pub(crate) struct Configuration<D> {
     pub(crate) axes: Vec<Vec<Axis<D>>>,
 }
 
-/// How everything beyond a step moves at unit speed: it turns with `spin` about `origin` and slides with `slide`.
+/// The motion, at unit speed of a step, of everything beyond it: rotation `spin` about `origin` and translation `slide`.
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<D> {
     pub(crate) origin: Vector<D>,
@@ -34,8 +34,8 @@ impl<D: Scalar> Configuration<D> {
     }
 }
 
-/// The velocity transformation: one column per coordinate, and in it for each body the three components of the
-/// velocity of its centre of mass, then those of its angular velocity, all in the ground frame.
+/// The velocity transformation, one column per coordinate. A column holds for each body the three components of its
+/// centre-of-mass velocity, then those of its angular velocity, all in the ground frame.
 pub(crate) type Columns<D> = Vec<Vec<D>>;
 
 /// `B_D` and `B_R`.
@@ -81,7 +81,7 @@ fn displacement<D: Scalar>(step: &Step, q: D, design: &[D]) -> Pose<D> {
     }
 }
 
-/// The axis of a step whose frame is given; `sign` is -1 where the step is passed backwards.
+/// The axis of a step in the given frame; `sign` is -1 when the step is traversed backwards.
 fn axis<D: Scalar>(step: &Step, frame: Pose<D>, sign: f64, design: &[D]) -> Axis<D> {
     let e = (frame.rotation * Vector::constant(unit(step.axis))).scaled(D::from(sign));
     let (spin, slide) = match step.motion {
@@ -97,8 +97,8 @@ fn axis<D: Scalar>(step: &Step, frame: Pose<D>, sign: f64, design: &[D]) -> Axis
 }
 
 impl Oracle<'_> {
-    /// Pose of every body: `X_child = X_parent X_from J_1(q_1) ... J_k(q_k) X_to^-1`; a joint declared from the child to
-    /// its parent is passed the other way, `X_child = X_parent X_to J_k(-q_k) ... J_1(-q_1) X_from^-1`.
+    /// Pose of every body: `X_child = X_parent X_from J_1(q_1) ... J_k(q_k) X_to^-1`. A joint declared from the child to
+    /// its parent is traversed the other way, `X_child = X_parent X_to J_k(-q_k) ... J_1(-q_1) X_from^-1`.
     pub(crate) fn configuration<D: Scalar>(
         &self,
         free: &[D],
@@ -153,7 +153,7 @@ impl Oracle<'_> {
         at
     }
 
-    /// Picks the value of a coordinate.
+    /// Looks up the value of a coordinate.
     pub(crate) fn coordinate<D: Scalar>(
         &self,
         coordinate: Coordinate,
@@ -182,7 +182,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// The velocities that a unit speed of one coordinate gives to the bodies it carries: `v = s x (c - o) + t` and
+    /// The velocities that unit speed of one coordinate gives the bodies it carries: `v = s x (c - o) + t` and
     /// `omega = s` with the spin `s` about `o` and the slide `t` of its axis.
     fn column<D: Scalar>(&self, at: &Configuration<D>, coordinate: Coordinate) -> Vec<D> {
         let axis = at.axes[coordinate.joint][coordinate.step];
@@ -196,12 +196,12 @@ impl Oracle<'_> {
     }
 }
 
-/// For each joint the bodies that hang on it.
+/// For each joint, the bodies that it carries.
 pub(crate) fn carried(tree: &[Branch], joints: usize) -> Vec<Vec<usize>> {
     let mut carried = vec![Vec::new(); joints];
     for branch in tree {
         carried[branch.joint].push(branch.body);
-        // Parents come first, so whoever carries the parent is known.
+        // Parents come first, so the joints that carry the parent are already known.
         if let Frame::Body(parent) = branch.parent {
             for bodies in carried.iter_mut().filter(|list| list.contains(&parent)) {
                 if !bodies.contains(&branch.body) {

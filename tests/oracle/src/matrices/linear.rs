@@ -1,4 +1,4 @@
-//! Linearisation at rest (eqs. 15-17, completed) and its partial derivatives.
+//! Linearisation at rest (eqs. 15-17, in complete form) and its partial derivatives.
 
 use num_dual::Dual;
 
@@ -16,7 +16,7 @@ pub struct Linear<D> {
     pub stiffness: Vec<D>,
 }
 
-/// Partial derivatives of the three by each coordinate, input and design variable.
+/// Partial derivatives of the three matrices by each coordinate, input and design variable.
 #[derive(Clone, Debug)]
 pub struct LinearPartials {
     /// By each free coordinate.
@@ -61,8 +61,8 @@ impl Oracle<'_> {
         }
     }
 
-    /// Explicit partial derivatives of the residual at rest by each input and each design variable: one row per
-    /// coordinate, one after another.
+    /// Explicit partial derivatives of the residual at rest by each input and each design variable, flattened with one
+    /// row per coordinate.
     pub fn residual_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (q0, u0, b0) = (still(q), still(u), still(b));
         let by_input = (0..u.len())
@@ -94,7 +94,7 @@ impl Oracle<'_> {
     }
 }
 
-/// The entries row by row of a matrix given by columns.
+/// The entries, by rows, of a matrix given by columns.
 fn by_rows<D: Scalar>(columns: &[Vec<D>]) -> Vec<D> {
     let rows = columns.first().map_or(0, Vec::len);
     (0..rows)

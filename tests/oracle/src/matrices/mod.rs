@@ -1,8 +1,8 @@
-//! The paper's matrices, evaluated as they are written.
+//! The paper's matrices, evaluated literally.
 //!
-//! No recursion over bodies, no symbolic step, no folding: body poses are products of matrices, the velocity
-//! transformation is filled column by column, its rate and every derivative come from (nested) dual numbers. Equation
-//! numbers are those of Eom, Choi & Yoo as corrected in the project's theory.
+//! No recursion over bodies, no symbolic step, no folding: body poses are matrix products, the velocity transformation
+//! is filled column by column, and its rate and every derivative come from (nested) dual numbers. Equation numbers
+//! refer to Eom, Choi & Yoo as corrected in the project's theory.
 
 mod bodies;
 mod forces;
@@ -23,7 +23,7 @@ pub use scalar::Scalar;
 
 use crate::model::{Branch, Coordinate, Model};
 
-/// Evaluates a model. Driven coordinates are zero and the ground frame is the inertial one unless set otherwise.
+/// Evaluates a model. Unless set otherwise, driven coordinates are zero and the ground frame is the inertial frame.
 #[derive(Clone, Debug)]
 pub struct Oracle<'a> {
     model: &'a Model,
@@ -51,7 +51,7 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// The same mechanism with its driven coordinates elsewhere; in a steady state no kernel may notice.
+    /// The same mechanism with its driven coordinates at other positions; in a steady state no kernel result may change.
     pub fn with_driven(mut self, position: &[f64]) -> Self {
         assert_eq!(
             position.len(),
@@ -62,8 +62,8 @@ impl<'a> Oracle<'a> {
         self
     }
 
-    /// The same mechanism with the whole ground, gravity included, turned by `angle` about `axis`. No result changes
-    /// but by rounding, so the difference shows how large the terms are that a result is the sum of.
+    /// The same mechanism with the whole ground, gravity included, rotated by `angle` about `axis`. Results change only
+    /// by rounding, so the difference shows how large the summed terms are.
     pub fn turned(mut self, axis: [f64; 3], angle: f64) -> Self {
         self.ground = space::rotation(axis, angle).0;
         self

@@ -38,7 +38,7 @@ impl<D: Scalar> State<D> {
         }
     }
 
-    /// The same state with numbers that can carry one more derivative.
+    /// The same state in numbers that carry one more derivative.
     pub fn lifted(&self) -> State<Dual<D>> {
         State {
             acceleration: still(&self.acceleration),
@@ -57,7 +57,7 @@ pub struct Motion<D> {
     pub mass: Vec<Vec<D>>,
     /// `B_R^T (M (Bdot_D u + Bdot_R qdot_R) + omega x J omega)`.
     pub inertia: Vec<D>,
-    /// `B_R^T Q`, and forces along the coordinates themselves.
+    /// `B_R^T Q` plus the forces along the coordinates themselves.
     pub applied: Vec<D>,
 }
 
@@ -72,7 +72,7 @@ impl<D: Scalar> Motion<D> {
     }
 }
 
-/// Everything in eqs. 4-9 before the projection, as rows of `B`.
+/// All quantities of eqs. 4-9 before the projection, as rows of `B`.
 struct Bodies<D> {
     /// `B_R`.
     b_free: Columns<D>,
@@ -85,7 +85,7 @@ struct Bodies<D> {
     gyroscopic: Vec<D>,
     /// `Q`.
     applied: Vec<D>,
-    /// What forces on free coordinates add to `B_R^T Q`.
+    /// Forces along free coordinates, added to `B_R^T Q`.
     generalized: Vec<D>,
 }
 
@@ -165,7 +165,7 @@ impl Oracle<'_> {
             &times(&b.driven, &drives, rows),
             &times(&b.free, &state.velocity, rows),
         );
-        // The same with time, one part in epsilon of it ahead.
+        // The same configuration advanced in time by epsilon.
         let moving = self.configuration(
             &along(&state.position, &state.velocity),
             &along(&driven, &drives),
@@ -231,7 +231,7 @@ fn sum<D: Scalar>(a: &[D], b: &[D]) -> Vec<D> {
     a.iter().zip(b).map(|(&a, &b)| a + b).collect()
 }
 
-/// The components of one body: of its centre of mass, then of its rotation.
+/// The components of one body: velocity of the centre of mass, then angular velocity.
 fn of_body<D: Scalar>(rows: &[D], body: usize) -> (Vector<D>, Vector<D>) {
     let three = |start: usize| Vector([rows[start], rows[start + 1], rows[start + 2]]);
     (three(6 * body), three(6 * body + 3))

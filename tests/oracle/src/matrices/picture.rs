@@ -1,4 +1,4 @@
-//! Where things are, as numbers.
+//! Positions and orientations as numbers.
 
 use super::Oracle;
 use super::bodies::{inertia, placement, vector};
@@ -13,13 +13,13 @@ fn place(pose: Pose<f64>) -> Place {
 }
 
 impl Oracle<'_> {
-    /// Where each body is.
+    /// Place of each body.
     pub fn poses(&self, q: &[f64], b: &[f64]) -> Vec<Place> {
         let at = self.configuration(q, &self.driven_position, b);
         at.bodies.into_iter().map(place).collect()
     }
 
-    /// Where a placement in a frame is.
+    /// Place of a placement in a frame.
     pub fn place(&self, q: &[f64], b: &[f64], frame: Frame, within: &Placement) -> Place {
         let at = self.configuration(q, &self.driven_position, b);
         place(at.pose(frame) * placement(within, b))
@@ -36,7 +36,7 @@ impl Oracle<'_> {
         self.in_ground(vector(&self.model.gravity, b)).0
     }
 
-    /// For each joint the directions of its motions as they are declared, unit vectors in the ground frame.
+    /// For each joint, the directions of its motions as declared: unit vectors in the ground frame.
     pub fn directions(&self, q: &[f64], b: &[f64]) -> Vec<Vec<[f64; 3]>> {
         let at = self.configuration(q, &self.driven_position, b);
         let mut directions = vec![Vec::new(); at.axes.len()];
@@ -53,7 +53,7 @@ impl Oracle<'_> {
         directions
     }
 
-    /// Mass, centre and central inertia of a piece of a body, in the frame of the body; a hole as if it were none.
+    /// Mass, centre and central inertia of one piece of a body in the body frame; a hole counts as solid.
     pub fn piece(part: &Part, b: &[f64]) -> (f64, [f64; 3], [[f64; 3]; 3]) {
         let whole = Part {
             hole: false,

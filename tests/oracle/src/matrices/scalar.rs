@@ -1,4 +1,4 @@
-//! The numbers the oracle computes with.
+//! The number types of the oracle.
 
 use num_dual::{Dual, DualNum};
 
@@ -36,7 +36,7 @@ pub(crate) fn seeded<D: Scalar>(values: &[D], k: usize) -> Vec<Dual<D>> {
     seeded
 }
 
-/// The parts of `epsilon`.
+/// The `epsilon` parts.
 pub(crate) fn rates<D: Scalar>(values: &[Dual<D>]) -> Vec<D> {
     values.iter().map(|value| value.eps).collect()
 }

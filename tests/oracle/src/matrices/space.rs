@@ -1,4 +1,4 @@
-//! Vectors, matrices and poses of three-dimensional space.
+//! Vectors, matrices and poses in three-dimensional space.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -6,7 +6,7 @@ use num_dual::Dual;
 
 use super::Scalar;
 
-/// Three components in the frame its owner says.
+/// Three components, in a frame that the owner specifies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vector<D>(pub(crate) [D; 3]);
 
@@ -125,7 +125,7 @@ impl<D: Scalar> Pose<D> {
         }
     }
 
-    /// The point in the outer frame whose position in the inner one is given.
+    /// Transforms a position from the inner frame to the outer frame.
     pub(crate) fn point(self, position: Vector<D>) -> Vector<D> {
         self.origin + self.rotation * position
     }

@@ -1,4 +1,4 @@
-//! Bodies and what their mass is made of.
+//! Bodies and their mass distributions.
 
 use super::Placement;
 use super::values::{Value, Values};
@@ -8,23 +8,23 @@ use super::values::{Value, Values};
 pub struct Body {
     /// Declared name.
     pub name: String,
-    /// What its mass is made of; nothing when massless.
+    /// Its pieces of mass; empty if massless.
     pub parts: Vec<Part>,
 }
 
 /// One piece of a body's mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// The piece is missing from the others.
+    /// Subtract this piece from the others.
     pub hole: bool,
     /// Its mass distribution.
     pub shape: Shape,
-    /// Its frame in the body frame.
+    /// Frame of the piece in the body frame.
     pub placement: Placement,
 }
 
 impl Part {
-    /// A piece in the body frame itself.
+    /// A piece placed at the body frame itself.
     pub fn whole(shape: Shape) -> Self {
         Self {
             hole: false,
@@ -34,12 +34,12 @@ impl Part {
     }
 }
 
-/// How much there is of a shape.
+/// The amount of material in a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
     /// Its mass.
     Mass(Value),
-    /// Mass per volume; per area of a disk; per length of a rod.
+    /// Mass per volume, per area of a disk, or per length of a rod.
     Density(Value),
 }
 
@@ -61,7 +61,7 @@ pub enum Shape {
         length: Value,
         /// Direction.
         along: [f64; 3],
-        /// Centre of mass; half the length along the bar when `None`.
+        /// Centre of mass; if `None`, half the length along the bar.
         center: Option<Values>,
     },
     /// A uniform thin disk.
@@ -129,7 +129,7 @@ pub enum Shape {
         center: Values,
         /// Inertia tensor: xx, yy, zz, xy, yz, xz.
         inertia: [Value; 6],
-        /// The point it is about; the centre of mass when `None`.
+        /// Reference point of the tensor; the centre of mass if `None`.
         about: Option<Values>,
     },
 }

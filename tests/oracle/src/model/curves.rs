@@ -9,14 +9,15 @@ use super::values::Unit;
 pub struct Curve {
     /// Declared name.
     pub name: String,
-    /// Arguments, growing, and the value at each.
+    /// Increasing arguments, and the value at each.
     pub points: Vec<[f64; 2]>,
     /// Units of arguments and values.
     pub units: [Unit; 2],
 }
 
 impl Curve {
-    /// The value at `x`: `m0 (x1 - x)^3 / (6 h) + m1 (x - x0)^3 / (6 h) + ..` with the second derivatives `m` at both ends of the piece.
+    /// The value at `x`: `m0 (x1 - x)^3 / (6 h) + m1 (x - x0)^3 / (6 h) + ..` with the second derivatives `m` at
+    /// the two ends of the segment.
     pub fn at<D: DualNum<Primitive = f64> + Copy>(&self, x: D) -> D {
         let (points, m) = (&self.points, self.curvatures());
         let last = points.len() - 1;
@@ -46,8 +47,8 @@ impl Curve {
             + right * (y1 / h - m[k + 1] * h / 6.0)
     }
 
-    /// Second derivatives at the points, zero at the ends: the equations of continuous slopes, solved by Gauss and Seidel's iteration, which
-    /// converges because each row is dominated by its diagonal twice over.
+    /// Second derivatives at the points, zero at the ends. Slope continuity gives a linear system, solved by Gauss-Seidel
+    /// iteration; it converges because each diagonal entry is twice the sum of the others in its row.
     fn curvatures(&self) -> Vec<f64> {
         let points = &self.points;
         let mut m = vec![0.0; points.len()];

@@ -24,11 +24,11 @@ pub enum Expr {
     Coordinate(Coordinate),
     /// Speed of a coordinate.
     Rate(Coordinate),
-    /// Component 0, 1 or 2 in the ground of a point's position.
+    /// Component 0, 1 or 2 of a point's position in the ground.
     Position(usize, usize),
     /// Distance of two points.
     Distance(usize, usize),
-    /// Distance of the two points of a tension.
+    /// Distance between the two points of a tension.
     Length,
     /// Its rate.
     LengthRate,
@@ -42,7 +42,7 @@ pub enum Expr {
     Sine(Box<Expr>),
     /// Cosine.
     Cosine(Box<Expr>),
-    /// A curve, and what it is asked for.
+    /// A curve and its argument.
     Curve(Curve, Box<Expr>),
 }
 
@@ -62,7 +62,7 @@ impl Expr {
         Self::Sum(vec![self, other.times(-1.0)])
     }
 
-    /// The curves in it, in order.
+    /// The curves in the expression, in order.
     pub fn curves(&self) -> Vec<&Curve> {
         match self {
             Self::Sum(parts) | Self::Product(parts) => {
@@ -78,7 +78,7 @@ impl Expr {
         }
     }
 
-    /// Calls `visit` on every part that has no parts.
+    /// Calls `visit` on every leaf.
     pub fn leaves(&self, visit: &mut dyn FnMut(&Expr)) {
         match self {
             Self::Sum(parts) | Self::Product(parts) => {
@@ -105,7 +105,7 @@ pub enum ForceLaw {
         coordinate: Coordinate,
         /// Stiffness.
         stiffness: Value,
-        /// Coordinate without force.
+        /// Coordinate at which the force is zero.
         rest: Value,
     },
     /// `-damping qdot` on a coordinate.
@@ -128,7 +128,7 @@ pub enum ForceLaw {
         /// Free length.
         length: Value,
     },
-    /// Tension between two points by an expression of their distance and its rate.
+    /// Tension between two points, an expression of their distance and its rate.
     Tension {
         /// Index of one point.
         from: usize,
@@ -149,22 +149,22 @@ pub enum ForceLaw {
         /// Expression of coordinates and points.
         energy: Expr,
     },
-    /// Elastic connection of two points with axes: along the axes of `from`, the force `-stiffness d - damping d'` and
-    /// the moment `-turning_stiffness r - turning_damping r'` on `to`, and the opposite on the body of `from` at the
-    /// place of `to`. `d` is where `to` is, `r` half the antisymmetric part of how it is turned; both as seen in `from`,
-    /// rates too.
+    /// Elastic connection of two points with axes. It applies, along the axes of `from`, the force
+    /// `-stiffness d - damping d'` and the moment `-turning_stiffness r - turning_damping r'` to `to`, and the opposite
+    /// to the body of `from` at the position of `to`. `d` is the position of `to`, `r` the axial vector of the
+    /// antisymmetric part of its rotation matrix; both, and their rates, are measured in `from`.
     Bushing {
         /// Index of one point.
         from: usize,
         /// Index of the other point.
         to: usize,
-        /// Of displacements along x, y, z.
+        /// Stiffness for displacements along x, y, z.
         stiffness: Matrix,
-        /// Of their rates.
+        /// Damping for their rates.
         damping: Matrix,
-        /// Of rotations about x, y, z.
+        /// Stiffness for rotations about x, y, z.
         turning_stiffness: Matrix,
-        /// Of their rates.
+        /// Damping for their rates.
         turning_damping: Matrix,
     },
     /// A force and a moment at a point.
@@ -175,16 +175,16 @@ pub enum ForceLaw {
         force: Values,
         /// Moment.
         moment: Values,
-        /// Along the axes of the point; else along those of the ground.
+        /// Components along the axes of the point if true, of the ground otherwise.
         following: bool,
     },
-    /// Force `-damping v` and moment `-turning_damping omega` at a point, absolute velocities.
+    /// Force `-damping v` and moment `-turning_damping omega` at a point, proportional to absolute velocities.
     Drag {
         /// Index of the point.
         point: usize,
-        /// Of the velocity.
+        /// Damping of the velocity.
         damping: Value,
-        /// Of the angular velocity.
+        /// Damping of the angular velocity.
         turning_damping: Value,
     },
 }

@@ -1,9 +1,9 @@
-//! Joints and the coordinates they bring.
+//! Joints and their coordinates.
 
 use super::values::{Unit, Value};
 use super::{Frame, Placement};
 
-/// The word a joint is declared with; it says which motions follow each other.
+/// The keyword of a joint; it determines the sequence of motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Word {
     /// No motion.
@@ -94,13 +94,13 @@ pub struct Drive {
 /// One elementary motion of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// Name of its coordinate: the joint's when the step is the only one.
+    /// Name of its coordinate: the joint's name if the step is the only one.
     pub name: String,
     /// Its kind.
     pub motion: Motion,
-    /// Axis in the frame that the steps before have left; not necessarily a unit vector.
+    /// Axis in the frame left by the preceding steps; not necessarily a unit vector.
     pub axis: [f64; 3],
-    /// How it is driven, if it is.
+    /// Its drive, if any.
     pub drive: Option<Drive>,
 }
 
@@ -132,12 +132,12 @@ impl Step {
     }
 }
 
-/// A joint: its steps take its frame in `from` into its frame in `to`.
+/// A joint: its steps move from its frame in `from` to its frame in `to`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Declared name.
     pub name: String,
-    /// What it is called.
+    /// Its keyword.
     pub word: Word,
     /// Its motions from `from` to `to`.
     pub steps: Vec<Step>,

@@ -1,6 +1,6 @@
 //! A mechanism as plain data: an open tree of bodies whose values are numbers or multiples of design variables.
 //!
-//! All values are SI. The meaning of every field is that of the language; see [`crate::declaration`] for its spelling.
+//! All values are SI. Fields have the same meaning as in the language; for its syntax see [`crate::declaration`].
 
 mod bodies;
 mod curves;
@@ -14,7 +14,7 @@ pub use forces::{Expr, Force, ForceLaw};
 pub use joints::{Coordinate, Drive, Joint, Motion, Step, Word};
 pub use values::{DesignVariable, Input, Matrix, ORIGIN, Unit, Value, Values, ZERO, diagonal};
 
-/// What a frame can be fixed in.
+/// A frame to which something is fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
     /// The inertial frame.
@@ -23,7 +23,7 @@ pub enum Frame {
     Body(usize),
 }
 
-/// A fixed placement: the offset first, then rotations (axis, angle), each about the axes left by the one before.
+/// A fixed placement: the offset first, then rotations (axis, angle), each about the axes resulting from the previous one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// Origin.
@@ -80,7 +80,7 @@ pub struct Model {
     pub forces: Vec<Force>,
 }
 
-/// How a body hangs on the frame nearer to the ground.
+/// How a body connects to its parent, the frame nearer to the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch {
     /// The body.
@@ -141,7 +141,7 @@ impl Model {
         branches
     }
 
-    /// All coordinates, in order of the joints and of their steps.
+    /// All coordinates, ordered by joint, then by step.
     pub fn coordinates(&self) -> Vec<Coordinate> {
         let of_joint = |joint: usize| {
             let steps = 0..self.joints[joint].steps.len();
@@ -150,7 +150,7 @@ impl Model {
         (0..self.joints.len()).flat_map(of_joint).collect()
     }
 
-    /// The free coordinates: the order of `q`.
+    /// The free coordinates, in the order of `q`.
     pub fn free(&self) -> Vec<Coordinate> {
         self.select(|step| step.drive.is_none())
     }
@@ -160,7 +160,7 @@ impl Model {
         self.select(|step| step.drive.is_some())
     }
 
-    /// The step that a coordinate belongs to.
+    /// The step of a coordinate.
     pub fn step(&self, coordinate: Coordinate) -> &Step {
         &self.joints[coordinate.joint].steps[coordinate.step]
     }

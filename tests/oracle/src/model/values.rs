@@ -1,4 +1,4 @@
-//! Values, units, and the quantities that a user chooses.
+//! Values, units, and user-defined quantities.
 
 /// A scalar value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +39,7 @@ pub const ZERO: Value = Value::Number(0.0);
 /// The vector 0.
 pub const ORIGIN: Values = [ZERO; 3];
 
-/// The matrix with this diagonal and zeros beside it.
+/// The matrix with this diagonal and zeros elsewhere.
 pub fn diagonal(values: Values) -> Matrix {
     let mut matrix = [ORIGIN; 3];
     for (i, value) in values.into_iter().enumerate() {
@@ -48,7 +48,7 @@ pub fn diagonal(values: Values) -> Matrix {
     matrix
 }
 
-/// The unit of a declared value. A value in SI needs no scale, an angle is a plain number.
+/// The unit of a declared value. SI values need no scale; an angle is a plain number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Mass.
@@ -101,7 +101,7 @@ impl Unit {
         }
     }
 
-    /// The unit of a factor that makes this unit out of the product of others.
+    /// The unit of the factor whose product with `others` has this unit.
     pub fn over(self, others: &[Unit]) -> Self {
         let mut exponents = self.exponents();
         for other in others {

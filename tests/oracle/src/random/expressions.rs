@@ -1,11 +1,11 @@
-//! Random expressions of force laws and energies, every term of the right dimension.
+//! Random expressions for force laws and energies, every term of the right dimension.
 
 use super::tree::Builder;
 use super::values::Source;
 use crate::model::{Coordinate, Curve, Expr, Unit, Value};
 
 impl Source {
-    /// A factor in an interval, with either sign, that turns a product of such units into `whole`.
+    /// A factor from an interval, with either sign; its unit completes the product of `others` to `whole`.
     fn factor(&mut self, (low, high): (f64, f64), whole: Unit, others: &[Unit]) -> Expr {
         let unit = whole.over(others);
         let size = self.random.between(low, high);
@@ -18,8 +18,8 @@ impl Source {
         Expr::Value(self.between(low, high, unit), unit)
     }
 
-    /// A curve around values of about this size, of two to six points: any, or on a line, or all zero. It goes on beyond the size
-    /// itself, where arguments that do not move are.
+    /// A curve over values of about this size, with two to six points: arbitrary, on a line, or all zero. It extends beyond the
+    /// size itself to cover arguments that do not move.
     fn curve(&mut self, (size, unit): (f64, Unit), argument: Expr) -> Expr {
         self.curves += 1;
         let count = 2 + self.random.below(5);
@@ -94,8 +94,7 @@ impl Builder {
         Expr::Product(factors)
     }
 
-    /// `-k q - k3 q^3 - c rate(q)`, and couplings with another free coordinate, with the speed of any coordinate, with an
-    /// input.
+    /// `-k q - k3 q^3 - c rate(q)`, plus couplings with another free coordinate, the speed of any coordinate, or an input.
     pub(super) fn generalized(
         &mut self,
         coordinate: Coordinate,
@@ -157,7 +156,7 @@ impl Builder {
         }
     }
 
-    /// `1/2 k (q1 - q2)^2` of like coordinates, `1/2 k q^2 + g q1 q2` of unlike ones, `-m cos q` of angles.
+    /// `1/2 k (q1 - q2)^2` for coordinates of the same unit, `1/2 k q^2 + g q1 q2` for different ones, `-m cos q` for angles.
     pub(super) fn energy_of_coordinates(
         &mut self,
         coordinate: Coordinate,
@@ -206,7 +205,7 @@ impl Builder {
         Expr::Product(vec![Expr::number(0.5), stiffness, stretch])
     }
 
-    /// `m g position(P).axis`; where the ground may be felt as well `1/2 k position(P).axis^2`.
+    /// `m g position(P).axis`, or `1/2 k position(P).axis^2` where a tie to the ground is allowed as well.
     pub(super) fn energy_of_position(&mut self, point: usize, axis: usize, bound: bool) -> Expr {
         let height = Expr::Position(point, axis);
         let (metre, energy) = (Unit::Metre, Unit::NewtonMetre);

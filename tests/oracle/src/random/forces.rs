@@ -1,4 +1,4 @@
-//! Random forces that leave a steady state.
+//! Random forces that preserve a steady state.
 
 use super::Setting;
 use super::tree::Builder;
@@ -7,7 +7,7 @@ use crate::model::{
     ZERO, diagonal,
 };
 
-/// Points and force laws as they come.
+/// Points and force laws collected so far.
 struct Elements {
     points: Vec<Point>,
     laws: Vec<ForceLaw>,
@@ -27,8 +27,8 @@ impl Elements {
 }
 
 impl Builder {
-    /// Forces on free coordinates, between points that no drive moves relative to each other, and at points where no
-    /// drive makes a difference.
+    /// Forces on free coordinates, between points that no drive moves relative to each other, and at points where
+    /// drives have no effect.
     pub(super) fn forces(&mut self, setting: Setting) -> (Vec<Point>, Vec<Force>) {
         let mut elements = Elements {
             points: Vec::new(),
@@ -66,7 +66,7 @@ impl Builder {
         laws: &mut Vec<ForceLaw>,
     ) {
         let motion = self.joints[coordinate.joint].steps[coordinate.step].motion;
-        // Nothing but a spring holds a slider against its weight.
+        // Only a spring holds a slider against its weight.
         if motion == Motion::Slide || self.source.random.chance(0.75) {
             laws.push(match self.source.random.below(6) {
                 0 => ForceLaw::Generalized {
@@ -132,7 +132,7 @@ impl Builder {
         elements.laws.push(law);
     }
 
-    /// A place with axes.
+    /// A placement with axes.
     fn point_placement(&mut self) -> Placement {
         let offset = self.source.position(0.8);
         Placement {
@@ -156,7 +156,7 @@ impl Builder {
         }
     }
 
-    /// A diagonal with, now and then, something beside it: a symmetric or an antisymmetric pair, anything, nothing on the
+    /// A diagonal matrix, occasionally modified: a symmetric or antisymmetric off-diagonal pair, a full matrix, a zero
     /// diagonal, or a row of zeros.
     fn coefficients(&mut self, low: f64, high: f64, unit: Unit) -> Matrix {
         let mut matrix = diagonal(self.three(low, high, unit));
@@ -194,8 +194,8 @@ impl Builder {
         matrix
     }
 
-    /// Forces at a point of a body other than the rotor. What is fixed in the ground is parallel to the vertical where a
-    /// body turns about it.
+    /// Forces at a point of a body other than the rotor. A ground-fixed force is parallel to the vertical where the body
+    /// turns about the vertical.
     fn at_point(&mut self, setting: Setting, elements: &mut Elements) {
         let rotor = self.rotor.map(|(body, _)| body);
         let body = self.source.random.below(self.bodies.len());
@@ -258,7 +258,7 @@ impl Builder {
         components.map(|component| self.source.value(component, unit))
     }
 
-    /// Drag at a point on the axis of the rotor, which its rotation leaves in place.
+    /// Drag at a point on the rotor axis, which the rotation leaves in place.
     fn on_rotor(&mut self, elements: &mut Elements) {
         let Some((body, axis)) = self.rotor.filter(|_| !self.drifting) else {
             return;

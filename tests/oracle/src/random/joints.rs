@@ -1,10 +1,10 @@
-//! Random joints: words, axes that obey the rules of their words, and where drives leave a steady state.
+//! Random joints: keywords, axes that obey the rules of each keyword, and drives that leave a steady state.
 
 use super::tree::Builder;
 use super::values::{Frames, Source};
 use crate::model::{Coordinate, Joint, Model, Motion, Step, Unit, Word};
 
-/// A joint that has no ends yet.
+/// A joint not yet connected to bodies.
 pub(super) type Draft = (Word, Vec<Step>);
 
 pub(super) fn turn(axis: [f64; 3]) -> Step {
@@ -39,7 +39,7 @@ fn sine(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 impl Source {
-    /// An axis well away from the direction of another.
+    /// An axis well away from the direction of another one.
     fn axis_across(&mut self, other: [f64; 3]) -> [f64; 3] {
         loop {
             let axis = self.axis();
@@ -49,7 +49,7 @@ impl Source {
         }
     }
 
-    /// A lead per radian, either hand.
+    /// A screw of either hand.
     fn lead(&mut self) -> Motion {
         let size = self.random.between(0.02, 0.2);
         let lead = self.random.signed(size);
@@ -62,7 +62,7 @@ impl Source {
         (Word::Screw, vec![Step::new(self.lead(), axis)])
     }
 
-    /// A slide and a turn along the same line, in the same sense.
+    /// A slide and a turn along the same line, in the same direction.
     fn cylindrical(&mut self, axis: [f64; 3]) -> Draft {
         (Word::Cylindrical, vec![slide(axis), turn(axis)])
     }
@@ -74,7 +74,7 @@ impl Source {
         )
     }
 
-    /// Oblique slides, and the turn perpendicular to both.
+    /// Two oblique slides, and a turn perpendicular to both.
     fn planar(&mut self, normal: [f64; 3]) -> Draft {
         let along = cross(normal, self.axis_across(normal));
         let across = cross(normal, along).map(|x| x / norm(normal));
@@ -113,7 +113,7 @@ impl Source {
         (Word::Free, steps)
     }
 
-    /// Any joint with at most `room` coordinates, one at least allowed.
+    /// Any joint with at most `room` coordinates; one coordinate is always allowed.
     pub(super) fn joint(&mut self, room: usize) -> Draft {
         let axis = match self.frames == Frames::Aligned && self.random.chance(0.6) {
             true => self.hinge,
@@ -147,8 +147,8 @@ impl Source {
 }
 
 impl Builder {
-    /// A joint whose motion about the vertical is driven, with free coordinates beyond: a constant rotation about the
-    /// vertical changes nothing for what it carries.
+    /// A joint with a driven motion about the vertical and free coordinates beyond it: constant rotation about the
+    /// vertical changes nothing for the bodies it carries.
     pub(super) fn turning_joint(&mut self, vertical: [f64; 3], room: usize) -> Draft {
         let source = &mut self.source;
         match source.random.below(8) {
@@ -162,7 +162,7 @@ impl Builder {
                 self.drive(&mut steps[0]);
                 (word, steps)
             }
-            // Lifted freely along the vertical, or driven.
+            // A free or driven lift along the vertical.
             2 if room > 1 => {
                 let (word, mut steps) = source.cylindrical(vertical);
                 self.drive(&mut steps[1]);
@@ -176,7 +176,7 @@ impl Builder {
                 self.drive(&mut steps[0]);
                 (word, steps)
             }
-            // Three driven slides, a driven turn, two free ones.
+            // Three driven slides, a driven turn, two free turns.
             4 if room > 2 => {
                 let (word, mut steps) = source.free(vertical);
                 self.drifting = true;
@@ -197,7 +197,7 @@ impl Builder {
         }
     }
 
-    /// A joint with a driven slide, wherever the other motions are: all of them happen in a frame that moves uniformly.
+    /// A joint with a driven slide anywhere in its sequence: all its motions take place in a uniformly moving frame.
     pub(super) fn sliding_joint(&mut self, axis: [f64; 3], room: usize) -> Draft {
         let source = &mut self.source;
         let (word, mut steps) = match source.random.below(8) {
@@ -215,7 +215,7 @@ impl Builder {
         (word, steps)
     }
 
-    /// A joint whose last turn is driven about the axis of symmetry of what it carries.
+    /// A joint whose last turn is driven about the symmetry axis of the body it carries.
     pub(super) fn spinning_joint(&mut self, symmetry: [f64; 3], room: usize) -> Draft {
         let source = &mut self.source;
         let (word, mut steps) = match source.random.below(6) {
@@ -254,8 +254,8 @@ pub(super) fn name(joints: &mut [Joint]) {
     }
 }
 
-/// Turns the middle one of three free angles away from poses in which their axes lie in a plane: `a1 . (a2 x R2 a3)`
-/// is `|a1 x a2| |a2 x a3|` times the sine of an angle that grows with the middle one, so a quarter turn helps.
+/// Moves the middle one of three free angles away from poses in which their axes lie in a plane: `a1 . (a2 x R2 a3)` is
+/// `|a1 x a2| |a2 x a3|` times the sine of an angle that grows with the middle one, so a quarter turn helps.
 pub(super) fn leave_singular_poses(model: &Model, q: &mut [f64]) {
     let free = model.free();
     for (index, joint) in model.joints.iter().enumerate() {

@@ -1,10 +1,10 @@
-//! Random mechanisms: trees nobody would draw, and trees full of the special cases for which a compiler writes special code.
+//! Random mechanisms: trees that nobody would draw, and trees full of the special cases for which the compiler has dedicated code.
 //!
-//! Every model has a steady state and a regular mass matrix. Joints are declared in random order and in either
-//! direction, axes are not normalised, values are numbers or multiples of design variables that several places share.
-//! Bodies are sums with holes, every word of joint and every force law occurs, and drives are wherever they leave a
-//! steady state. Trees of [`Plan::special`] take axes, angles, offsets, masses and inertias from small sets: parallel and
-//! equal axes, right angles, zeros and what is nearly so.
+//! Every model has a steady state and a regular mass matrix. Joints are declared in random order and in either direction;
+//! axes are not normalised; values are numbers or multiples of design variables, some shared by several values. Bodies are
+//! sums of shapes with holes, every joint keyword and every force law occurs, and drives appear wherever they leave a steady
+//! state. Trees of [`Plan::special`] take axes, angles, offsets, masses and inertias from small sets: parallel and equal
+//! axes, right angles, zeros, and values close to these.
 
 mod expressions;
 mod forces;
@@ -23,31 +23,31 @@ use crate::agreement::Case;
 use crate::matrices::{Oracle, State};
 use crate::model::{Model, Motion};
 
-/// How the ground carries a mechanism.
+/// How the mechanism is mounted on the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
-    /// No drive, gravity anywhere.
+    /// No drive; gravity in any direction.
     Still,
-    /// A body driven about the vertical, gravity along it; further bodies may stand beside it on the ground.
+    /// A body driven about the vertical, with gravity along it; further bodies may stand beside it on the ground.
     Spinning,
-    /// A body driven along straight lines, gravity anywhere: by Galileo's principle nothing changes.
+    /// A body driven along straight lines, gravity in any direction: by Galileo's principle nothing changes.
     Conveyed,
-    /// A body driven along the vertical, and on it a body driven about the vertical.
+    /// A body driven along the vertical, carrying a body driven about the vertical.
     Climbing,
 }
 
-/// What to make.
+/// A recipe for a random model.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// How the ground carries it.
+    /// How the model is mounted on the ground.
     pub setting: Setting,
-    /// Bodies besides the driven ones of the setting and the rotor.
+    /// Number of bodies besides the rotor and the driven bodies of the setting.
     pub bodies: usize,
-    /// One more body driven about its own axis of symmetry.
+    /// Adds one more body, driven about its own axis of symmetry.
     pub rotor: bool,
-    /// Values from small sets.
+    /// Takes values from small sets.
     pub special: bool,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
@@ -55,7 +55,7 @@ impl Plan {
     /// The model of this plan.
     ///
     /// # Panics
-    /// When a hundred attempts in a row have a singular mass matrix.
+    /// When a hundred consecutive attempts have a singular mass matrix.
     pub fn model(&self) -> Model {
         let mut random = Random::new(self.seed);
         for _ in 0..100 {
@@ -68,13 +68,13 @@ impl Plan {
         panic!("no regular model: {self:?}");
     }
 
-    /// The first attempt, whatever its mass matrix.
+    /// The first attempt, whether or not its mass matrix is regular.
     pub fn draft(&self, random: Random) -> Model {
         tree::Builder::new(random, self.special).build(self)
     }
 }
 
-/// All plans with up to seven bodies. Shrinking takes bodies away.
+/// All plans with up to seven bodies. Shrinking removes bodies.
 pub fn plans() -> impl Strategy<Value = Plan> {
     let setting = prop_oneof![
         Just(Setting::Still),
@@ -102,10 +102,10 @@ pub fn plans() -> impl Strategy<Value = Plan> {
     )
 }
 
-/// Runs a check on as many random plans, always the same ones, and shrinks a plan on which it panics.
+/// Runs a check on the given number of random plans, always the same ones, and shrinks any plan on which it panics.
 ///
 /// # Panics
-/// With the smallest plan found, and what the check said about it.
+/// With the smallest failing plan, and the message of the check.
 pub fn on_plans(cases: u32, check: impl Fn(Plan)) {
     let config = Config {
         cases,
@@ -125,7 +125,7 @@ pub fn on_plans(cases: u32, check: impl Fn(Plan)) {
     }
 }
 
-/// A random state of the free coordinates, well away from poses in which a joint loses one.
+/// A random state of the free coordinates, well away from poses in which a joint loses a freedom.
 pub fn position(model: &Model, random: &mut Random) -> Vec<f64> {
     let limit = |coordinate| match model.step(coordinate).motion {
         Motion::Slide => 0.4,
@@ -140,8 +140,8 @@ pub fn position(model: &Model, random: &mut Random) -> Vec<f64> {
     q
 }
 
-/// At three states the mass matrix, scaled to ones on the diagonal, is well away from singular, and no two points that pull each
-/// other are at one place.
+/// Whether at three states the mass matrix, scaled to a unit diagonal, is well away from singular, and no two points that pull
+/// each other coincide.
 fn is_regular(model: &Model) -> bool {
     let oracle = Oracle::new(model);
     (0..3).all(|seed| {
@@ -160,7 +160,7 @@ fn is_regular(model: &Model) -> bool {
     })
 }
 
-/// A seeded source of random numbers, the same on every machine.
+/// A seeded random number generator, the same on every machine.
 #[derive(Clone, Debug)]
 pub struct Random(ChaCha8Rng);
 
@@ -192,12 +192,12 @@ impl Random {
         self.between(0.0, 1.0) < probability
     }
 
-    /// `size` with either sign.
+    /// `size` with a random sign.
     pub fn signed(&mut self, size: f64) -> f64 {
         if self.chance(0.5) { size } else { -size }
     }
 
-    /// One of a list.
+    /// A random element of a list.
     pub fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len())]
     }

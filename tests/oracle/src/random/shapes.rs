@@ -14,7 +14,7 @@ impl Source {
         self.between(0.2, 1.2, Unit::Metre)
     }
 
-    /// A mass, or the density that comes to such a mass over a volume of so many dimensions.
+    /// A mass, or the density that gives this mass over a volume of the given number of dimensions.
     fn amount(&mut self, volume: f64, dimensions: i8) -> Amount {
         let mass = self.random.between(0.3, 3.0);
         self.amount_of(mass, volume, dimensions)
@@ -28,7 +28,7 @@ impl Source {
         }
     }
 
-    /// What the mass of a body is made of: one piece or a sum.
+    /// The mass of a body: one piece or a sum.
     pub(super) fn parts(&mut self) -> Vec<Part> {
         if self.random.chance(0.7) {
             return vec![Part::whole(self.shape())];
@@ -44,8 +44,8 @@ impl Source {
         parts
     }
 
-    /// A solid with a hole inside: at most a fifth of its mass, half its size, and near its centre, so that what is left
-    /// is a body, also off the nominal design.
+    /// A solid with a hole: at most a fifth of its mass, half its size, and near its centre, so that the remainder is a
+    /// valid body, also off the nominal design.
     fn pierced(&mut self) -> Vec<Part> {
         let size = self.random.between(0.3, 0.8);
         let mass = self.random.between(0.5, 3.0);
@@ -80,7 +80,7 @@ impl Source {
         ]
     }
 
-    /// A compact shape about the origin.
+    /// A compact shape centred on the origin.
     fn solid(&mut self, size: f64, mass: f64) -> Shape {
         let (center, length) = (ORIGIN, self.value(size, Unit::Metre));
         match self.random.below(4) {
@@ -173,12 +173,12 @@ impl Source {
         }
     }
 
-    /// Any inertia that a body can have: `J = tr(S) I - S` with the second moments `S = A A^T + s I` about the centre,
-    /// and `S + m d d^T` about a point at the distance `d` from it.
+    /// Any physically possible inertia: `J = tr(S) I - S` with the second moments `S = A A^T + s I` about the centre,
+    /// and `S + m d d^T` about a point at distance `d` from it.
     fn rigid(&mut self) -> Shape {
         let mut a: [[f64; 3]; 3] = std::array::from_fn(|_| self.random.vector(0.5));
         if self.special && self.random.chance(0.7) {
-            // along the axes, some equal, none: a bar, a plate, a ball
+            // along the axes, with some equal or zero: a bar, a plate, a ball
             a = std::array::from_fn(|i| {
                 std::array::from_fn(|j| match i == j {
                     true => self.random.of(&[0.0, 0.0, 0.3, 0.5]),
@@ -204,7 +204,7 @@ impl Source {
             -s(1, 2),
             -s(0, 2),
         ];
-        // All six numbers, or all multiples of one variable, so that it stays possible off the nominal design.
+        // All six are numbers, or all multiples of one variable, so that the inertia stays possible off the nominal design.
         let inertia = match self.value(j[0], Unit::KilogramSquareMetre) {
             Value::Number(_) => j.map(Value::Number),
             Value::Design { variable, factor } => j.map(|entry| Value::Design {
@@ -224,7 +224,7 @@ impl Source {
         }
     }
 
-    /// A body symmetric about `axis` through its origin; now and then a sum of such shapes.
+    /// A body symmetric about `axis` through its origin; occasionally a sum of such shapes.
     pub(super) fn rotor(&mut self, axis: [f64; 3]) -> Vec<Part> {
         let mut parts = vec![Part::whole(self.symmetric(axis))];
         if self.random.chance(0.4) {

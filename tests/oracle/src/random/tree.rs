@@ -9,7 +9,7 @@ use crate::model::{
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// At most this many free coordinates: the cost of the oracle grows with their square.
+/// The most free coordinates: the cost of the oracle grows with their square.
 const MOST: usize = 8;
 
 pub(super) struct Builder {
@@ -17,13 +17,13 @@ pub(super) struct Builder {
     pub(super) bodies: Vec<Body>,
     pub(super) joints: Vec<Joint>,
     pub(super) inputs: Vec<Input>,
-    /// Of each body: how many drives carry it, counted so that bodies with equal numbers are steady relative to each
-    /// other. The ground has 0.
+    /// For each body, the number of drives that carry it, counted so that bodies with equal numbers are steady relative
+    /// to each other. The ground has 0.
     pub(super) carriers: Vec<usize>,
     /// The body that spins about its axis of symmetry, and the axis.
     pub(super) rotor: Option<(usize, [f64; 3])>,
-    /// A body is driven along a line that is not vertical as well as about the vertical: the medium that would resist it
-    /// streams past from ever different sides.
+    /// A body is driven along a non-vertical line as well as about the vertical: the direction of flow of a resisting
+    /// medium past it would keep changing.
     pub(super) drifting: bool,
     /// Bodies that still need a coordinate.
     waiting: usize,
@@ -78,7 +78,7 @@ impl Builder {
         components.map(|component| self.source.value(component, Unit::MetrePerSquareSecond))
     }
 
-    /// The bodies that drives put in motion.
+    /// Adds the bodies that are moved by drives.
     fn driven_bodies(&mut self, setting: Setting) {
         match setting {
             Setting::Still => {}
@@ -100,7 +100,7 @@ impl Builder {
         }
     }
 
-    /// A body driven about the vertical.
+    /// Adds a body driven about the vertical.
     fn shaft(&mut self, parent: Frame) {
         let axis =
             [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.5]][self.source.random.below(3)];
@@ -110,7 +110,7 @@ impl Builder {
         self.driven_body(draft, parent, placements);
     }
 
-    /// A placement that leaves z vertical.
+    /// A placement that keeps z vertical.
     fn upright(&mut self) -> Placement {
         let offset = self.source.position(0.5);
         let angle = self.source.between(-2.0, 2.0, Unit::Radian);
@@ -121,14 +121,14 @@ impl Builder {
         }
     }
 
-    /// How many free coordinates there is room for, one set aside for every other body to come.
+    /// How many free coordinates are still available, with one reserved for every body to come.
     fn room(&self) -> usize {
         let steps = self.joints.iter().flat_map(|joint| &joint.steps);
         let free = steps.filter(|step| step.drive.is_none()).count();
         MOST.saturating_sub(free + self.waiting)
     }
 
-    /// Drives a step by an input of its own or one that drives others as well.
+    /// Drives a step by a new input or by one that other drives use as well.
     pub(super) fn drive(&mut self, step: &mut Step) {
         let unit = step.motion.rate_unit();
         let shared = self.inputs.iter().position(|input| input.unit == unit);
@@ -148,7 +148,7 @@ impl Builder {
         *step = step.clone().driven(input, factor);
     }
 
-    /// A body with drives; massless now and then, unless it has freedom of its own.
+    /// Adds a driven body; occasionally massless, unless it has free coordinates of its own.
     fn driven_body(&mut self, draft: Draft, parent: Frame, placements: [Placement; 2]) {
         let free = draft.1.iter().any(|step| step.drive.is_none());
         let parts = if !free && self.source.random.chance(0.6) {
@@ -187,11 +187,11 @@ impl Builder {
         self.add(parts, draft, parent, placements);
     }
 
-    /// A body that spins about its own axis of symmetry, on any body.
+    /// Adds a body that spins about its own axis of symmetry, on any body.
     fn spinning_body(&mut self) {
         let axis = self.source.axis();
         let parent = Frame::Body(self.bodies.len() - 1);
-        // The joint may sit elsewhere on the axis of symmetry.
+        // The joint may sit at another place on the axis of symmetry.
         let along = self.source.random.between(-0.4, 0.4);
         let on_axis = Placement::at(axis.map(|component| Value::Number(along * component)));
         let placements = [self.source.placement(), on_axis];
@@ -236,8 +236,8 @@ impl Builder {
         self.carriers.push(if driven { next } else { carrier });
 
         let turns_only = steps.iter().all(|step| step.motion == Motion::Turn);
-        // Where drives need an order of motions from the ground outwards, a joint declared inwards lists them the other
-        // way round, if its word allows it. The motions of a cylindrical joint commute.
+        // Where drives require an order of motions from the ground outwards, a joint declared inwards lists them in
+        // reverse, if its keyword allows it. The motions of a cylindrical joint commute.
         let reversible = !driven || turns_only || steps.len() == 1 || word == Word::Cylindrical;
         let body = Frame::Body(index);
         let mut ends = [(parent, inboard), (body, outboard)];

@@ -5,34 +5,34 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::Random;
 use crate::model::{DesignVariable, Placement, Unit, Value, Values};
 
-/// At most this many design variables.
+/// The most design variables.
 const MOST: usize = 8;
 
 pub(super) struct Source {
     pub(super) random: Random,
     pub(super) design: Vec<DesignVariable>,
-    /// Values come from small sets.
+    /// Values are taken from small sets.
     pub(super) special: bool,
-    /// How frames lie in a special tree.
+    /// How frames are oriented in a special tree.
     pub(super) frames: Frames,
     /// The axis of the last joint.
     pub(super) hinge: [f64; 3],
-    /// So many curves were drawn.
+    /// Number of curves drawn so far.
     pub(super) curves: usize,
 }
 
-/// How frames lie against each other.
+/// How frames are oriented relative to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Frames {
-    /// Parallel, joints at the origins of what they carry: hinges about one axis follow each other.
+    /// Parallel, joints at the origins of the bodies they carry: successive hinges share one axis.
     Aligned,
-    /// Turned by right angles, as in robot files.
+    /// Rotated by right angles, as in robot files.
     Square,
-    /// Anyhow.
+    /// Arbitrary.
     Mixed,
 }
 
-/// Angles of frames: right ones, one as typed with twelve digits, one whose cosine rounds to one.
+/// Frame angles: right angles, one typed with twelve digits, and one whose cosine rounds to one.
 const ANGLES: [f64; 6] = [
     FRAC_PI_2,
     -FRAC_PI_2,
@@ -42,7 +42,7 @@ const ANGLES: [f64; 6] = [
     1e-8,
 ];
 
-/// Axes that lie in a plane, and one that nearly lies on a frame's.
+/// Axes that lie in a coordinate plane, and one that nearly coincides with a frame axis.
 const LEANING: [[f64; 3]; 4] = [
     [1.0, 1.0, 0.0],
     [0.0, 3.0, -4.0],
@@ -69,7 +69,7 @@ impl Source {
         }
     }
 
-    /// A value equal to `number`: a number, a multiple of a design variable that exists already, or a new one.
+    /// A value equal to `number`: a number, a multiple of an existing design variable, or of a new one.
     pub(super) fn value(&mut self, number: f64, unit: Unit) -> Value {
         if number == 0.0 {
             return Value::Number(0.0);
@@ -89,7 +89,7 @@ impl Source {
                 factor: number / self.design[variable].nominal,
             };
         }
-        // A small one would need large factors elsewhere.
+        // A small value would need large factors elsewhere.
         if full || number.abs() < 0.1 || !(first || self.random.chance(0.3)) {
             return Value::Number(number);
         }
@@ -115,7 +115,7 @@ impl Source {
         self.value(number, unit)
     }
 
-    /// A position; now and then with a component of zero.
+    /// A position; occasionally with a zero component.
     pub(super) fn position(&mut self, limit: f64) -> Values {
         let often = if self.special { 0.7 } else { 0.3 };
         std::array::from_fn(|_| {
@@ -125,7 +125,7 @@ impl Source {
         })
     }
 
-    /// An axis: one of the frame's, or any vector but not a unit one.
+    /// An axis: a frame axis, or any vector, not normalised.
     pub(super) fn axis(&mut self) -> [f64; 3] {
         let mut axis = [0.0; 3];
         if self.special && self.random.chance(0.3) {
@@ -154,7 +154,7 @@ impl Source {
         axis
     }
 
-    /// A placement; now and then none.
+    /// A placement; occasionally none.
     pub(super) fn placement(&mut self) -> Placement {
         let none = match self.frames {
             Frames::Aligned => 0.3,
@@ -177,7 +177,7 @@ impl Source {
         }
     }
 
-    /// The place of a joint on the body that it carries.
+    /// The placement of a joint on the body it carries.
     pub(super) fn outer_placement(&mut self) -> Placement {
         match self.frames == Frames::Aligned && self.random.chance(0.8) {
             true => Placement::NONE,

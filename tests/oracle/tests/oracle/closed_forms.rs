@@ -1,4 +1,4 @@
-//! Against formulas that fit on a line.
+//! Checks the oracle against short closed-form solutions.
 
 use eigentol_oracle::examples::{
     anisotropic_bearing, blade, jeffcott_in_the_ground, jeffcott_in_the_shaft, screw_pendulum,
@@ -31,9 +31,9 @@ fn at_rest(model: &Model, q: &[f64], u: &[f64]) -> (Vec<f64>, Linear<f64>) {
     (Kernels::residual(&oracle, at), Kernels::linear(&oracle, at))
 }
 
-/// `A tilt'' = A W^2 sin cos - C (n + W cos) W sin + m g l sin`, with `A` and `C` the inertias of the body about the
-/// pivot across and along its axis, the precession `W` and the spin `n`. Without gravity it precesses steadily where
-/// `C n = (A - C) W cos`.
+/// `A tilt'' = A W^2 sin cos - C (n + W cos) W sin + m g l sin`, where `A` and `C` are the inertias of the body about
+/// the pivot, across and along its axis, `W` is the precession and `n` the spin. Without gravity it precesses steadily
+/// where `C n = (A - C) W cos`.
 #[test]
 fn a_top_precesses_steadily() {
     let (m, r, h, l) = (1.3, 0.25, 0.1, 0.4);
@@ -66,10 +66,10 @@ fn a_top_precesses_steadily() {
     }
 }
 
-/// A blade is a ray of particles, `I = sum m r^2`, `S = sum m r`: at flap `b` and lag `z`
-/// `g = [I W^2 sb cb cz^2 - S G cb cz, -I W^2 sb^2 sz cz + S G sb sz]`, `M = I diag(cz^2, 1)`, and the Coriolis
-/// coupling is `C12 = -C21 = 2 I W sb cz^2`. One half of it comes from `M Bdot_D u`, the other from `M Bdot_R qdot_R`,
-/// which the linearisation must not leave out.
+/// A blade is a line of particles, `I = sum m r^2`, `S = sum m r`. At flap `b` and lag `z`,
+/// `g = [I W^2 sb cb cz^2 - S G cb cz, -I W^2 sb^2 sz cz + S G sb sz]`, `M = I diag(cz^2, 1)`, and the Coriolis coupling is
+/// `C12 = -C21 = 2 I W sb cz^2`. Half of it comes from `M Bdot_D u`, the other half from `M Bdot_R qdot_R`, which the
+/// linearisation must not omit.
 #[test]
 fn flap_and_lag_are_coupled() {
     let (m, r, w) = (2.3, 0.9, 4.0);
@@ -105,7 +105,7 @@ fn flap_and_lag_are_coupled() {
     }
 }
 
-/// `m (a^2 + h^2) q'' + m G (h sin(rise) + a cos(rise) sin q) = 0` for the lead `h` per radian and the arm `a`.
+/// `m (a^2 + h^2) q'' + m G (h sin(rise) + a cos(rise) sin q) = 0` for lead `h` per radian and arm `a`.
 #[test]
 fn a_screw_pendulum_climbs() {
     let (m, a, h) = (1.7, 0.6, -0.15);
@@ -123,7 +123,7 @@ fn a_screw_pendulum_climbs() {
 const MASS: f64 = 3.0;
 const SPIN: f64 = 20.0;
 
-/// In the ground an anisotropic bearing is nothing but two springs, and external damping is damping.
+/// In ground coordinates an anisotropic bearing is just two springs, and external damping is ordinary damping.
 #[test]
 fn a_rotor_on_an_anisotropic_bearing() {
     let model = jeffcott_in_the_ground(MASS, [500.0, 800.0], 2.0);
@@ -134,7 +134,8 @@ fn a_rotor_on_an_anisotropic_bearing() {
     assert_close(&linear.stiffness, &[500.0, 0.0, 0.0, 800.0]);
 }
 
-/// In the shaft the same bearing turns round: half a turn later it is the same, a quarter of a turn later exchanged.
+/// In shaft coordinates the same bearing rotates: after half a turn it is unchanged, after a quarter turn its
+/// stiffnesses are exchanged.
 #[test]
 fn an_anisotropic_bearing_seen_from_the_shaft_is_not_steady() {
     let model = anisotropic_bearing(MASS, [500.0, 800.0]);
@@ -155,8 +156,8 @@ fn an_anisotropic_bearing_seen_from_the_shaft_is_not_steady() {
     assert_close(&stiffness(0.4).stiffness, &turned);
 }
 
-/// In the shaft: Coriolis and centrifugal forces; external damping `-c (v + W x p)` couples the displacements.
-/// In the ground: internal damping `-ci (v - W x p)` does, with the other sign.
+/// In shaft coordinates there are Coriolis and centrifugal forces, and external damping `-c (v + W x p)` couples the
+/// displacements. In ground coordinates internal damping `-ci (v - W x p)` couples them, with the opposite sign.
 #[test]
 fn damping_of_a_rotor_depends_on_where_it_is_fixed() {
     let (k, internal, external) = (700.0, 1.5, 2.0);
@@ -178,7 +179,7 @@ fn damping_of_a_rotor_depends_on_where_it_is_fixed() {
     assert_close(&linear.stiffness, &[k, circulation, -circulation, k]);
 }
 
-/// The same top with other words for its mass has the same equations.
+/// The same top, with its mass declared in other ways, has the same equations.
 #[test]
 fn one_body_can_be_declared_in_many_ways() {
     let axis = [0.3, -0.4, 1.2];
@@ -206,7 +207,7 @@ fn one_body_can_be_declared_in_many_ways() {
         shape,
         placement,
     };
-    // The tensor of the tube about the origin: along and across its axis, then Steiner.
+    // The tensor of the tube about the origin: along and across its axis, then the parallel-axis terms.
     let squares = inner * inner + outer * outer;
     let (along, across) = (
         mass * squares / 2.0,
@@ -233,7 +234,7 @@ fn one_body_can_be_declared_in_many_ways() {
         ],
         about: Some(ORIGIN),
     };
-    // Turning a bore about its axis does not matter, nor does where its offset is written.
+    // Rotating a bore about its axis makes no difference, nor does where its offset is declared.
     let bore = Placement {
         offset: center,
         rotations: vec![(axis, number(0.7))],

@@ -1,4 +1,4 @@
-//! On random trees: Lagrange's equations, invariance, finite differences.
+//! Random trees: Lagrange's equations, invariance, finite differences.
 
 use eigentol_oracle::agreement::Case;
 use eigentol_oracle::energy;
@@ -78,7 +78,7 @@ fn mass_matrix_is_the_derivative_by_accelerations() {
         let case = Case::random(model, seed);
         let [q, u, b] = at(&case);
         let oracle = Oracle::new(model);
-        // Eq. 8 against eq. 15.
+        // Eq. 8 agrees with eq. 15.
         let literal = oracle.motion(&State::at_rest(q, u, b)).mass.concat();
         let derived = oracle.linear(q, u, b).mass;
         for (one, other) in literal.iter().zip(&derived) {
@@ -87,7 +87,7 @@ fn mass_matrix_is_the_derivative_by_accelerations() {
     });
 }
 
-/// `|moment| <= size`, and a shift of phase changes neither.
+/// `|moment| <= size`, and a phase shift changes neither.
 #[test]
 fn whirl_is_bounded_and_has_no_phase() {
     on_models(40, |model, seed| {
@@ -137,7 +137,7 @@ fn derivatives_are_slopes() {
         let case = Case::random(model, seed);
         let oracle = Oracle::new(model);
         let [dq, du, db] = [&case.along[0][..], &case.along[1], &case.along[2]];
-        // Design variables move relative to their size, or a small one would change sign.
+        // Design variables move relative to their size; otherwise a small one would change sign.
         let db: Vec<f64> = db.iter().zip(&case.at[2]).map(|(db, b)| db * b).collect();
         let moved = |h: f64| -> [Vec<f64>; 3] {
             let step = |x: &[f64], dx: &[f64]| x.iter().zip(dx).map(|(x, dx)| x + h * dx).collect();
@@ -256,7 +256,7 @@ fn gradients_are_contractions_of_partials() {
                 "{gradient:?} {special:?}"
             );
         }
-        // w^T dg: by coordinates it is w^T Khat.
+        // w^T dg: the part by coordinates is w^T Khat.
         let [by_input, by_design] = Kernels::residual_partials(&oracle, at);
         let stiffness = Kernels::linear(&oracle, at).stiffness;
         let gradient = oracle.residual_gradient(at, &case.weight);

@@ -1,4 +1,4 @@
-//! Against the reference values in `truth/`.
+//! Checks the oracle against the reference values in `truth/`.
 
 use eigentol_oracle::examples::{arm, chain, two_sliders};
 use eigentol_oracle::kernels::{At, Kernels};
@@ -20,14 +20,14 @@ fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     }
 }
 
-/// What a derivative is taken by: an input or a design variable.
+/// The variable of differentiation: an input or a design variable.
 #[derive(Clone, Copy)]
 enum By {
     Input(usize),
     Design(usize),
 }
 
-/// First derivatives at an equilibrium, that moves along.
+/// Total first derivatives at an equilibrium, including its own shift.
 struct Total<'a> {
     oracle: &'a Oracle<'a>,
     at: At<'a>,
@@ -63,7 +63,7 @@ impl<'a> Total<'a> {
         solution.expect("regular").as_slice().to_vec()
     }
 
-    /// `dM/db`, `dC/db`, `dK/db`: explicit and through the equilibrium.
+    /// `dM/db`, `dC/db`, `dK/db`: the explicit part plus the part through the equilibrium.
     fn linear(&self, by: By) -> Linear<f64> {
         let partials = Kernels::linear_partials(self.oracle, self.at);
         let explicit = match by {
@@ -85,7 +85,7 @@ impl<'a> Total<'a> {
         total
     }
 
-    /// `domega/db` of an undamped mode by the adjoint: `dlambda/db = da/db - (dg/db)^T w`, `Khat^T w = da/dq`.
+    /// `domega/db` of an undamped mode by the adjoint method: `dlambda/db = da/db - (dg/db)^T w`, `Khat^T w = da/dq`.
     fn frequency(&self, (lambda, phi): &(f64, Vec<f64>)) -> [Vec<f64>; 2] {
         let [by_q, by_input, by_design] = self.oracle.mode_gradient(self.at, phi, *lambda);
         let w = self
@@ -123,7 +123,7 @@ fn modes(linear: &Linear<f64>) -> Vec<(f64, Vec<f64>)> {
     modes
 }
 
-/// Checks every condition of `P1`, `P2` or `P3`; `names` are the design variables in order.
+/// Checks every condition of `P1`, `P2` or `P3`; `names` lists the design variables in order.
 fn paper(case: &str, model: impl Fn(&Truth) -> Model, names: &[&str]) {
     for condition in Truth::load(case).get("conditions").list() {
         let what = format!("{case} {}", condition.get("label").text());
@@ -229,13 +229,13 @@ fn sliders_on_a_spinning_plate() {
     );
 }
 
-/// Relative angles of absolute ones: `q = D theta`.
+/// Relative angles from absolute ones: `q = D theta`.
 fn relative(theta: &[f64]) -> Vec<f64> {
     let before = |j: usize| if j == 0 { 0.0 } else { theta[j - 1] };
     (0..theta.len()).map(|j| theta[j] - before(j)).collect()
 }
 
-/// `D^T A D`: a matrix in absolute angles from one in relative angles.
+/// `D^T A D`: converts a matrix from relative to absolute angles.
 fn absolute(matrix: &[f64]) -> Vec<f64> {
     let n = matrix.len().isqrt();
     let d = DMatrix::from_fn(n, n, |i, j| f64::from(i == j) - f64::from(i == j + 1));
@@ -270,7 +270,7 @@ fn chains_at_equilibrium() {
             let q = relative(&point.get("theta_star").numbers());
             let at: At = [&q, &u, &b];
             let linear = Kernels::linear(&oracle, at);
-            // The longest chains store no matrices.
+            // No matrices are stored for the longest chains.
             for (field, matrix) in [("M", &linear.mass), ("K", &linear.stiffness)] {
                 if let Some(expected) = point.find(field) {
                     assert_close(&absolute(matrix), &expected.matrix(), 1e-13, &what);
@@ -288,7 +288,7 @@ fn chains_at_equilibrium() {
             let modes = modes(&linear);
             let found: Vec<f64> = modes.iter().map(|(lambda, _)| lambda.sqrt()).collect();
             assert_close(&found, &omegas, 1e-11, &what);
-            // Of the longest chains one mode is enough.
+            // For the longest chains one mode is enough.
             let checked = if q.len() > 4 { 1 } else { q.len() };
             for (mode, rates) in modes.iter().zip(rates).take(checked) {
                 let [_, by_design] = total.frequency(mode);

@@ -5,7 +5,7 @@ use crate::matrices::space::Vector;
 use crate::matrices::{Oracle, Scalar};
 
 impl Oracle<'_> {
-    /// A force and a moment, along the axes of the ground or of the point.
+    /// A force and a moment, with components along the axes of the ground or of the point.
     pub(super) fn load<D: Scalar>(
         &self,
         efforts: &mut Efforts<D>,

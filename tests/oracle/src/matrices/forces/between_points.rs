@@ -7,7 +7,7 @@ use crate::matrices::space::{Matrix, Vector};
 use crate::matrices::{Oracle, Scalar};
 
 impl Oracle<'_> {
-    /// A tension by the distance `d = |r|` and its rate pulls the points together along `r / d`.
+    /// A tension, a function of the distance `d = |r|` and its rate, pulls the points together along `r / d`.
     pub(super) fn tension<D: Scalar>(
         &self,
         efforts: &mut Efforts<D>,

@@ -1,4 +1,4 @@
-//! Expressions of the motion, and the forces that follow from a potential energy.
+//! Expressions of the motion, and forces derived from a potential energy.
 
 use num_dual::Dual;
 
@@ -8,7 +8,7 @@ use crate::matrices::space::Vector;
 use crate::matrices::{Oracle, Scalar};
 use crate::model::{Coordinate, Expr};
 
-/// What an expression is made of.
+/// The quantities that appear in an expression.
 struct Leaves<'a, D> {
     coordinate: &'a dyn Fn(Coordinate) -> D,
     rate: &'a dyn Fn(Coordinate) -> D,
@@ -51,7 +51,7 @@ impl Oracle<'_> {
         self.of_length(moving, expr, D::zero(), D::zero())
     }
 
-    /// An expression that may also name the length of a tension and its rate.
+    /// An expression that may also contain the length of a tension and its rate.
     pub(super) fn of_length<D: Scalar>(
         &self,
         moving: &Moving<D>,
@@ -75,7 +75,7 @@ impl Oracle<'_> {
         moving.at.ground.inverse().point(position)
     }
 
-    /// `-dV/dp` on each point and `-dV/dq` along each coordinate that the energy is an expression of.
+    /// `-dV/dp` on each point and `-dV/dq` along each coordinate in the energy.
     pub(super) fn potential<D: Scalar>(
         &self,
         efforts: &mut Efforts<D>,
@@ -106,7 +106,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// Partial derivative of an energy by one leaf.
+    /// Partial derivative of an energy with respect to one leaf.
     fn slope<D: Scalar>(&self, moving: &Moving<D>, energy: &Expr, seed: Seed) -> D {
         let seeded = |x: D, hit: bool| Dual::new(x, if hit { D::one() } else { D::zero() });
         let zero = seeded(D::zero(), false);
@@ -127,7 +127,7 @@ impl Oracle<'_> {
     }
 }
 
-/// A leaf to differentiate by.
+/// A leaf to differentiate with respect to.
 #[derive(Clone, Copy, PartialEq)]
 enum Seed {
     Coordinate(Coordinate),

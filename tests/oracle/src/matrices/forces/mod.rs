@@ -1,7 +1,7 @@
-//! Applied forces `Q` on the bodies: for each a force and a moment about its centre of mass, in the ground frame; and
-//! forces along coordinates, which by definition do work on theirs alone.
+//! Applied forces `Q` on the bodies: for each body a force and a moment about its centre of mass, in the ground frame;
+//! and forces along coordinates, which by definition do work on their own coordinate only.
 //!
-//! Velocities are the rates of positions: everything is placed a second time, in dual numbers along the motion.
+//! Velocities are time derivatives of positions: the whole mechanism is placed a second time, in dual numbers along the motion.
 
 mod at_points;
 mod between_points;
@@ -16,10 +16,10 @@ use super::space::{Matrix, Pose, Vector};
 use super::{Oracle, Scalar, State};
 use crate::model::{Coordinate, Force, ForceLaw, Frame, Value, Values};
 
-/// Where the bodies are and how fast they go.
+/// Positions and velocities of the bodies.
 pub(crate) struct Moving<'a, D> {
     pub(crate) at: &'a Configuration<D>,
-    /// The same with its rate of time.
+    /// The same configuration with its time rate.
     pub(crate) moving: &'a Configuration<Dual<D>>,
     /// Driven coordinates and their speeds.
     pub(crate) driven: (&'a [D], &'a [D]),
@@ -29,14 +29,14 @@ pub(crate) struct Moving<'a, D> {
 /// A sum of forces.
 struct Efforts<'a, D> {
     at: &'a Configuration<D>,
-    /// `Q`, arranged as the rows of `B`.
+    /// `Q`, ordered as the rows of `B`.
     bodies: Vec<D>,
-    /// Along the free coordinates.
+    /// Forces along the free coordinates.
     free: Vec<D>,
 }
 
 impl<D: Scalar> Efforts<'_, D> {
-    /// Adds a force that acts at a point; on the ground it does nothing.
+    /// Adds a force that acts at a point; no effect on the ground.
     fn push(&mut self, frame: Frame, force: Vector<D>, point: Vector<D>) {
         if let Frame::Body(body) = frame {
             let rows = &mut self.bodies[6 * body..6 * body + 3];
@@ -47,7 +47,7 @@ impl<D: Scalar> Efforts<'_, D> {
         }
     }
 
-    /// Adds a moment; on the ground it does nothing.
+    /// Adds a moment; no effect on the ground.
     fn turn(&mut self, frame: Frame, moment: Vector<D>) {
         if let Frame::Body(body) = frame {
             let rows = &mut self.bodies[6 * body + 3..6 * body + 6];
@@ -59,7 +59,7 @@ impl<D: Scalar> Efforts<'_, D> {
 }
 
 impl Oracle<'_> {
-    /// `Q`, arranged as the rows of `B`, and forces along the free coordinates.
+    /// `Q`, ordered as the rows of `B`, and the forces along the free coordinates.
     pub(crate) fn applied_forces<D: Scalar>(
         &self,
         moving: &Moving<D>,
@@ -156,7 +156,7 @@ impl Oracle<'_> {
         }
     }
 
-    /// A force along a coordinate. One that is driven goes its way whatever pulls at it.
+    /// A force along a coordinate. A driven coordinate follows its drive regardless of force.
     fn act<D: Scalar>(&self, efforts: &mut Efforts<D>, coordinate: Coordinate, effort: D) {
         if let Some(index) = self.free.iter().position(|&other| other == coordinate) {
             efforts.free[index] += effort;
@@ -171,12 +171,12 @@ impl Oracle<'_> {
         self.coordinate(coordinate, &moving.state.velocity, moving.driven.1)
     }
 
-    /// Components along the axes of the declared ground, in the frame of computation.
+    /// Converts components along the axes of the declared ground to the frame of computation.
     pub(super) fn in_ground<D: Scalar>(&self, components: Vector<D>) -> Vector<D> {
         Matrix::constant(self.ground) * components
     }
 
-    /// The frame of a point with its rate of time.
+    /// The frame of a point with its time rate.
     fn point<D: Scalar>(&self, moving: &Moving<D>, point: usize) -> Pose<Dual<D>> {
         let point = &self.model.points[point];
         let design = still(&moving.state.design);
