@@ -5,28 +5,28 @@
 //! springs on every free coordinate, and [`tables`] all of them.
 //!
 //! Helpers: [`generated`] calls their kernels by name, [`dual`] and [`hyper`] differentiate them, and the interpreter of
-//! `eigentol_consistency` runs them without rustc. [`compiled`] takes a model of the oracle through the compiler, [`fixed`]
-//! converts a declaration back to such a model, and [`counted`] counts the operations of a kernel. `eigentol_resolved` solves a
-//! whole problem again in hyper-dual numbers to obtain total derivatives of equilibria, eigenvalues and mode shapes; [`resolved`]
+//! `eigentol_consistency` runs them without rustc. [`compiled`] takes a model of the oracle through the compiler, [`to_oracle_model`]
+//! converts a declaration back to such a model, and [`op_counter`] counts the operations of a kernel. `eigentol_rederived` solves a
+//! whole problem again in hyper-dual numbers to obtain total derivatives of equilibria, eigenvalues and mode shapes; [`rederived`]
 //! holds its machines and operating points. [`sampled`] compares samples solved in vectors with samples solved one by one.
 
 pub mod compiled;
 pub mod corpus;
-pub mod counted;
 pub mod every;
 pub mod fits;
-pub mod fixed;
 pub mod generated;
 pub mod loops;
 pub mod machines;
-pub mod resolved;
+pub mod op_counter;
+pub mod rederived;
 pub mod robots;
 pub mod sampled;
+pub mod statically_unstable;
 pub mod tables;
-pub mod unheld;
+pub mod to_oracle_model;
 pub mod wheels;
 
-pub use eigentol_resolved::{dual, hyper};
+pub use eigentol_rederived::{dual, hyper};
 
 /// The example from the language reference.
 #[cfg(doctest)]

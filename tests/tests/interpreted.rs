@@ -6,7 +6,7 @@ use eigentol::{Coordinate, Description, Input, Law, Mechanism, Policy, Study, To
 use eigentol_interpreter::{Interpreted, ReadError};
 use eigentol_tests::corpus::{self, Visitor};
 use eigentol_tests::fits::{self, Fits};
-use eigentol_tests::resolved::{Operation, operating_points};
+use eigentol_tests::rederived::{Operation, operating_points};
 
 /// The results of a study as text that shows every bit.
 fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(

@@ -10,7 +10,7 @@ use eigentol_oracle::Oracle;
 use eigentol_oracle::kernels::Kernels;
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::corpus;
-use eigentol_tests::fixed::fixed;
+use eigentol_tests::to_oracle_model::to_oracle_model;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -53,7 +53,7 @@ fn uniform(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
 
 /// Residual, mass, damping and stiffness from the oracle.
 fn judged(machine: &Machine, q: &[f64], u: &[f64], b: &[f64]) -> [Vec<f64>; 4] {
-    let (model, speeds) = fixed(&machine.mechanism, u, b);
+    let (model, speeds) = to_oracle_model(&machine.mechanism, u, b);
     let oracle = Oracle::new(&model);
     let at = [q, &speeds[..], &[][..]];
     let linear = Kernels::linear(&oracle, at);

@@ -9,7 +9,7 @@ use eigentol_oracle::declaration::declaration;
 use eigentol_oracle::examples::{arm, chain};
 use eigentol_oracle::model::{Coordinate, Force, ForceLaw, Model, Value};
 use eigentol_oracle::truth::Truth;
-use eigentol_tests::counted::operations_along;
+use eigentol_tests::op_counter::operations_along;
 
 /// Number of bars, and the cost of an expert's closed forms in CasADi 3.8: residual, mass and stiffness matrix; gradient
 /// of a mode's functional; these with all partial derivatives. Every node except inputs, outputs and constants counts.

@@ -10,7 +10,7 @@ use eigentol_consistency::check::check;
 use eigentol_consistency::subject::Subject;
 use eigentol_oracle::Oracle;
 use eigentol_oracle::kernels::Kernels;
-use eigentol_tests::fixed::fixed;
+use eigentol_tests::to_oracle_model::to_oracle_model;
 
 /// Tolerance relative to the largest entry.
 const TOLERANCE: f64 = 1e-13;
@@ -80,7 +80,7 @@ fn reduced_cases_are_those_of_the_oracle() {
             .iter()
             .map(|one| one.nominal)
             .collect();
-        let (model, speeds) = fixed(&compiled.mechanism, &[], &design);
+        let (model, speeds) = to_oracle_model(&compiled.mechanism, &[], &design);
         let oracle = Oracle::new(&model);
         let subject = Subject::new(&text, Limits::NONE).unwrap_or_else(|all| panic!("{all:?}"));
         for seed in 0..5 {

@@ -2,7 +2,7 @@
 
 use eigentol::{Coordinate, Input, Mechanism, Study};
 use eigentol_tests::corpus::{self, Visitor};
-use eigentol_tests::resolved::operating_points;
+use eigentol_tests::rederived::operating_points;
 use eigentol_tests::sampled::{Compared, compare};
 
 struct Machines(Vec<(&'static str, [Compared; 2])>);

@@ -6,7 +6,7 @@ use eigentol_tests::corpus::governor::Governor;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::turntable_slider::TurntableSlider;
 
-use eigentol_tests::unheld::{SprungMass, StandingBar};
+use eigentol_tests::statically_unstable::{SprungMass, StandingBar};
 
 /// Checks that counts sum to the samples, samples agree with counts, and statistics agree with samples.
 fn assert_complete(run: &MonteCarlo, samples: usize) {

@@ -6,7 +6,7 @@ use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
 
 use super::sound::{assert_answers, assert_equilibrium};
-use eigentol_tests::unheld::{Falling, FreeBar, SprungMass, StandingBar};
+use eigentol_tests::statically_unstable::{Falling, FreeBar, SprungMass, StandingBar};
 
 const BOTH: [Policy; 2] = [Policy::Stable, Policy::Nearest];
 

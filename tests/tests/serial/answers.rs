@@ -12,7 +12,7 @@ use eigentol::{Coordinate, Error, Input, Mechanism, Output, Quantity, Study};
 use eigentol_tables::{Answer, json};
 use eigentol_tests::corpus::{self, Visitor};
 use eigentol_tests::machines;
-use eigentol_tests::resolved::{Operation, operating_points};
+use eigentol_tests::rederived::{Operation, operating_points};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

@@ -15,7 +15,7 @@ use eigentol_oracle::model::{
 
 /// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which
 /// are the inputs of that model.
-pub fn fixed(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) -> (Model, Vec<f64>) {
+pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) -> (Model, Vec<f64>) {
     let evaluation = Evaluation::new(&mechanism.constants, u, b);
     let fixing = Fixing {
         mechanism,

@@ -9,7 +9,7 @@ use eigentol::second_order::{SecondDerivatives, mode_curvature, output_curvature
 use eigentol::sensitivity::{Quantity, sensitivities};
 use eigentol::shapes::shape_sensitivity;
 use eigentol::{Complex, Description, Error, Output, Role, Sensitivities};
-use eigentol_tests::resolved::{Comparison, ComplexDerived, Derived, State, every_machine};
+use eigentol_tests::rederived::{Comparison, ComplexDerived, Derived, State, every_machine};
 
 use super::expected::Expected;
 

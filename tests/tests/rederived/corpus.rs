@@ -6,7 +6,7 @@ use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::undamped_modes;
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
 use eigentol_tests::corpus::corpus;
-use eigentol_tests::resolved::{
+use eigentol_tests::rederived::{
     Comparison, ComplexDerived, Derived, GeneralMode, State, every_machine,
 };
 use nalgebra::{Complex, DMatrix, DVector};

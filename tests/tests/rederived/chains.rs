@@ -4,7 +4,7 @@ use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::{
     chain_of_eight, chain_of_four, rotating_double_pendulum, rotating_pendulum,
 };
-use eigentol_tests::resolved::{Derived, Machine};
+use eigentol_tests::rederived::{Derived, Machine};
 
 use super::common::{assert_within, largest};
 

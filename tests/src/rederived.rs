@@ -6,7 +6,7 @@ use eigentol::kernels::CurvatureKernels;
 
 use crate::tables;
 
-pub use eigentol_resolved::{ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode};
+pub use eigentol_rederived::{ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode};
 
 /// One operating point of a machine: inputs in SI, and where to look for the equilibrium.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! A follower force and a rigid-body mode: non-symmetric and singular stiffness, in closed form.
 
 use eigentol_tests::machines::{sliding_pair, ziegler_column};
-use eigentol_tests::resolved::{Machine, State};
+use eigentol_tests::rederived::{Machine, State};
 
 use super::common::{assert_close, assert_within};
 

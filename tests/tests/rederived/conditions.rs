@@ -2,7 +2,7 @@
 
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::{rotating_double_pendulum, rotating_pendulum, sliders_on_plate};
-use eigentol_tests::resolved::{ComplexDerived, Derived, Machine};
+use eigentol_tests::rederived::{ComplexDerived, Derived, Machine};
 
 use super::common::{assert_close, largest};
 

@@ -1,7 +1,7 @@
 //! A mode solved again, in one form for both families.
 
 use eigentol::sensitivity::Quantity;
-use eigentol_tests::resolved::{ComplexDerived, Derived, GeneralMode, UndampedMode};
+use eigentol_tests::rederived::{ComplexDerived, Derived, GeneralMode, UndampedMode};
 
 /// One mode solved again, of either family; an undamped shape is stored as complex.
 pub(super) struct Expected {

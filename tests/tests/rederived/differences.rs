@@ -2,7 +2,7 @@
 //! against differences of first ones, with equilibria solved again.
 
 use eigentol_tests::corpus::{bearing_rotor, flap_lag_blade, governor, rotor_blade, screw_press};
-use eigentol_tests::resolved::{Derived, Machine, State, operating_points};
+use eigentol_tests::rederived::{Derived, Machine, State, operating_points};
 
 use super::common::largest;
 

@@ -5,7 +5,7 @@ use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::{Family, modes_of};
 use eigentol::sensitivity::equilibrium_shift;
 use eigentol::{Policy, Vector};
-use eigentol_tests::resolved::Machine;
+use eigentol_tests::rederived::Machine;
 use eigentol_tests::tables;
 
 use super::common::assert_within;

@@ -4,7 +4,7 @@
 //! its roots and their conjugates are the eigenvalues.
 
 use eigentol_tests::machines::{jeffcott_rotor, overhung_rotor, sleeping_top, spherical_pendulum};
-use eigentol_tests::resolved::{GeneralMode, Machine, State};
+use eigentol_tests::rederived::{GeneralMode, Machine, State};
 use nalgebra::Complex;
 
 use super::common::{assert_close, largest};
