@@ -130,7 +130,7 @@ impl ModeSensitivity {
         }
     }
 
-    /// Assigns a mode, ignoring all others, and the derivatives of its eigenvalue: of `lambda` (real part) for an
+    /// Assigns a mode that belongs to no cluster and the derivatives of its eigenvalue: of `lambda` (real part) for an
     /// undamped mode, of `s` for a general one.
     pub(crate) fn set(&mut self, mode: &Mode, family: Family, slopes: &Slopes<Complex>) {
         let (by_input, by_design) = (slopes.by_input.iter(), slopes.by_design.iter());
@@ -143,7 +143,7 @@ impl ModeSensitivity {
         }
     }
 
-    /// Assigns an undamped mode, ignoring all others, and its derivatives of `lambda`.
+    /// Assigns an undamped mode that belongs to no cluster and its derivatives of `lambda`.
     #[inline]
     pub(crate) fn set_undamped(
         &mut self,

@@ -108,3 +108,15 @@ fn over(a: Complex, s: Complex) -> Complex {
 pub(crate) fn eigenvalue_curvature(s: Complex, a: Complex, b: Complex, ddlambda: f64) -> Complex {
     -(over((0.5 * ddlambda).into(), s) + a * over(b, s))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_are_in_the_order_of_their_declaration() {
+        for (place, quantity) in Quantity::ALL.into_iter().enumerate() {
+            assert_eq!(quantity as usize, place);
+        }
+    }
+}

@@ -48,7 +48,7 @@ pub struct ModeTolerance {
     pub clustered: bool,
     /// The nominal eigenvalue.
     value: Complex,
-    of: Quantities,
+    quantities: Quantities,
 }
 
 /// Spreads of the quantities of a mode.
@@ -75,7 +75,7 @@ impl ModeTolerance {
             distance_to_neighbour: f64::INFINITY,
             clustered: false,
             value: Complex::ZERO,
-            of: Quantities::Undamped { shift: 0.0 },
+            quantities: Quantities::Undamped { shift: 0.0 },
         }
     }
 
@@ -85,7 +85,7 @@ impl ModeTolerance {
     /// growth.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<Spread> {
-        let shift = match &self.of {
+        let shift = match &self.quantities {
             Quantities::General(all) => return all[quantity as usize].clone(),
             Quantities::Undamped { shift } => *shift,
         };
@@ -132,7 +132,7 @@ impl ModeTolerance {
     /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without a frequency.
     #[must_use]
     pub fn variance_shares(&self) -> &[f64] {
-        let frequency = match &self.of {
+        let frequency = match &self.quantities {
             Quantities::General(all) => all[Quantity::Frequency as usize].as_ref(),
             Quantities::Undamped { .. } => None,
         };
@@ -228,7 +228,7 @@ fn undamped(
     let lambda = &mut found.lambda;
     lambda.by_design.set(&own.lambda.by_design, |slope| *slope);
     let shift = lambda.finish(mode.lambda, tolerances);
-    found.of = Quantities::Undamped { shift };
+    found.quantities = Quantities::Undamped { shift };
     found.behaviour = mode.behaviour;
     found.value = mode.s;
     found.distance_to_critical = match mode.behaviour {
@@ -261,7 +261,7 @@ fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &
     found.behaviour = mode.behaviour;
     found.value = mode.s;
     found.clustered = own.clustered;
-    found.of = Quantities::General(Box::new(all));
+    found.quantities = Quantities::General(Box::new(all));
 }
 
 /// Whether neither the growth nor the contribution of tolerances to it can be distinguished from zero.
