@@ -8,8 +8,8 @@ use crate::common::derived::Derived;
 use crate::common::models::{Pair, Plate, Spring, Supercritical};
 use crate::common::pendulum::Pendulum;
 use eigentol::second_order::Band;
-use eigentol::tolerance::{Tolerances, output_tolerances};
-use eigentol::{Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Study};
+use eigentol::tolerance::{Spread, Tolerances, output_tolerances};
+use eigentol::{Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Policy, Study};
 
 type Double = Study<Derived<Bars<2>>>;
 
@@ -30,6 +30,44 @@ fn sampled(omega: f64, tolerance: f64, samples: usize) -> MonteCarlo {
         .seed(20)
         .monte_carlo()
         .unwrap()
+}
+
+/// `lambda = 3 g / (2 l)` of a hanging bar, with the opposite sign for one that stands on its hinge: its growth is the root.
+#[test]
+fn undamped_modes_have_the_spreads_of_a_root() {
+    let rate = (1.5 * 9.81_f64).sqrt();
+    // Limits of unequal size move the mean by 0.01 m; they are three standard deviations apart from it.
+    let study = |start: f64| {
+        let study = Study::new(Pendulum).start(THETA, start);
+        study.policy(Policy::Nearest).limits(LENGTH, -0.01, 0.03)
+    };
+    let same = |spread: Spread| {
+        close(spread.mean, rate - 0.5 * rate * 0.01, 1e-12);
+        close(spread.by_design[1], -0.5 * rate, 1e-12);
+        close(spread.sigma, 0.5 * rate * 0.02 / 3.0, 1e-12);
+        close(spread.band, 0.5 * rate * 0.02, 1e-12);
+        assert_eq!(spread.variance_shares, [0.0, 1.0]);
+    };
+    let still = |spread: Spread| {
+        assert_eq!((spread.mean, spread.sigma, spread.band), (0.0, 0.0, 0.0));
+        assert_eq!(
+            (spread.by_design, spread.variance_shares),
+            ([0.0; 2].into(), [0.0; 2].into())
+        );
+    };
+    let hanging = &study(0.1).first_order().unwrap().modes[0];
+    same(hanging.frequency().unwrap());
+    same(hanging.natural_frequency().unwrap());
+    still(hanging.damping_ratio().unwrap());
+    still(hanging.growth().unwrap());
+    let standing = &study(3.1).first_order().unwrap().modes[0];
+    same(standing.growth().unwrap());
+    let others = [
+        standing.frequency(),
+        standing.natural_frequency(),
+        standing.damping_ratio(),
+    ];
+    assert_eq!(others, [None, None, None]);
 }
 
 #[test]
