@@ -589,10 +589,7 @@ fn a_bar_along_its_speeds_is_the_closed_form() {
         );
         near(own.lambda.by_design[0], 0.0, 1.0);
         near(own.lambda.by_design[1], 2.0 * w * w / (l * u * u), 0.0);
-        let by_length = own
-            .frequency()
-            .map(|slopes| slopes.by_design)
-            .map(|slopes| slopes[1]);
+        let by_length = own.frequency().map(|slopes| slopes.by_design[1]);
         let omega = modes.modes[0].lambda.sqrt();
         near(by_length.unwrap_or(0.0), w * w / (l * u * u * omega), 0.0);
         seen += 1;

@@ -9,7 +9,9 @@ use crate::common::models::{Pair, Plate, Spring, Supercritical};
 use crate::common::pendulum::Pendulum;
 use eigentol::second_order::Band;
 use eigentol::tolerance::{Spread, Tolerances, output_tolerances};
-use eigentol::{Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Policy, Study};
+use eigentol::{
+    Complex, Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Policy, Quantity, Study,
+};
 
 type Double = Study<Derived<Bars<2>>>;
 
@@ -55,6 +57,24 @@ fn undamped_modes_have_the_spreads_of_a_root() {
             ([0.0; 2].into(), [0.0; 2].into())
         );
     };
+    // Derivatives of the eigenvalue itself: along the imaginary axis, along the real one.
+    for (start, unit) in [(0.1, Complex::new(0.0, 1.0)), (3.1, Complex::new(1.0, 0.0))] {
+        let mode = &study(start).sensitivities().unwrap().modes[0];
+        let slope = mode.s().unwrap().by_design[1];
+        assert!((slope + 0.5 * rate * unit).norm() < 1e-12, "{slope}");
+        let by_length = |quantity| mode.of(quantity).map(|slopes| slopes.by_design[1]);
+        let [omega, natural, damping, growth] = Quantity::ALL.map(by_length);
+        if unit.im > 0.0 {
+            close(omega.unwrap(), slope.im, 1e-15);
+            close(natural.unwrap(), slope.im, 1e-15);
+            assert_eq!((damping, growth), (Some(0.0), Some(0.0)));
+        } else {
+            assert_eq!(
+                [omega, natural, damping, growth],
+                [None, None, None, Some(slope.re)]
+            );
+        }
+    }
     let hanging = &study(0.1).first_order().unwrap().modes[0];
     same(hanging.frequency().unwrap());
     same(hanging.natural_frequency().unwrap());

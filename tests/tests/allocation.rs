@@ -233,11 +233,6 @@ fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
         "matching of {name}"
     );
 
-    // General modes keep what they store beyond undamped ones on the heap.
-    let general = match found.family {
-        Family::Undamped => 0,
-        Family::General => found.modes.len(),
-    };
     // Lists by mode, and of partial derivatives by coordinates, inputs and design if these are computed.
     let ways: [Derivatives; 3] = [
         sensitivities,
@@ -246,10 +241,7 @@ fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     ];
     for way in ways {
         let derivatives = || way(machine, &at, &found).expect("derivatives");
-        assert!(
-            allocations(derivatives) <= 4 + general,
-            "derivatives of {name}"
-        );
+        assert!(allocations(derivatives) <= 4, "derivatives of {name}");
     }
     let all = sensitivities(machine, &at, &found).expect("derivatives");
     let outputs = || output_sensitivities(machine, &at).expect("outputs");
@@ -261,7 +253,7 @@ fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     assert_eq!(allocations(declared), large, "tolerances of {name}");
     let (tolerances, outputs) = (declared(), outputs());
     let spread = || first_order(&found, &all, &tolerances).expect("a spread");
-    assert_eq!(allocations(spread), 1 + general, "spread of {name}");
+    assert_eq!(allocations(spread), 1, "spread of {name}");
     let spread = || output_tolerances(&outputs, &tolerances).expect("a spread");
     assert_eq!(allocations(spread), 1, "spread of the outputs of {name}");
 }

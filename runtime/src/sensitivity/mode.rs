@@ -28,7 +28,7 @@ impl<T: Copy + Default> Slopes<T> {
         }
     }
 
-    pub(crate) fn iter(&self) -> impl Iterator<Item = T> {
+    fn iter(&self) -> impl Iterator<Item = T> {
         self.by_input.iter().chain(&self.by_design).copied()
     }
 
@@ -68,7 +68,7 @@ pub struct ModeSensitivity {
     /// The mode is undamped: `s^2 = -lambda`.
     undamped: bool,
     /// Derivatives of `s` for a general mode that has not merged with another.
-    general: Option<Box<Slopes<Complex>>>,
+    general: Option<Slopes<Complex>>,
 }
 
 impl ModeSensitivity {
@@ -80,12 +80,12 @@ impl ModeSensitivity {
         if self.undamped {
             return root_slope(self.value).map(|root| self.lambda.map(root));
         }
-        self.general.as_deref().cloned()
+        self.general.clone()
     }
 
     /// Derivatives of `s` for a general mode that has them.
     pub(crate) fn general(&self) -> Option<&Slopes<Complex>> {
-        self.general.as_deref()
+        self.general.as_ref()
     }
 
     /// Derivatives of the angular frequency `Im s`, rad/s per SI unit (eq. 21).
@@ -152,12 +152,12 @@ impl ModeSensitivity {
         by_design: impl ExactSizeIterator<Item = f64>,
     ) {
         let [inputs, design] = self.make_undamped(mode, by_input.len(), by_design.len());
-        let (by_input, by_design) = (
-            inputs.iter_mut().zip(by_input),
-            design.iter_mut().zip(by_design),
-        );
-        by_input.for_each(|(own, slope)| *own = slope);
-        by_design.for_each(|(own, slope)| *own = slope);
+        for (own, slope) in inputs.iter_mut().zip(by_input) {
+            *own = slope;
+        }
+        for (own, slope) in design.iter_mut().zip(by_design) {
+            *own = slope;
+        }
     }
 
     /// Like [`Self::set_undamped`], but returns the places into which the caller writes the derivatives.
@@ -181,9 +181,7 @@ impl ModeSensitivity {
         by_input: impl ExactSizeIterator<Item = Complex>,
         by_design: impl ExactSizeIterator<Item = Complex>,
     ) {
-        let s = self
-            .general
-            .get_or_insert_with(|| Box::new(Slopes::blank()));
+        let s = self.general.get_or_insert_with(Slopes::blank);
         s.by_input.assign(by_input);
         s.by_design.assign(by_design);
         let lambda = |ds: &Complex| -2.0 * (mode.s * ds).re;

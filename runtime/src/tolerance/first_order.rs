@@ -48,20 +48,11 @@ pub struct ModeTolerance {
     pub clustered: bool,
     /// The nominal eigenvalue.
     value: Complex,
-    quantities: Quantities,
-}
-
-/// Spreads of the quantities of a mode.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-enum Quantities {
-    /// For an undamped mode, the spread of `lambda` is scaled: the eigenvalue is a root.
-    Undamped {
-        /// Contribution to `lambda` of means that differ from the nominal values.
-        shift: f64,
-    },
-    /// For a general mode, in the order of [`Quantity::ALL`].
-    General(Box<[Option<Spread>; 4]>),
+    /// Contribution to `lambda` of means that differ from the nominal values.
+    shift: f64,
+    /// For a general mode, the spreads of its quantities in the order of [`Quantity::ALL`]. Those of an undamped mode are
+    /// that of `lambda`, scaled: its eigenvalue is a root.
+    general: Option<[Option<Spread>; 4]>,
 }
 
 impl ModeTolerance {
@@ -75,7 +66,8 @@ impl ModeTolerance {
             distance_to_neighbour: f64::INFINITY,
             clustered: false,
             value: Complex::ZERO,
-            quantities: Quantities::Undamped { shift: 0.0 },
+            shift: 0.0,
+            general: None,
         }
     }
 
@@ -85,10 +77,9 @@ impl ModeTolerance {
     /// growth.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<Spread> {
-        let shift = match &self.quantities {
-            Quantities::General(all) => return all[quantity as usize].clone(),
-            Quantities::Undamped { shift } => *shift,
-        };
+        if let Some(all) = &self.general {
+            return all[quantity as usize].clone();
+        }
         if self.value == Complex::ZERO {
             return None;
         }
@@ -97,10 +88,10 @@ impl ModeTolerance {
         let rate = root_rate(self.value);
         match quantity {
             Quantity::Frequency | Quantity::NaturalFrequency if oscillates => {
-                Some(self.lambda.scaled(rate, self.value.im + rate * shift))
+                Some(self.lambda.scaled(rate, self.value.im + rate * self.shift))
             }
             Quantity::DampingRatio | Quantity::Growth if oscillates => Some(self.lambda.still(0.0)),
-            Quantity::Growth => Some(self.lambda.scaled(-rate, self.value.re - rate * shift)),
+            Quantity::Growth => Some(self.lambda.scaled(-rate, self.value.re - rate * self.shift)),
             _ => None,
         }
     }
@@ -132,10 +123,8 @@ impl ModeTolerance {
     /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without a frequency.
     #[must_use]
     pub fn variance_shares(&self) -> &[f64] {
-        let frequency = match &self.quantities {
-            Quantities::General(all) => all[Quantity::Frequency as usize].as_ref(),
-            Quantities::Undamped { .. } => None,
-        };
+        let all = self.general.as_ref();
+        let frequency = all.and_then(|all| all[Quantity::Frequency as usize].as_ref());
         &frequency.unwrap_or(&self.lambda).variance_shares
     }
 
@@ -227,8 +216,7 @@ fn undamped(
 ) {
     let lambda = &mut found.lambda;
     lambda.by_design.set(&own.lambda.by_design, |slope| *slope);
-    let shift = lambda.finish(mode.lambda, tolerances);
-    found.quantities = Quantities::Undamped { shift };
+    found.shift = lambda.finish(mode.lambda, tolerances);
     found.behaviour = mode.behaviour;
     found.value = mode.s;
     found.distance_to_critical = match mode.behaviour {
@@ -261,7 +249,7 @@ fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &
     found.behaviour = mode.behaviour;
     found.value = mode.s;
     found.clustered = own.clustered;
-    found.quantities = Quantities::General(Box::new(all));
+    found.general = Some(all);
 }
 
 /// Whether neither the growth nor the contribution of tolerances to it can be distinguished from zero.
