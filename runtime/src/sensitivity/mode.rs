@@ -245,3 +245,88 @@ fn root_slope(s: Complex) -> Option<impl Fn(f64) -> Complex> {
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Behaviour;
+
+    fn mode(s: Complex) -> Mode {
+        Mode {
+            s,
+            lambda: -(s * s).re,
+            shape: Vector::default(),
+            left: Vector::default(),
+            behaviour: Behaviour::Oscillating(s.im),
+            residual: 0.0,
+            error: 0.0,
+            condition: 1.0,
+            label: 0,
+        }
+    }
+
+    #[test]
+    fn a_frequency_whose_derivative_overflows_is_not_finite() {
+        let mut own = ModeSensitivity::blank();
+        for (slope, finite) in [(1e100, true), (1e200, false)] {
+            own.set_undamped(
+                &mode(Complex::new(0.0, 1e-150)),
+                [].into_iter(),
+                [slope].into_iter(),
+            );
+            assert_eq!(own.finite(), finite);
+            assert_eq!(own.frequency().is_some(), finite);
+        }
+        // At rest only `lambda` has a derivative.
+        own.set_undamped(&mode(Complex::ZERO), [].into_iter(), [1e200].into_iter());
+        assert!(own.finite() && own.s().is_none() && own.frequency().is_none());
+        own.set_undamped(
+            &mode(Complex::ZERO),
+            [].into_iter(),
+            [f64::INFINITY].into_iter(),
+        );
+        assert!(!own.finite());
+    }
+
+    #[test]
+    fn nothing_of_an_earlier_mode_remains() {
+        let (s, ds) = (Complex::new(-0.5, 2.0), Complex::new(0.25, -3.0));
+        let mut own = ModeSensitivity::blank();
+        let general = |own: &mut ModeSensitivity, ds| {
+            own.set_general(&mode(s), [].into_iter(), [ds].into_iter());
+        };
+        for _ in 0..2 {
+            general(&mut own, ds);
+            assert!(!own.clustered && own.finite());
+            assert_eq!(own.s().map(|slopes| slopes.by_design[0]), Some(ds));
+            assert_eq!(
+                own.frequency().map(|slopes| slopes.by_design[0]),
+                Some(ds.im)
+            );
+            assert_eq!(own.lambda.by_design[0], -2.0 * (s * ds).re);
+            // Where it merges with another, its derivatives are not finite.
+            general(&mut own, Complex::new(f64::NAN, 0.0));
+            assert!(own.clustered && own.finite());
+            assert!(
+                own.s().is_none()
+                    && Quantity::ALL
+                        .iter()
+                        .all(|quantity| own.of(*quantity).is_none())
+            );
+            assert_eq!(own.lambda.by_design[0], 0.0);
+        }
+        general(&mut own, ds);
+        own.set_merged(&mode(s), 0, 1);
+        assert!(own.clustered && own.s().is_none());
+        own.set_undamped(
+            &mode(Complex::new(0.0, 2.0)),
+            [].into_iter(),
+            [4.0].into_iter(),
+        );
+        assert!(!own.clustered);
+        assert_eq!(
+            own.s().map(|slopes| slopes.by_design[0]),
+            Some(Complex::new(0.0, 1.0))
+        );
+    }
+}

@@ -233,6 +233,28 @@ fn agree_on(trees: u32) {
     assert!(compared >= trees * 3 / 4, "{compared} trees compared");
 }
 
+/// What is left out of the comparison: a tensor whose greatest moment exceeds the sum of the other two, not a flat body.
+#[test]
+fn only_inertias_that_no_body_has_are_left_out() {
+    let diagonal = |moments: [f64; 3]| {
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments[i] } else { 0.0 }))
+    };
+    for (moments, possible) in [
+        ([1.0, 1.0, 1.0], true),
+        ([1.0, 2.0, 3.0], true),
+        ([0.0, 1.0, 1.0], true),
+        ([0.0; 3], true),
+        ([1.0, 2.0, 3.001], false),
+        ([2.0, 4.001, 2.0], false),
+        ([1.1, 0.05, 1.0], false),
+    ] {
+        assert_eq!(of_a_body(&diagonal(moments)), possible, "{moments:?}");
+    }
+    // Moments 1, 2, 3 about axes turned by 45 degrees about the first one, and a product that is too great.
+    let turned = |product: f64| [[1.0, 0.0, 0.0], [0.0, 2.5, product], [0.0, product, 2.5]];
+    assert!(of_a_body(&turned(0.5)) && !of_a_body(&turned(0.501)));
+}
+
 #[test]
 fn pictures_of_random_trees_are_those_of_the_oracle() {
     agree_on(60);
