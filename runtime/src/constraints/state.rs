@@ -37,7 +37,7 @@ impl ConstraintState {
         }
     }
 
-    /// The state of a constrained mechanism.
+    /// The state of a mechanism that is not open: it has constraints or speeds.
     pub(crate) fn new(
         mechanism: &dyn Kernels,
         (q, u, b): (&[f64], &[f64], &[f64]),

@@ -274,7 +274,7 @@ fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<Vec<Mode
     Ok(verdict.modes)
 }
 
-/// Determines and measures the reactions of a state.
+/// Determines the reactions of a state, and measures the state.
 fn measure(point: &OperatingPoint<'_>, found: &mut Found) -> Result<Measured, Failure> {
     let mut linear = point.linear(&found.coordinates)?;
     if point.structure.constraints() > 1 {

@@ -179,7 +179,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     ///
     /// Generated for small mechanisms. A large one computes them one direction at a time, as here, because straight-line
     /// code for all of them grows with the cube of its size.
-    /// code for all of them grows with the cube of its size.
     fn linear_partials<T: Real>(
         &self,
         q: &Self::Coordinates<T>,

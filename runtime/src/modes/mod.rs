@@ -226,8 +226,8 @@ pub fn modes_of(
     solve_modes(linear, family, description, 0.0).map_err(|failure| failure.explain(description))
 }
 
-/// Refuses matrices that are not square or differ in size. Constrained mechanisms also fix the size; open ones accept
-/// any.
+/// Refuses matrices that are not square or differ in size. Mechanisms with constraints or speeds also fix the size; open
+/// ones accept any.
 fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> {
     let expected = if Structure::of(description).open() {
         linear.mass.row_count()

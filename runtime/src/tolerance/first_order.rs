@@ -207,7 +207,7 @@ pub fn first_order(
     })
 }
 
-/// The spread of an undamped mode, ignoring its neighbours.
+/// The spread of an undamped mode, without the distance to its neighbours.
 fn undamped(
     mode: &Mode,
     own: &ModeSensitivity,
@@ -226,7 +226,7 @@ fn undamped(
     found.clustered = own.clustered;
 }
 
-/// The spread of a general mode, ignoring its neighbours; each quantity is spread by its own derivatives.
+/// The spread of a general mode, without the distance to its neighbours; each quantity is spread by its own derivatives.
 fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &mut ModeTolerance) {
     let slopes = &own.lambda.by_design;
     let lambda = &mut found.lambda;

@@ -106,7 +106,7 @@ impl Default for Sampling<'_> {
 /// Samples settle on a stable equilibrium, whatever policy found the nominal one.
 ///
 /// # Errors
-/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that lies outside the
+/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that is not one of the
 /// samples, [`Error::Threads`] if worker threads cannot be started. Samples that fail are counted and are not errors.
 pub fn monte_carlo(
     mechanism: &dyn BatchKernels,

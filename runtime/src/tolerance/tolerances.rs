@@ -42,8 +42,8 @@ pub struct Tolerances {
 }
 
 impl Tolerances {
-    /// The declared tolerances of the nominal design, independent of each other; the limits of normal variables span
-    /// three standard deviations.
+    /// The declared tolerances of the nominal design, independent of each other; the limits of normal variables lie
+    /// three standard deviations on either side of their midpoint.
     ///
     /// # Errors
     /// [`Error::Setting`] if a declared tolerance makes no sense.

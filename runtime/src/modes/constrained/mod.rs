@@ -79,7 +79,7 @@ fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
 pub(crate) enum Normalisation {
     /// `x^H Mhat x = 1`, with the leading component real and positive.
     Mass,
-    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass of `Mhat`.
+    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass that `Mhat` contains.
     Largest,
 }
 
