@@ -99,7 +99,7 @@ impl Sampled {
 }
 
 impl Risk {
-    /// Assesses the rotor at its running speed, with the sampling settings of `study`.
+    /// Assesses the rotor at its running speed, over `samples` samples with the seed of `study`.
     ///
     /// # Errors
     /// The errors of [`Study::modes`], [`Study::second_order`] and [`Study::monte_carlo`].

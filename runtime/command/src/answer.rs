@@ -127,8 +127,9 @@ fn named<'a, T>(
     })
 }
 
-/// The item with exactly this name, or the only one whose name begins with it. Case is ignored, and `_`, `-` and spaces are equivalent: the
-/// library's `first_order` matches `first-order tolerances`.
+/// The item with exactly this name, or the only one whose name begins with these words.
+///
+/// Case is ignored, and `_`, `-` and spaces are equivalent: the library's `first_order` matches `first-order tolerances`.
 fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) -> Option<&'a T> {
     let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
     let name = plain(name);

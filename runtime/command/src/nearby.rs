@@ -9,7 +9,7 @@ use eigentol_compiler::base::nearest::nearest;
 /// Maximum number of files suggested.
 const NAMED: usize = 5;
 
-/// The files that may be meant: for a folder its contents, otherwise the file with the nearest name.
+/// Advice on the file that may be meant: for a folder the declarations in it, otherwise the file with the nearest name.
 pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if why == ErrorKind::IsADirectory {
         let files = declarations(path);

@@ -1,4 +1,4 @@
-//! Rows written as they are computed, so that memory use stays bounded and finished work is never lost.
+//! Rows written as they are computed, so that memory does not grow with their number and Ctrl-C loses no finished work.
 
 use std::time::{Duration, Instant};
 

@@ -180,7 +180,7 @@ impl Panel {
         }
     }
 
-    /// Adds a thin horizontal line across the panel, if the horizontal axis already has its range.
+    /// Adds a thin horizontal line across the panel. The horizontal axis must already have its range.
     pub fn level_line(&mut self, at: f64) {
         let [low, high] = self.x.range;
         let line = [Some([low, at]), Some([high, at])];
@@ -224,7 +224,7 @@ impl Panel {
 }
 
 impl Figure {
-    /// A figure of these panels, each fitted to its content.
+    /// A figure of these panels; axes without a range are fitted to the content.
     #[must_use]
     pub fn new(title: impl Into<String>, caption: Vec<String>, mut panels: Vec<Panel>) -> Self {
         for panel in &mut panels {
@@ -251,7 +251,7 @@ fn finite(point: &Point) -> bool {
     point.iter().all(|value| value.is_finite())
 }
 
-/// The range of these values with a margin; a single value gets half a unit, or half its size, to either side.
+/// The range of these values with a margin; a single value gets half its size to either side, zero half a unit.
 fn range(values: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {
     let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
         let [low, high] = ends.unwrap_or([value, value]);

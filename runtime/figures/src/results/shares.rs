@@ -23,7 +23,6 @@ const PANELS: usize = 4;
 ///
 /// # Errors
 /// [`Error::UnknownMode`]; [`Error::Nothing`] if nothing moves the mode.
-/// [`Error::UnknownMode`]; [`Error::Nothing`] where nothing moves the mode.
 pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure, Error> {
     let panel = panel(result, mode, "")?;
     let name = style.mode(mode);

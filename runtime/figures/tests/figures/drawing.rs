@@ -116,7 +116,7 @@ fn a_png_file_has_dark_letters_on_white() {
     let info = reader.next_frame(&mut pixels).unwrap();
     assert_eq!(info.width, 2880);
     let row = 3 * info.width as usize;
-    // The title is in the first 48 of 960 units of the width.
+    // The title is in the top 48 rows of pixels as shown, each three rows of the file.
     let title = &pixels[..144 * row];
     let dark = title
         .chunks(3)

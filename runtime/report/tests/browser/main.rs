@@ -362,7 +362,7 @@ fn the_mechanism_is_seen_turned_and_moved() {
         start,
         "a period ends where it begins"
     );
-    // It is animated by default.
+    // Once played, it moves by itself.
     chrome.evaluate("[...document.querySelectorAll('.controls button')].find((own) => own.textContent === 'Play').click()");
     let moved = (0..100).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(30));
