@@ -32,8 +32,9 @@ pub struct Options {
 }
 
 impl Options {
-    /// Parses the arguments of the example `name` and checks that its directory is writable, so that a mistake shows up before the
-    /// computation, not after it.
+    /// Parses the arguments of the example `name` and checks that its directory is writable.
+    ///
+    /// A mistake therefore shows up before the computation, not after it.
     ///
     /// # Errors
     /// [`Failure::CommandLine`] and [`Failure::Output`].

@@ -57,8 +57,9 @@ pub fn frequencies(sweeps: &Sweeps<'_>, name: &'static str, title: &str) -> Name
     (name, sweeps.figure(title, "", vec![panel]))
 }
 
-/// Difference between sampled mean frequencies and the nominal ones, which are the first-order means, with standard errors; one panel per
-/// mode.
+/// Sampled mean frequencies minus the nominal ones, with standard errors; one panel per mode.
+///
+/// The nominal frequencies are the means at first order.
 pub fn means(sweeps: &Sweeps<'_>, name: &'static str, title: &str) -> Named {
     let (count, samples) = (sweeps.curve.modes, sweeps.sampled.samples as f64);
     let panel = |mode: usize| {
@@ -84,8 +85,9 @@ pub fn means(sweeps: &Sweeps<'_>, name: &'static str, title: &str) -> Named {
     )
 }
 
-/// Standard deviation of one mode under the first `levels` tolerances; for a single tolerance, the paper's central differences are
-/// included.
+/// Standard deviation of one mode under the first `levels` tolerances.
+///
+/// For a single tolerance, the paper's central differences are included.
 pub fn deviations(
     sweeps: &Sweeps<'_>,
     name: &'static str,

@@ -143,8 +143,9 @@ fn selected(sweep: &Sweep) -> impl Iterator<Item = &Row> {
     (0..count).filter_map(move |k| sweep.rows.get(k * last / (count.max(2) - 1)))
 }
 
-/// Prints where first order cannot be trusted, how many samples are unstable, how well the paper's central differences agree, and which
-/// points failed.
+/// Prints where first order cannot be trusted and which points failed.
+///
+/// Also printed: how many samples are unstable, and how well the paper's central differences agree.
 ///
 /// # Errors
 /// The errors of the writer.

@@ -74,8 +74,9 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
         self
     }
 
-    /// Follows equilibria, modes and their spread along an input at these values, ascending or descending. Branches are followed from the
-    /// lowest to the highest value.
+    /// Follows equilibria, modes and their spread along an input at these values, ascending or descending.
+    ///
+    /// Branches are followed from the lowest to the highest value.
     #[must_use]
     pub fn sweep(mut self, input: Input<M>, values: &[impl Into<Value> + Copy]) -> Self {
         let values = values.iter().map(|&value| value.into()).collect();

@@ -12,8 +12,9 @@ use crate::style::Style;
 /// Maximum number of panels that fit on a page.
 const MOST: usize = 4;
 
-/// Branches of equilibria along the input, one panel per coordinate: stable stretches solid, unstable ones dotted; folds and branch points
-/// are numbered.
+/// Branches of equilibria along the input, one panel per coordinate.
+///
+/// Stable stretches are solid, unstable ones dotted; folds and branch points are numbered.
 ///
 /// # Errors
 /// [`Error::Nothing`] without a branch, or if the mechanism has no coordinates at rest.

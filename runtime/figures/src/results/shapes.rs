@@ -19,8 +19,8 @@ const WIDEST: f64 = 0.25;
 
 /// Mode shapes as bars by coordinate, in SI units, relative to the largest component.
 ///
-/// Shapes of undamped modes are drawn with signs; those of general modes as magnitudes, with phases relative to the largest component
-/// below.
+/// Shapes of undamped modes are drawn with signs; those of general modes as magnitudes, and in a second panel as phases
+/// relative to the largest component.
 ///
 /// # Errors
 /// [`Error::Nothing`] without modes.
