@@ -1,7 +1,8 @@
 //! The bicycle of Whipple (1899) with the benchmark parameters of Meijaard, Papadopoulos, Ruina and Schwab (Proc. R. Soc. A 463, 2007): at
 //! which speeds is it stable without hands, and how much do the tolerances of its 26 parameters shift these speeds?
 //!
-//! The wheels roll without slip: at a given forward speed, only lean and steer of seven coordinates have independent rates.
+//! The wheels roll without slip: of seven coordinates, only lean and steer have independent rates at a given forward
+//! speed.
 //!
 //! `cargo run --release --example whipple_bicycle`
 

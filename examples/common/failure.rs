@@ -46,8 +46,8 @@ impl From<Error> for Failure {
 impl Failure {
     /// The exit code of the program.
     ///
-    /// It is 0 if nothing went wrong (help was requested, or the reader of a pipe has gone), 2 if the command line or the
-    /// output directory is at fault, 1 otherwise.
+    /// It is 0 if nothing went wrong (help was requested, or the reader of a pipe has gone), 2 if the command line or
+    /// the output directory is at fault, 1 otherwise.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::CommandLine(error) if !error.use_stderr() => 0,

@@ -82,7 +82,7 @@ impl Report {
             let reason = "the report says what is done";
             return Ok(Verdict::Stopped(reason.to_owned()));
         }
-        // What the report mentions as missing counts here as the answer "no".
+        // An equilibrium or modes that the report lacks count here as the answer "no".
         let solved = study.solve()?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }

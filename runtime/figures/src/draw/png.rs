@@ -29,7 +29,7 @@ pub(super) fn register_font() -> Result<(), Error> {
 impl Figure {
     /// The figure as a PNG file, 2880 pixels wide, at 300 pixels per inch.
     ///
-    /// Characters other than Latin, Greek and Cyrillic appear as boxes; SVG shows them.
+    /// Letters other than Latin, Greek and Cyrillic appear as boxes; SVG shows them.
     ///
     /// # Errors
     /// [`Error::Drawing`].

@@ -66,8 +66,8 @@ impl<'a> Spreads<'a> {
 
     /// Adds the results for one set of tolerances, labelled `label`.
     ///
-    /// First order is a line, samples are points with their standard errors. Either list may be empty; the input values are
-    /// taken from the results.
+    /// First order is a line, samples are points with their standard errors. Either list may be empty; the input values
+    /// are taken from the results.
     #[must_use]
     pub fn under(
         mut self,

@@ -188,8 +188,9 @@ impl Lines {
         }
     }
 
-    /// Draws from a station to a turning point, where all of `samples` reach `at`; for a pair of real eigenvalues, with the signs of their
-    /// roots. `reverse` draws from the turning point to the station.
+    /// Draws from a station to a turning point, where all of `samples` reach `at`.
+    ///
+    /// A pair of real eigenvalues stays on either side of its mean. `reverse` draws from the turning point to the station.
     fn half(
         &mut self,
         samples: &[(&Sample, f64)],
