@@ -129,7 +129,8 @@ fn named<'a, T>(
 
 /// The item with exactly this name, or the only one whose name begins with these words.
 ///
-/// Case is ignored, and `_`, `-` and spaces are equivalent: the library's `first_order` matches `first-order tolerances`.
+/// Case is ignored, and `_`, `-` and spaces are equivalent: the library's `first_order` matches
+/// `first-order tolerances`.
 fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) -> Option<&'a T> {
     let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
     let name = plain(name);

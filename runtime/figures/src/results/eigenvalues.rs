@@ -68,8 +68,8 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
 
 /// The paths of the eigenvalues in the complex plane as the input varies.
 ///
-/// The real part is to the right, the imaginary part upwards; each path goes from a ring to a disc. To the right of zero
-/// the motion grows.
+/// The real part is to the right, the imaginary part upwards; each path goes from a ring to a disc. To the right of
+/// zero the motion grows.
 ///
 /// # Errors
 /// [`Error::Nothing`] if there are no modes.
