@@ -20,11 +20,11 @@ pub enum Expr {
     Input(InputId),
     /// A named constant.
     Constant(ConstantId),
-    /// A joint coordinate (in force laws and outputs).
+    /// A joint coordinate (in force laws, constraints and outputs).
     Coordinate(CoordinateId),
     /// Rate of a joint coordinate (in force laws).
     Rate(CoordinateId),
-    /// Component 0, 1 or 2 of a point's position in the ground frame (in force laws and outputs).
+    /// Component 0, 1 or 2 of a point's position in the ground frame (in force laws, constraints and outputs).
     Position(PointId, usize),
     /// Distance of the two points in a tension law.
     Length,
@@ -37,7 +37,8 @@ pub enum Expr {
     /// in the axes of `from`. Aligned: 3 to 5 the moment of `from` on `to`, in the axes of `from`. Distance: 0 the tension,
     /// positive if it pulls the ends together. Equation: 0 the generalised force in the direction in which the expression
     /// grows. Rolling: 0 to 2 the force of the plane on the wheel, forward (axle cross normal), sideways (normal cross
-    /// forward) and along the normal; for a ball in the axes of `on`, with z the normal if the normal is given as z.
+    /// forward) and along the normal; for a ball, forward is the axis of `on` farthest from the normal, made perpendicular
+    /// to it, so that with z as the normal these are the components along x, y and z of `on`.
     ConstraintReaction(ConstraintId, usize),
     /// Kinetic energy in steady motion (in outputs).
     KineticEnergy,

@@ -1,7 +1,7 @@
 //! Whether a vibration whirls in the direction in which the bodies spin.
 //!
 //! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, a quantity that moves by `r` along `x` and by `s` along `y` follows
-//! the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. With `omega` the angular velocity of a body at rest,
+//! the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. With `omega` the angular velocity of a body in the steady state,
 //! `r` and `s` the displacements of its centre of mass and `m` its mass, summed over the bodies:
 //!
 //! - `moment = -sum |omega| omega . m (r x s)`,

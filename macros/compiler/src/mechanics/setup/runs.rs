@@ -247,7 +247,7 @@ impl Runs {
             .collect()
     }
 
-    /// The sum over the rows that follow.
+    /// Sums an entry over the rows that follow as well.
     fn entry(
         &self,
         g: &mut Graph,
