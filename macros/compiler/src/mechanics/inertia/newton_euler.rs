@@ -122,8 +122,8 @@ pub(crate) fn inertial(
     Inertial { along, wrenches }
 }
 
-/// The part of the force that does not depend on the origin's acceleration, and the moment without the moments passed on
-/// by other bodies.
+/// The part of the force that does not depend on the origin's acceleration, and the moment without the moments passed
+/// on by other bodies.
 fn own_load(
     g: &mut Graph,
     body: &AugmentedBody,

@@ -101,8 +101,8 @@ pub(crate) fn check(
     }
 }
 
-/// Checks that both ends of a tolerance are physically possible, with all other variables at their nominal values; reports the
-/// first violated requirement.
+/// Checks that both ends of a tolerance are physically possible, with all other variables at their nominal values;
+/// reports the first violated requirement.
 fn check_tolerance(
     requirements: &[&Requirement],
     constants: &[Constant],

@@ -48,8 +48,8 @@ impl QuadratureSettings {
 ///
 /// # Errors
 ///
-/// If lengths differ, if a bound is NaN or a lower one exceeds its upper one, if the matrix is not a correlation matrix, or if a
-/// setting is invalid.
+/// If lengths differ, if a bound is NaN or a lower one exceeds its upper one, if the matrix is not a correlation
+/// matrix, or if a setting is invalid.
 ///
 /// # Examples
 ///
