@@ -1,6 +1,6 @@
 //! The compiler behind `mechanism!`: it turns a declaration into specialised Rust code.
 //!
-//! Seven types are connected by six arrows. Each arrow is a folder, and no stage refers back to an earlier one:
+//! Seven types are connected by six arrows. Each arrow is a folder, and data flows only forwards:
 //!
 //! ```text
 //! TokenStream -> Ast -> Mechanism -> Topology -> Functions -> Program -> TokenStream

@@ -79,7 +79,7 @@ const OF_ONE_RESIDUAL: [KernelName; 3] = [
     KernelName::ResidualAndStiffness,
 ];
 
-/// The kernels, regrouped to need as few operations as possible.
+/// The kernels, regrouped where that saves operations.
 fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
     let (alike, others): (Vec<Function>, Vec<Function>) =
         functions.functions.iter().cloned().partition(|function| {

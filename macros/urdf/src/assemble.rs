@@ -370,7 +370,7 @@ fn mass(robot: &Robot, tree: &Tree, links: &[usize]) -> Result<Option<Mass>, Rea
     }
 }
 
-/// The mass with an inertia that a body can have.
+/// The mass, if a body can have its inertia; otherwise with the nearest possible inertia, or a mistake.
 fn judged(
     robot: &Robot,
     links: &[usize],

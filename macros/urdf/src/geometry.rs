@@ -49,7 +49,7 @@ impl Pose {
         })
     }
 
-    /// The pose of a frame whose pose in this one is `inner`.
+    /// This pose followed by `inner`, which is a pose in the frame that this one describes.
     pub(crate) fn then(&self, inner: &Pose) -> Pose {
         let offset = turned(&self.matrix(), inner.offset);
         Pose {

@@ -17,11 +17,11 @@ pub enum Note {
         /// The owners' names in the file.
         names: Vec<String>,
     },
-    /// Links welded together by fixed joints: they form one body, and all but one become points of it.
+    /// Links that fixed joints weld to a body or to the ground: they become points of it.
     Welded {
         /// The body, or `ground`.
         body: String,
-        /// The links, by their names in the file.
+        /// The links that become points, by their names in the file.
         links: Vec<String>,
     },
     /// An inertia that no body can have was replaced by the nearest possible one.

@@ -41,7 +41,8 @@ pub enum Base {
 /// Resistance of the joints, so that the robot has an equilibrium and modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resistance {
-    /// A spring and a damper on every coordinate; the springs are relaxed where the coordinate is zero.
+    /// A spring and a damper on every coordinate, relaxed where it is zero; joints that move no mass are driven at 0
+    /// instead.
     Springs {
         /// For angles, N m/rad.
         stiffness: f64,

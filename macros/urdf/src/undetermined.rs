@@ -70,7 +70,8 @@ fn undetermined(declaration: &str) -> Result<Vec<String>, ImportError> {
 /// Fraction of the largest stiffness. An axis that a file turns upright by `3.14159265359` is not quite upright.
 const NEARLY_NOTHING: f64 = 1e-10;
 
-/// By unknown, the largest change of the residual at rest over a few states, as a fraction of the largest of all.
+/// By unknown, the largest derivative of the residual at rest by it over a few states, as a fraction of the largest of
+/// all.
 fn stiffness(compiled: &Compilation) -> Vec<f64> {
     let n = compiled.functions.unknowns.len();
     let mut columns = vec![0.0_f64; n];

@@ -9,9 +9,9 @@ pub(crate) struct Tree {
     pub(crate) place: Vec<(usize, Pose)>,
     /// The links of each group, starting with the one that its joint moves. Group 0 contains the root.
     pub(crate) groups: Vec<Vec<usize>>,
-    /// Joints that move groups, parents first; this excludes joints that follow one that cannot move.
+    /// Joints that move groups, parents first.
     pub(crate) moving: Vec<usize>,
-    /// Joints that could move but follow one that cannot.
+    /// Joints that could move, but follow one that cannot, or follow with a multiplier of zero.
     pub(crate) held: Vec<usize>,
 }
 
@@ -124,7 +124,7 @@ fn root(robot: &Robot, joint_to: &[Option<usize>]) -> Result<usize, ImportError>
     none_or(mistakes, root)
 }
 
-/// By joint, the fixed coordinate that results from a leader that cannot move.
+/// By joint, the coordinate at which it is held, because its leader cannot move or its multiplier is zero.
 fn held(robot: &Robot) -> Result<Vec<Option<f64>>, ImportError> {
     let mut mistakes = Vec::new();
     let mut held = vec![None; robot.joints.len()];

@@ -119,8 +119,9 @@ pub enum Error {
         /// The best point found.
         closest: Box<Closest>,
     },
-    /// A second-order formula does not apply because the limit curves too much around the origin: `1 + hazard * curvature` is not
-    /// positive. Use importance sampling, or look for further design points.
+    /// A second-order formula does not apply because the limit curves too much around the origin:
+    /// `1 + factor * curvature` is not positive, where the factor is `beta` or the hazard. Use importance sampling, or
+    /// look for further design points.
     #[error("{formula}: no value for curvature {curvature} at beta = {beta}")]
     Curvature {
         /// The formula.

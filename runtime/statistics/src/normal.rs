@@ -40,7 +40,7 @@ pub fn hazard(z: f64) -> f64 {
     }
 }
 
-/// Beyond this, probabilities are not normal floating-point numbers.
+/// Shortly beyond this, probabilities are not normal floating-point numbers.
 const FAR: f64 = 37.0;
 
 /// The `z` below which the given probability lies; infinite for 0 and 1, NaN outside [0, 1].

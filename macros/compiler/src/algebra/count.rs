@@ -16,16 +16,18 @@ pub struct Cost {
     pub negations: usize,
 }
 
-/// The nodes that `roots` depend on, operands first.
+/// The nodes needed to evaluate `roots`, themselves included, operands first.
 pub fn reachable(graph: &Graph, roots: &[ExprId]) -> Vec<ExprId> {
     gathered(graph, roots, |_| true)
 }
 
-/// The nodes that `roots` depend on and that may themselves depend on a symbol of `mask`, operands first.
+/// Of the nodes needed to evaluate `roots`, those that may depend on a symbol of `mask`, operands first.
 pub(super) fn dependent(graph: &Graph, roots: &[ExprId], mask: u128) -> Vec<ExprId> {
     gathered(graph, roots, |id| graph.may_depend(id, mask))
 }
 
+/// The nodes reached from `roots` through `wanted` nodes only, operands first.
+///
 /// The work grows with the number of nodes found, not with the size of the graph.
 fn gathered(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) -> Vec<ExprId> {
     let mut seen = vec![0_u64; graph.len() / 64 + 1];

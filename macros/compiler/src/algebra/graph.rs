@@ -6,7 +6,7 @@ use super::node::Node;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::base::operators::Unary;
 
-/// When a symbol's value becomes known: an evaluation redoes only the stages after the one that changed.
+/// When a symbol's value becomes known: if it changes, only values of its own and of later stages change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
     /// Known to the compiler.

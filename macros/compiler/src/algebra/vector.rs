@@ -164,7 +164,7 @@ impl Matrix3 {
         turned
     }
 
-    /// The plane in which the rotation turns, if it is about an axis.
+    /// The plane in which the rotation turns, if it is about a frame axis apart from right angles.
     fn plane(self, g: &mut Graph) -> Option<Plane> {
         let entry = |i: usize, j: usize| self.0[j].0[i];
         for c in 0..3 {

@@ -32,7 +32,7 @@ id! {
     BodyId;
     /// A joint.
     JointId;
-    /// A joint coordinate, driven or free, in order of declaration.
+    /// A joint coordinate, free, driven or coasting, in order of declaration.
     CoordinateId;
     /// A named point.
     PointId;

@@ -16,8 +16,9 @@ use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::setup::{Context, Runs, Symbols, Values};
 
-/// Derives every function of a mechanism. Fails if no steady state exists, if a coordinate has no inertia, or if nothing
-/// resists a coordinate: errors that only the equations reveal.
+/// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
+/// unless only the kernels are wanted, if a motion moves no mass or nothing resists a coordinate: errors that only the
+/// equations reveal.
 pub fn derive(
     mechanism: &Mechanism,
     topology: &Topology,

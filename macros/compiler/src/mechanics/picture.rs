@@ -15,7 +15,7 @@ pub struct Picture {
     pub points: Vec<(String, Frame)>,
     /// Forces and constraints between two points.
     pub links: Vec<PictureLink>,
-    /// Rolling bodies: name, centre, and a point of the plane.
+    /// Rolling constraints: name, centre of the wheel, and a point of the plane.
     pub wheels: Vec<(String, [PointId; 2])>,
     /// Forces and constraints, in words.
     pub elements: Vec<Element>,

@@ -20,11 +20,11 @@ pub enum Expr {
     Input(InputId),
     /// A named constant.
     Constant(ConstantId),
-    /// A joint coordinate (in force laws and outputs).
+    /// A joint coordinate (in force laws, constraints and outputs).
     Coordinate(CoordinateId),
-    /// Rate of a joint coordinate (in force laws).
+    /// Rate of a joint coordinate (in force laws; in outputs only of a coasting one).
     Rate(CoordinateId),
-    /// Component 0, 1 or 2 of a point's position in the ground frame (in force laws and outputs).
+    /// Component 0, 1 or 2 of a point's position in the ground frame (in force laws, constraints and outputs).
     Position(PointId, usize),
     /// Distance of the two points in a tension law.
     Length,
@@ -33,11 +33,12 @@ pub enum Expr {
     /// Component of the load that a joint transmits at rest (in outputs): 0 to 2 the force, 3 to 5 the moment at the joint, by
     /// the `from` side on the `to` side, in the axes of the joint frame on the `from` side.
     Reaction(JointId, usize),
-    /// Component of the load that a constraint exerts at rest (in outputs). Coincident: 0 to 2 the force of `from` on `to`,
-    /// in the axes of `from`. Aligned: 3 to 5 the moment of `from` on `to`, in the axes of `from`. Distance: 0 the tension,
-    /// positive if it pulls the ends together. Equation: 0 the generalised force in the direction in which the expression
-    /// grows. Rolling: 0 to 2 the force of the plane on the wheel, forward (axle cross normal), sideways (normal cross
-    /// forward) and along the normal; for a ball in the axes of `on`, with z the normal if the normal is given as z.
+    /// Component of the load that a constraint exerts at rest (in outputs). Coincident: 0 to 2 the force of `from` on
+    /// `to`, in the axes of `from`. Aligned: 3 to 5 the moment of `from` on `to`, in the axes of `from`. Distance: 0
+    /// the tension, positive if it pulls the ends together. Equation: 0 the generalised force in the direction in which
+    /// the expression grows. Rolling: 0 to 2 the force of the plane on the wheel, forward (axle cross normal), sideways
+    /// (normal cross forward) and along the normal; for a ball, forward is the axis of `on` farthest from the normal,
+    /// made perpendicular to it, so that with z as the normal these are the components along x, y and z of `on`.
     ConstraintReaction(ConstraintId, usize),
     /// Kinetic energy in steady motion (in outputs).
     KineticEnergy,

@@ -83,9 +83,9 @@ pub struct Input {
     pub name: Ident,
     /// Doc comments.
     pub docs: Vec<String>,
-    /// Tolerance about the value given at run time.
+    /// Declared unit.
     pub unit: Unit,
-    /// How it varies about the value it is given.
+    /// Tolerance about the value given at run time.
     pub tolerance: Tolerance,
 }
 
@@ -291,7 +291,7 @@ pub struct Coordinate {
     pub joint: JointId,
     /// Angle or displacement.
     pub quantity: CoordinateQuantity,
-    /// Free or driven.
+    /// Free, driven or coasting.
     pub motion: Motion,
 }
 

@@ -24,7 +24,7 @@ pub enum Shape {
         length: Expr,
         /// Direction of the bar, a unit vector.
         along: Vector,
-        /// Centre of mass; half the length along the bar from the body's origin unless given.
+        /// Centre of mass; half the length along the bar from the origin of the frame unless given.
         center: Vector,
     },
     /// A uniform thin disk.
@@ -66,7 +66,7 @@ pub enum Shape {
         /// Centre of mass.
         center: Vector,
     },
-    /// A uniform solid box with edges along the body axes.
+    /// A uniform solid box with edges along the axes of the frame.
     Cuboid {
         /// Mass.
         mass: Expr,

@@ -168,9 +168,9 @@ pub struct Values {
 /// The limits minus the value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviations {
-    /// The first deviation.
+    /// The first number, for the upper limit.
     pub upper: Deviation,
-    /// The second deviation.
+    /// The second number, for the lower limit.
     pub lower: Deviation,
 }
 

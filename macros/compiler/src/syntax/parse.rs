@@ -231,7 +231,7 @@ fn skip_item(tokens: &mut Tokens) {
     }
 }
 
-/// Whether a doc comment follows, or a keyword and a name and `:` or `=`.
+/// Whether an item starts: a doc comment, `gravity`, `kernels only`, or a keyword, a name and `:` or `=`.
 fn starts_item(tokens: &Tokens) -> bool {
     let mut ahead = *tokens;
     if ahead.sign('#').is_some() {

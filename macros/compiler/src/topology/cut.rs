@@ -5,7 +5,8 @@ use crate::base::ids::JointId;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{ConstraintLaw, ForceLaw, Mechanism, Motion};
 
-/// The joints, by id, whose coordinates are used elsewhere in the declaration: cutting would remove them.
+/// The joints, by id, that must not be cut: their coordinates are used elsewhere in the declaration, are driven or
+/// coast, or they cannot be written as equations.
 pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     let mut needed = vec![false; mechanism.joints.len()];
     let mut of_coordinate = |id: crate::base::ids::CoordinateId| {
@@ -54,7 +55,8 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     needed
 }
 
-/// The joint of a loop that leaves the most freedom and thus the fewest equations; in a tie, the last declared.
+/// Of the joints of a loop that may be cut, the one that leaves the most freedom and thus the fewest equations; in a
+/// tie, the last declared.
 pub(super) fn choose(
     mechanism: &Mechanism,
     joints: &[JointId],

@@ -104,7 +104,7 @@ impl Joint {
         self.variables.iter().all(Distribution::is_normal)
     }
 
-    /// Whether the variables are independent of each other.
+    /// Whether the variables were declared independent; false if a correlation matrix was given, even the identity.
     #[must_use]
     pub fn is_independent(&self) -> bool {
         self.dependence.is_none()
@@ -135,7 +135,7 @@ impl Joint {
     /// Writes the values of the variables for independent standard normal numbers, one per variable.
     ///
     /// # Panics
-    /// If a list has the wrong length.
+    /// Possible if a list does not have one entry per variable.
     pub fn from_normal(&self, z: &[f64], values: &mut [f64]) {
         for (i, (value, variable)) in values.iter_mut().zip(&self.variables).enumerate() {
             *value = variable.from_normal(self.own_normal(i, z));
@@ -146,7 +146,7 @@ impl Joint {
     /// normal numbers at `z`.
     ///
     /// # Panics
-    /// If a list has the wrong length.
+    /// Possible if a list does not have one entry per variable.
     pub fn gradient_by_normal(&self, z: &[f64], by_variable: &[f64], by_normal: &mut [f64]) {
         by_normal.fill(0.0);
         for (i, (slope, variable)) in by_variable.iter().zip(&self.variables).enumerate() {

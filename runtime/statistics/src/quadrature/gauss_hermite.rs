@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::Error;
 
-/// The largest rule: beyond it, weights underflow.
+/// The largest rule: the weights of much larger ones underflow.
 const MAX_NODES: usize = 256;
 
 /// A quadrature rule for the standard normal density: the mean of `f(z)` is approximately the sum of `weights[i] f(nodes[i])`.

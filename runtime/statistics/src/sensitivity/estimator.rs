@@ -1,6 +1,7 @@
 //! Estimators of first-order and total indices from the values of the Saltelli design.
 
-/// Estimates the indices of an input from the values `a` of the rows of `A`, `b` of `B`, and `c` of `A` with that input taken from `B`.
+/// How to estimate the indices of an input from the values `a` of the rows of `A`, `b` of `B`, and `c` of `A` with that
+/// input taken from `B`.
 ///
 /// `V` is the variance of all `a` and `b`, `m` their mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

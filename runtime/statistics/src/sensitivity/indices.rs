@@ -40,7 +40,7 @@ pub struct Estimate {
     pub upper: f64,
 }
 
-/// Apportions the variance of a model to its inputs (Sobol' 1993; Homma and Saltelli 1996).
+/// How the variance of a model is apportioned to its inputs (Sobol' 1993; Homma and Saltelli 1996).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SobolIndices {

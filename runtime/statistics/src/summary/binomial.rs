@@ -13,9 +13,12 @@ pub(super) struct Ranks {
     pub(super) coverage: f64,
 }
 
-/// The number `B` of values below the `p`-quantile is binomial. The quantile is above the value of rank `k` (from 0) if `B > k` and
-/// below it if `B <= k`; each of the two fails with at most half of `1 - confidence` (David and Nagaraja, Order Statistics, 3rd
-/// edition, section 7.1). `None` if there are too few values.
+/// The ranks of two values that enclose the `p`-quantile with at least the given confidence; `None` if there are too
+/// few values.
+///
+/// The number `B` of values below the `p`-quantile is binomial. The quantile is above the value of rank `k` (from 0) if
+/// `B > k` and below it if `B <= k`; each of the two fails with probability at most half of `1 - confidence`
+/// (David and Nagaraja, Order Statistics, 3rd edition, section 7.1).
 pub(super) fn ranks(count: u64, p: f64, confidence: f64) -> Result<Option<Ranks>, Error> {
     check_inside("p", p)?;
     check_inside("confidence", confidence)?;

@@ -23,7 +23,7 @@ fn centre(values: &[f64]) -> f64 {
 }
 
 impl Comoments {
-    /// Computes them for pairs of values; excess values of the longer slice are ignored.
+    /// The statistics of pairs of values; excess values of the longer slice are ignored.
     #[must_use]
     pub fn of(first: &[f64], second: &[f64]) -> Self {
         let count = first.len().min(second.len());

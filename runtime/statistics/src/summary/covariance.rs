@@ -20,7 +20,7 @@ pub struct Covariance {
 }
 
 impl Covariance {
-    /// `None` if no sample has both.
+    /// Computes the statistics of a pair of quantities; `None` if no sample has both.
     #[must_use]
     pub fn of(comoments: &Comoments) -> Option<Self> {
         let Comoments {

@@ -201,7 +201,7 @@ impl Partial {
         Ok(all)
     }
 
-    /// The parts of the sums: complete chunks in order, then incomplete ones in order.
+    /// Passes each part of the sums to `add`: complete chunks in order, then incomplete ones in order.
     fn fold(&self, mut add: impl FnMut(&Node)) {
         self.tree.nodes.iter().for_each(&mut add);
         for chunk in &self.fragments {

@@ -39,7 +39,7 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// If there is no such quantity, `reference` is not a number, or `scale` is not a positive number.
+    /// If there is no such quantity, and as for [`Sketch::new`].
     pub fn sketch(mut self, quantity: usize, reference: f64, scale: f64) -> Result<Self, Error> {
         self.check(quantity)?;
         self.sketches[quantity] = Some(Sketch::new(reference, scale)?);

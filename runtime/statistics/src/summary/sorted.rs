@@ -39,7 +39,7 @@ impl Sorted {
     ///
     /// # Errors
     ///
-    /// If one of them is NaN.
+    /// If one of them is NaN or above [`LARGEST`](super::LARGEST) in magnitude.
     pub fn new(mut values: Vec<f64>) -> Result<Self, Error> {
         for &value in &values {
             check_number("values to sort", value)?;

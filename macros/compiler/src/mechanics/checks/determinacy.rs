@@ -171,8 +171,8 @@ fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
     sum
 }
 
-/// A null vector of a singular symmetric matrix, with its last component one. A pivot counts as zero if it is negligible
-/// compared with its diagonal entry or with the rounding error of that entry.
+/// A null vector of a singular symmetric matrix, with its last nonzero component one. A pivot counts as zero if it is
+/// negligible compared with its diagonal entry or with the rounding error of that entry.
 fn null_vector(
     n: usize,
     matrix: &[f64],

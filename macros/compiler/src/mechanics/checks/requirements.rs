@@ -104,7 +104,8 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
     list
 }
 
-/// Whether an inertia is declared with entries that depend on the design, or that no real body can have.
+/// Whether an inertia is declared with entries that are not constant or that no real body can have, or about another
+/// point than the centre of mass.
 fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
     body.parts.iter().any(|part| {
         let Spread::Tensor { inertia, about } = part.shape.reduced().spread else {
@@ -120,8 +121,8 @@ fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
     })
 }
 
-/// The requirements on bodies welded together. There are none if each has the inertia of a real body, because then so does
-/// their sum.
+/// The requirements on bodies welded together. There are none if each certainly has the inertia of a real body, because
+/// then so does their sum.
 fn inertia_together(
     g: &mut Graph,
     mechanism: &Mechanism,

@@ -6,7 +6,8 @@
 //! - `integral rho dm = sum_k first_k d_k`,
 //! - `integral rho rho^T dm = isotropic 1 + sum_kj second_kj d_k d_j^T`.
 //!
-//! A bar needs one arm, a disk one arm and the isotropic part, and any body at most three arms besides its centre of mass.
+//! A bar needs one arm, a disk one arm and the isotropic part, an inertia tensor at most three arms besides its centre
+//! of mass; an offset, or a tensor about another point, takes one arm more.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -180,7 +181,7 @@ impl MassDistribution {
         body
     }
 
-    /// A bar whose centre lies on its own line through the origin needs one arm for all moments.
+    /// A bar. If it starts at the origin, it needs one arm for all moments.
     fn line(
         g: &mut Graph,
         values: &Values,
@@ -220,8 +221,8 @@ impl MassDistribution {
         self
     }
 
-    /// Adds a second-moment tensor in body axes; `products` are xy, yz, xz. One diagonal entry moves into the
-    /// isotropic part, chosen to leave the fewest arms.
+    /// Adds a second-moment tensor in body axes; `products` are xy, yz, xz. Without products, one diagonal entry moves
+    /// into the isotropic part, chosen to leave the fewest arms.
     fn with_tensor(self, g: &mut Graph, diagonal: [ExprId; 3], products: [ExprId; 3]) -> Self {
         let zero = g.zero();
         let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;

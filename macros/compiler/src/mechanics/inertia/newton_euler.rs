@@ -21,7 +21,7 @@ pub(crate) struct Inertial {
 struct Gathered {
     /// Forces of bodies that do not ride on a seat, and the remainders of those that do.
     rest: Vector3,
-    /// By body axis: the vector with which its arm forms a cross product.
+    /// By body axis `e_k`: `sum_c s_ck rest_c`, with which the axis forms a cross product.
     brackets: [Vector3; 3],
     /// About the origin: from bodies that do not continue a run with this one, and from those that do.
     moment: Vector3,
@@ -122,7 +122,7 @@ pub(crate) fn inertial(
     Inertial { along, wrenches }
 }
 
-/// The part of the force that does not depend on the origin's acceleration, and the moment without contributions passed
+/// The part of the force that does not depend on the origin's acceleration, and the moment without the moments passed
 /// on by other bodies.
 fn own_load(
     g: &mut Graph,

@@ -1,7 +1,7 @@
 //! Poses of the bodies, and the shapes of bodies, joints and points in the frames that carry them.
 //!
-//! Only the poses of bodies depend on the state. Everything else is written in body frames, so that it depends at most on the
-//! design and is usually constant; the kernel does not return constants.
+//! Only the poses of bodies depend on the position. Everything else is written in body frames, so that it depends at
+//! most on inputs and design and is usually constant; the kernel does not return constants.
 
 use crate::algebra::{Array, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{ExprId, JointId, PointId};

@@ -1,8 +1,9 @@
 //! Whether a vibration whirls in the direction in which the bodies spin.
 //!
-//! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, a quantity that moves by `r` along `x` and by `s` along `y` follows
-//! the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. With `omega` the angular velocity of a body at rest,
-//! `r` and `s` the displacements of its centre of mass and `m` its mass, summed over the bodies:
+//! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, a quantity that moves by `r` along `x` and by `s` along
+//! `y` follows the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. With `omega` the angular
+//! velocity of a body in the steady state, `r` and `s` the displacements of its centre of mass and `m` its mass, summed
+//! over the bodies:
 //!
 //! - `moment = -sum |omega| omega . m (r x s)`,
 //! - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`.

@@ -1,7 +1,8 @@
 //! Positions, velocities and accelerations of all bodies, from the ground outwards.
 //!
-//! The layout determines the axes in which vectors are written. Forces, points and outputs use one common frame, which is the
-//! ground frame at the instant when all driven coordinates are zero; inertia uses the axes that keep its equations short.
+//! The layout determines the axes in which vectors are written. Forces, points and outputs use one common frame, which
+//! is the ground frame at the instant when all running coordinates are zero; inertia uses the axes that keep its
+//! equations short.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BodyId, ExprId};

@@ -5,8 +5,8 @@
 //! - Bodies that turn about the same axis, one after the other, form a run. The natural coordinates of a run are the absolute
 //!   angles of its bodies, that is, the sums of the joint angles: turning one body then moves the bodies behind it without
 //!   turning them. The equations are derived in these angles and summed back at the end ([`Runs`]).
-//! - All vectors of a run are written in the axes of the body before it. Any other body is written in its own axes,
-//!   in which its mass distribution is constant.
+//! - All vectors of a run, or of a body that coasts on a planar joint, are written in the axes of the body before it.
+//!   Any other body is written in its own axes, in which its mass distribution is constant.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -247,7 +247,7 @@ impl Runs {
             .collect()
     }
 
-    /// The sum over the rows that follow.
+    /// Sums an entry over the rows that follow as well.
     fn entry(
         &self,
         g: &mut Graph,

@@ -112,7 +112,7 @@ impl<R: Copy> Signature<R> {
         self
     }
 
-    /// Adds arguments that do not exist, with reasons.
+    /// Adds arguments that are refused, with reasons.
     pub(super) const fn refusing(
         mut self,
         reasons: &'static [(&'static str, &'static str)],

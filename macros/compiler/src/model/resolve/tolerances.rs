@@ -327,7 +327,7 @@ impl Resolver<'_> {
         Some(shape)
     }
 
-    /// Some laws allow only positive values with a mean midway between the limits.
+    /// Checks that the mean, midway between the limits, is positive, for laws of positive values.
     fn positive_mean(
         &mut self,
         declared: &ast::Tolerance,

@@ -158,7 +158,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// Whether coordinates may be used here. Of a coasting one only the rate may be: only that is constant in steady motion.
+    /// Whether coordinates may be used here. A coasting one may be used only in equations: nothing else may depend
+    /// on how far it has gone.
     fn coordinate_is_usable(
         &mut self,
         name: &Ident,

@@ -101,7 +101,8 @@ pub(crate) fn check(
     }
 }
 
-/// Checks that a tolerance includes no physically impossible value; reports the first requirement that it violates.
+/// Checks that both ends of a tolerance are physically possible, with all other variables at their nominal values;
+/// reports the first violated requirement.
 fn check_tolerance(
     requirements: &[&Requirement],
     constants: &[Constant],

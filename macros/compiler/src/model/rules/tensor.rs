@@ -77,7 +77,7 @@ fn belongs_to_a_body([a, b, c]: Vector) -> bool {
     a + b - c >= -2e-9 * (a + b + c).abs() && a + b + c >= 0.0
 }
 
-/// Whether a body can have an inertia about the centre of mass.
+/// Whether a body can have this inertia about its centre of mass.
 pub fn is_inertia_of_a_body(inertia: &Matrix) -> bool {
     belongs_to_a_body(principal(inertia).0)
 }

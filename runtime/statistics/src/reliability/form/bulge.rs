@@ -80,7 +80,8 @@ mod tests {
                 let difference = (added(&ahead).value - added(&behind).value) / 2e-5;
                 assert!((added(&z).gradient[i] - difference).abs() < 1e-7);
             }
-            // A linear limit is shifted by that fraction of beta: there it vanishes on the normal.
+            // A shifted linear limit is zero on the normal at `(1 + SHIFT) beta`: there, as at this mirrored point, the
+            // bulge adds so much.
             let beyond = [0.6 * beta * (1.0 - SHIFT), 0.8 * beta * (1.0 - SHIFT)];
             assert!((added(&beyond).value - 5.0 * SHIFT * beta).abs() < 1e-12);
             assert_eq!(added(&[-0.2 * beta, -0.2 * beta]).value, 0.0);

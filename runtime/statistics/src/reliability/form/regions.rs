@@ -21,8 +21,9 @@ pub struct FailureRegions {
     pub evaluations: Evaluations,
 }
 
-/// Distance from a point, as a fraction of its distance from the origin, at which a search restarts to see whether it returns. This
-/// escapes from points that are nearest along some directions only (Rackwitz: `1 + beta kappa < 0`).
+/// Distance from a point, as a fraction of its distance from the origin (or of 1, if that is larger), at which a search
+/// restarts to see whether it returns. This escapes from points that are nearest along some directions only (Rackwitz:
+/// `1 + beta kappa < 0`).
 const NUDGE: f64 = 0.05;
 
 pub(super) fn by_restarts(

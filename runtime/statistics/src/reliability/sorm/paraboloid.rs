@@ -43,7 +43,8 @@ pub(super) fn probability_beyond(beta: f64, curvatures: &[f64]) -> Option<f64> {
     None
 }
 
-/// The minimum of `K(s) - ln(-s)`, which is convex, between the branch point and 0; `K` is the cumulant generating function.
+/// The place of the minimum of `K(s) - ln(-s)`, which is convex, between the branch point and 0; `K` is the cumulant
+/// generating function.
 fn saddle_point(beta: f64, curvatures: &[f64], branch: f64) -> f64 {
     let derivative = |s: f64| {
         let factors = curvatures

@@ -88,7 +88,7 @@ fn perfectly_correlated(h: f64, k: f64, correlation: f64) -> f64 {
     }
 }
 
-/// The maximum of a concave function on `x >= least`, by golden section.
+/// The place of the maximum of a concave function on `x >= least`, by golden section.
 fn maximum(f: &impl Fn(f64) -> f64, least: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let (mut left, mut right) = (least, least.max(0.0) + 40.0);

@@ -5,7 +5,7 @@ use crate::Error;
 use crate::normal::density;
 use crate::reliability::sampling::Interval;
 
-/// Rows of the factor, the bounds in the same order, and the size of rounding errors.
+/// Rows of the factor, the bounds in the same order, and the magnitude up to which a deviation counts as rounding.
 pub(super) struct Factor {
     pub(super) rows: Vec<Vec<f64>>,
     pub(super) bounds: Vec<Interval>,

@@ -48,7 +48,8 @@ impl QuadratureSettings {
 ///
 /// # Errors
 ///
-/// If lengths differ, if a lower bound exceeds its upper one or is NaN, or if the matrix is not a correlation matrix.
+/// If lengths differ, if a bound is NaN or a lower one exceeds its upper one, if the matrix is not a correlation
+/// matrix, or if a setting is invalid.
 ///
 /// # Examples
 ///

@@ -1,4 +1,4 @@
-//! Counts of deviations in buckets whose width is proportional to the deviation.
+//! Counts of deviations in buckets whose width is between `2^-9` and `2^-8` of the deviation.
 
 /// Number of fraction bits that distinguish buckets.
 const FRACTION: u32 = 8;

@@ -1,4 +1,4 @@
-//! The distribution of a quantity as counts in buckets, whose widths are a fixed fraction of the deviation from a reference.
+//! The distribution of a quantity as counts in buckets, whose widths grow with the deviation from a reference.
 
 mod buckets;
 mod estimates;
@@ -13,8 +13,8 @@ use buckets::{Buckets, Places};
 
 /// Counts of values in buckets by their deviation from a reference.
 ///
-/// The width of a bucket is `2^-8` of the deviation, down to `2^-24` of a scale: narrow near the reference, wide far away. Values
-/// that scatter by one scale about the reference are resolved to less than 0.004 of that scale.
+/// The width of a bucket is at most `2^-8` of the deviation, down to `2^-24` of a scale: narrow near the reference,
+/// wide far away. Values that scatter by one scale about the reference are resolved to less than 0.004 of that scale.
 ///
 /// Counts are integers, so the result does not depend on the order of the values or of merging. Memory use is 2 KiB for each power
 /// of two with deviations, above or below the reference; about 50 KiB for a few thousand values scattered about the reference, and
@@ -58,7 +58,8 @@ impl Sketch {
     ///
     /// # Errors
     ///
-    /// If `reference` is not a number, or `scale` is not a positive number.
+    /// If `reference` or `scale` is NaN or above [`LARGEST`](super::LARGEST) in magnitude, or if `scale` is not
+    /// positive.
     pub fn new(reference: f64, scale: f64) -> Result<Self, Error> {
         check_number("reference", reference)?;
         check_number("scale", scale)?;

@@ -75,7 +75,7 @@ impl Resolver<'_> {
         None
     }
 
-    /// Requires all forces to have a known potential, which force expressions do not have.
+    /// Requires all forces to have a known potential, which `tension`, `generalized` and `bushing` do not have.
     fn energy_is_known(&mut self, function: &Ident) -> Option<()> {
         let unknown = self.ast.items.iter().find_map(|item| match &item.kind {
             ItemKind::Force(force) => {
