@@ -21,9 +21,10 @@ impl Quantity {
 }
 
 impl Response {
-    /// Its name in texts and tables: `frequency 1`, the name of an output, `critical speed`, `speed where frequency 2 is 1 times speed`.
+    /// Its name in texts and tables, for example `frequency 1` or `critical speed`.
     ///
-    /// `of` describes the mechanism.
+    /// An output has its declared name, a crossing one such as `speed where frequency 2 is 1 times speed`. `of`
+    /// describes the mechanism.
     #[must_use]
     pub fn name(&self, of: &Description) -> String {
         let input = |range: &crate::sweep::Range| {

@@ -11,7 +11,7 @@ use crate::tolerance::Tolerances;
 use crate::{Error, Watch};
 
 impl<M: SummaryKernels> Study<M> {
-    /// Computes how tolerances spread the given responses, with their covariance, by the most cost-effective method
+    /// Computes how tolerances spread the given responses, with their covariance, by the best affordable method
     /// ([`propagation::propagate`]).
     ///
     /// ```
