@@ -251,7 +251,7 @@ pub enum Error {
         /// Why there is none.
         reason: NoDerivative,
     },
-    /// A setting makes no sense.
+    /// A setting is invalid.
     #[error("{setting}: {reason}")]
     Setting {
         /// The setting.

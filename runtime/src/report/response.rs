@@ -53,7 +53,7 @@ impl Response {
         }
     }
 
-    /// The unit of its values in texts and tables, as declared.
+    /// The unit of its values in texts and tables: as declared, or that of the quantity of a mode.
     #[must_use]
     pub fn unit(&self, of: &Description) -> Unit {
         let declared = match self {
