@@ -31,7 +31,7 @@ pub struct CampbellMode {
     pub damping_ratio: Option<Spread>,
     /// Whirl direction; `None` if not applicable.
     pub whirl: Option<Whirl>,
-    /// Whether its eigenvalue is nearly equal to another: it then has no spreads of its own.
+    /// Whether its eigenvalue is nearly equal to another: its spreads are then not meaningful.
     pub clustered: bool,
 }
 

@@ -17,9 +17,9 @@ use crate::{Description, Error};
 /// [ A  0   0   ] [mu_2       ]   [ -(A_q' qdot) qdot - B qdot, B = d(A_v v + a)/dq       ]
 /// ```
 ///
-/// `q` must satisfy the position constraints, and `velocity` and the speeds in `q` their rates. The entries of `velocity` for
-/// speeds and of `q` for reactions are ignored. If redundant constraints leave reactions undetermined, the minimum-norm reactions
-/// are returned.
+/// `q` must satisfy the position constraints, and `velocity` and the speeds in `q` their rates. The entries of
+/// `velocity` for speeds and of `q` for reactions are ignored. If redundant constraints leave reactions undetermined,
+/// those are returned whose forces have the smallest sum of squares.
 ///
 /// # Errors
 /// [`Error::SingularMass`] if `M*` is not positive definite (with constraints: over the motions they leave free),

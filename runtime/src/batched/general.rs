@@ -15,7 +15,8 @@ use crate::scalar::Lanes;
 
 /// Longest relative step that nearby vectors can predict.
 const NEAR: f64 = 0.1;
-/// Number of inverse iterations, each of which multiplies the errors of the vectors by the distance of the eigenvalue.
+/// Maximum number of inverse iterations, each of which multiplies the errors of the vectors by the distance of the
+/// eigenvalue.
 const STEPS: usize = 4;
 /// Eigenvalues closer than this, relative to their size, are left to the solver for one state.
 const APART: f64 = 1e-4;

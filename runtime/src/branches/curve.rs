@@ -186,9 +186,10 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// The equilibrium at a point of the branch. If the usual relative residual is not small, the residual is compared to the
-    /// forces due to a thousandth of the input range or of a coordinate's unit: where `Khat` is singular, the input restores what
-    /// the coordinates cannot. Where neither does, `also` is an alternative measure of the residual.
+    /// The equilibrium at a point of the branch. If the usual relative residual is not small, the residual is compared
+    /// to the forces due to a thousandth of the input range and of the coordinates' units: where `Khat` is singular,
+    /// the input restores what the coordinates cannot. Where neither does, `also` is an alternative measure of the
+    /// residual.
     pub(crate) fn equilibrium(
         &self,
         at: &CurvePosition,

@@ -87,7 +87,7 @@ impl Curve<'_> {
         })
     }
 
-    /// The first station of a branch, with its tangent towards the end of the range.
+    /// The first station of a branch, with its tangent towards the high end of the range.
     pub(crate) fn first_station(&self, equilibrium: Equilibrium) -> Result<CurvePoint, Trouble> {
         let place = CurvePosition {
             q: equilibrium.coordinates.clone(),

@@ -61,7 +61,7 @@ pub enum BranchEnd {
     Low,
     /// At the high end of the range.
     High,
-    /// At a branch point, where an arm of a pitchfork begins or ends.
+    /// At a branch point: an arm of a pitchfork begins or ends there, or nothing could be followed beyond it.
     BranchPoint,
     /// Nowhere: the branch returns to its start.
     Closed,

@@ -27,13 +27,13 @@ pub(crate) struct Rows {
     pub(crate) least: f64,
     /// The row numbers: independent ones first, in the order of elimination, then the dependent ones.
     pub(crate) order: Vec<usize>,
-    /// Euclidean norm of each row divided by `scale`, which makes rows of different units comparable. One for a zero
-    /// row.
+    /// Euclidean norm of each row divided by `scale`, which makes rows of different units comparable. For a zero row it
+    /// is the largest of the others; one if all are zero.
     pub(crate) size: Vector,
     scale: Vector,
     /// The rows divided by `size` and `scale`.
     row: Matrix,
-    /// The first `rank` rows are an orthonormal basis of the row space, with columns multiplied by `scale`. The others
+    /// The first `rank` rows are an orthonormal basis of the space that the rows divided by `scale` span. The others
     /// are rounding.
     unit: Matrix,
     /// The first `rank` rows satisfy `unit[i] = sum_k combination[i][k] h_k / (size_k scale)`. The others are

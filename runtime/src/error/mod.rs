@@ -220,7 +220,7 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
     },
-    /// Modes have merged into one defective eigenvalue (a single mode with its conjugate), or are so close to that that
+    /// Modes have merged into one defective eigenvalue (a single mode with its conjugate), or are so close to it that
     /// rounding hides their coupling.
     #[error(
         "merged into a defective eigenvalue: modes {modes:?} (counted from 0). It splits as the square root of any \
@@ -251,7 +251,7 @@ pub enum Error {
         /// Why there is none.
         reason: NoDerivative,
     },
-    /// A setting makes no sense.
+    /// A setting is invalid.
     #[error("{setting}: {reason}")]
     Setting {
         /// The setting.
@@ -302,7 +302,7 @@ pub enum Error {
         /// The best half-widths found, SI.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         half_widths: Vec<f64>,
-        /// Position of the requirement that is missed by most.
+        /// Position of the requirement with the largest shortfall.
         requirement: usize,
         /// Its probability of failure to first order.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]

@@ -46,7 +46,8 @@ pub trait CurvatureKernels: DirectionalKernels {
 }
 
 impl dyn CurvatureKernels + '_ {
-    /// Derivative of [`Kernels::mode_gradient_into`](crate::Kernels::mode_gradient_into) along `dq`, `du`, `db`, `dphi` and `dlambda`.
+    /// Derivative of [`Kernels::mode_gradient_into`](crate::Kernels::mode_gradient_into) along `dq`, `du`, `db`, `dphi`
+    /// and `dlambda`.
     #[allow(clippy::too_many_arguments)]
     pub fn mode_gradient_along(
         &self,
@@ -63,7 +64,8 @@ impl dyn CurvatureKernels + '_ {
         gradient
     }
 
-    /// Derivative of [`Kernels::pencil_gradient_into`](crate::Kernels::pencil_gradient_into) along `dq`, `du`, `db`, and `changes` of the vectors.
+    /// Derivative of [`Kernels::pencil_gradient_into`](crate::Kernels::pencil_gradient_into) along `dq`, `du`, `db`,
+    /// and `changes` of the vectors.
     pub fn pencil_gradient_along(
         &self,
         q: &[f64],

@@ -1,4 +1,4 @@
-//! The choice of the most cost-effective method.
+//! The choice of the best affordable method.
 
 use super::quadrature::{cost, quadrature, refuse_discrete};
 use super::result::Propagation;
@@ -22,8 +22,8 @@ const FEW: u64 = 64;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Effort {
-    /// Number of equilibrium solutions allowed: one for each design, and one more for each step of the range of each critical
-    /// value.
+    /// Number of equilibrium solutions allowed: one for each design, and one more for each step of the range of each
+    /// critical value or crossing.
     pub solutions: u64,
     /// Number of samples, if the solutions allow as many.
     pub samples: u64,
@@ -58,12 +58,14 @@ impl Default for Effort {
     }
 }
 
-/// Computes how tolerances spread responses, by the most cost-effective method; [`Propagation::reason`] says why it was chosen.
+/// Computes how tolerances spread responses, by the best affordable method; [`Propagation::reason`] says why it was
+/// chosen.
 ///
-/// The first choice is sampling at scrambled Sobol' points, if affordable: it works for every response and distribution, gives
-/// quantiles, and counts failures. It is not affordable when critical values must be searched for in every design. Then the choice
-/// is quadrature, if few variables vary and every node has a value; otherwise second order, if every response has second
-/// derivatives; otherwise first order.
+/// The first choice is sampling at scrambled Sobol' points, if affordable: it works for every response and
+/// distribution, gives quantiles, and counts failures. It may be too expensive if critical values or crossings must be
+/// searched for in every design. Then the choice is quadrature, if few variables vary and none is discrete. If one of
+/// its nodes has no value, fewer samples are drawn, but at least 64. The next choice is second order, if every response
+/// has second derivatives; the last is first order.
 ///
 /// ```
 #[doc = include_str!("example.txt")]

@@ -51,10 +51,10 @@ pub struct Controlled {
     pub description: Shared<Description>,
 }
 
-/// Mean and standard deviation of each response from random samples, with its Taylor model, whose mean and standard deviation are
-/// known exactly, as a control variate. The model is of second order for quantities of modes; it is of first order for other
-/// responses and if dependent variables are not normal. Only the difference is left to chance (Glasserman, Monte Carlo Methods in
-/// Financial Engineering, 2003, section 4.1).
+/// Mean and standard deviation of each response from random samples, with its Taylor model, whose mean and standard
+/// deviation are known exactly, as a control variate. The model is of second order if the response has second
+/// derivatives and dependent variables are normal, otherwise of first order. Only the difference is left to chance
+/// (Glasserman, Monte Carlo Methods in Financial Engineering, 2003, section 4.1).
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -68,7 +68,7 @@ pub struct Controlled {
 /// ```
 ///
 /// # Errors
-/// As [`sampled`](super::sampled); [`Error::Setting`] for points that are not random, and for less than three samples.
+/// As [`sampled`](super::sampled); [`Error::Setting`] for points that are not random, and for fewer than three samples.
 pub fn controlled(
     mechanism: &dyn CurvatureKernels,
     responses: &Responses<'_>,

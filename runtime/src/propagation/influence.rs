@@ -93,8 +93,9 @@ pub struct Influence {
 /// ```
 ///
 /// # Errors
-/// [`Error::WrongLength`] for tolerances of another mechanism; [`Error::Setting`] for less samples than 16 rows, of two designs more than there
-/// are independent variables each; [`Error::Threads`].
+/// [`Error::WrongLength`] for tolerances of another mechanism; [`Error::Setting`] for too few samples for 16 rows,
+/// where a row has two designs more than there are independent variables, or one if variables depend on each other;
+/// [`Error::Threads`].
 pub fn influence(
     responses: &Responses<'_>,
     tolerances: &Tolerances,
@@ -257,7 +258,7 @@ impl Table {
             )
         });
         let indices = indices.and_then(Result::ok);
-        // The first two evaluations of a row are independent of each other; the others reuse their values.
+        // The first two evaluations of a row are independent of each other; the others recombine their variables.
         let own = |k: &usize| self.blocks == 1 || k % self.blocks < 2;
         let own: Vec<usize> = (0..values.len()).filter(own).collect();
         let designs: Vec<Vec<f64>> = own.iter().map(|&k| self.designs[k].clone()).collect();

@@ -36,8 +36,9 @@ type Node = (Vec<f64>, [f64; 2]);
 /// ```
 ///
 /// # Errors
-/// [`Error::WrongLength`] for tolerances of another mechanism; [`Error::Setting`] for a level of zero, one that is too low for its
-/// weights to give a variance, or discrete variables; [`Error::NoResponse`] where a response has no value at some node; [`Error::Threads`].
+/// [`Error::WrongLength`] for tolerances of another mechanism; [`Error::Setting`] for a level of zero, one that is too
+/// low for its weights to give a variance, or discrete variables; [`Error::NoResponse`] if a response has no value at
+/// some node; [`Error::Threads`].
 pub fn quadrature(
     responses: &Responses<'_>,
     tolerances: &Tolerances,

@@ -105,7 +105,7 @@ pub struct Propagation {
     pub reason: String,
     /// The responses requested.
     pub wanted: Vec<Response>,
-    /// One per response; `None` if no design has it.
+    /// One per response; `None` if no design has it, or if the derivatives that the method needs do not exist.
     pub spreads: Vec<Option<ResponseSpread>>,
     /// Covariances of responses, SI, over the designs that have both; `None` if no two designs do.
     pub covariance: Matrix<Option<f64>>,

@@ -40,7 +40,8 @@ pub struct Samples {
     description: Shared<Description>,
 }
 
-/// Samples designs within their tolerances and solves each anew, starting from the nominal equilibrium, on the stable branch.
+/// Samples designs according to the tolerances and solves each anew, starting from the nominal equilibrium, on the
+/// stable branch.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -56,8 +57,8 @@ pub struct Samples {
 /// ```
 ///
 /// # Errors
-/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a sampler that makes no sense, [`Error::Threads`].
-/// Samples that fail are counted, not errors.
+/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for invalid settings of the sampler,
+/// [`Error::Threads`]. Samples that fail are counted, not errors.
 pub fn sampled(
     responses: &Responses<'_>,
     tolerances: &Tolerances,

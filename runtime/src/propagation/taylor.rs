@@ -19,10 +19,10 @@ const SAMPLES: u64 = 1 << 15;
 
 /// First-order propagation of tolerances, for any distribution.
 ///
-/// Mean and standard deviation are exact for the linear model, as is the skewness unless dependent variables are not normal.
-/// Quantiles, and anything else without a closed form, come from samples of the model. Errors are the differences from second
-/// order, if second derivatives exist. The error of the standard deviation also includes what third derivatives may add
-/// ([`second_order`]).
+/// Mean and standard deviation are exact for the linear model, as is the skewness unless dependent variables are not
+/// normal. Quantiles are exact for normal variables. Anything without a closed form comes from samples of the model.
+/// Errors are the differences from second order, if second derivatives exist. The error of the standard deviation also
+/// includes what third derivatives may add ([`second_order`]).
 ///
 /// ```
 #[doc = include_str!("example.txt")]

@@ -96,10 +96,10 @@ pub struct WorstCase {
 /// Distributions bounded on both sides use their hard limits; the others extend as many standard normal deviations as half-widths
 /// represent ([`Tolerances::sigma_level`]). A box ignores correlation.
 ///
-/// From the nominal design the search goes to the corner that the gradient points to, and continues until the gradient there agrees
-/// with the corner. A variable with zero slope is checked at both its ends, because the response may be stationary in it, as in an
-/// eccentricity. If the gradient changes sign on the way, the response is not monotonic; then all corners are checked, for up to
-/// ten variables.
+/// From the nominal design the search goes to the corner that the gradient points to, and continues until the gradient
+/// there agrees with the corner. A variable with zero slope at the nominal design is checked at both its ends, because
+/// the response may be stationary in it, as in an eccentricity. If the gradient changes sign on the way, the response
+/// is not monotonic; then all corners are checked, for up to ten variables.
 ///
 /// ```
 #[doc = include_str!("example.txt")]

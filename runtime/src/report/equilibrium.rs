@@ -77,8 +77,8 @@ impl fmt::Display for Equilibrium {
     }
 }
 
-/// Coordinates, speeds and reactions, each with its own heading, and their displacements. A reaction is exerted by `from` on `to`.
-/// In a long list, zeros are only counted.
+/// Coordinates, speeds and reactions, each with its own heading, and how far each was moved. A reaction is exerted by
+/// `from` on `to`. In a long list, zeros are only counted.
 fn unknowns(
     f: &mut fmt::Formatter<'_>,
     description: &Description,

@@ -21,9 +21,10 @@ impl Quantity {
 }
 
 impl Response {
-    /// Its name in texts and tables: `frequency 1`, the name of an output, `critical speed`, `speed where frequency 2 is 1 times speed`.
+    /// Its name in texts and tables, for example `frequency 1` or `critical speed`.
     ///
-    /// `of` describes the mechanism.
+    /// An output has its declared name, a crossing one such as `speed where frequency 2 is 1 times speed`. `of`
+    /// describes the mechanism.
     #[must_use]
     pub fn name(&self, of: &Description) -> String {
         let input = |range: &crate::sweep::Range| {
@@ -52,7 +53,7 @@ impl Response {
         }
     }
 
-    /// The unit of its values in texts and tables, as declared.
+    /// The unit of its values in texts and tables: as declared, or that of the quantity of a mode.
     #[must_use]
     pub fn unit(&self, of: &Description) -> Unit {
         let declared = match self {

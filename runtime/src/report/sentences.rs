@@ -188,7 +188,7 @@ fn measured(mode: usize, check: &Check, converges: bool) -> String {
     format!("Mode {number}: sigma of the {name} over {count} {sigma}{errors}.")
 }
 
-/// A probability with its interval; `None` if no sample counted.
+/// A probability with its interval; `None` if the event occurred in no sample.
 fn chance(name: &str, own: Chance) -> Option<String> {
     let percent = |share: f64| format!("{:.3}", 100.0 * share);
     (own.count > 0).then(|| {

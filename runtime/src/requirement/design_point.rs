@@ -50,6 +50,8 @@ impl DesignPoint {
         self.normal.probability()
     }
 
+    /// The design point with its derivatives and second-order probability.
+    ///
     /// # Errors
     /// [`Error::NoReliability`] if the point has no derivatives.
     pub(super) fn new(
@@ -83,6 +85,8 @@ pub(crate) struct Slopes {
     pub(crate) by_half_width: Vec<FormSensitivity>,
 }
 
+/// Derivatives at a design point.
+///
 /// # Errors
 /// [`Error::NoReliability`] if the point has no derivatives.
 pub(crate) fn slopes_at(

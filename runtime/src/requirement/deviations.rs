@@ -14,8 +14,8 @@ pub(crate) struct Deviations<'a> {
     nominal: Vector,
     /// Scale of each half-width, relative to the tolerances.
     scales: Vector,
-    /// Factor of the correlation matrix, row by row: standard normal values per unit half-width of variables whose half-width is
-    /// zero.
+    /// Factor of the correlation matrix, row by row, for the standard normal variables behind design variables whose
+    /// half-width is zero; empty without a correlation matrix.
     root: Vec<f64>,
 }
 

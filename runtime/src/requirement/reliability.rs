@@ -25,7 +25,8 @@ pub struct LimitReliability {
 }
 
 impl LimitReliability {
-    /// First-order failure probability, summed over all failure regions (at most 1); `None` without design points.
+    /// First-order failure probability, summed over all failure regions (at most 1), or that of the first alone if the
+    /// centre of the distribution fails; `None` without design points.
     #[must_use]
     pub fn probability(&self) -> Option<f64> {
         let points = self.design_points.as_ref().ok()?;
@@ -44,7 +45,7 @@ impl LimitReliability {
     }
 }
 
-/// Probability that at least one of several limits is exceeded, each replaced by its tangent plane.
+/// Probability that at least one of several limits is violated, each replaced by its tangent plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -86,7 +87,7 @@ impl Reliability {
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
     }
 
-    /// Whether every limit has a design point and all design points are verified.
+    /// Whether every requirement has a limit, every limit has a design point, and all design points are verified.
     #[must_use]
     pub fn verified(&self) -> bool {
         let verified = |own: &LimitReliability| match &own.design_points {

@@ -35,7 +35,7 @@ pub struct ModelMoments {
     /// Shift of the mean due to spread, `tr(H Sigma) / 2`, without rounding against the value.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean_shift: f64,
-    /// First-order standard deviation `sqrt(S Sigma S^T)`.
+    /// First-order standard deviation `sqrt(S Sigma S^T)`, with `S` at the means of the variables.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub first_order_sigma: f64,
     /// Contribution of curvature alone, `sqrt(tr((H Sigma)^2) / 2)`. For variables that are not normal, where curvature also

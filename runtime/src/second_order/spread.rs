@@ -1,4 +1,5 @@
-//! Spread to second order: the contribution of curvature to the spread of a frequency, and whether it agrees with first order.
+//! Spread to second order: what the curvature of a frequency adds to its first-order spread, and whether first order
+//! holds.
 
 use super::curvature::{ModeCurvature, mode_curvature};
 use super::nonlinearity::Nonlinearity;
@@ -18,7 +19,7 @@ pub struct SecondOrderSpread {
     pub model: Quadratic,
     /// Mean, standard deviation, skewness and kurtosis of that model.
     pub moments: ModelMoments,
-    /// The part of them that is due to curvature.
+    /// The contributions of curvature to mean and standard deviation, relative to the first-order standard deviation.
     pub nonlinearity: Nonlinearity,
 }
 

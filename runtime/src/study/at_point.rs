@@ -69,7 +69,7 @@ impl<M: Kernels> Study<M> {
     ///
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::NotAssembled`],
-    /// [`Error::UnknownHandle`]. Finding none is no error.
+    /// [`Error::UnknownHandle`]. Finding none is not an error.
     pub fn equilibria(&self, search: &Search) -> Result<Vec<Equilibrium>, Error> {
         let (u, b) = (&self.settings.inputs, &self.settings.design);
         let start = self.settings.assembled_start(&self.mechanism)?;
@@ -373,8 +373,8 @@ impl<M: CurvatureKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for a
-    /// band that makes no sense.
+    /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for an
+    /// invalid band.
     pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
         self.solve()?.margin(mode, band)
     }

@@ -127,9 +127,10 @@ impl<M: Kernels> Study<M> {
 
     /// Sets the tolerance half-width of a design variable or an input.
     ///
-    /// The half-width does not change when the parameter is later given another value; nor does a declared tolerance, even one in
-    /// percent (use [`Study::relative_tolerance`] for one that scales with the value). The distribution is unchanged: normal unless
-    /// set otherwise.
+    /// The half-width does not change when the parameter is later given another value; nor does a declared tolerance of
+    /// a design variable, even one in percent (use [`Study::relative_tolerance`] for one that scales with the value). A
+    /// declared tolerance of an input in percent follows the value. The distribution is unchanged: normal unless set
+    /// otherwise.
     ///
     /// ```
     #[doc = include_str!("example.txt")]

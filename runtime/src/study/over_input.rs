@@ -181,7 +181,7 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Study::equilibrium`] at the low end; [`Error::Setting`], [`Error::UnknownHandle`].
+    /// As [`Study::equilibrium`] if there is none at either end; [`Error::Setting`], [`Error::UnknownHandle`].
     pub fn branches(
         &self,
         input: Input<M>,

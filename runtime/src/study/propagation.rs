@@ -11,7 +11,7 @@ use crate::tolerance::Tolerances;
 use crate::{Error, Watch};
 
 impl<M: SummaryKernels> Study<M> {
-    /// Computes how tolerances spread the given responses, with their covariance, by the most cost-effective method
+    /// Computes how tolerances spread the given responses, with their covariance, by the best affordable method
     /// ([`propagation::propagate`]).
     ///
     /// ```
@@ -25,8 +25,8 @@ impl<M: SummaryKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Study::solve`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::Setting`] for a response
-    /// that makes no sense; [`Error::Threads`].
+    /// As [`Study::solve`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`],
+    /// [`Error::Setting`] for an invalid response; [`Error::Threads`].
     pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
         self.solve()?.propagate(wanted)
     }
@@ -45,7 +45,7 @@ impl<M: SummaryKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Study::propagate`]; [`Error::Setting`] for a sampler that makes no sense.
+    /// As [`Study::propagate`]; [`Error::Setting`] for invalid settings of the sampler.
     pub fn sample_responses(
         &self,
         wanted: &[Response],
@@ -86,7 +86,7 @@ impl<M: SummaryKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Study::propagate`]; [`Error::Setting`] for less than three samples.
+    /// As [`Study::propagate`]; [`Error::Setting`] for fewer than three samples.
     pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
         self.solve()?.controlled(wanted)
     }

@@ -107,7 +107,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             .rare_failure(wanted, settings)
     }
 
-    /// Finds the cheapest tolerances that meet the requirements, verified with the study's number of samples
+    /// Finds the cheapest tolerances that meet the requirements, checked with the study's number of samples
     /// ([`allocation::allocate`](crate::allocation::allocate)).
     ///
     /// ```

@@ -317,8 +317,8 @@ impl<M: CurvatureKernels> Solved<'_, M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Solved::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for a
-    /// band that makes no sense.
+    /// As [`Solved::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for
+    /// an invalid band.
     pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
         self.margin_of(mode, Quantity::Frequency, band)
     }

@@ -10,10 +10,10 @@ const HALVINGS: usize = 10;
 
 /// Whether the equilibrium `q` of a design lies on the same branch as the nominal one.
 ///
-/// Two stable equilibria of neighbouring designs lie on one branch if each is in the potential valley of the other: if `det Khat`
-/// of either design has the same sign at both equilibria. At a pitchfork, the branch that ends and the one that begins fail this
-/// test however close they are. Where the test is inconclusive, the path between the two designs is bisected. Branches that meet
-/// where two stiffnesses vanish at once cannot be told apart.
+/// Two stable equilibria of neighbouring designs lie on one branch if each is in the potential valley of the other: if
+/// `det Khat` of each design has the same sign at both equilibria. At a pitchfork, the branch that ends and the one
+/// that begins fail this test however close they are. Where the test is inconclusive, the path between the two designs
+/// is bisected. Branches that meet where two stiffnesses vanish at once cannot be told apart.
 pub(super) fn on_nominal_branch(
     mechanism: &dyn Kernels,
     nominal: &Equilibrium,

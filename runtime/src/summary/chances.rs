@@ -91,6 +91,6 @@ pub enum Sampling {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         budget: f64,
     },
-    /// No quantity varies.
+    /// No quantity varies, or samples could check none.
     NotNeeded,
 }

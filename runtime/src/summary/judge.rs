@@ -11,7 +11,8 @@ use crate::sensitivity::Quantity;
 use crate::tolerance::{FirstOrder, TRUSTED_DISTANCE};
 use crate::{Behaviour, Mode};
 
-/// With a critical state or another mode within this many standard deviations, more samples are drawn: rare ones may matter.
+/// With a critical state or critical damping within this many standard deviations, more samples are drawn: rare ones
+/// may matter.
 const DOUBTFUL_DISTANCE: f64 = 6.0;
 
 /// The data on which verdicts are based.

@@ -25,7 +25,7 @@ const BRANCHES: usize = 4096;
 const LIMIT: f64 = 0.03;
 /// A smaller error is not rejected.
 const GOOD: f64 = 0.01;
-/// An error beyond the limit by this many standard errors is clearly beyond it.
+/// An error this many standard errors away from the limit is clearly below or above it.
 const CLEARLY: f64 = 4.0;
 /// With a standard error of the error this small, the case is decided.
 const FINE: f64 = 0.004;
@@ -44,7 +44,7 @@ pub(super) struct Prediction<'a> {
     /// Derivatives with respect to the design variables.
     pub(super) slopes: Option<Vector>,
     pub(super) second: Option<&'a Quadratic>,
-    /// Whether a critical state is near, so that rare samples may matter.
+    /// Whether a critical state, critical damping or another mode is near, so that rare samples may matter.
     pub(super) doubtful: bool,
 }
 

@@ -16,8 +16,8 @@ pub struct Trust {
     pub mode: usize,
     /// The reasons not to trust it; empty if there are none.
     pub doubts: Vec<Doubt>,
-    /// Results of sampling its quantities. Empty if it was not sampled: if samples are too expensive, if the mode does not
-    /// oscillate, or if it is in a cluster.
+    /// Results of sampling its quantities. Empty if samples are too expensive, if the mode neither oscillates nor is
+    /// neutral, or if samples do not separate it from the other modes of its cluster.
     pub checks: Vec<Check>,
     /// The method to use.
     pub advice: Advice,
@@ -95,8 +95,8 @@ pub enum Doubt {
         /// They have merged into one defective eigenvalue.
         defective: bool,
     },
-    /// The critical state, beyond which the equilibrium changes branch, is near: the distance is zero within rounding of it,
-    /// negative beyond it. For a mode that was sampled it is reported only if first order was found wrong.
+    /// The critical state, beyond which the equilibrium changes branch, is near: the distance is zero within rounding
+    /// of it, negative beyond it. A positive distance is not reported if samples found first order right.
     NearCritical {
         /// Standard deviations.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
@@ -109,8 +109,8 @@ pub enum Doubt {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         distance: f64,
     },
-    /// The mode is close to ceasing to oscillate: it meets its conjugate and splits into two real ones. For a mode that was sampled
-    /// it is reported only if first order was found wrong.
+    /// The mode is close to ceasing to oscillate: its eigenvalue meets its conjugate and splits into two real ones. It
+    /// is not reported near a critical state, or if samples found first order right.
     NearCriticalDamping {
         /// Standard deviations, `Im s / (2 sigma)`: the distance of `(Im s)^2` from zero.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]

@@ -9,7 +9,7 @@ use crate::equilibrium::{Policy, equilibrium};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error, Input, Text};
 
-/// Smallest and largest step of the continuation, whatever number of steps is requested.
+/// Bounds on the largest step of the continuation, whatever number of steps is requested.
 const FINEST_STEP: f64 = 1e-4;
 const COARSEST_STEP: f64 = 0.05;
 /// Maximum number of continuation points.
@@ -18,9 +18,9 @@ const MOST_POINTS: usize = 50_000;
 /// Finds the first input value at which the branch that is stable at `range.low` loses its stiffness: a limit point or branch
 /// point, located to rounding accuracy.
 ///
-/// The branch itself is followed by continuation, with steps of at most `1/steps` of the range, even where a neighbouring branch is
-/// the stable one. A branch that runs to infinity is not critical. A non-symmetric `Khat` is critical where its determinant changes
-/// sign.
+/// The branch itself is followed by continuation, even where a neighbouring branch is the stable one, with steps of at
+/// most `1/steps` of the range (clamped to between 1e-4 and 0.05). A branch that runs to infinity is not critical. A
+/// non-symmetric `Khat` is critical where its determinant changes sign.
 ///
 /// # Errors
 /// [`Error::NotInRange`] if the branch keeps its stiffness; the cause if the branch cannot be followed to the end of the range;

@@ -9,7 +9,7 @@ use super::pencil::Pencil;
 
 /// A value below this is zero in a scaled pencil.
 const NOTHING: f64 = 1e-36;
-/// The search ends at zero for steps below this.
+/// Steps below this end the search for an eigenvalue of zero.
 const SMALL: f64 = 1e-40;
 const SWEEPS: usize = 150;
 

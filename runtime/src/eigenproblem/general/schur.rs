@@ -5,7 +5,7 @@
 use num_complex::Complex64;
 
 const ULP: f64 = f64::EPSILON;
-/// Number of steps without deflation after which the shifts are exceptional.
+/// Number of steps without deflation from one exceptional shift to the next.
 const EXCEPTIONAL: usize = 10;
 
 /// Eigenvalues of an upper Hessenberg matrix, which is destroyed; conjugate pairs are adjacent, the one with positive
@@ -224,7 +224,7 @@ fn reflector([a, b, c]: [f64; 3]) -> (f64, f64, f64, f64) {
     (beta, -divisor * divisor * inverse, b * factor, c * factor)
 }
 
-/// Squares of numbers between this and its inverse are far from underflow and overflow.
+/// Squares between this and its inverse are far from underflow and overflow.
 const SAFE: f64 = 1e-200;
 
 #[cold]

@@ -1,4 +1,4 @@
-//! The second-order model in independent standard normal variables, scaled so that its coefficients are about 1.
+//! The second-order model in independent standard normal variables, scaled so that its largest coefficient is about 1.
 
 use crate::Error;
 use crate::second_order::quadratic::{ModelMoments, Quadratic, beyond_range};
