@@ -105,7 +105,7 @@ impl<'a> Shapes<'a> {
             Family::General => {
                 let normalised = (size, leading.left);
                 let transposed = transposed(linear);
-                let side = Side::new(&transposed, family, mode, &mode.left, normalised);
+                let side = Side::new(&transposed, family, mode, mode.left(), normalised);
                 Some(side.ok_or(clustered)?)
             }
         };
@@ -145,8 +145,8 @@ impl<'a> Shapes<'a> {
         let left = match &self.left {
             None => right.clone(),
             Some(side) => side.solve(
-                &moved(&transposed(self.linear), &transposed(change), &mode.left),
-                &times_complex(&change.mass, &mode.left),
+                &moved(&transposed(self.linear), &transposed(change), mode.left()),
+                &times_complex(&change.mass, mode.left()),
             ),
         };
         (right, left)

@@ -1,4 +1,4 @@
-//! Ctrl-C handling: interruptible work keeps its results, any other work ends at once.
+//! Ctrl-C and requests to terminate (SIGTERM, SIGHUP): interruptible work keeps its results, any other work ends at once.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,13 +6,13 @@ use std::sync::{Arc, LazyLock};
 
 use crate::failure::Failure;
 
-/// Exit code of a program ended by SIGINT: 128 plus the signal number.
+/// Exit code of an interrupted program: 128 plus the number of SIGINT, whichever signal it was.
 pub(crate) const INTERRUPTED: u8 = 130;
 
 static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 static STOPPABLE: AtomicBool = AtomicBool::new(false);
 
-/// Makes Ctrl-C end the program with a message.
+/// Makes an interrupt end the program with a message.
 pub(crate) fn watch() -> Result<(), Failure> {
     ctrlc::set_handler(|| {
         let again = STOP.swap(true, Ordering::Relaxed);
@@ -24,13 +24,13 @@ pub(crate) fn watch() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Makes the first Ctrl-C set this flag and the second end the program.
+/// Makes the first interrupt set this flag and the second end the program.
 pub(crate) fn stop() -> Arc<AtomicBool> {
     STOPPABLE.store(true, Ordering::Relaxed);
     Arc::clone(&STOP)
 }
 
-/// Whether Ctrl-C has set the flag.
+/// Whether an interrupt has set the flag.
 pub(crate) fn stopped() -> bool {
     STOP.load(Ordering::Relaxed)
 }

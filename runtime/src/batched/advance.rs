@@ -51,7 +51,7 @@ impl<'a> Workspace<'a> {
         &mut self,
         (kernels, instructions): (&dyn BatchKernels, Instructions),
         (input, values): (Input, &[f64]),
-        past: &Past,
+        past: &Past<'_>,
         shapes: &Square<f64>,
     ) -> usize {
         let Self {

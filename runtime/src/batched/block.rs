@@ -2,8 +2,8 @@
 
 use super::algebra::LARGEST;
 use super::room::Room;
-use crate::algebra::Vector;
 use crate::constraints::Structure;
+use crate::equilibrium::Passed;
 use crate::kernels::{BatchLinear, BatchPoint, Sizes};
 use crate::scalar::Batch;
 use crate::{DampingKind, Description};
@@ -12,7 +12,7 @@ use crate::{DampingKind, Description};
 pub(crate) const POSITIVE: f64 = 1e-10;
 
 /// The last three values of the input with their states, the latest first.
-pub(crate) type Past = [(f64, Vector); 3];
+pub(crate) type Past<'a> = [Passed<'a>; 3];
 
 /// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input.
 /// Matrices are stored row by row.

@@ -2,15 +2,14 @@
 
 use super::algebra::for_size;
 use super::block::Block;
-use crate::algebra::Vector;
 use crate::kernels::Kernels;
 use crate::scalar::{Batch, WIDTH};
 use crate::{Equilibrium, Modes, Sensitivities, Stability};
 
 impl Block<'_> {
     /// The coordinates.
-    pub(crate) fn state_of(&self, lane: usize) -> Vector {
-        of(self.coordinates, lane).collect()
+    pub(crate) fn state_of(&self, lane: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
+        of(self.coordinates, lane)
     }
 
     /// Writes the equilibrium; inputs and design are already set, and there is no damping.

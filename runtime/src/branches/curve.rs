@@ -293,7 +293,8 @@ impl<'a> Curve<'a> {
         let mut local = from.clone();
         let mut last = f64::INFINITY;
         let mut stalled = false;
-        for iterations in 0..=self.settings.max_corrections + 1 {
+        let most = self.settings.max_corrections;
+        for iterations in 0..=most {
             let place = frame.place(&local);
             let system = self.system(&place)?;
             if last <= LAST_STEP || stalled {
@@ -303,6 +304,9 @@ impl<'a> Curve<'a> {
                     system,
                     iterations,
                 });
+            }
+            if iterations == most {
+                break;
             }
             let scaled = frame.scaled(&system);
             let off = normal.dot(&local.plus(-1.0, from));
@@ -332,7 +336,7 @@ impl<'a> Curve<'a> {
                 local,
                 place,
                 system,
-                iterations: self.settings.max_corrections,
+                iterations: most,
             });
         }
         Err(Trouble::Missed(NotFound::Diverges))

@@ -133,7 +133,7 @@ fn undamped(members: &[&Mode], change: &Linear) -> Matrix<Complex> {
         let m = times_complex(&change.mass, &b.shape);
         move |a| {
             let lambda = 0.5 * (a.lambda + b.lambda);
-            dot_complex(&a.left, &k) - lambda * dot_complex(&a.left, &m)
+            dot_complex(a.left(), &k) - lambda * dot_complex(a.left(), &m)
         }
     })
 }
@@ -143,7 +143,7 @@ fn undamped(members: &[&Mode], change: &Linear) -> Matrix<Complex> {
 fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Matrix<Complex> {
     matrix(members, |b| {
         let moved = pencil_times(change, b.s, &b.shape);
-        move |a| -dot_complex(&a.left, &moved) / normaliser(at, a)
+        move |a| -dot_complex(a.left(), &moved) / normaliser(at, a)
     })
 }
 

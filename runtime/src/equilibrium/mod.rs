@@ -25,7 +25,7 @@ pub(crate) use convergence::{
     ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,
 };
 pub(crate) use operating_point::{Failure, OperatingPoint};
-pub(crate) use prediction::{MISSED, Path, STILL};
+pub(crate) use prediction::{MISSED, Passed, Path, STILL};
 pub(crate) use regularity::constraint_state;
 pub(crate) use root::{Bracket, refine};
 pub(crate) use solve::{Judged, solve, solve_from_prediction, solve_into};

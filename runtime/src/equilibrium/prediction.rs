@@ -7,36 +7,45 @@ pub(crate) const MISSED: f64 = 0.25;
 /// Largest difference between coordinates that count as unchanged.
 pub(crate) const STILL: f64 = 1e-9;
 
-/// The last states of the path: at most three, the latest first.
+/// A value of the input and the state there.
+pub(crate) type Passed<'a> = (f64, &'a [f64]);
+
+/// The last states of the path, at most three.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Path {
+    /// In a ring.
     states: [(f64, Vector); 3],
+    /// Position of the latest.
+    latest: usize,
     count: usize,
 }
 
 impl Path {
     /// Moves on to the state at another value of the input.
-    pub(crate) fn go(&mut self, value: f64, q: &[f64]) {
-        self.states.rotate_right(1);
-        let (last, state) = &mut self.states[0];
+    pub(crate) fn go(&mut self, value: f64, q: impl ExactSizeIterator<Item = f64>) {
+        self.latest = (self.latest + 1) % 3;
+        let (last, state) = &mut self.states[self.latest];
         *last = value;
-        if state.len() == q.len() {
-            state.copy_from_slice(q);
-        } else {
-            *state = q.into();
-        }
+        state.assign(q);
         self.count = (self.count + 1).min(3);
     }
 
-    /// The last three states; `None` if there are fewer.
-    pub(crate) fn last_three(&self) -> Option<&[(f64, Vector); 3]> {
-        (self.count == 3).then_some(&self.states)
+    /// The last three states, the latest first; `None` if there are fewer.
+    pub(crate) fn last_three(&self) -> Option<[Passed<'_>; 3]> {
+        (self.count == 3).then(|| self.latest_first())
+    }
+
+    fn latest_first(&self) -> [Passed<'_>; 3] {
+        [0, 2, 1].map(|ahead| {
+            let (value, state) = &self.states[(self.latest + ahead) % 3];
+            (*value, &state[..])
+        })
     }
 
     /// Extrapolates the state to a value of the input, by a parabola or straight line through the last states. `None` if
     /// there are fewer than two states, or if values of the input repeat.
     pub(crate) fn at(&self, value: f64) -> Option<Vector> {
-        let [(u0, q0), (u1, q1), (u2, q2)] = &self.states;
+        let [(u0, q0), (u1, q1), (u2, q2)] = self.latest_first();
         if self.count < 2 {
             return None;
         }
@@ -73,7 +82,7 @@ mod tests {
         let mut path = Path::default();
         assert!(path.at(1.0).is_none());
         for u in [0.0, 0.25, 1.0] {
-            path.go(u, &state(u));
+            path.go(u, state(u).into_iter());
         }
         for u in [1.5, -1.0, 7.0] {
             let Some(predicted) = path.at(u) else {
@@ -88,8 +97,8 @@ mod tests {
     #[test]
     fn repeated_values_predict_nothing() {
         let mut path = Path::default();
-        path.go(1.0, &[0.5]);
-        path.go(1.0, &[0.5]);
+        path.go(1.0, [0.5].into_iter());
+        path.go(1.0, [0.5].into_iter());
         assert_eq!(path.at(2.0), None);
     }
 

@@ -112,7 +112,7 @@ impl Modes {
     /// The matrix of left vectors: column `r` is [`Mode::left`] of mode `r`.
     #[must_use]
     pub fn left_shapes(&self) -> Matrix<Complex> {
-        self.columns(|mode| &mode.left)
+        self.columns(Mode::left)
     }
 
     fn columns(&self, of: fn(&Mode) -> &[Complex]) -> Matrix<Complex> {

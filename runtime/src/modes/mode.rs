@@ -55,9 +55,8 @@ pub struct Mode {
     /// coordinate component real and positive. With speeds or constraints on velocities, where a mode may move speeds
     /// only, the largest component of a coordinate or speed is one. Real for an undamped mode.
     pub shape: Vector<Complex>,
-    /// Left vector `psi`, normalised in the same way, except that with speeds or constraints on velocities the largest of
-    /// all its components is one. Equal to `shape` for an undamped mode.
-    pub left: Vector<Complex>,
+    /// Left vector of a general mode; empty for an undamped one.
+    pub(super) left: Vector<Complex>,
     /// What `s` means physically.
     pub behaviour: Behaviour,
     /// Largest component of the mode's equation, left or right, relative to the terms in it.
@@ -80,7 +79,18 @@ impl Mode {
         Near {
             s: self.s,
             right: &self.shape,
-            left: &self.left,
+            left: self.left(),
+        }
+    }
+
+    /// Left vector `psi`, normalised as [`shape`](Self::shape), except that with speeds or constraints on velocities the
+    /// largest of all its components is one. For an undamped mode it is the shape.
+    #[must_use]
+    pub fn left(&self) -> &[Complex] {
+        if self.left.is_empty() {
+            &self.shape
+        } else {
+            &self.left
         }
     }
 
@@ -137,14 +147,8 @@ impl Mode {
             Sign::Zero => (Complex::ZERO, Behaviour::Neutral),
         };
         self.lambda = lambda;
-        let (right, left) = (
-            self.shape.make_room(shape.len()),
-            self.left.make_room(shape.len()),
-        );
-        for ((right, left), value) in right.iter_mut().zip(left).zip(shape) {
-            *right = value.into();
-            *left = *right;
-        }
+        self.left.make_room(0);
+        self.shape.assign(shape.map(Complex::from));
         self.residual = residual;
         // `sqrt(error)`, or `error / rate` if that is smaller.
         self.error = if rate * rate > error {

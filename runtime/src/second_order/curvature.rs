@@ -211,7 +211,7 @@ impl<'a> AdjointGradient<'a> {
         dpsi: &[Complex],
     ) -> Complex {
         let linear = &self.at.linear;
-        let (s, phi, psi) = (self.mode.s, &self.mode.shape, &self.mode.left);
+        let (s, phi, psi) = (self.mode.s, &self.mode.shape, self.mode.left());
         dot_complex(dpsi, &pencil_slope_times(linear, s, phi))
             + dot_complex(psi, &pencil_slope_times(linear, s, dphi))
             + 2.0 * ds * dot_complex(psi, &times_complex(&linear.mass, phi))
@@ -220,7 +220,7 @@ impl<'a> AdjointGradient<'a> {
 }
 
 fn form(mode: &Mode) -> Form {
-    Form::of(&mode.left, mode.s, &mode.shape)
+    Form::of(mode.left(), mode.s, &mode.shape)
 }
 
 /// Buffers for the gradient of a complex number and one real gradient.

@@ -178,7 +178,7 @@ impl Shared<'_> {
         match matrices {
             Some(matrices) => of_general(matrices, mode, gradient),
             None => {
-                let form = Form::of(&mode.left, mode.s, &mode.shape);
+                let form = Form::of(mode.left(), mode.s, &mode.shape);
                 form_gradient(self.mechanism, self.at, &form, room, gradient);
             }
         }
@@ -275,7 +275,7 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
 /// `psi^T (2 s Mhat + Chat) phi`; zero where the eigenvalue has merged with another.
 pub(crate) fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
     dot_complex(
-        &mode.left,
+        mode.left(),
         &pencil_slope_times(&at.linear, mode.s, &mode.shape),
     )
 }

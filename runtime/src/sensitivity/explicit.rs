@@ -113,7 +113,7 @@ impl<'a> Rate<'a> {
             }
             Family::General => {
                 let change = pencil_times(change, mode.s, &mode.shape);
-                -dot_complex(&mode.left, &change) / self.scale
+                -dot_complex(mode.left(), &change) / self.scale
             }
         }
     }

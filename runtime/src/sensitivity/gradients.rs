@@ -95,7 +95,8 @@ pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric
 pub(crate) fn of_general(partials: &PartialMatrices, mode: &Mode, gradient: &mut ComplexGradient) {
     let n = mode.shape.len();
     let s = mode.s;
-    let weights = Matrix::from_fn(n, n, |i, j| mode.left[i] * mode.shape[j]);
+    let left = mode.left();
+    let weights = Matrix::from_fn(n, n, |i, j| left[i] * mode.shape[j]);
     let rate = |change: &[f64]| {
         let (mut k, mut c, mut m) = (Complex::ZERO, Complex::ZERO, Complex::ZERO);
         let Linear {

@@ -211,15 +211,15 @@ impl<'a> Tracker<'a> {
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
         let shapes: Square<f64> = small(&modes.real_shapes());
-        workspace.solve((kernels, vectors), values, past, &shapes)
+        workspace.solve((kernels, vectors), values, &past, &shapes)
     }
 
     /// Extends the path to the last of the first `number` states of a block, which already is the last point.
     pub(super) fn commit(&mut self, block: &Block<'_>, number: usize) {
         for lane in number.saturating_sub(3)..number {
             let state = block.state_of(lane);
-            self.path.go(block.values.0[lane], &state);
-            self.from.clone_from(&state);
+            self.path.go(block.values.0[lane], state.clone());
+            self.from.assign(state);
         }
     }
 
@@ -287,7 +287,7 @@ impl<'a> Tracker<'a> {
             self.equilibrium_into(value, &self.from, predicted.as_deref(), state)?;
         if let Err(error) = found.solve_at(state, judged) {
             self.from.clone_from(&state.coordinates);
-            self.path.go(value, &state.coordinates);
+            self.path.go(value, state.coordinates.iter().copied());
             return Ok(Step::WithoutModes(point, error));
         }
         self.smooth = false;
@@ -314,7 +314,7 @@ impl<'a> Tracker<'a> {
             found.arrange(modes, &order, self.unused);
         }
         self.from.clone_from(&state.coordinates);
-        self.path.go(value, &state.coordinates);
+        self.path.go(value, state.coordinates.iter().copied());
         let labels = found.modes.iter().map(|mode| mode.label + 1);
         self.unused = labels.fold(self.unused, usize::max);
         self.spare = self.last.replace(point);

@@ -101,7 +101,7 @@ fn shapes_move_with_the_design() {
             let (up, down, up2, down2) = (at(h), at(-h), at(2.0 * h), at(-2.0 * h));
             for left in [false, true] {
                 let part = |mode: &eigentol::Mode, i: usize| {
-                    if left { mode.left[i] } else { mode.shape[i] }
+                    if left { mode.left()[i] } else { mode.shape[i] }
                 };
                 let slope = |i: usize| {
                     let one = part(&up, i) - part(&down, i);

@@ -29,7 +29,7 @@ fn solved(mechanism: &dyn Kernels, v: f64, b: &[f64], start: &[f64]) -> (Equilib
     for mode in &found.modes {
         assert!(mode.residual < 1e-12, "residual {}", mode.residual);
         let most = |x: &[Complex]| x.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
-        near(most(&mode.left), 1.0, 1e-14, 1.0);
+        near(most(mode.left()), 1.0, 1e-14, 1.0);
     }
     (at, found)
 }

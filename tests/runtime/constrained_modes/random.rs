@@ -170,12 +170,26 @@ fn dot(x: &[Complex], y: &[Complex]) -> Complex {
     x.iter().zip(y).map(|(a, b)| a * b).sum()
 }
 
-fn conjugate(mode: &Mode) -> Mode {
-    let mut conjugate = mode.clone();
-    conjugate.s = mode.s.conj();
-    conjugate.shape = mode.shape.map(|x| x.conj());
-    conjugate.left = mode.left.map(|x| x.conj());
-    conjugate
+/// An eigenvalue with its right and left vector.
+struct Root {
+    s: Complex,
+    right: Vec<Complex>,
+    left: Vec<Complex>,
+    error: f64,
+    condition: f64,
+}
+
+impl Root {
+    fn of(mode: &Mode, change: fn(Complex) -> Complex) -> Self {
+        let vector = |of: &[Complex]| of.iter().copied().map(change).collect();
+        Self {
+            s: change(mode.s),
+            right: vector(&mode.shape),
+            left: vector(mode.left()),
+            error: mode.error,
+            condition: mode.condition,
+        }
+    }
 }
 
 fn check(sizes: Sizes, random: &mut Random, rescaled: bool) {
@@ -197,17 +211,15 @@ fn check(sizes: Sizes, random: &mut Random, rescaled: bool) {
         );
     }
     let conjugates = found.modes.iter().filter(|mode| mode.s.im > 0.0);
-    let all: Vec<_> = found
-        .modes
-        .iter()
-        .cloned()
-        .chain(conjugates.map(conjugate))
+    let modes = found.modes.iter().map(|mode| Root::of(mode, |x| x));
+    let all: Vec<_> = modes
+        .chain(conjugates.map(|mode| Root::of(mode, |x| x.conj())))
         .collect();
     assert_eq!(all.len(), sizes.freedom(), "{sizes:?}");
     let one = Complex::new(1.0, 0.0);
     let size = |x: &[Complex]| x.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
     for a in &all {
-        let (rest, terms) = times(&linear, [a.s * a.s, a.s, one], &a.shape);
+        let (rest, terms) = times(&linear, [a.s * a.s, a.s, one], &a.right);
         assert!(
             size(&rest) <= 1e-11 * terms,
             "{sizes:?}: {} of {terms}",
@@ -223,11 +235,11 @@ fn check(sizes: Sizes, random: &mut Random, rescaled: bool) {
                 continue;
             }
             // psi_a^T (P(s_a) - P(s_b)) / (s_a - s_b) phi_b = 0.
-            let (product, _) = times(&linear, [a.s + b.s, one, Complex::default()], &b.shape);
+            let (product, _) = times(&linear, [a.s + b.s, one, Complex::default()], &b.right);
             let cross = dot(&a.left, &product).norm();
-            let own = |mode: &Mode| {
-                let factors = [2.0 * mode.s, one, Complex::default()];
-                dot(&mode.left, &times(&linear, factors, &mode.shape).0).norm()
+            let own = |root: &Root| {
+                let factors = [2.0 * root.s, one, Complex::default()];
+                dot(&root.left, &times(&linear, factors, &root.right).0).norm()
             };
             let scale = (own(a) * own(b)).sqrt() * (a.condition * b.condition).sqrt();
             assert!(

@@ -69,7 +69,7 @@ fn assert_settled(machine: &dyn Kernels, at: &Equilibrium, motion: impl Fn(f64) 
 pub(crate) fn assert_modes(modes: &Modes) {
     for mode in &modes.modes {
         assert_numbers([mode.lambda, mode.residual], "mode");
-        let parts = mode.shape.iter().chain(&mode.left).chain([&mode.s]);
+        let parts = mode.shape.iter().chain(mode.left()).chain([&mode.s]);
         assert_numbers(parts.flat_map(|x| [x.re, x.im]), "shape");
         assert_numbers([mode.error], "error");
         match mode.behaviour {

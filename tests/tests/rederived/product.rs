@@ -224,7 +224,7 @@ fn leads(mode: &Mode, description: &Description) -> [usize; 2] {
     let holonomic = roles().all(|role| matches!(role, Role::Position | Role::PositionReaction));
     let unknowns = description.coordinates.len();
     let of_left = if holonomic { motions } else { unknowns };
-    [(&mode.shape, motions), (&mode.left, of_left)].map(|(shape, count)| {
+    [(&mode.shape[..], motions), (mode.left(), of_left)].map(|(shape, count)| {
         let real = (0..count).filter(|&i| shape[i].im.abs() <= 1e-12 * shape[i].re);
         real.max_by(|&i, &j| shape[i].re.total_cmp(&shape[j].re))
             .expect("a real component")
@@ -232,7 +232,10 @@ fn leads(mode: &Mode, description: &Description) -> [usize; 2] {
 }
 
 fn assert_shape(mode: &Mode, expected: &Expected, what: &str) {
-    for (shape, exact) in [(&mode.shape, &expected.right), (&mode.left, &expected.left)] {
+    for (shape, exact) in [
+        (&mode.shape[..], &expected.right),
+        (mode.left(), &expected.left),
+    ] {
         let most = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
         for (x, [re, im]) in shape.iter().zip(exact) {
             let error = f64::hypot(x.re - re.value, x.im - im.value);

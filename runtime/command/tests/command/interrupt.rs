@@ -1,4 +1,4 @@
-//! Ctrl-C during a run: finished work is kept.
+//! Ctrl-C or a request to terminate during a run: finished work is kept.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -9,14 +9,14 @@ use eigentol_tables::csv;
 
 use crate::program::{PENDULUM, answer, command, examples, file, folder, pendulum, run};
 
-/// Waits until a program has its own SIGINT handler; before that the signal would simply terminate it.
+/// Waits until a program has its own signal handlers; before that a signal would simply terminate it.
 pub(crate) fn listens(child: &Child) {
     for _ in 0..600 {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
         let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
         let caught = u64::from_str_radix(caught.unwrap().trim(), 16).unwrap();
-        // Signal 2 is bit 1.
-        if caught & 2 != 0 {
+        // SIGINT is signal 2, SIGTERM 15; signal k is bit k - 1.
+        if caught & (1 << 1) != 0 && caught & (1 << 14) != 0 {
             return;
         }
         sleep(Duration::from_millis(50));
@@ -25,8 +25,12 @@ pub(crate) fn listens(child: &Child) {
 }
 
 pub(crate) fn interrupt(child: &Child) {
+    send("-INT", child);
+}
+
+fn send(signal: &str, child: &Child) {
     let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+        .args([signal, &child.id().to_string()])
         .status();
     assert!(sent.unwrap().success());
 }
@@ -44,13 +48,23 @@ fn endless(more: &[&str]) -> Child {
 
 #[test]
 fn samples_that_are_done_are_kept() {
-    let folder = folder("interrupted");
+    kept_after("-INT");
+}
+
+/// A job that reaches its time limit is asked to terminate.
+#[test]
+fn samples_that_are_done_are_kept_at_a_time_limit() {
+    kept_after("-TERM");
+}
+
+fn kept_after(signal: &str) {
+    let folder = folder(&format!("interrupted{signal}"));
     let path = folder.join("part.json");
     let name = path.display().to_string();
     let child = endless(&["--partial", "-o", &name]);
     listens(&child);
     sleep(Duration::from_millis(500));
-    interrupt(&child);
+    send(signal, &child);
     let output = child.wait_with_output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{err}");
