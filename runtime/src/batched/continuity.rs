@@ -1,6 +1,6 @@
 //! Checks that the states of a block continue the preceding path, each compared with the three states before it.
 
-use super::algebra::{LARGEST, keep};
+use super::algebra::keep;
 use super::block::{Block, Past};
 use crate::equilibrium::{MISSED, STILL};
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
@@ -20,10 +20,6 @@ impl Task for Continuity<'_, '_> {
         let Self { past, block } = self;
         let n = block.coordinates.len();
         let values = before(&block.values, [0, 1, 2].map(|k| past[k].0));
-        let mut states = [[Batch::default(); 3]; LARGEST];
-        for (i, states) in states[..n].iter_mut().enumerate() {
-            *states = before(&block.coordinates[i], [0, 1, 2].map(|k| past[k].1[i]));
-        }
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let u = V::load(&block.values, at);
             let [u0, u1, u2] = three::<V>(&values, at);
@@ -33,7 +29,8 @@ impl Task for Continuity<'_, '_> {
             let (mut missed, mut moved, mut size) = (zero, zero, one);
             for i in 0..n {
                 let q = V::load(&block.coordinates[i], at);
-                let [q0, q1, q2] = three::<V>(&states[i], at);
+                let states = before(&block.coordinates[i], [0, 1, 2].map(|k| past[k].1[i]));
+                let [q0, q1, q2] = three::<V>(&states, at);
                 let slope = (q0 - q1) * step;
                 let bend = (slope - (q1 - q2) * before) * both;
                 let predicted = q0 + first * (slope + second * bend);
