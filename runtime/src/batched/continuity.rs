@@ -25,14 +25,14 @@ impl Task for Continuity<'_, '_> {
             let [u0, u1, u2] = three::<V>(&values, at);
             let (first, second) = (u - u0, u - u1);
             let (one, zero) = (V::constant(1.0), V::constant(0.0));
-            let (step, before, both) = (one / (u0 - u1), one / (u1 - u2), one / (u0 - u2));
+            let (step, earlier, both) = (one / (u0 - u1), one / (u1 - u2), one / (u0 - u2));
             let (mut missed, mut moved, mut size) = (zero, zero, one);
             for i in 0..n {
                 let q = V::load(&block.coordinates[i], at);
                 let states = before(&block.coordinates[i], [0, 1, 2].map(|k| past[k].1[i]));
                 let [q0, q1, q2] = three::<V>(&states, at);
                 let slope = (q0 - q1) * step;
-                let bend = (slope - (q1 - q2) * before) * both;
+                let bend = (slope - (q1 - q2) * earlier) * both;
                 let predicted = q0 + first * (slope + second * bend);
                 missed = greater(missed, (q - predicted).abs());
                 moved = greater(moved, (q - q0).abs());

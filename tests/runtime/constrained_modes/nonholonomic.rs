@@ -381,7 +381,7 @@ fn shapes_with_speeds_move_with_the_design() {
                 let scale = slopes.left_by_design[j]
                     .iter()
                     .fold(1e-3_f64, |m, x| m.max(x.norm()));
-                near_complex(slopes.left_by_design[j][i], by(|m| &m.left, i), 1e-7, scale);
+                near_complex(slopes.left_by_design[j][i], by(Mode::left, i), 1e-7, scale);
             }
         }
     }
