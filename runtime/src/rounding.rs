@@ -99,10 +99,14 @@ fn terms(slopes: &[f64], values: &[f64]) -> f64 {
 ///
 /// This is judged by its pivots `D` in `L D L^T` against its own diagonal and that of `Mhat`: no pivot may be a small
 /// remainder of its element, and no stiffness so small that its element could be the difference of larger terms.
-#[inline]
+#[inline(always)]
 pub(crate) fn clear(pivots: &[f64], linear: &Linear) -> bool {
-    (0..pivots.len()).all(|i| {
-        pivots[i] > CANCELLED * linear.stiffness[i][i] && pivots[i] > SLOW * linear.mass[i][i]
+    let n = pivots.len();
+    let stiffness = &linear.stiffness.as_flattened()[..n * n];
+    let mass = &linear.mass.as_flattened()[..n * n];
+    let diagonal = (0..n).map(|i| i * n + i);
+    pivots.iter().zip(diagonal).fold(true, |clear, (pivot, i)| {
+        clear && *pivot > CANCELLED * stiffness[i] && *pivot > SLOW * mass[i]
     })
 }
 

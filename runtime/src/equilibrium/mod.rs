@@ -72,12 +72,9 @@ pub fn equilibrium(
     start: &[f64],
     policy: Policy,
 ) -> Result<Equilibrium, Error> {
-    // Built in the place of the result: a state is long to move.
-    let mut found = Ok(Equilibrium::blank(&mechanism.description(), u, b));
-    if let Ok(state) = &mut found {
-        equilibrium_into(mechanism, u, b, start, policy, state)?;
-    }
-    found
+    let mut state = Equilibrium::blank(&mechanism.description(), u, b);
+    equilibrium_into(mechanism, u, b, start, policy, &mut state)?;
+    Ok(state)
 }
 
 /// Like [`equilibrium`], but overwrites a blank state at these inputs and design variables, and returns

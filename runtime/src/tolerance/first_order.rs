@@ -177,8 +177,7 @@ pub fn first_order(
 ) -> Result<FirstOrder, Error> {
     tolerances.check_count(sensitivities.description.design.len())?;
     let count = modes.modes.len().min(sensitivities.modes.len());
-    let mut found: Vec<ModeTolerance> = Vec::new();
-    found.reserve_exact(count);
+    let mut found = Vec::with_capacity(count);
     found.resize_with(count, ModeTolerance::blank);
     let of_modes = modes.modes.iter().zip(&sensitivities.modes);
     for (spread, (mode, own)) in found.iter_mut().zip(of_modes) {
