@@ -56,7 +56,7 @@ pub struct Mode {
     /// only, the largest component of a coordinate or speed is one. Real for an undamped mode.
     pub shape: Vector<Complex>,
     /// Left vector of a general mode; empty for an undamped one.
-    pub(super) left: Vector<Complex>,
+    pub(crate) left: Vector<Complex>,
     /// What `s` means physically.
     pub behaviour: Behaviour,
     /// Largest component of the mode's equation, left or right, relative to the terms in it.

@@ -256,6 +256,7 @@ mod tests {
             s,
             lambda: -(s * s).re,
             shape: Vector::default(),
+            left: Vector::default(),
             behaviour: Behaviour::Oscillating(s.im),
             residual: 0.0,
             error: 0.0,
