@@ -1,12 +1,12 @@
 //! Neighbouring values of an input, solved side by side.
 
-use super::algebra::{LARGEST, Square};
+use super::algebra::LARGEST;
 use super::room::Room;
 use crate::constraints::Structure;
 use crate::equilibrium::Passed;
 use crate::kernels::{BatchLinear, BatchPoint, Sizes};
 use crate::scalar::Batch;
-use crate::{DampingKind, Description, Modes};
+use crate::{DampingKind, Description};
 
 /// Smallest pivot of a clearly positive definite matrix, relative to its diagonal element.
 pub(crate) const POSITIVE: f64 = 1e-10;
@@ -59,17 +59,6 @@ pub(crate) const KERNELS: [&str; 5] = [
     "mode_gradient",
     "residual_gradient",
 ];
-
-/// The shapes of undamped modes, one per row.
-pub(crate) fn real_shapes(modes: &Modes) -> Square<f64> {
-    let mut shapes = [[0.0; LARGEST]; LARGEST];
-    for (row, mode) in shapes.iter_mut().zip(&modes.modes) {
-        for (to, from) in row.iter_mut().zip(&mode.shape) {
-            *to = from.re;
-        }
-    }
-    shapes
-}
 
 impl<'a> Block<'a> {
     /// Number of batches that a block takes.

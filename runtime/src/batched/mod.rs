@@ -19,4 +19,4 @@ mod slopes;
 mod state;
 
 pub(crate) use advance::Workspace;
-pub(crate) use block::{Block, KERNELS, POSITIVE, possible, real_shapes};
+pub(crate) use block::{Block, KERNELS, POSITIVE, possible};

@@ -95,6 +95,27 @@ mod tests {
     }
 
     #[test]
+    fn the_last_three_states_come_latest_first() {
+        let mut path = Path::default();
+        for k in 0..7 {
+            let value = f64::from(k);
+            path.go(value, [-value].into_iter());
+            let last = path.last_three();
+            if k < 2 {
+                assert_eq!(last, None);
+            } else {
+                let passed = [0.0, 1.0, 2.0].map(|ago| value - ago);
+                let states = passed.map(|value| [-value]);
+                assert_eq!(last, Some([0, 1, 2].map(|i| (passed[i], &states[i][..]))));
+            }
+            // Two states give a straight line.
+            if k == 1 {
+                assert_eq!(path.at(3.0), Some(Vector::from([-3.0])));
+            }
+        }
+    }
+
+    #[test]
     fn repeated_values_predict_nothing() {
         let mut path = Path::default();
         path.go(1.0, [0.5].into_iter());

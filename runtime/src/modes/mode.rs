@@ -165,3 +165,23 @@ impl Mode {
         self.shape.map(|value| value.re)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_general_modes_have_a_left_vector_of_their_own() {
+        let [i, two] = [Complex::new(0.0, 1.0), Complex::new(2.0, 0.0)];
+        let general = Mode {
+            shape: [Complex::ONE, i].into(),
+            left: [i, two].into(),
+            ..Mode::blank()
+        };
+        assert_eq!(general.left(), [i, two]);
+        let mut undamped = general;
+        undamped.set_undamped(0, (4.0, 0.0), [1.0, 0.5].into_iter(), 0.0);
+        assert_eq!(undamped.left(), [Complex::ONE, Complex::new(0.5, 0.0)]);
+        assert_eq!(undamped.near().left, &undamped.shape[..]);
+    }
+}

@@ -3,7 +3,8 @@
 
 use super::points::SweepPoint;
 use crate::algebra::Vector;
-use crate::batched::{Block, KERNELS, Workspace, possible, real_shapes};
+use crate::batched::algebra::{Square, small};
+use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
@@ -209,7 +210,7 @@ impl<'a> Tracker<'a> {
         };
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
-        let shapes = real_shapes(modes);
+        let shapes: Square<f64> = small(&modes.real_shapes());
         workspace.solve((kernels, vectors), values, &past, &shapes)
     }
 

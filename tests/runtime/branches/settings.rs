@@ -15,6 +15,20 @@ fn limits_are_kept_and_told() {
 }
 
 #[test]
+fn points_take_no_more_corrections_than_are_allowed() {
+    for most in [2, 3, 8] {
+        let settings = range(0.0, 6.0).max_corrections(most);
+        let found = branch(&Pendulum, &[0.0], &BAR, &[0.3], &settings).unwrap();
+        assert_sound(&Pendulum, &found, &settings);
+        // The first point is solved, not corrected.
+        let corrected = found.points[1..].iter();
+        let taken = corrected.map(|point| point.equilibrium.iterations).max();
+        assert!(taken <= Some(most), "{taken:?} of {most}");
+        assert!(most == 8 || taken == Some(most), "{taken:?} of {most}");
+    }
+}
+
+#[test]
 fn one_branch_tells_what_crosses_it() {
     let hanging = branch(&Pendulum, &[0.0], &BAR, &[0.3], &range(0.0, 6.0)).unwrap();
     assert_sound(&Pendulum, &hanging, &range(0.0, 6.0));

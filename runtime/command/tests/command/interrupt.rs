@@ -87,6 +87,27 @@ fn kept_after(signal: &str) {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
+/// A run that outlives its terminal.
+#[test]
+fn nohup_goes_on() {
+    let samples = ["--samples", "2000000000", "--threads", "1"];
+    let run = command(&pendulum("sample", &samples));
+    let mut child = Command::new("nohup")
+        .arg(run.get_program())
+        .args(run.get_args())
+        .current_dir(examples())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    listens(&child);
+    send("-HUP", &child);
+    sleep(Duration::from_millis(500));
+    assert!(child.try_wait().unwrap().is_none(), "it ended");
+    send("-TERM", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+}
+
 #[test]
 fn an_answer_says_that_it_is_not_complete() {
     let child = endless(&[]);
