@@ -131,14 +131,25 @@ fn judged(summary: &Summary, mode: usize, exact: f64, known: f64, at: &str) {
 }
 
 #[test]
+fn verdicts_on_a_bar_are_right() {
+    verdicts_on_a_bar([0.5, 0.9, 0.98, 1.005, 1.1, 1.5], &[0.01, 0.06, 0.15, 0.25]);
+}
+
+#[test]
+#[ignore = "ten seconds"]
 fn verdicts_on_a_bar_are_right_at_every_speed_and_tolerance() {
     let speeds = (10..=30).map(|k| 0.05 * f64::from(k));
     let speeds = speeds
         .filter(|ratio| *ratio != 1.0)
         .chain([0.98, 0.995, 1.005, 1.02]);
+    verdicts_on_a_bar(speeds, &TOLERANCES);
+}
+
+/// At these multiples of the critical speed.
+fn verdicts_on_a_bar(speeds: impl IntoIterator<Item = f64>, tolerances: &[f64]) {
     for ratio in speeds {
         let speed = ratio * W.sqrt();
-        for tolerance in TOLERANCES {
+        for &tolerance in tolerances {
             let summary = bar(speed).tolerance(Bar::l, tolerance).summary().unwrap();
             let exact = exact_sigma(&distribution(speed, tolerance / 3.0));
             judged(&summary, 0, exact, 1e-4, &format!("{ratio} {tolerance}"));
@@ -171,7 +182,7 @@ fn beyond_the_critical_speed_wide_tolerances_are_found_out() {
 
 #[test]
 fn verdicts_on_two_bars_are_right() {
-    verdicts_on_two_bars(&[10, 19, 22, 30], &[0.03, 0.12, 0.25]);
+    verdicts_on_two_bars(&[10, 19, 22], &[0.03, 0.25]);
 }
 
 #[test]
@@ -213,24 +224,26 @@ fn quantile(all: &[(f64, f64)], p: f64) -> f64 {
 
 #[test]
 fn samples_at_the_critical_speed_have_the_exact_distribution() {
-    samples_have_the_exact_distribution(1.0);
+    samples_have_the_exact_distribution(1.0, &[(0.06, [0.2440, 0.2858])]);
 }
 
 #[test]
 #[ignore = "minutes without optimisation"]
-fn samples_beside_the_critical_speed_have_the_exact_distribution() {
-    for ratio in [0.995, 1.005] {
-        samples_have_the_exact_distribution(ratio);
-    }
-}
-
-/// Exact distributions over both branches, at or near the critical speed.
-fn samples_have_the_exact_distribution(ratio: f64) {
-    for (tolerance, exact) in [
+fn samples_near_the_critical_speed_have_the_exact_distribution() {
+    let exact = [
         (0.03, [0.1745, 0.2242]),
         (0.06, [0.2440, 0.2858]),
         (0.12, [0.3382, 0.3657]),
-    ] {
+    ];
+    for ratio in [0.995, 1.0, 1.005] {
+        samples_have_the_exact_distribution(ratio, &exact);
+    }
+}
+
+/// Exact distributions over both branches, at or near the critical speed, for tolerances with the standard deviation at the
+/// critical speed and at 1.005 times it.
+fn samples_have_the_exact_distribution(ratio: f64, all: &[(f64, [f64; 2])]) {
+    for &(tolerance, exact) in all {
         let speed = if ratio == 1.0 {
             3.836
         } else {

@@ -66,10 +66,13 @@ fn everything<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Ques
 
 /// Questions that take seconds for 64 unknowns with 64 variables, or the others.
 fn slow<M: BatchKernels + CurvatureKernels + PictureKernels>(slow: bool) -> Vec<Question<M>> {
-    const SLOW: [&str; 5] = [
+    const SLOW: [&str; 8] = [
         "second_order",
         "summary",
         "summary_within",
+        "worst_case",
+        "crossings",
+        "crossing_tolerances",
         "flutter_onsets",
         "flutter_onset_tolerances",
     ];

@@ -183,8 +183,18 @@ impl Random {
 
 #[test]
 fn a_stable_equilibrium_is_found_from_anywhere() {
+    stable_equilibria_are_found(12);
+}
+
+#[test]
+#[ignore = "ten seconds"]
+fn a_stable_equilibrium_is_found_from_anywhere_many_times() {
+    stable_equilibria_are_found(40);
+}
+
+fn stable_equilibria_are_found(cases: u32) {
     let mut random = Random(7);
-    for case in 0..40 {
+    for case in 0..cases {
         let mut b: [f64; 9] = from_fn(|i| match i {
             0..3 => 10_f64.powf(random.between(-2.0, 2.0)),
             3..6 => random.between(0.2, 1.5),
@@ -236,9 +246,19 @@ fn a_stable_equilibrium_is_found_from_anywhere() {
 
 #[test]
 fn the_nearest_equilibrium_is_one() {
+    nearest_equilibria_are_equilibria(12);
+}
+
+#[test]
+#[ignore = "ten seconds"]
+fn the_nearest_equilibrium_is_one_many_times() {
+    nearest_equilibria_are_equilibria(40);
+}
+
+fn nearest_equilibria_are_equilibria(cases: u32) {
     let mut random = Random(8);
     let mut found = 0;
-    for case in 0..40 {
+    for case in 0..cases {
         let b: [f64; 9] = from_fn(|i| match i {
             0..6 => random.between(0.3, 1.5),
             _ => random.between(0.0, 100.0),
@@ -266,5 +286,5 @@ fn the_nearest_equilibrium_is_one() {
             found += 1;
         }
     }
-    assert!(found >= 32, "{found}");
+    assert!(5 * found >= 4 * cases, "{found}");
 }

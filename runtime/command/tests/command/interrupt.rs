@@ -152,7 +152,7 @@ fn what_has_no_half_leaves_the_old_file() {
 
 /// Ctrl-C some seconds after the start, or later if nothing has begun by then: exit code 130; returns what was written and printed.
 fn stopped(arguments: &[&str]) -> (String, String) {
-    for seconds in [4, 12, 36] {
+    for seconds in [1, 4, 12, 36] {
         let mut command = command(arguments);
         let child = (command
             .stdout(Stdio::piped())
