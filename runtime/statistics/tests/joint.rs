@@ -186,3 +186,11 @@ fn impossible_dependence_is_refused() {
     joint.from_normal(&[1.0, 2.0, 9.0], &mut values);
     assert!((values[2] - 3.0 * half).abs() < 1e-15);
 }
+
+#[test]
+#[should_panic(expected = "one number per variable")]
+fn too_few_normal_numbers_are_refused() {
+    let normal = || Distribution::normal(0.0, 1.0).unwrap();
+    let joint = Joint::independent(vec![normal(), normal()]);
+    joint.from_normal(&[0.5, 0.5], &mut [0.0]);
+}

@@ -130,8 +130,8 @@ impl Lines {
             };
             match turn.filter(|_| softest == Some(a.label) && a.oscillates && undamped(a, b)) {
                 Some(turn) => {
-                    self.half(&[(a, 1.0)], from.value, turn, Complex::ZERO, false);
-                    self.half(&[(b, 1.0)], to.value, turn, Complex::ZERO, true);
+                    self.half(&[a], from.value, turn, Complex::ZERO, false);
+                    self.half(&[b], to.value, turn, Complex::ZERO, true);
                 }
                 None => self.stretch(a.label, motion(a, b), &[state(from, a), state(to, b)]),
             }
@@ -163,13 +163,13 @@ impl Lines {
                 Some(k) if own.s.re != 0.0 || reals[k].s.re * reals[k + 1].s.re >= 0.0 => {
                     let half = 0.5 * (reals[k + 1].s.re - reals[k].s.re);
                     let mean = middle(&reals[k..k + 2]);
-                    let found = vec![(reals.remove(k), -1.0), (reals.remove(k), 1.0)];
+                    let found = vec![reals.remove(k), reals.remove(k)];
                     (found, half * half, mean)
                 }
                 _ => match reals.iter().position(|real| real.label == own.label) {
                     Some(k) if own.s.re == 0.0 => {
                         let real = reals.remove(k);
-                        (vec![(real, 1.0)], real.s.re * real.s.re, 0.0)
+                        (vec![real], real.s.re * real.s.re, 0.0)
                     }
                     _ => continue,
                 },
@@ -183,7 +183,7 @@ impl Lines {
                 .filter(|_| own.s.re == 0.0)
                 .unwrap_or(pair.value + share * (single.value - pair.value));
             let at = Complex::new(own.s.re + share * (mean - own.s.re), 0.0);
-            self.half(&[(own, 1.0)], pair.value, value, at, backwards);
+            self.half(&[own], pair.value, value, at, backwards);
             self.half(&found, single.value, value, at, !backwards);
         }
     }
@@ -191,20 +191,13 @@ impl Lines {
     /// Draws from a station to a turning point, where all of `samples` reach `at`.
     ///
     /// A pair of real eigenvalues stays on either side of its mean. `reverse` draws from the turning point to the station.
-    fn half(
-        &mut self,
-        samples: &[(&Sample, f64)],
-        station: f64,
-        turn: f64,
-        at: Complex,
-        reverse: bool,
-    ) {
+    fn half(&mut self, samples: &[&Sample], station: f64, turn: f64, at: Complex, reverse: bool) {
         let mean = match samples {
-            [(a, _), (b, _)] => 0.5 * (a.s.re + b.s.re),
-            [(a, _)] if a.oscillates => a.s.re,
+            [a, b] => 0.5 * (a.s.re + b.s.re),
+            [a] if a.oscillates => a.s.re,
             _ => 0.0,
         };
-        for (sample, _) in samples {
+        for sample in samples {
             let mut states: Vec<State> = (0..=STEPS)
                 .map(|k| {
                     let t = k as f64 / STEPS as f64;

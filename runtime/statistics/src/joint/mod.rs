@@ -135,8 +135,9 @@ impl Joint {
     /// Writes the values of the variables for independent standard normal numbers, one per variable.
     ///
     /// # Panics
-    /// Possible if a list does not have one entry per variable.
+    /// If a list does not have one entry per variable.
     pub fn from_normal(&self, z: &[f64], values: &mut [f64]) {
+        self.require_one_each([z, values]);
         for (i, (value, variable)) in values.iter_mut().zip(&self.variables).enumerate() {
             *value = variable.from_normal(self.own_normal(i, z));
         }
@@ -146,8 +147,9 @@ impl Joint {
     /// normal numbers at `z`.
     ///
     /// # Panics
-    /// Possible if a list does not have one entry per variable.
+    /// If a list does not have one entry per variable.
     pub fn gradient_by_normal(&self, z: &[f64], by_variable: &[f64], by_normal: &mut [f64]) {
+        self.require_one_each([z, by_variable, by_normal]);
         by_normal.fill(0.0);
         for (i, (slope, variable)) in by_variable.iter().zip(&self.variables).enumerate() {
             let slope = slope * variable.slope_from_normal(self.own_normal(i, z));
@@ -160,6 +162,12 @@ impl Joint {
                     }
                 }
             }
+        }
+    }
+
+    fn require_one_each<const N: usize>(&self, lists: [&[f64]; N]) {
+        for list in lists {
+            assert_eq!(list.len(), self.len(), "one number per variable");
         }
     }
 
