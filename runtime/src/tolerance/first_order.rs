@@ -52,7 +52,7 @@ pub struct ModeTolerance {
     shift: f64,
     /// For a general mode, the spreads of its quantities in the order of [`Quantity::ALL`]. Those of an undamped mode are
     /// that of `lambda`, scaled: its eigenvalue is a root.
-    general: Option<Box<[Option<Spread>; 4]>>,
+    general: Option<[Option<Spread>; 4]>,
 }
 
 impl ModeTolerance {
@@ -248,7 +248,7 @@ fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &
     found.behaviour = mode.behaviour;
     found.value = mode.s;
     found.clustered = own.clustered;
-    found.general = Some(Box::new(all));
+    found.general = Some(all);
 }
 
 /// Whether neither the growth nor the contribution of tolerances to it can be distinguished from zero.
