@@ -114,7 +114,7 @@ fn bars_interpreted() {
 }
 
 #[test]
-#[ignore = "half a minute without optimisation"]
+#[ignore = "a minute without optimisation"]
 fn bars_and_searches() {
     ask_bars(Bars, |name| SEARCHES.contains(&name));
     ask_bars(interpreted(bars::DECLARATION), |name| {

@@ -187,10 +187,25 @@ fn impossible_dependence_is_refused() {
     assert!((values[2] - 3.0 * half).abs() < 1e-15);
 }
 
+fn two() -> Joint {
+    let normal = || Distribution::normal(0.0, 1.0).unwrap();
+    Joint::independent(vec![normal(), normal()])
+}
+
 #[test]
 #[should_panic(expected = "one number per variable")]
-fn too_few_normal_numbers_are_refused() {
-    let normal = || Distribution::normal(0.0, 1.0).unwrap();
-    let joint = Joint::independent(vec![normal(), normal()]);
-    joint.from_normal(&[0.5, 0.5], &mut [0.0]);
+fn room_for_too_few_values_is_refused() {
+    two().from_normal(&[0.5, 0.5], &mut [0.0]);
+}
+
+#[test]
+#[should_panic(expected = "one number per variable")]
+fn too_many_normal_numbers_are_refused() {
+    two().from_normal(&[0.5, 0.5, 0.5], &mut [0.0, 0.0]);
+}
+
+#[test]
+#[should_panic(expected = "one number per variable")]
+fn too_few_derivatives_are_refused() {
+    two().gradient_by_normal(&[0.5, 0.5], &[1.0], &mut [0.0, 0.0]);
 }
