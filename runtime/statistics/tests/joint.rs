@@ -188,7 +188,7 @@ fn impossible_dependence_is_refused() {
 }
 
 fn two() -> Joint {
-    let normal = || Distribution::normal(0.0, 1.0).unwrap();
+    let normal = || Distribution::normal(0.0, 1.0).expect("a distribution");
     Joint::independent(vec![normal(), normal()])
 }
 
