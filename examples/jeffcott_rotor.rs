@@ -1,9 +1,9 @@
-//! A heavy disk on an elastic shaft with gyroscopic moments, stationary damping and rotating damping: Campbell diagram, critical speeds and
-//! stability limit with their tolerances, and the risks at the running speed.
+//! A heavy disk on an elastic shaft with gyroscopic moments, stationary damping and rotating damping: Campbell diagram,
+//! critical speeds and stability limit with their tolerances, and the risks at the running speed.
 //!
-//! The machine runs above its first-order critical speeds. Two things can go wrong there: the backward whirl of the tilting disk, which
-//! the unbalance can excite through the asymmetric seal, may come within 10 % of the speed; and the rotating damping of the shaft may
-//! overcome the stationary damping of the seal.
+//! The machine runs above its first-order critical speeds. Two things can go wrong there: the backward whirl of the
+//! tilting disk, which the unbalance can excite through the asymmetric seal, may come within 10 % of the speed; and the
+//! rotating damping of the shaft may overcome the stationary damping of the seal.
 //!
 //! `cargo run --release --example jeffcott_rotor`
 

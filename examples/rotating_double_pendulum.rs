@@ -1,5 +1,5 @@
-//! Two bars in series on a spinning shaft: the second example of the paper (section 6.2, figures 9 to 13, table 2), extended by the
-//! contribution of each of four independent dimensions.
+//! Two bars in series on a spinning shaft: the second example of the paper (section 6.2, figures 9 to 13, table 2),
+//! extended by the contribution of each of four independent dimensions.
 //!
 //! `cargo run --release --example rotating_double_pendulum`
 

@@ -1,5 +1,6 @@
-//! The bicycle of Whipple (1899) with the benchmark parameters of Meijaard, Papadopoulos, Ruina and Schwab (Proc. R. Soc. A 463, 2007): at
-//! which speeds is it stable without hands, and how much do the tolerances of its 26 parameters shift these speeds?
+//! The bicycle of Whipple (1899) with the benchmark parameters of Meijaard, Papadopoulos, Ruina and Schwab (Proc. R.
+//! Soc. A 463, 2007): at which speeds is it stable without hands, and how much do the tolerances of its 26 parameters
+//! shift these speeds?
 //!
 //! The wheels roll without slip: of seven coordinates, only lean and steer have independent rates at a given forward
 //! speed.
@@ -17,7 +18,8 @@ use eigentol_examples::{Failure, Options, program, rotor};
 use eigentol_figures::{Style, eigenvalues};
 
 mechanism! {
-    /// Two wheels, a rear body and a front body, each symmetric about its middle plane, rolling straight ahead without hands.
+    /// Two wheels, a rear body and a front body, each symmetric about its middle plane, rolling straight ahead without
+    /// hands.
     pub mechanism WhippleBicycle {
         /// Forward speed.
         input v: m/s;

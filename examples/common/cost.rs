@@ -1,8 +1,9 @@
 //! CPU time of the first-order analysis against Monte Carlo (tables 1 and 2 of the paper).
 //!
-//! Both run on the calling thread alone and their own CPU time is measured, so neither a busy machine nor the number of threads changes the
-//! ratio; Monte Carlo takes its samples one by one, as the analysis takes its speeds. Each is a single call to [`Study`], as a user would
-//! make it, and both search for the equilibrium of each speed from the start value of the study, as the paper does.
+//! Both run on the calling thread alone and their own CPU time is measured, so neither a busy machine nor the number of
+//! threads changes the ratio; Monte Carlo takes its samples one by one, as the analysis takes its speeds. Each is a
+//! single call to [`Study`], as a user would make it, and both search for the equilibrium of each speed from the start
+//! value of the study, as the paper does.
 
 use std::hint::black_box;
 use std::time::Duration;

@@ -1,8 +1,9 @@
 //! Code shared by the examples: the command line, the sweep over the speed, tables, figures and files.
 //!
-//! An example file declares its mechanism and its question; this crate computes, draws and writes the answers. Its modules, in the order of
-//! a run: [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`pictures`], [`record`], [`summary`]; for rotors
-//! [`options`], [`rotor`]. Figures are drawn by the crate `eigentol-figures`.
+//! An example file declares its mechanism and its question; this crate computes, draws and writes the answers. Its
+//! modules, in the order of a run: [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]),
+//! [`pictures`], [`record`], [`summary`]; for rotors [`options`], [`rotor`]. Figures are drawn by the crate
+//! `eigentol-figures`.
 
 pub mod analysis;
 pub mod cost;

@@ -10,9 +10,10 @@ use crate::sweep::{Row, Spread, Sweep};
 
 /// Writes the sweep to `path`.
 ///
-/// Columns: the speed, the angles from the axis, the frequencies; then for each tolerance and mode, first order (`sigma`, `mean`), Monte
-/// Carlo (`mc_`), central differences (`fd_`), and variance shares if several variables vary; and for each tolerance, the number of
-/// unstable samples and the distance to the critical state in standard deviations.
+/// Columns: the speed, the angles from the axis, the frequencies; then for each tolerance and mode, first order
+/// (`sigma`, `mean`), Monte Carlo (`mc_`), central differences (`fd_`), and variance shares if several variables vary;
+/// and for each tolerance, the number of unstable samples and the distance to the critical state in standard
+/// deviations.
 ///
 /// # Errors
 /// [`Failure::Output`].

@@ -67,7 +67,8 @@ pub fn events(
     writeln!(out, "{table}")
 }
 
-/// Prints selected rows of a sweep under its first tolerance; if several variables vary, mode by mode with the contribution of each.
+/// Prints selected rows of a sweep under its first tolerance; if several variables vary, mode by mode with the
+/// contribution of each.
 ///
 /// # Errors
 /// The errors of the writer.

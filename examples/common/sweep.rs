@@ -1,5 +1,5 @@
-//! The sweep over the speed: equilibrium, frequencies, first-order and sampled spread at every speed, as plain numbers for tables, files
-//! and figures.
+//! The sweep over the speed: equilibrium, frequencies, first-order and sampled spread at every speed, as plain numbers
+//! for tables, files and figures.
 
 use eigentol::sensitivity::{sensitivities, sensitivities_by_finite_difference};
 use eigentol::sweep::SweepPoint;
@@ -179,8 +179,8 @@ impl Spread {
         }
     }
 
-    /// Fills in all results, keeping those found before an error. Samples come first because they also exist at an exactly critical state,
-    /// which has no derivatives.
+    /// Fills in all results, keeping those found before an error. Samples come first because they also exist at an
+    /// exactly critical state, which has no derivatives.
     fn fill<M: Mechanism>(
         &mut self,
         question: &Question,

@@ -1,7 +1,8 @@
-//! At which speed does this governor begin to lift its sleeve, where does it hold the engine, and how much do both scatter?
+//! At which speed does this governor begin to lift its sleeve, where does it hold the engine, and how much do both
+//! scatter?
 //!
-//! The balls of a Porter governor swing at the height `h = (1 + M / m) g / Omega^2` below the hinge, whatever the length of the arms
-//! (T. Bevan, The Theory of Machines, 1939).
+//! The balls of a Porter governor swing at the height `h = (1 + M / m) g / Omega^2` below the hinge, whatever the
+//! length of the arms (T. Bevan, The Theory of Machines, 1939).
 
 use std::error::Error;
 use std::io::Write;
@@ -11,8 +12,8 @@ use eigentol::{Study, mechanism};
 use super::RPM;
 
 mechanism! {
-    /// One side of a Porter governor: a ball of 1 kg between two arms and half of a sleeve of 8 kg. All joints are on the axis of the
-    /// spindle; typical data.
+    /// One side of a Porter governor: a ball of 1 kg between two arms and half of a sleeve of 8 kg. All joints are on
+    /// the axis of the spindle; typical data.
     pub mechanism FlyBallGovernor {
         input speed: rpm;
         design arm = 200 mm +/- 0.2 mm;
@@ -50,7 +51,8 @@ pub fn study() -> Study<FlyBallGovernor> {
         .guess(FlyBallGovernor::slide, -0.4 * angle.cos())
 }
 
-/// Writes the critical speed at which the hanging position becomes unstable, and the sleeve position at the governed speed.
+/// Writes the critical speed at which the hanging position becomes unstable, and the sleeve position at the governed
+/// speed.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (speed, lift) = (FlyBallGovernor::speed, FlyBallGovernor::lift.index());
     let begins = Study::new(FlyBallGovernor).critical_tolerance(speed, 100.0 * RPM, 300.0 * RPM)?;

@@ -1,4 +1,5 @@
-//! Which tolerances may be wide? The torsional frequency of a geared drive must stay clear of its motor's torque ripple.
+//! Which tolerances may be wide? The torsional frequency of a geared drive must stay clear of its motor's torque
+//! ripple.
 //!
 //! Finds the cheapest tolerances that keep 999 of 1000 drives clear, if halving a tolerance doubles its cost.
 

@@ -1,7 +1,8 @@
-//! A grinding wheel sits askew on its spindle: does the face run true at speed, and is a stiffer bearing worth its price?
+//! A grinding wheel sits askew on its spindle: does the face run true at speed, and is a stiffer bearing worth its
+//! price?
 //!
-//! A disk clamped at an angle `s` straightens itself when it turns: the remaining angle is `s / (1 + (C - A) Omega^2 / k)`
-//! (J. P. Den Hartog, Mechanical Vibrations, 1956, on gyroscopic moments of disks).
+//! A disk clamped at an angle `s` straightens itself when it turns: the remaining angle is
+//! `s / (1 + (C - A) Omega^2 / k)` (J. P. Den Hartog, Mechanical Vibrations, 1956, on gyroscopic moments of disks).
 
 use std::error::Error;
 use std::io::Write;

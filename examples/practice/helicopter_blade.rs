@@ -1,7 +1,9 @@
-//! Ground resonance: how likely is it that the beat of the blades' lag motion meets the rocking frequency of the helicopter on its wheels?
+//! Ground resonance: how likely is it that the beat of the blades' lag motion meets the rocking frequency of the
+//! helicopter on its wheels?
 //!
-//! In the frame of the body the regressing lag motion has the frequency `Omega - omega_lag`. Where this meets the frequency of the body on
-//! its landing gear, both motions grow (R. P. Coleman and A. M. Feingold, NACA report 1351, 1958).
+//! In the frame of the body the regressing lag motion has the frequency `Omega - omega_lag`. Where this meets the
+//! frequency of the body on its landing gear, both motions grow (R. P. Coleman and A. M. Feingold, NACA report 1351,
+//! 1958).
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -11,7 +13,8 @@ use eigentol::second_order::Band;
 use eigentol::{Study, mechanism};
 
 mechanism! {
-    /// One blade of a light helicopter with coincident flap and lag hinges and an elastomeric lag bearing; typical data.
+    /// One blade of a light helicopter with coincident flap and lag hinges and an elastomeric lag bearing; typical
+    /// data.
     pub mechanism HelicopterBlade {
         /// Speed of the rotor.
         input rotor: rad/s;

@@ -1,7 +1,8 @@
 //! Questions that engineers ask, each in its own file with its mechanism, method and answer.
 //!
-//! `cargo run --release --example practice` answers all of them, `-- gear_train` only one; with `--reports DIRECTORY` each also writes
-//! its report there. They form a single program because separate ones would each have to link the solvers.
+//! `cargo run --release --example practice` answers all of them, `-- gear_train` only one; with `--reports DIRECTORY`
+//! each also writes its report there. They form a single program because separate ones would each have to link the
+//! solvers.
 
 use std::error::Error;
 use std::io::{self, Write};

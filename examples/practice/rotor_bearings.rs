@@ -10,10 +10,11 @@ use super::RPM;
 mechanism! {
     /// A stiff rotor in two plain journal bearings.
     ///
-    /// The oil film resists a displacement across it as well as along it. Its coefficients change with the speed; these are those of a short
-    /// bearing (F. W. Ocvirk, 1952) 50 mm long and 100 mm wide, with a radial clearance of 0.1 mm, oil of 20 mPa s and about half the weight
-    /// to carry (formulas: M. I. Friswell et al., Dynamics of Rotating Machines, 2010, section 5.5). They hold about the place to which the
-    /// load has moved the journal: coordinates are counted from there, and weight is not declared again.
+    /// The oil film resists a displacement across it as well as along it. Its coefficients change with the speed; these
+    /// are those of a short bearing (F. W. Ocvirk, 1952) 50 mm long and 100 mm wide, with a radial clearance of 0.1 mm,
+    /// oil of 20 mPa s and about half the weight to carry (formulas: M. I. Friswell et al., Dynamics of Rotating
+    /// Machines, 2010, section 5.5). They hold about the place to which the load has moved the journal: coordinates are
+    /// counted from there, and weight is not declared again.
     pub mechanism RotorBearings {
         /// Speed of the rotor.
         input speed: rpm;

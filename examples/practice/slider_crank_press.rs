@@ -1,6 +1,7 @@
 //! How hard does this press strike at a given torque, and do the blows vary because of the material or the lengths?
 //!
-//! Near the dead centre the force of the ram grows without limit, `F = M / (dx / d phi)`, so small errors in length matter.
+//! Near the dead centre the force of the ram grows without limit, `F = M / (dx / d phi)`, so small errors in length
+//! matter.
 
 use std::error::Error;
 use std::io::Write;

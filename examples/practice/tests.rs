@@ -35,8 +35,9 @@ fn every_question_has_an_answer() {
     }
 }
 
-/// `nu^2 = 1 + 3 e / (2 (1 - e))` per revolution, `e` the hinge offset as a fraction of the radius (W. Johnson, Helicopter Theory,
-/// 1980). In lag the 1 is absent and the elastomer adds its stiffness. Without lift the two motions are uncoupled.
+/// `nu^2 = 1 + 3 e / (2 (1 - e))` per revolution, `e` the hinge offset as a fraction of the radius (W. Johnson,
+/// Helicopter Theory, 1980). In lag the 1 is absent and the elastomer adds its stiffness. Without lift the two motions
+/// are uncoupled.
 #[test]
 fn a_blade_without_lift_flaps_and_lags_as_in_the_textbook() {
     use helicopter_blade::{FLIGHT, HelicopterBlade, study};
@@ -113,7 +114,8 @@ fn a_skew_wheel_straightens_itself() {
     }
 }
 
-/// In equilibrium on its table the potential energy of the arm, centrifugal part included, is stationary in both angles.
+/// In equilibrium on its table the potential energy of the arm, centrifugal part included, is stationary in both
+/// angles.
 #[test]
 fn an_arm_is_where_its_energy_is_least() {
     use turntable_arm::{WORKING, study};

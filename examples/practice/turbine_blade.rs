@@ -1,7 +1,8 @@
 //! Does the flap frequency of a turbine blade meet three times the rotor speed, and does pitching the blade help?
 //!
 //! Centrifugal forces stiffen the blade, the more so the more it flaps out of the rotor plane:
-//! `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` (R. V. Southwell and B. S. Gough, 1921; hinge offset `e`).
+//! `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` (R. V. Southwell and B. S. Gough, 1921; hinge offset
+//! `e`).
 
 use std::error::Error;
 use std::io::Write;

@@ -1,4 +1,5 @@
-//! A robot arm on a turntable welds: how far does its tip move when the table turns, and why do arms of one series differ?
+//! A robot arm on a turntable welds: how far does its tip move when the table turns, and why do arms of one series
+//! differ?
 
 use std::error::Error;
 use std::io::Write;
@@ -8,7 +9,8 @@ use eigentol::{Study, mechanism};
 use super::RPM;
 
 mechanism! {
-    /// Shoulder and elbow of an arm mounted off the axis of a turntable; servos and gearboxes act as springs; typical data.
+    /// Shoulder and elbow of an arm mounted off the axis of a turntable; servos and gearboxes act as springs; typical
+    /// data.
     pub mechanism TurntableArm {
         /// Speed of the table.
         input table: rpm;

@@ -1,5 +1,5 @@
-//! The [`mechanism!`] macro: tokens in, tokens or errors out. The work is done by `eigentol-compiler`, an ordinary library
-//! that build scripts and tests can call too.
+//! The [`mechanism!`] macro: tokens in, tokens or errors out. The work is done by `eigentol-compiler`, an ordinary
+//! library that build scripts and tests can call too.
 
 use proc_macro::TokenStream;
 

@@ -61,7 +61,8 @@ pub struct Campbell {
     pub unreached: usize,
     /// The lines whose crossings were searched for.
     pub orders: Vec<Line>,
-    /// Crossings of frequencies with lines, line by line: input value, sensitivity and spread. The number of the mode is its label.
+    /// Crossings of frequencies with lines, line by line: input value, sensitivity and spread. The number of the mode
+    /// is its label.
     pub crossings: Vec<EventTolerance>,
     /// Values at which the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::sweep::Sweep)).
     pub critical: Vec<EventTolerance>,
@@ -125,8 +126,8 @@ impl<'a> Axes<'a> {
     }
 }
 
-/// Computes a Campbell diagram: solves equilibrium and modes at each value of one input, follows every mode, and locates the
-/// crossings with `orders` and the onsets of flutter between neighbouring values.
+/// Computes a Campbell diagram: solves equilibrium and modes at each value of one input, follows every mode, and
+/// locates the crossings with `orders` and the onsets of flutter between neighbouring values.
 ///
 /// The arguments are those of [`sweep`](crate::sweep::sweep).
 ///
@@ -150,8 +151,8 @@ pub fn campbell(
     Ok(Campbell { points, ..found })
 }
 
-/// Like [`campbell`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result contains
-/// only the events between the points. The diagram ends when `each` breaks off.
+/// Like [`campbell`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result
+/// contains only the events between the points. The diagram ends when `each` breaks off.
 ///
 /// # Errors
 /// As [`campbell`].

@@ -1,9 +1,9 @@
 //! Natural frequencies of mechanisms in steady motion, and how manufacturing tolerances move them.
 //!
-//! Declare a mechanism with [`mechanism!`]. Then ask questions through a [`Study`], or call the functions of the modules
-//! directly: each takes the mechanism, lists of numbers and the results of the preceding step. Equation numbers refer to
-//! S. M. Eom, D. H. Choi and H. H. Yoo, "Tolerance Analysis for Natural Frequencies of Multi-body Systems in Dynamic
-//! Equilibrium State", completed where the paper is incomplete.
+//! Declare a mechanism with [`mechanism!`]. Then ask questions through a [`Study`], or call the functions of the
+//! modules directly: each takes the mechanism, lists of numbers and the results of the preceding step. Equation numbers
+//! refer to S. M. Eom, D. H. Choi and H. H. Yoo, "Tolerance Analysis for Natural Frequencies of Multi-body Systems in
+//! Dynamic Equilibrium State", completed where the paper is incomplete.
 //!
 //! ```
 //! # #[cfg(feature = "std")]
@@ -65,9 +65,9 @@
 //! | Where does it resonate, and where does it begin to flutter? | [`crossings`](Study::crossings), [`crossing_tolerances`](Study::crossing_tolerances), [`flutter_onsets`](Study::flutter_onsets), [`flutter_onset_tolerances`](Study::flutter_onset_tolerances) | [`sweep::crossings`], [`sweep::flutter_onsets`], [`sweep::crossing_tolerance`] |
 //!
 //! Values are SI, or in the declared unit: [`InDeclaredUnit`]. Handles such as `RotatingPendulum::omega` are constants
-//! of the mechanism's type; if names are known only at run time, [`Study::find_input`] and similar methods look them up.
-//! Every result prints as a table with names, units and the operating point it belongs to ([`report`]). Lists of numbers
-//! are [`Vector`] and [`Matrix`], which convert to and from nalgebra.
+//! of the mechanism's type; if names are known only at run time, [`Study::find_input`] and similar methods look them
+//! up. Every result prints as a table with names, units and the operating point it belongs to ([`report`]). Lists of
+//! numbers are [`Vector`] and [`Matrix`], which convert to and from nalgebra.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 // Generated code in unit tests refers to the crate by its external name.

@@ -8,8 +8,8 @@ use crate::{Description, Error};
 
 /// Accelerations `qddot` of the free coordinates, from `M* qddot = Q*` (eqs. 7-9).
 ///
-/// `velocity` is `qdot`, `q` the coordinates, `u` the inputs, `b` the design variables; all SI. With speeds and constraints the
-/// result holds `qddot`, the rates of the speeds, and the instantaneous reactions, from
+/// `velocity` is `qdot`, `q` the coordinates, `u` the inputs, `b` the design variables; all SI. With speeds and
+/// constraints the result holds `qddot`, the rates of the speeds, and the instantaneous reactions, from
 ///
 /// ```text
 /// [ M  H^T A^T ] [qddot, vdot]   [ -h                                                    ]

@@ -1,5 +1,5 @@
-//! Responses of a mechanism at designs near the nominal one: quantities of modes, outputs and critical values of an input, with
-//! exact total derivatives.
+//! Responses of a mechanism at designs near the nominal one: quantities of modes, outputs and critical values of an
+//! input, with exact total derivatives.
 
 use crate::algebra::Vector;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
@@ -26,11 +26,12 @@ pub enum Response {
     },
     /// An output, SI.
     Output(Output),
-    /// The first value (SI) of an input in a range at which the branch that is stable at the low end loses its stiffness
-    /// ([`critical_state`]).
+    /// The first value (SI) of an input in a range at which the branch that is stable at the low end loses its
+    /// stiffness ([`critical_state`]).
     Critical(Range),
-    /// The first value (SI) of an input in a range at which a mode meets a condition, such as the speed at which a rotor resonates
-    /// or starts to flutter. The search follows stable equilibria, like [`crossings`](crate::sweep::crossings).
+    /// The first value (SI) of an input in a range at which a mode meets a condition, such as the speed at which a
+    /// rotor resonates or starts to flutter. The search follows stable equilibria, like
+    /// [`crossings`](crate::sweep::crossings).
     Crossing {
         /// Position of the mode at the start of the range, from 0.
         mode: usize,
@@ -48,8 +49,8 @@ pub enum Response {
 pub struct Realisation {
     /// The outcome at the operating point.
     pub outcome: Outcome,
-    /// The responses in the order requested. `None` where a response does not exist: the mode does not oscillate, the design has no
-    /// stable equilibrium, or the range has no critical value.
+    /// The responses in the order requested. `None` where a response does not exist: the mode does not oscillate, the
+    /// design has no stable equilibrium, or the range has no critical value.
     pub values: Vec<Option<f64>>,
     /// Total derivatives with respect to the design variables, if requested; `None` where they do not exist.
     pub gradients: Vec<Option<Vector>>,
@@ -140,8 +141,9 @@ impl<'a> Responses<'a> {
         self.watch
     }
 
-    /// Like [`Self::new`], for a mechanism that can be evaluated at several designs at once: samples of mode quantities then use
-    /// the processor's vector instructions under the same conditions as in [`monte_carlo`](crate::tolerance::monte_carlo).
+    /// Like [`Self::new`], for a mechanism that can be evaluated at several designs at once: samples of mode quantities
+    /// then use the processor's vector instructions under the same conditions as in
+    /// [`monte_carlo`](crate::tolerance::monte_carlo).
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -157,8 +159,8 @@ impl<'a> Responses<'a> {
         })
     }
 
-    /// Chooses the vector instructions for [`Self::side_by_side`] (default: the best the processor supports); `None` solves designs
-    /// one by one.
+    /// Chooses the vector instructions for [`Self::side_by_side`] (default: the best the processor supports); `None`
+    /// solves designs one by one.
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
         self.vectors = vectors;
@@ -199,8 +201,8 @@ impl<'a> Responses<'a> {
     /// Evaluates the responses at a design, SI.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for a design of another mechanism, [`Error::Stopped`]. A design that fails to solve is reported as an
-    /// outcome without values.
+    /// [`Error::WrongLength`] for a design of another mechanism, [`Error::Stopped`]. A design that fails to solve is
+    /// reported as an outcome without values.
     pub fn at(&self, room: &mut Workspace, design: &[f64]) -> Result<Realisation, Error> {
         self.evaluate(room, design, false)
     }

@@ -1,9 +1,9 @@
 //! Total derivatives of mode shapes, left and right, by a bordered solve (Nelson 1976).
 //!
 //! With `Q phi = 0`, `Q = Khat - lambda Mhat` or `s^2 Mhat + s Chat + Khat`, a change of the matrices gives
-//! `Q dphi = -(dQ + Q' ds) phi`. `Q` is singular only in the direction of `phi`. The equation is solved with `alpha (Q' phi) c^H`
-//! added to `Q`, which changes only the component of the solution along `phi`; that component follows from the normalisation:
-//! `c = Mhat phi`, or the unit vector of the component that is one (`Normalisation`).
+//! `Q dphi = -(dQ + Q' ds) phi`. `Q` is singular only in the direction of `phi`. The equation is solved with
+//! `alpha (Q' phi) c^H` added to `Q`, which changes only the component of the solution along `phi`; that component
+//! follows from the normalisation: `c = Mhat phi`, or the unit vector of the component that is one (`Normalisation`).
 
 use crate::algebra::{Lu, Matrix, Values, Vector, dot_complex, largest_element, times_complex};
 use crate::kernels::{DirectionalKernels, Linear};

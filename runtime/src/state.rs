@@ -21,9 +21,9 @@ pub struct Equilibrium {
     pub stability: Stability,
     /// Eigenvalues `lambda` up to this size cannot be distinguished from zero, 1/s^2.
     ///
-    /// It covers the effect of rounding of inputs, design and coordinates on an eigenvalue that nearly vanishes, and the
-    /// remainder that the iteration leaves at a located critical state. Zero if no eigenvalue is small enough for it to
-    /// matter, and if `Khat` is not symmetric.
+    /// It covers the effect of rounding of inputs, design and coordinates on an eigenvalue that nearly vanishes, and
+    /// the remainder that the iteration leaves at a located critical state. Zero if no eigenvalue is small enough for
+    /// it to matter, and if `Khat` is not symmetric.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub rounding: f64,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
@@ -32,7 +32,8 @@ pub struct Equilibrium {
     /// the reaction.
     pub residual: Vector,
     /// Largest remaining residual, each relative to the forces in its own equation and to what a millimetre or
-    /// milliradian of each coordinate, plus 1.5e-5 of the coordinate itself, restores there. At most 2e-10 for a result.
+    /// milliradian of each coordinate, plus 1.5e-5 of the coordinate itself, restores there. At most 2e-10 for a
+    /// result.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub relative_residual: f64,
     /// Iterations spent.
@@ -113,7 +114,8 @@ pub(crate) fn dependent_names(
 pub enum Stability {
     /// No small disturbance grows.
     Stable,
-    /// Stable only by gyroscopic forces, which hold directions of negative stiffness; the least dissipation destroys it.
+    /// Stable only by gyroscopic forces, which hold directions of negative stiffness; the least dissipation destroys
+    /// it.
     GyroscopicallyStabilised {
         /// Number of directions with negative stiffness.
         negative: usize,

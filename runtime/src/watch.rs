@@ -12,8 +12,8 @@ use crate::setters::setters;
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Watch<'a> {
-    /// Called with the number of steps done since the last call, from any thread; steps are samples, values of an input,
-    /// points of branches, or choices of tolerances.
+    /// Called with the number of steps done since the last call, from any thread; steps are samples, values of an
+    /// input, points of branches, or choices of tolerances.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
     /// Stops the work soon after it becomes true.
     pub stop: Option<&'a AtomicBool>,

@@ -1,7 +1,8 @@
 //! Kernels of the chain of bars, one mechanism for each size that is timed.
 //!
-//! This is a build script rather than `mechanism!` for two reasons: it can lift the limit on explicit partials, so that all of
-//! them are timed up to 16 bars, and it knows the profile, so that a mere check (`cargo clippy`) generates only the small chains.
+//! This is a build script rather than `mechanism!` for two reasons: it can lift the limit on explicit partials, so that
+//! all of them are timed up to 16 bars, and it knows the profile, so that a mere check (`cargo clippy`) generates only
+//! the small chains.
 
 use std::env;
 use std::error::Error;

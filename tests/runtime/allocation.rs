@@ -257,7 +257,8 @@ fn a_curved_limit_with_uniform_variables() {
     };
     close(ratio(1, costs[0]), ratio(2, costs[1]), 1e-4);
     assert!(found.refuted.is_empty(), "{found}");
-    // The same tolerances restated: a half-width of three standard deviations is 3^(1/2) times the hard limit about the mean.
+    // The same tolerances restated: a half-width of three standard deviations is 3^(1/2) times the hard limit about the
+    // mean.
     let hard = found.half_widths[1] / 3.0_f64.sqrt();
     let anew = (study.clone())
         .limits(Pendulum::l, 0.01 - hard, 0.01 + hard)

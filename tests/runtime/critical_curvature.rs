@@ -94,7 +94,8 @@ fn of_the_double_pendulum() {
         between: (0.1, 5.0),
     }
     .curvature();
-    // Scaling of masses and lengths: `b . du_c/db = 0` over masses, `-u_c / 2` over lengths; likewise for each derivative.
+    // Scaling of masses and lengths: `b . du_c/db = 0` over masses, `-u_c / 2` over lengths; likewise for each
+    // derivative.
     let (b, first) = ([0.8, 1.1, 2.5, 3.7], &found.first);
     for j in 0..4 {
         let over = |pair: [usize; 2]| pair.map(|k| b[k] * found.second[j][k]).iter().sum::<f64>();

@@ -1,5 +1,5 @@
-//! Tolerances with any distribution: first order and Monte Carlo against the exact distribution of the rotating bar, whose
-//! frequency is a function of its length.
+//! Tolerances with any distribution: first order and Monte Carlo against the exact distribution of the rotating bar,
+//! whose frequency is a function of its length.
 
 use eigentol::tolerance::{Distribution, MonteCarlo, Outcome};
 use eigentol::{DesignVariable, Error, Law, Study, mechanism};

@@ -136,7 +136,8 @@ fn every_branch_is_found() {
 
 #[test]
 fn linear_divergence_is_a_result() {
-    // Far above both critical speeds the plate's stiffness is negative in both directions; gyroscopic forces may hold it.
+    // Far above both critical speeds the plate's stiffness is negative in both directions; gyroscopic forces may hold
+    // it.
     let design = [0.5, 40.0, 60.0, 0.0];
     let state = equilibrium(
         &Derived(Plate),

@@ -182,7 +182,8 @@ fn a_branch_that_runs_to_infinity_is_not_critical() {
     );
 }
 
-/// Along the upper branch `omega^2 = 3 q^2 - 1` decreases from 2 to 0 at the fold; on the branch that follows it exceeds 3.
+/// Along the upper branch `omega^2 = 3 q^2 - 1` decreases from 2 to 0 at the fold; on the branch that follows it
+/// exceeds 3.
 #[test]
 fn a_frequency_that_jumps_across_a_line_does_not_meet_it() {
     let range = Range::new(Input::new(0), 0.0, 0.6).steps(7);

@@ -1,4 +1,5 @@
-//! The hand-written mechanisms satisfy the contract: their gradients are contractions of their explicit partial derivatives.
+//! The hand-written mechanisms satisfy the contract: their gradients are contractions of their explicit partial
+//! derivatives.
 
 use crate::common::chain::DOUBLE;
 use crate::common::derived::Derived;

@@ -1,5 +1,5 @@
-//! Samples that jump across flutter and divergence, far from the nominal design: the stability and eigenvalues of each against
-//! closed forms and, on a turntable, against a dense QR method; their numbers against the exact distribution.
+//! Samples that jump across flutter and divergence, far from the nominal design: the stability and eigenvalues of each
+//! against closed forms and, on a turntable, against a dense QR method; their numbers against the exact distribution.
 
 use eigentol::tolerance::Outcome;
 use eigentol::{Complex, Mechanism, MonteCarlo, Stability, Study, mechanism};
@@ -94,7 +94,8 @@ fn by_qr(
     each.collect()
 }
 
-/// Eigenvalues of a seal with equal damping along both axes: `s^2 + c s + lambda = 0`, with `lambda` an eigenvalue of the stiffness.
+/// Eigenvalues of a seal with equal damping along both axes: `s^2 + c s + lambda = 0`, with `lambda` an eigenvalue of
+/// the stiffness.
 fn of_seal(damping: f64, [kx, ky]: [f64; 2], across: f64) -> Vec<Complex> {
     let both = |middle: f64, square: f64| {
         let root = Complex::new(square, 0.0).sqrt();
@@ -128,8 +129,8 @@ fn same(found: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
     }
 }
 
-/// `lambda = k +- sqrt((d/2)^2 - q^2)` are the eigenvalues of the stiffness, and `s^2 + c s + lambda` has a growing root
-/// where `(Im lambda)^2 > c^2 Re lambda`.
+/// `lambda = k +- sqrt((d/2)^2 - q^2)` are the eigenvalues of the stiffness, and `s^2 + c s + lambda` has a growing
+/// root where `(Im lambda)^2 > c^2 Re lambda`.
 #[test]
 fn a_seal_flutters_beyond_its_limit() {
     for (nominal, sigma) in [
@@ -203,8 +204,8 @@ fn a_seal_gives_way_in_one_direction_or_in_two() {
     assert!(growing.iter().all(|&count| count > 100), "{growing:?}");
 }
 
-/// `a = kx - omega^2` and `b = ky - omega^2`: with a damper on the plate it is stable where both are positive, without one also
-/// where both are negative.
+/// `a = kx - omega^2` and `b = ky - omega^2`: with a damper on the plate it is stable where both are positive, without
+/// one also where both are negative.
 #[test]
 fn a_turntable_holds_its_block_by_springs_or_by_turning() {
     for (omega, damping, sigma) in [

@@ -266,7 +266,8 @@ fn singular_mass_names_its_coordinate() {
     ));
 }
 
-/// The symmetric part of a skew `Chat` is zero except for rounding: its eigenpairs can only be judged relative to rounding.
+/// The symmetric part of a skew `Chat` is zero except for rounding: its eigenpairs can only be judged relative to
+/// rounding.
 #[test]
 fn a_matrix_of_rounding_errors_has_modes() {
     let noise = 1.3234889800848443e-23;

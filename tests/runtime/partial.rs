@@ -1,4 +1,5 @@
-//! Sampling runs in parts: any split and order, stopped and resumed, gives the same bits; parts of other runs are refused.
+//! Sampling runs in parts: any split and order, stopped and resumed, gives the same bits; parts of other runs are
+//! refused.
 #![allow(clippy::single_range_in_vec_init, reason = "lists of ranges")]
 
 mod exact;

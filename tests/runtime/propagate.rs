@@ -1,5 +1,5 @@
-//! Propagation of tolerances to any response, against the exact distribution of the rotating bar, whose frequency is a function
-//! of its length, and of the spring oscillator, whose frequency and output are simple.
+//! Propagation of tolerances to any response, against the exact distribution of the rotating bar, whose frequency is a
+//! function of its length, and of the spring oscillator, whose frequency and output are simple.
 
 mod control;
 mod crossing;

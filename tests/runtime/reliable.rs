@@ -1,4 +1,5 @@
-//! Requirements: linear limits, and the rotating bar, whose frequency is a function of its length, against exact probabilities.
+//! Requirements: linear limits, and the rotating bar, whose frequency is a function of its length, against exact
+//! probabilities.
 
 use eigentol::requirement::{Edge, Requirement, SamplingSettings};
 use eigentol::response::Response;

@@ -92,8 +92,8 @@ mechanism! {
     }
 }
 
-/// Masses of 1, 2 and 3 kg in a row, in ground coordinates: springs `k1` and `k2` between them, and `g` holds the first. The
-/// stiffness that holds the row as a whole is added to `k1` in one matrix element and rounded with it.
+/// Masses of 1, 2 and 3 kg in a row, in ground coordinates: springs `k1` and `k2` between them, and `g` holds the
+/// first. The stiffness that holds the row as a whole is added to `k1` in one matrix element and rounded with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Chain;
 
@@ -290,7 +290,8 @@ fn a_soft_mode_beside_a_stiff_one_is_as_good_as_alone() {
     }
 }
 
-/// Without damping a whirling plate keeps its amplitude at every speed; a tiny `c` of either sign decides its behaviour.
+/// Without damping a whirling plate keeps its amplitude at every speed; a tiny `c` of either sign decides its
+/// behaviour.
 #[test]
 fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
     for speed in [0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 8.0] {
@@ -316,8 +317,8 @@ fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
     }
 }
 
-/// The same critical speed with damping, where one of two real eigenvalues vanishes, and with a constraint, where the stiffness
-/// along the one free direction vanishes.
+/// The same critical speed with damping, where one of two real eigenvalues vanishes, and with a constraint, where the
+/// stiffness along the one free direction vanishes.
 #[test]
 fn damping_and_constraints_do_not_hide_a_critical_state() {
     for start in [0.0, 0.5] {
@@ -410,8 +411,8 @@ fn a_stiffness_that_is_singular_but_nowhere_small_is_neutral() {
     }
 }
 
-/// An unheld row is neutral, even if rounding gives it a stiffness; one held by 1e-12 of its internal stiffness is stable or
-/// unstable. `lambda = g / 6` to within `g^2`.
+/// An unheld row is neutral, even if rounding gives it a stiffness; one held by 1e-12 of its internal stiffness is
+/// stable or unstable. `lambda = g / 6` to within `g^2`.
 #[test]
 fn what_the_elements_cannot_hold_is_neutral() {
     for i in 1..30 {
@@ -450,8 +451,8 @@ fn what_the_elements_cannot_hold_is_neutral() {
     }
 }
 
-/// Integer matrices with known eigenvalues: `Mhat = T^T T`, `Khat = T^T diag(d) T`, `T` a product of shears. None is off by more
-/// than its stated error, and no sign is wrong.
+/// Integer matrices with known eigenvalues: `Mhat = T^T T`, `Khat = T^T diag(d) T`, `T` a product of shears. None is
+/// off by more than its stated error, and no sign is wrong.
 fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
     let infos = vec![coordinate("q", METRE); n];
     let description = Shared::Counted(Arc::new(Description {

@@ -370,8 +370,9 @@ fn other_policies_and_families_go_one_by_one() {
     );
 }
 
-/// Solves one value after another, and compares every state, its modes and their derivatives with those computed from scratch
-/// there. Returns how many values had all of them, and how often consecutive sets of modes differ in number or kind.
+/// Solves one value after another, and compares every state, its modes and their derivatives with those computed from
+/// scratch there. Returns how many values had all of them, and how often consecutive sets of modes differ in number or
+/// kind.
 fn from_nothing(
     m: &dyn BatchKernels,
     (u, start): (&[f64], &[f64]),

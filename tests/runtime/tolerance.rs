@@ -34,7 +34,8 @@ fn sampled(omega: f64, tolerance: f64, samples: usize) -> MonteCarlo {
         .unwrap()
 }
 
-/// `lambda = 3 g / (2 l)` of a hanging bar, with the opposite sign for one that stands on its hinge: its growth is the root.
+/// `lambda = 3 g / (2 l)` of a hanging bar, with the opposite sign for one that stands on its hinge: its growth is the
+/// root.
 #[test]
 fn undamped_modes_have_the_spreads_of_a_root() {
     let rate = (1.5 * 9.81_f64).sqrt();
@@ -462,7 +463,8 @@ fn a_report_says_what_first_order_leaves_out() {
     assert_eq!(first.modes[0].distance_to_instability, f64::NEG_INFINITY);
 }
 
-/// All derivatives of a margin's probability against differences of the complete calculation at changed inputs and designs.
+/// All derivatives of a margin's probability against differences of the complete calculation at changed inputs and
+/// designs.
 #[test]
 fn a_margin_moves_with_speed_and_design() {
     let study = |speed: f64, length: f64| {
@@ -492,8 +494,8 @@ fn a_margin_moves_with_speed_and_design() {
     );
 }
 
-/// The standard error matches the scatter of the means of independent runs; for a single run it is its own standard deviation
-/// over the square root of the sample count.
+/// The standard error matches the scatter of the means of independent runs; for a single run it is its own standard
+/// deviation over the square root of the sample count.
 #[test]
 fn means_scatter_by_their_standard_error() {
     let study = pendulum(3.0, 0.03).samples(50).keep_samples(true);
@@ -559,7 +561,8 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
     close(by_speed(&found), by_speed(&forward), 1e-12);
 }
 
-/// At rest each coordinate of the plate is a separate damped oscillator: the distance to `|s|^2 = k / m = 0` is `k / sigma(k)`.
+/// At rest each coordinate of the plate is a separate damped oscillator: the distance to `|s|^2 = k / m = 0` is
+/// `k / sigma(k)`.
 #[test]
 fn a_damped_mode_loses_its_stiffness_where_its_spring_does() {
     let sigma = 0.1;

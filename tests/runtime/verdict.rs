@@ -1,5 +1,5 @@
-//! Measured verdicts, over tolerances and speeds near the critical one: never trusted where sigma is off by more than 5 %, never
-//! refused where it is within 1 %.
+//! Measured verdicts, over tolerances and speeds near the critical one: never trusted where sigma is off by more than 5
+//! %, never refused where it is within 1 %.
 
 use eigentol::summary::{Advice, Doubt, Sampling, Summary};
 use eigentol::tolerance::{Distribution, Outcome};
@@ -74,8 +74,8 @@ fn frequency(speed: f64, length: f64) -> f64 {
     lambda.sqrt()
 }
 
-/// Frequencies and their weights over a grid of the normally distributed length; the sum is accurate to about 1e-6 where the
-/// frequency has a square-root singularity.
+/// Frequencies and their weights over a grid of the normally distributed length; the sum is accurate to about 1e-6
+/// where the frequency has a square-root singularity.
 fn distribution(speed: f64, sigma: f64) -> Vec<(f64, f64)> {
     over_lengths(sigma, |length| frequency(speed, length))
 }
@@ -240,8 +240,8 @@ fn samples_near_the_critical_speed_have_the_exact_distribution() {
     }
 }
 
-/// Exact distributions over both branches, at or near the critical speed, for tolerances with the standard deviation at the
-/// critical speed and at 1.005 times it.
+/// Exact distributions over both branches, at or near the critical speed, for tolerances with the standard deviation at
+/// the critical speed and at 1.005 times it.
 fn samples_have_the_exact_distribution(ratio: f64, all: &[(f64, [f64; 2])]) {
     for &(tolerance, exact) in all {
         let speed = if ratio == 1.0 {

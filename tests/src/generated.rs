@@ -90,8 +90,8 @@ pub fn evaluate<T: Real, M: Mechanism>(
     })
 }
 
-/// Like [`evaluate`], but only for kernels of `q`, `u`, `b` that differentiate at most once: another scalar can be tested on
-/// these without rustc translating everything for it.
+/// Like [`evaluate`], but only for kernels of `q`, `u`, `b` that differentiate at most once: another scalar can be
+/// tested on these without rustc translating everything for it.
 ///
 /// # Panics
 /// When the number or the lengths of the arguments are wrong.

@@ -12,8 +12,8 @@ thread_local! {
     static OPERATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// The number of operations and function calls that a kernel takes in dual numbers. The interpreter evaluates sine and cosine of
-/// an angle separately, so generated code does slightly fewer.
+/// The number of operations and function calls that a kernel takes in dual numbers. The interpreter evaluates sine and
+/// cosine of an angle separately, so generated code does slightly fewer.
 pub fn operations_along(kernel: &Kernel) -> usize {
     let start = Dual {
         value: Counted(0.7),

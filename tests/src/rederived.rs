@@ -1,4 +1,5 @@
-//! Operating points of the machines, at which equilibria move with the design, and a loop that passes every machine to a comparison.
+//! Operating points of the machines, at which equilibria move with the design, and a loop that passes every machine to
+//! a comparison.
 
 use eigentol::Policy;
 use eigentol::equilibrium::{Equilibrium, equilibrium};
@@ -19,8 +20,8 @@ pub struct Operation {
     pub policy: Policy,
 }
 
-/// Operating points of the machines of the corpus and of [`machines`](crate::machines): away from critical states and, where a
-/// machine can bend, bent.
+/// Operating points of the machines of the corpus and of [`machines`](crate::machines): away from critical states and,
+/// where a machine can bend, bent.
 ///
 /// # Panics
 /// For an unknown name.

@@ -30,9 +30,9 @@ impl Compared {
     }
 }
 
-/// Compares samples of damped and undamped modes: every instruction set must give the same bits, and solving one by one must
-/// give the same numbers or the same error. It does so with the study's tolerances and, for a quarter of the samples, with
-/// tolerances ten times as wide. Nothing is compared where the study solves no samples in vectors.
+/// Compares samples of damped and undamped modes: every instruction set must give the same bits, and solving one by one
+/// must give the same numbers or the same error. It does so with the study's tolerances and, for a quarter of the
+/// samples, with tolerances ten times as wide. Nothing is compared where the study solves no samples in vectors.
 ///
 /// # Panics
 /// When anything differs.

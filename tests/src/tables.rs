@@ -1,7 +1,7 @@
 //! Every machine as tables of kernels.
 //!
-//! They are compiled once, here: rustc does not recompile for a test what this crate already contains, whether the test calls it
-//! through these tables or by the machine's type.
+//! They are compiled once, here: rustc does not recompile for a test what this crate already contains, whether the test
+//! calls it through these tables or by the machine's type.
 
 use eigentol::Mechanism;
 use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};

@@ -1,5 +1,6 @@
-//! Converts a declaration into the oracle's plain data with every value fixed to a number, so that the oracle can check machines
-//! written in the language, whatever their expressions. Only names and values come from the compiler; no equation does.
+//! Converts a declaration into the oracle's plain data with every value fixed to a number, so that the oracle can check
+//! machines written in the language, whatever their expressions. Only names and values come from the compiler; no
+//! equation does.
 
 use std::rc::Rc;
 

@@ -1,5 +1,5 @@
-//! Small machines are solved without heap allocation except for the lists in the results, so a Monte Carlo thread hardly ever
-//! waits for the allocator.
+//! Small machines are solved without heap allocation except for the lists in the results, so a Monte Carlo thread
+//! hardly ever waits for the allocator.
 #![allow(
     unsafe_code,
     reason = "counting allocations takes an allocator, and implementing one is unsafe"
@@ -37,8 +37,8 @@ thread_local! {
 /// The system allocator, with a count of calls per thread.
 struct Counting;
 
-// SAFETY: every call forwards to the system allocator with the same arguments. The counter is a `Cell` of a plain number
-// in constant thread-local storage: accessing it neither allocates nor runs a destructor.
+// SAFETY: every call forwards to the system allocator with the same arguments. The counter is a `Cell` of a plain
+// number in constant thread-local storage: accessing it neither allocates nor runs a destructor.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.set(ALLOCATIONS.get() + 1);
@@ -267,9 +267,9 @@ fn small_machines_need_no_heap() {
     check(Hoist, &[0.1, 0.5], &[0.1, 0.05, 0.02]);
 }
 
-/// Solving side by side, 256 samples at a time need one list, and their results occasionally another. Twice as many samples come
-/// twice as close to the nominal value: for each of the two frequencies the sketch then counts one more octave of deviations on
-/// either side, occasionally two.
+/// Solving side by side, 256 samples at a time need one list, and their results occasionally another. Twice as many
+/// samples come twice as close to the nominal value: for each of the two frequencies the sketch then counts one more
+/// octave of deviations on either side, occasionally two.
 #[test]
 fn samples_need_no_heap() {
     let run = |samples: usize| {

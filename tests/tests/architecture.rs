@@ -299,7 +299,8 @@ fn module(source: &Path, file: &Path) -> String {
     names.join("::")
 }
 
-/// The modules that a module refers to outside its tests, except its own children whose items it re-exports with `pub use`.
+/// The modules that a module refers to outside its tests, except its own children whose items it re-exports with
+/// `pub use`.
 fn uses(text: &str, own: &str, modules: &BTreeMap<String, PathBuf>) -> BTreeSet<String> {
     let code = code(text);
     // a visibility is not an import

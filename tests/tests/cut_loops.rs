@@ -1,6 +1,7 @@
-//! Compares a mechanism as an open chain with the same mechanism as a cut loop. In random trees one joint is replaced by a `free`
-//! joint between the same frames, and is declared again as a `cut` joint or as equivalent point constraints. Freedom, residual,
-//! matrices, and derivatives by inputs and design variables agree at random assembled states for any reactions.
+//! Compares a mechanism as an open chain with the same mechanism as a cut loop. In random trees one joint is replaced
+//! by a `free` joint between the same frames, and is declared again as a `cut` joint or as equivalent point
+//! constraints. Freedom, residual, matrices, and derivatives by inputs and design variables agree at random assembled
+//! states for any reactions.
 
 #[path = "cut_loops/double.rs"]
 mod double;

@@ -28,7 +28,8 @@ impl Numbers {
         (0..count).map(|_| self.next()).collect()
     }
 
-    /// Kernel arguments by parameter name: design variables near their nominal values, everything else between -1 and 1.
+    /// Kernel arguments by parameter name: design variables near their nominal values, everything else between -1 and
+    /// 1.
     fn arguments(&mut self, machine: &dyn Kernels, parameters: &[(&str, usize)]) -> Vec<Vec<f64>> {
         let description = machine.description();
         let near = |numbers: &mut Self| {

@@ -58,7 +58,8 @@ macro_rules! pendulum {
     };
 }
 
-/// Closed forms of a thin bar on a hinge that turns about the vertical: `m l^2/3 (theta'' - omega^2 sin cos) + m g l/2 sin`.
+/// Closed forms of a thin bar on a hinge that turns about the vertical:
+/// `m l^2/3 (theta'' - omega^2 sin cos) + m g l/2 sin`.
 fn check(pendulum: &dyn Kernels) {
     let (q, omega, m, l): (f64, f64, f64, f64) = (0.4, 3.0, 2.0, 0.7);
     let (inputs, design) = ([omega], [m, l]);

@@ -1,5 +1,5 @@
-//! Every machine of the corpus, read from text at run time, gives the same results as its compiled twin, bit for bit: the
-//! same operations in another order, each on the same numbers.
+//! Every machine of the corpus, read from text at run time, gives the same results as its compiled twin, bit for bit:
+//! the same operations in another order, each on the same numbers.
 
 use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};
 use eigentol::{Coordinate, Description, Input, Law, Mechanism, Policy, Study, ToleranceInfo};

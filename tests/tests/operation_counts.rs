@@ -11,8 +11,9 @@ use eigentol_oracle::model::{Coordinate, Force, ForceLaw, Model, Value};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::op_counter::operations_along;
 
-/// Number of bars, and the cost of an expert's closed forms in CasADi 3.8: residual, mass and stiffness matrix; gradient
-/// of a mode's functional; these with all partial derivatives. Every node except inputs, outputs and constants counts.
+/// Number of bars, and the cost of an expert's closed forms in CasADi 3.8: residual, mass and stiffness matrix;
+/// gradient of a mode's functional; these with all partial derivatives. Every node except inputs, outputs and constants
+/// counts.
 const TYPED: [(usize, usize, usize, Option<usize>); 5] = [
     (2, 62, 146, Some(227)),
     (4, 197, 487, Some(992)),

@@ -1,4 +1,5 @@
-//! Outputs beyond coordinates and points, in closed form: joint reactions, energies, and the distance from singular poses.
+//! Outputs beyond coordinates and points, in closed form: joint reactions, energies, and the distance from singular
+//! poses.
 
 use eigentol::{Mechanism, Study, mechanism};
 
@@ -146,7 +147,8 @@ fn an_output_without_a_derivative_keeps_its_value() {
     );
 }
 
-/// Components of cross products share subexpressions; without sharing, translating a nested tree of them would never finish.
+/// Components of cross products share subexpressions; without sharing, translating a nested tree of them would never
+/// finish.
 #[test]
 fn nested_vector_functions_are_translated_once() {
     let nested = (0..40).fold("[l, 2 * l, 3 * l]".to_owned(), |v, _| {

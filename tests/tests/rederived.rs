@@ -1,5 +1,5 @@
-//! The problem solved again in hyper-dual numbers: verified by stored numbers, finite differences and closed forms, then
-//! compared with the product's derivatives.
+//! The problem solved again in hyper-dual numbers: verified by stored numbers, finite differences and closed forms,
+//! then compared with the product's derivatives.
 
 #[path = "rederived/chains.rs"]
 mod chains;

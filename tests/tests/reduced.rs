@@ -1,5 +1,5 @@
-//! Small mechanisms for which the mass matrix was once wrong (`truth/robots/minimal`): successive hinges about one axis, carrying
-//! something that is not on a seat or leans out of the plane; and nearly right angles.
+//! Small mechanisms for which the mass matrix was once wrong (`truth/robots/minimal`): successive hinges about one
+//! axis, carrying something that is not on a seat or leans out of the plane; and nearly right angles.
 
 use std::fs;
 use std::path::Path;
@@ -128,8 +128,8 @@ fn reduced_cases_are_consistent() {
     }
 }
 
-/// Three unit rods of 1 kg in line, the last on a slider or a screw: about the first hinge each contributes 1/12 about its centre
-/// plus its distance squared, with distances 1/2, 3/2 and 5/2: 9 in all.
+/// Three unit rods of 1 kg in line, the last on a slider or a screw: about the first hinge each contributes 1/12 about
+/// its centre plus its distance squared, with distances 1/2, 3/2 and 5/2: 9 in all.
 #[test]
 fn a_slider_behind_two_hinges_has_its_mass() {
     let screw = text("RR_screw");

@@ -1,5 +1,5 @@
-//! Ten real robots against Pinocchio (`tests/truth/robots`, made from public robot files): every kernel at five states per
-//! robot, and every kernel against the equations of motion.
+//! Ten real robots against Pinocchio (`tests/truth/robots`, made from public robot files): every kernel at five states
+//! per robot, and every kernel against the equations of motion.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Every result of every machine survives writing and reading, bit for bit. Every public type of the runtime can be written.
+//! Every result of every machine survives writing and reading, bit for bit. Every public type of the runtime can be
+//! written.
 
 #[path = "serial/answers.rs"]
 mod answers;

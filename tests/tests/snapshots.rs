@@ -22,7 +22,8 @@ const GENERATED: [&str; 5] = [
     "fits",
 ];
 
-/// The corpus, a closed loop, running coordinates, a rolling wheel, every kind of tolerance, and springs on every free coordinate.
+/// The corpus, a closed loop, running coordinates, a rolling wheel, every kind of tolerance, and springs on every free
+/// coordinate.
 fn machines() -> Vec<(&'static str, &'static str)> {
     let constrained = [
         ("slider_crank", slider_crank::DECLARATION),

@@ -40,7 +40,8 @@ fn closed(closing: &str) -> String {
     )
 }
 
-/// An axis that may be misaligned, by two variables that are nominally zero: perpendicular directions exist nevertheless.
+/// An axis that may be misaligned, by two variables that are nominally zero: perpendicular directions exist
+/// nevertheless.
 #[test]
 fn an_axis_nominally_along_x_may_be_tilted() {
     let state: [&[f64]; 2] = [&[0.3, -0.4, 0.5, 0.2, 1.1, -0.7, 0.6, 0.9, -1.2], &[]];
@@ -66,8 +67,8 @@ fn messages(declaration: &str) -> Vec<String> {
     }
 }
 
-/// A thin bar that rotates about its own axis moves no mass, in any orientation: the rounding residue of its moment of inertia
-/// does not count.
+/// A thin bar that rotates about its own axis moves no mass, in any orientation: the rounding residue of its moment of
+/// inertia does not count.
 #[test]
 fn a_bar_that_turns_about_itself_has_no_inertia() {
     let lengths = [-3.0, -1.0, 0.3, 0.7, 2.0];
@@ -132,7 +133,8 @@ fn a_light_body_below_a_heavy_one_has_its_mass() {
     assert_eq!(found[0], [light + heavy, heavy, heavy, heavy]);
 }
 
-/// A thin bar that spins about itself moves no mass, but it is geared to a swing: the mass matrix then need not be regular.
+/// A thin bar that spins about itself moves no mass, but it is geared to a swing: the mass matrix then need not be
+/// regular.
 #[test]
 fn constraints_stand_for_mass() {
     let text = |gear: &str| {
@@ -249,8 +251,8 @@ fn a_reversed_joint_transmits_the_opposite() {
     assert_equal(&[on_ground], &[seen.collect()]);
 }
 
-/// Loop reactions are derivatives of the loop equations, also where these are not satisfied: with only springs and weights,
-/// `Khat` is symmetric everywhere.
+/// Loop reactions are derivatives of the loop equations, also where these are not satisfied: with only springs and
+/// weights, `Khat` is symmetric everywhere.
 #[test]
 fn loops_of_every_kind_have_a_symmetric_stiffness() {
     let kinds = [
@@ -283,7 +285,8 @@ fn loops_of_every_kind_have_a_symmetric_stiffness() {
     }
 }
 
-/// A direction rotated by an angle about a perpendicular one is tilted from itself by that angle, also by nearly half a turn.
+/// A direction rotated by an angle about a perpendicular one is tilted from itself by that angle, also by nearly half a
+/// turn.
 #[test]
 fn a_tilt_is_an_angle() {
     let text = "mechanism Tilt {
@@ -404,7 +407,8 @@ fn a_body_of_two_pieces_whirls_as_one() {
     assert_equal(&found, &whirl(&whole));
 }
 
-/// The height of a ball above a sloping plane, and the force that the plane exerts on it: the one that moves its centre.
+/// The height of a ball above a sloping plane, and the force that the plane exerts on it: the one that moves its
+/// centre.
 #[test]
 fn a_ball_on_a_slope_is_held_by_the_slope() {
     let slope = |placed: &str| {
@@ -529,8 +533,8 @@ fn requirements_of_welded_bodies_are_about_their_centre() {
     assert!(found.iter().all(|x| (x - 1.5).abs() < 1e-6), "{found:?}");
 }
 
-/// Hinges about the `y` axes of their frames are not parallel if the body between them is rotated: compared with the same
-/// two bodies, their frames aligned with the first joint.
+/// Hinges about the `y` axes of their frames are not parallel if the body between them is rotated: compared with the
+/// same two bodies, their frames aligned with the first joint.
 #[test]
 fn hinges_on_a_turned_body_are_no_run() {
     let arm = |first: &str, place: &str, axis: &str, seat: &str, second: &str| {
@@ -563,7 +567,8 @@ fn hinges_on_a_turned_body_are_no_run() {
     assert_equal(&one, &other);
 }
 
-/// The reaction of a cut joint is the only load on an otherwise free body; it is reported at the joint, along the joint's axes.
+/// The reaction of a cut joint is the only load on an otherwise free body; it is reported at the joint, along the
+/// joint's axes.
 #[test]
 fn a_cut_joint_exerts_what_moves_the_body() {
     let outputs: String = ["force", "moment"]

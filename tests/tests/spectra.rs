@@ -1,4 +1,5 @@
-//! General modes, whirl, critical speeds and onsets of instability of machines with closed forms, through the public interface.
+//! General modes, whirl, critical speeds and onsets of instability of machines with closed forms, through the public
+//! interface.
 
 #[path = "spectra/common.rs"]
 mod common;

@@ -1,5 +1,5 @@
-//! Large mechanisms fit into the small stacks of threads, even without optimisation: every question is put to a mechanism with 64
-//! unknowns and 64 design variables and to the bicycle, both compiled and interpreted.
+//! Large mechanisms fit into the small stacks of threads, even without optimisation: every question is put to a
+//! mechanism with 64 unknowns and 64 design variables and to the bicycle, both compiled and interpreted.
 #![recursion_limit = "256"]
 
 #[path = "stacks/bars.rs"]

@@ -6,7 +6,8 @@ use eigentol_figures::{Error, Figure, Style, campbell};
 
 use super::{HZ, RPM, Risk, RotorQuestion};
 
-/// Frequencies near the running speed with their bands, the forbidden band with the probability of each mode lying in it, and the samples.
+/// Frequencies near the running speed with their bands, the forbidden band with the probability of each mode lying in
+/// it, and the samples.
 ///
 /// # Errors
 /// [`Error::Nothing`] if no mode oscillates.

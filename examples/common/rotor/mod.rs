@@ -1,5 +1,5 @@
-//! The analyses of a rotor over its speed: Campbell diagram ([`eigentol::Campbell`]), critical speeds and onsets of instability
-//! ([`events`]), risks at the running speed ([`risk`]); printed by [`tables`], written by [`record`].
+//! The analyses of a rotor over its speed: Campbell diagram ([`eigentol::Campbell`]), critical speeds and onsets of
+//! instability ([`events`]), risks at the running speed ([`risk`]); printed by [`tables`], written by [`record`].
 //!
 //! As usual for rotating machinery, speeds are shown in rpm and frequencies in Hz. Files are in SI units.
 

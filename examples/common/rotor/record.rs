@@ -11,8 +11,8 @@ use crate::record::field;
 
 /// Writes the points of a Campbell diagram to a CSV file.
 ///
-/// Columns: the speed, then for each mode its frequency, growth, damping ratio, the standard deviations of frequency and damping ratio, and
-/// its whirl ratio (1 forward, -1 backward).
+/// Columns: the speed, then for each mode its frequency, growth, damping ratio, the standard deviations of frequency
+/// and damping ratio, and its whirl ratio (1 forward, -1 backward).
 ///
 /// # Errors
 /// [`Failure::Output`].
@@ -53,8 +53,8 @@ type Column = (&'static str, fn(&CampbellMode) -> Option<f64>);
 
 /// Writes the events to a CSV file.
 ///
-/// Columns: the event and its mode, the speed with its standard deviation, frequency, growth and whirl there, and the derivatives of the
-/// speed with respect to the design variables `names`.
+/// Columns: the event and its mode, the speed with its standard deviation, frequency, growth and whirl there, and the
+/// derivatives of the speed with respect to the design variables `names`.
 ///
 /// # Errors
 /// [`Failure::Output`].

@@ -1,5 +1,5 @@
-//! The effect of tolerances at the running speed: spread of every mode to second order, the probability that a frequency lies near the
-//! running speed or that the rotor is unstable, and the same by Monte Carlo.
+//! The effect of tolerances at the running speed: spread of every mode to second order, the probability that a
+//! frequency lies near the running speed or that the rotor is unstable, and the same by Monte Carlo.
 
 use eigentol::modes::Whirl;
 use eigentol::second_order::{Band, Quadratic, SecondOrderSpread};

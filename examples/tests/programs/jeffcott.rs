@@ -1,5 +1,5 @@
-//! The rotor compared with hand-written equations, `det(s^2 M + s (C - i W G) + K - i W D) = 0` in displacements and slopes of the shaft,
-//! solved again for every design derivative; and with the closed forms of Jeffcott's rotor.
+//! The rotor compared with hand-written equations, `det(s^2 M + s (C - i W G) + K - i W D) = 0` in displacements and
+//! slopes of the shaft, solved again for every design derivative; and with the closed forms of Jeffcott's rotor.
 
 use std::f64::consts::PI;
 
@@ -363,7 +363,8 @@ fn monte_carlo_confirms_the_risks_whatever_the_threads() {
     let out = [0, 1, 3].map(|mode| risk.modes[mode].in_band.hits);
     assert_eq!(out, [0, 0, 0]);
 
-    // In the figure each mode has one bar for the samples, and the one mode that can enter the band shows its probability.
+    // In the figure each mode has one bar for the samples, and the one mode that can enter the band shows its
+    // probability.
     let study = Study::new(JeffcottRotor);
     let close = question.campbell(&study, (2400.0 * RPM, 3600.0 * RPM), 5);
     let figure = margin(&question, &close.unwrap(), &risk, Style::default()).unwrap();

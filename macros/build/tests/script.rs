@@ -1,6 +1,7 @@
 //! The output of a build script to cargo, and the files it leaves.
 //!
-//! A build script gets its folder from the environment and ends the process, so each test runs this program again as a build script.
+//! A build script gets its folder from the environment and ends the process, so each test runs this program again as a
+//! build script.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::env;

@@ -139,8 +139,8 @@ impl From<Diagnostics> for Mistakes {
 }
 
 impl Compilation {
-    /// The warnings that rustc gives if the declaration is written in a macro: design variables that nothing refers to. A leading
-    /// underscore or an attribute marks such a variable as intended.
+    /// The warnings that rustc gives if the declaration is written in a macro: design variables that nothing refers to.
+    /// A leading underscore or an attribute marks such a variable as intended.
     ///
     /// ```
     /// use eigentol_compiler::{compile_text, mechanics::Limits};

@@ -1,4 +1,5 @@
-//! Assembles the named bodies, joints and points of the declaration, with notes on everything that was changed or left out.
+//! Assembles the named bodies, joints and points of the declaration, with notes on everything that was changed or left
+//! out.
 
 use eigentol_compiler::model::inertia::{is_inertia_of_a_body, nearest_of_a_body, principal};
 
@@ -486,8 +487,8 @@ fn dampers(
     dampers
 }
 
-/// Drives joints that carry no mass, because no equation determines their motion. Exceptions are joints that follow another, and
-/// joints followed by one that carries mass.
+/// Drives joints that carry no mass, because no equation determines their motion. Exceptions are joints that follow
+/// another, and joints followed by one that carries mass.
 fn drive_what_moves_no_mass(
     joints: &mut [Moving],
     bodies: &[Body],

@@ -83,7 +83,8 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// A name for something that the file calls `original`; `kind` is added if the name would otherwise be invalid or is taken.
+    /// A name for something that the file calls `original`; `kind` is added if the name would otherwise be invalid or
+    /// is taken.
     pub(crate) fn of_file(&mut self, original: &str, kind: &str) -> String {
         let name = self.unique(&valid(original, kind), kind);
         if name != original {

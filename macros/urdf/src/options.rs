@@ -31,8 +31,8 @@ pub enum Base {
     /// Welded to the ground.
     #[default]
     Fixed,
-    /// Free in space: `base_px`, `base_py`, `base_pz` in m along the axes of the ground, and the angles `base_yaw` about z,
-    /// `base_pitch` about y, `base_roll` about x in rad, in this order.
+    /// Free in space: `base_px`, `base_py`, `base_pz` in m along the axes of the ground, and the angles `base_yaw`
+    /// about z, `base_pitch` about y, `base_roll` about x in rad, in this order.
     Floating,
     /// Free in the horizontal plane: `base_px`, `base_py` in m, `base_yaw` in rad.
     Planar,

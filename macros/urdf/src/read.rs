@@ -333,8 +333,8 @@ impl<'a> Reader<'a> {
         self.number(node, "damping", 0.0)
     }
 
-    /// Reads `xyz` and `rpy`: roll about x, pitch about y, yaw about z of the outer frame, or equivalently yaw first, each
-    /// about the axes as turned.
+    /// Reads `xyz` and `rpy`: roll about x, pitch about y, yaw about z of the outer frame, or equivalently yaw first,
+    /// each about the axes as turned.
     fn origin(&mut self, node: Node<'a, 'a>) -> Option<Pose> {
         let Some(origin) = child(node, "origin") else {
             return Some(Pose::default());

@@ -11,7 +11,8 @@ pub(crate) struct Robot {
     pub(crate) at: Place,
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
-    /// Elements of the file that this type does not represent, by kind of owner (`joints`) and element, with the owners' names.
+    /// Elements of the file that this type does not represent, by kind of owner (`joints`) and element, with the
+    /// owners' names.
     pub(crate) ignored: BTreeMap<(&'static str, String), Vec<String>>,
 }
 

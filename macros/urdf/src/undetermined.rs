@@ -14,7 +14,8 @@ const LIMITS: Limits = Limits {
     motion_linear: 0,
 };
 
-/// Drives coordinates at 0 if nothing resists them. This may leave other coordinates without weight, so the search is repeated.
+/// Drives coordinates at 0 if nothing resists them. This may leave other coordinates without weight, so the search is
+/// repeated.
 pub(crate) fn drive(assembly: &mut Assembly) -> Result<(), ImportError> {
     loop {
         let undetermined = undetermined(&declaration(assembly, true))?;

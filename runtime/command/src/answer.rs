@@ -78,8 +78,8 @@ impl Answer {
         Ok(())
     }
 
-    /// The formatted answer: as text, the result of this kind or else all results not set aside; otherwise the result of this kind or the
-    /// first.
+    /// The formatted answer: as text, the result of this kind or else all results not set aside; otherwise the result
+    /// of this kind or the first.
     pub(crate) fn written(
         &self,
         kind: Option<&str>,

@@ -18,8 +18,9 @@ use crate::verdict::Verdict;
 
 /// Natural frequencies of mechanisms in steady motion, and how tolerances move them.
 ///
-/// Exit codes: 0, 1 where the analysis says no (no equilibrium, unstable, requirements that cannot be met), 2 for a mistake on the
-/// command line, 3 for a file with a mistake or one that cannot be read or written, 130 after Ctrl-C or SIGTERM.
+/// Exit codes: 0, 1 where the analysis says no (no equilibrium, unstable, requirements that cannot be met), 2 for a
+/// mistake on the command line, 3 for a file with a mistake or one that cannot be read or written, 130 after Ctrl-C or
+/// SIGTERM.
 #[derive(Debug, Parser)]
 #[command(name = "eigentol", version, subcommand_required = true)]
 pub(crate) struct Arguments {

@@ -57,7 +57,8 @@ impl Picture {
         self.figure.is_some()
     }
 
-    /// Rejects, before any long computation, wording options without a figure, unknown file formats and unwritable files.
+    /// Rejects, before any long computation, wording options without a figure, unknown file formats and unwritable
+    /// files.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if self.figure.is_none() && self.wording.is_given() {
             let message = "names of modes and a unit of frequencies are for a figure";

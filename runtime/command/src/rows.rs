@@ -8,7 +8,8 @@ use crate::answer::Form;
 use crate::failure::Failure;
 use crate::place::{Begun, Place, Unfinished};
 
-/// Items per block of rows: small for CSV, which is read while it grows; large for Parquet, where each block is a row group.
+/// Items per block of rows: small for CSV, which is read while it grows; large for Parquet, where each block is a row
+/// group.
 const CSV_BLOCK: usize = 256;
 const PARQUET_BLOCK: usize = 4096;
 /// How long a CSV row may wait for others.

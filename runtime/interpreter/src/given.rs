@@ -8,7 +8,8 @@ use proc_macro2::TokenStream;
 use crate::description;
 use crate::mistakes::Mistakes;
 
-/// Parses the value (SI) of a quantity in this unit: `3000rpm`, `-2.5 mm`, `pi / 3`. `what` names the quantity in messages.
+/// Parses the value (SI) of a quantity in this unit: `3000rpm`, `-2.5 mm`, `pi / 3`. `what` names the quantity in
+/// messages.
 ///
 /// ```
 /// use eigentol::Unit;
@@ -28,8 +29,8 @@ pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
     Ok(given::value(tokens(text)?, declared(unit)?, what)?)
 }
 
-/// Parses the tolerance of a quantity in this unit: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the `+/-` sign of a
-/// half-width, or `one of [1.9, 2.1] mm`. `nominal` is the value (SI) about which it varies.
+/// Parses the tolerance of a quantity in this unit: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the `+/-`
+/// sign of a half-width, or `one of [1.9, 2.1] mm`. `nominal` is the value (SI) about which it varies.
 ///
 /// ```
 /// use eigentol::{Law, Unit};

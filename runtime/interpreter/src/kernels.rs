@@ -603,7 +603,8 @@ impl BatchKernels for Interpreted {
     }
 }
 
-/// The derivatives of the three matrices with respect to each variable in turn; the damping is skipped if it has no buffer.
+/// The derivatives of the three matrices with respect to each variable in turn; the damping is skipped if it has no
+/// buffer.
 fn changes<'a>(
     matrices: &'a mut BatchLinear<'_>,
     entries: usize,

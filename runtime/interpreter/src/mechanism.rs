@@ -17,9 +17,9 @@ use crate::tape::Tape;
 
 /// A mechanism whose kernels are interpreted. A clone shares everything with the original.
 ///
-/// It implements the kernel tables required by [`Study`](eigentol::Study) and the functions behind it. Handles are looked up by
-/// name with [`Study::find_input`](eigentol::Study::find_input) and similar methods. They fit every interpreted mechanism; a study
-/// rejects a handle whose index it does not have.
+/// It implements the kernel tables required by [`Study`](eigentol::Study) and the functions behind it. Handles are
+/// looked up by name with [`Study::find_input`](eigentol::Study::find_input) and similar methods. They fit every
+/// interpreted mechanism; a study rejects a handle whose index it does not have.
 #[derive(Clone)]
 pub struct Interpreted {
     pub(crate) shared: Arc<Tables>,

@@ -12,7 +12,8 @@ pub(crate) enum Code {
     SinCos,
 }
 
-/// Mutually independent operations of one kind, by the index of their instructions; for a sine also the index of the cosine.
+/// Mutually independent operations of one kind, by the index of their instructions; for a sine also the index of the
+/// cosine.
 pub(crate) struct Run {
     pub(crate) code: Code,
     pub(crate) members: Vec<(usize, Option<usize>)>,

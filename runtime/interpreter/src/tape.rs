@@ -7,7 +7,8 @@ use eigentol_compiler::program::{Kernel, Operand, Operation};
 use crate::registers::Registers;
 use crate::schedule::{Code, runs};
 
-/// Registers of an operation: its result and its operands. A sine has its cosine's register in place of a second operand.
+/// Registers of an operation: its result and its operands. A sine has its cosine's register in place of a second
+/// operand.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     to: u32,
@@ -22,8 +23,8 @@ struct Run {
     steps: Vec<Step>,
 }
 
-/// A kernel in executable form. Its registers hold constants, arguments and intermediate values; registers of values no longer
-/// needed are reused.
+/// A kernel in executable form. Its registers hold constants, arguments and intermediate values; registers of values no
+/// longer needed are reused.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
     pub(crate) constants: Vec<f64>,

@@ -43,8 +43,9 @@ impl Study {
         Ok(Clusters(All(found)))
     }
 
-    /// Derivatives of the eigenvalues in the cluster of a mode, counted from 0, along a change of inputs and design variables: lists,
-    /// SI, or dictionaries by name; what is not named stays as it is. Equal eigenvalues split differently in each direction.
+    /// Derivatives of the eigenvalues in the cluster of a mode, counted from 0, along a change of inputs and design
+    /// variables: lists, SI, or dictionaries by name; what is not named stays as it is. Equal eigenvalues split
+    /// differently in each direction.
     #[pyo3(signature = (mode, inputs=None, design=None))]
     fn directional_derivatives(
         &self,
@@ -94,8 +95,8 @@ impl Clusters {
     }
 }
 
-/// Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative belongs to
-/// which mode is not defined.
+/// Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative
+/// belongs to which mode is not defined.
 #[pyclass(frozen, module = "eigentol")]
 pub(crate) struct DirectionalDerivatives(clusters::DirectionalDerivatives);
 

@@ -51,7 +51,8 @@ impl Mechanism {
 /// Derivatives with respect to unknowns, inputs and design variables.
 type ByVariable<'py> = (Array3<'py>, Array3<'py>, Array3<'py>);
 
-/// Arguments, all SI: `q` the unknowns (n), `inputs`, `design`, each a list in the order of the names, or a dictionary by name.
+/// Arguments, all SI: `q` the unknowns (n), `inputs`, `design`, each a list in the order of the names, or a dictionary
+/// by name.
 #[pymethods]
 impl Mechanism {
     /// Residual of the equations of motion at rest, N or N m, shape (n,). It is zero at an equilibrium.
@@ -89,8 +90,8 @@ impl Mechanism {
         ))
     }
 
-    /// Explicit derivatives of Mhat, Chat and Khat, SI: for each matrix three arrays, by unknown, by input, by design variable,
-    /// of shape (variables, n, n).
+    /// Explicit derivatives of Mhat, Chat and Khat, SI: for each matrix three arrays, by unknown, by input, by design
+    /// variable, of shape (variables, n, n).
     #[pyo3(signature = (q, inputs=None, design=None))]
     fn linear_partials<'py>(
         &self,
@@ -119,7 +120,8 @@ impl Mechanism {
         ))
     }
 
-    /// Explicit derivatives of the residual at rest by inputs, shape (n, inputs), and by design variables, shape (n, design), SI.
+    /// Explicit derivatives of the residual at rest by inputs, shape (n, inputs), and by design variables, shape (n,
+    /// design), SI.
     #[pyo3(signature = (q, inputs=None, design=None))]
     fn residual_partials<'py>(
         &self,
@@ -153,7 +155,8 @@ impl Mechanism {
         Ok(arrays::vector(py, found))
     }
 
-    /// Mass matrix and forces of the full nonlinear motion, `M qddot = Q`: shapes (n, n) and (n,), SI. `velocity` is qdot.
+    /// Mass matrix and forces of the full nonlinear motion, `M qddot = Q`: shapes (n, n) and (n,), SI. `velocity` is
+    /// qdot.
     #[pyo3(signature = (velocity, q, inputs=None, design=None))]
     fn mass_and_forces<'py>(
         &self,
@@ -171,8 +174,8 @@ impl Mechanism {
         Ok((arrays::matrix(py, &mass)?, arrays::vector(py, forces)))
     }
 
-    /// Accelerations of the full nonlinear motion, shape (n,), rad/s^2 or m/s^2; in the places of speeds their rates, in those of
-    /// constraints the reactions. `velocity` is qdot.
+    /// Accelerations of the full nonlinear motion, shape (n,), rad/s^2 or m/s^2; in the places of speeds their rates,
+    /// in those of constraints the reactions. `velocity` is qdot.
     ///
     /// `Mechanism.motion` gives a right-hand side that integrators call.
     #[pyo3(signature = (velocity, q, inputs=None, design=None))]

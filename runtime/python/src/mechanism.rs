@@ -33,7 +33,8 @@ impl Mechanism {
 impl Mechanism {
     /// The mechanism that a file declares.
     ///
-    /// Raises OSError (FileNotFoundError ...) when the file cannot be read, DeclarationError with line and column of every mistake.
+    /// Raises OSError (FileNotFoundError ...) when the file cannot be read, DeclarationError with line and column of
+    /// every mistake.
     #[classmethod]
     fn from_file(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
         let py = class.py();
@@ -65,7 +66,8 @@ impl Mechanism {
         &self.text
     }
 
-    /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them speeds and reactions of constraints (SI).
+    /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them speeds and reactions of
+    /// constraints (SI).
     #[getter]
     fn coordinates(&self) -> Vec<&str> {
         names::coordinates(self.inner.description())

@@ -9,10 +9,11 @@ use crate::errors::raise;
 use crate::mechanism::Mechanism;
 use crate::values::{List, numbers};
 
-/// The nonlinear motion at fixed inputs and design: `motion(t, y)` returns dy/dt, as `scipy.integrate.solve_ivp` wants it.
+/// The nonlinear motion at fixed inputs and design: `motion(t, y)` returns dy/dt, as `scipy.integrate.solve_ivp` wants
+/// it.
 ///
-/// `y` holds the coordinates (rad or m), after them their rates (rad/s or m/s), after these the speeds that are unknowns:
-/// `names` says which. Reactions of constraints are not part of it.
+/// `y` holds the coordinates (rad or m), after them their rates (rad/s or m/s), after these the speeds that are
+/// unknowns: `names` says which. Reactions of constraints are not part of it.
 #[pyclass(frozen, module = "eigentol")]
 pub(crate) struct Motion {
     mechanism: Interpreted,
@@ -64,8 +65,8 @@ impl Motion {
 impl Mechanism {
     /// The nonlinear motion at these inputs and this design, for `scipy.integrate.solve_ivp`.
     ///
-    /// Both are SI or texts with units, in a dictionary by name or in a list; unless given, inputs are zero and the design is
-    /// nominal.
+    /// Both are SI or texts with units, in a dictionary by name or in a list; unless given, inputs are zero and the
+    /// design is nominal.
     #[pyo3(signature = (inputs=None, design=None))]
     fn motion(
         &self,
@@ -110,7 +111,8 @@ impl Motion {
         positions.chain(rates).chain(speeds).collect()
     }
 
-    /// A state `y` from coordinates and speeds, and from rates, by name; zero unless given. SI or texts with units; rates are SI.
+    /// A state `y` from coordinates and speeds, and from rates, by name; zero unless given. SI or texts with units;
+    /// rates are SI.
     #[pyo3(signature = (coordinates=None, rates=None))]
     fn state<'py>(
         &self,

@@ -72,7 +72,8 @@ impl Part {
 
 #[pymethods]
 impl Study {
-    /// The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the whole run.
+    /// The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the
+    /// whole run.
     fn samples_between(&self, py: Python<'_>, start: u64, stop: u64) -> PyResult<Part> {
         let found = self.ask_stoppably(py, |study| study.samples_between(start..stop));
         found.map(Part)

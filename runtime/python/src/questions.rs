@@ -123,14 +123,15 @@ impl Study {
 
 #[pymethods]
 impl Study {
-    /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what is done, take
-    /// the samples in parts (`samples_between`).
+    /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
+    /// is done, take the samples in parts (`samples_between`).
     fn monte_carlo(&self, py: Python<'_>) -> PyResult<MonteCarlo> {
         self.ask_stoppably(py, |study| study.monte_carlo())
             .map(MonteCarlo)
     }
 
-    /// All equilibria found from random starts between two states: lists in the order of the coordinates, SI, or dictionaries.
+    /// All equilibria found from random starts between two states: lists in the order of the coordinates, SI, or
+    /// dictionaries.
     #[pyo3(signature = (lower, upper, starts=None, seed=None))]
     fn equilibria(
         &self,
@@ -150,14 +151,14 @@ impl Study {
         Ok(found.into_iter().map(Equilibrium).collect())
     }
 
-    /// The state that closes the loops from the start values, before any equilibrium is looked for: which of the assemblies it is, and
-    /// how far from a dead centre. Coordinates with a start value are held.
+    /// The state that closes the loops from the start values, before any equilibrium is looked for: which of the
+    /// assemblies it is, and how far from a dead centre. Coordinates with a start value are held.
     fn assembly(&self, py: Python<'_>) -> PyResult<Assembly> {
         self.ask(py, |study| study.assembly()).map(Assembly)
     }
 
-    /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; None where it does not
-    /// apply.
+    /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; None where it
+    /// does not apply.
     fn whirls(&self, py: Python<'_>) -> PyResult<Vec<Option<f64>>> {
         let found = self.ask(py, |study| study.whirls())?;
         Ok(found
@@ -188,8 +189,8 @@ impl Study {
             .map(ShapeSensitivity)
     }
 
-    /// Probability that a quantity of a mode, counted from 0, lies between `low` and `high` (rad/s, 1/s; None for no end), or
-    /// within a fraction of a multiple of an input: `around=("speed", 0.1)` or `("speed", 0.1, order)`.
+    /// Probability that a quantity of a mode, counted from 0, lies between `low` and `high` (rad/s, 1/s; None for no
+    /// end), or within a fraction of a multiple of an input: `around=("speed", 0.1)` or `("speed", 0.1, order)`.
     #[pyo3(signature = (mode, low=None, high=None, *, around=None, quantity="frequency"))]
     fn margin(
         &self,
@@ -235,8 +236,8 @@ impl Study {
             .map(ModeMargin)
     }
 
-    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output", "angle"),
-    /// ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
+    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
+    /// "angle"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
     fn propagate(
         &self,
         py: Python<'_>,
@@ -279,8 +280,8 @@ impl Study {
             .map(Sweep)
     }
 
-    /// A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input. Values are SI,
-    /// texts with units, or numbers in `unit`.
+    /// A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input.
+    /// Values are SI, texts with units, or numbers in `unit`.
     #[pyo3(signature = (input, values, orders=vec![1.0], unit=None))]
     fn campbell(
         &self,
@@ -311,8 +312,8 @@ impl Study {
             .map(Branches)
     }
 
-    /// The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its stiffness, and
-    /// how tolerances move it. Raises NotInRange where there is none.
+    /// The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its
+    /// stiffness, and how tolerances move it. Raises NotInRange where there is none.
     fn critical(
         &self,
         py: Python<'_>,
@@ -338,8 +339,8 @@ impl Study {
             .map(Curvature::from)
     }
 
-    /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and `offset`
-    /// (rad/s) more, and how tolerances move them.
+    /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
+    /// `offset` (rad/s) more, and how tolerances move them.
     #[pyo3(signature = (input, low, high, order=1.0, offset=0.0))]
     fn crossings(
         &self,
@@ -361,8 +362,8 @@ impl Study {
         Ok(events(&found))
     }
 
-    /// Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and how tolerances
-    /// move them.
+    /// Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
+    /// how tolerances move them.
     fn flutter_onsets(
         &self,
         py: Python<'_>,

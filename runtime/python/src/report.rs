@@ -16,10 +16,11 @@ use crate::values::not_finite;
 impl Study {
     /// Writes a report: one HTML file with the mechanism in 3-D, its modes in motion, charts, verdicts and tables.
     ///
-    /// `sweep` is a tuple of the name of an input and values of it, SI or texts with units, and may have a unit for plain numbers as
-    /// its third entry: `("speed", range(0, 6001, 100), "rpm")`. `orders` are multiples of that input whose crossings are marked.
-    /// Samples and seed are those of the study. `mode_names` are what figures and sentences call the modes, the first one first, and
-    /// `frequency_unit` is the unit of frequencies in them, `"Hz"` or `"rad/s"`.
+    /// `sweep` is a tuple of the name of an input and values of it, SI or texts with units, and may have a unit for
+    /// plain numbers as its third entry: `("speed", range(0, 6001, 100), "rpm")`. `orders` are multiples of that input
+    /// whose crossings are marked. Samples and seed are those of the study. `mode_names` are what figures and sentences
+    /// call the modes, the first one first, and `frequency_unit` is the unit of frequencies in them, `"Hz"` or
+    /// `"rad/s"`.
     ///
     /// Raises OSError when the file cannot be written. What an analysis refuses is said in the report.
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]

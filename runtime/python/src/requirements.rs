@@ -11,8 +11,8 @@ use crate::results::result;
 use crate::study::Study;
 use crate::values::not_finite;
 
-/// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before the ends for a
-/// forbidden band.
+/// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before
+/// the ends for a forbidden band.
 fn requirement(
     study: &eigentol::Study<eigentol_interpreter::Interpreted>,
     given: &Bound<'_, PyAny>,
@@ -71,10 +71,10 @@ fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
 
 #[pymethods]
 impl Study {
-    /// Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low and a high
-    /// end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band: `("outside", ("frequency", 0), 3.0, 4.0)`;
-    /// frequencies are in rad/s. Of `start` and `stop` only the samples `start` to below `stop` are taken; numbers of samples of parts
-    /// add up to those of the whole. Ctrl-C ends it.
+    /// Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low
+    /// and a high end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band:
+    /// `("outside", ("frequency", 0), 3.0, 4.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
+    /// `start` to below `stop` are taken; numbers of samples of parts add up to those of the whole. Ctrl-C ends it.
     #[pyo3(signature = (requirements, start=None, stop=None))]
     fn chances(
         &self,
@@ -103,8 +103,8 @@ impl Study {
             .map(Reliability)
     }
 
-    /// A small probability of failing any requirement, by importance sampling about the design points; requirements as `chances`
-    /// takes them.
+    /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
+    /// `chances` takes them.
     fn rare_failure(
         &self,
         py: Python<'_>,
@@ -163,8 +163,8 @@ result! {
 
 #[pymethods]
 impl Reliability {
-    /// Probability to first order that each limit is passed, shape (l,); NaN without a design point. Those to second order stand in the
-    /// table "design points".
+    /// Probability to first order that each limit is passed, shape (l,); NaN without a design point. Those to second
+    /// order stand in the table "design points".
     #[getter]
     fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
         let all = self.0.limits.iter();

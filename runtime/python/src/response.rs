@@ -18,11 +18,12 @@ use crate::results::quantity;
 use crate::study::Study;
 use crate::values::{List, mode_number, number, numbers};
 
-/// A number that a design gives: a quantity of a mode, an output, a critical value of an input. `response(x)` evaluates it.
+/// A number that a design gives: a quantity of a mode, an output, a critical value of an input. `response(x)` evaluates
+/// it.
 ///
-/// `x` holds the variables `names`, SI: an array of shape (variables,), for one number, or of shape (N, variables), for an array of
-/// shape (N,). Every design is solved anew from the nominal equilibrium, its modes matched to the nominal ones by shape. NaN
-/// stands where a design has no stable equilibrium or no such response.
+/// `x` holds the variables `names`, SI: an array of shape (variables,), for one number, or of shape (N, variables), for
+/// an array of shape (N,). Every design is solved anew from the nominal equilibrium, its modes matched to the nominal
+/// ones by shape. NaN stands where a design has no stable equilibrium or no such response.
 ///
 /// For OpenTURNS:
 ///
@@ -41,8 +42,8 @@ pub(crate) struct Response {
     text: String,
 }
 
-/// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("critical", input, low, high), ("resonance", mode,
-/// input, low, high, order) or ("flutter", mode, input, low, high).
+/// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("critical", input, low, high),
+/// ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
 pub(crate) fn wanted(
     study: &eigentol::Study<Interpreted>,
     what: &str,
@@ -115,10 +116,11 @@ fn range(
 impl Study {
     /// A response as a function of arrays of designs.
     ///
-    /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the number of a
-    /// mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value, between which the equilibrium loses
-    /// its stiffness; "resonance" and the number of a mode, an input, a low and a high value, and an order (1), or "flutter" and the same
-    /// without it. `variables` names the design variables that vary, in order; all unless given.
+    /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
+    /// number of a mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value,
+    /// between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
+    /// high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
+    /// vary, in order; all unless given.
     #[pyo3(signature = (what, *of, variables=None))]
     fn response(
         &self,

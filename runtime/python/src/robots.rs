@@ -109,10 +109,11 @@ fn read(
 
 /// The declaration of a robot from its URDF file.
 ///
-/// Options: `base`, "fixed", "floating" or "planar"; `resistance` of the joints, "springs" on every coordinate, "drives" that hold at 0
-/// the joints that nothing resists, or "none" for a mechanism of kernels alone; of springs `stiffness` (50 N m/rad), `damping`
-/// (0.5 N m s/rad), `linear_stiffness` (50 N/m), `linear_damping` (0.5 N s/m); `file_damping`, whether the damping of the file is taken
-/// (True); `nearest_inertias`, whether impossible inertias are replaced by the nearest possible ones (False); `name` of the mechanism.
+/// Options: `base`, "fixed", "floating" or "planar"; `resistance` of the joints, "springs" on every coordinate,
+/// "drives" that hold at 0 the joints that nothing resists, or "none" for a mechanism of kernels alone; of springs
+/// `stiffness` (50 N m/rad), `damping` (0.5 N m s/rad), `linear_stiffness` (50 N/m), `linear_damping` (0.5 N s/m);
+/// `file_damping`, whether the damping of the file is taken (True); `nearest_inertias`, whether impossible inertias are
+/// replaced by the nearest possible ones (False); `name` of the mechanism.
 ///
 /// Raises OSError when the file cannot be read, DeclarationError with line and column of every mistake.
 #[pyfunction]

@@ -208,7 +208,8 @@ fn parameter(
     Ok((DesignVariable::new(place).into(), unit, value))
 }
 
-/// A half-width (SI), a text ("3%", "+/- 0.1 mm uniform", "+0.2 -0.1 mm", "one of [1.9, 2.1] mm"), or both limits as deviations.
+/// A half-width (SI), a text ("3%", "+/- 0.1 mm uniform", "+0.2 -0.1 mm", "one of [1.9, 2.1] mm"), or both limits as
+/// deviations.
 fn tolerances(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
     each(study, given, "tolerances", |study, name, given| {
         let py = given.py();

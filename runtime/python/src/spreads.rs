@@ -13,8 +13,9 @@ use crate::names;
 use crate::results::{quantity, result};
 
 result! {
-    /// First-order spread of all modes. `m` is the number of modes; quantities are "frequency" (rad/s), "natural_frequency"
-    /// (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2). NaN stands where a mode has none.
+    /// First-order spread of all modes. `m` is the number of modes; quantities are "frequency" (rad/s),
+    /// "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2). NaN stands where a mode has
+    /// none.
     FirstOrder(eigentol::FirstOrder)
 }
 
@@ -39,7 +40,8 @@ impl FirstOrder {
 
 #[pymethods]
 impl FirstOrder {
-    /// Names of the design variables, and after them of the inputs that have a tolerance: the columns of gradients and shares.
+    /// Names of the design variables, and after them of the inputs that have a tolerance: the columns of gradients and
+    /// shares.
     #[getter]
     fn names(&self) -> Vec<&str> {
         names::design(&self.0.description)
@@ -91,8 +93,8 @@ impl FirstOrder {
 }
 
 result! {
-    /// Spread of all modes to second order. `m` is the number of modes; quantities are "frequency" (rad/s), "natural_frequency"
-    /// (rad/s) and "damping_ratio". NaN stands where a mode has none.
+    /// Spread of all modes to second order. `m` is the number of modes; quantities are "frequency" (rad/s),
+    /// "natural_frequency" (rad/s) and "damping_ratio". NaN stands where a mode has none.
     SecondOrder(eigentol::second_order::SecondOrder)
 }
 
@@ -181,8 +183,8 @@ impl Summary {
 }
 
 result! {
-    /// Samples of the design, each with its own equilibrium and modes. `m` is the number of modes, `N` that of the samples; modes
-    /// are in the order of the nominal ones.
+    /// Samples of the design, each with its own equilibrium and modes. `m` is the number of modes, `N` that of the
+    /// samples; modes are in the order of the nominal ones.
     MonteCarlo(eigentol::MonteCarlo)
 }
 
@@ -485,7 +487,8 @@ impl Propagation {
 }
 
 result! {
-    /// Which variables the scatter of responses comes from. `k` is the number of responses; columns are the variables that vary.
+    /// Which variables the scatter of responses comes from. `k` is the number of responses; columns are the variables
+    /// that vary.
     Influence(eigentol::propagation::Influence)
 }
 

@@ -21,8 +21,8 @@ const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 
 /// A mechanism at one operating point, with tolerances and settings.
 ///
-/// Every value is a number, SI, or a text with a unit; a study starts from the declared nominal values and tolerances, with
-/// inputs and start values of zero.
+/// Every value is a number, SI, or a text with a unit; a study starts from the declared nominal values and tolerances,
+/// with inputs and start values of zero.
 ///
 ///     study = eigentol.Study(mechanism, inputs={"speed": "3000 rpm"}, tolerances={"l": "3%"})
 ///

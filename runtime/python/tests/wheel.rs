@@ -1,4 +1,5 @@
-//! Builds the wheel, installs it in a virtual environment under the target folder, and runs its tests there, if Python is available.
+//! Builds the wheel, installs it in a virtual environment under the target folder, and runs its tests there, if Python
+//! is available.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

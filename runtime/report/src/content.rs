@@ -1,4 +1,5 @@
-//! The content of a report: every result of a study, or the reason it is missing. From here on nothing depends on the mechanism's type.
+//! The content of a report: every result of a study, or the reason it is missing. From here on nothing depends on the
+//! mechanism's type.
 
 use eigentol::branches::Branches;
 use eigentol::kernels::{PictureKernels, SummaryKernels};

@@ -66,8 +66,8 @@ impl Html {
         self.out.push_str(markup);
     }
 
-    /// Writes data for the scripts of the page. Inside a script element no HTML escape applies and `<` may end it, so `<` is written as a
-    /// JSON escape.
+    /// Writes data for the scripts of the page. Inside a script element no HTML escape applies and `<` may end it, so
+    /// `<` is written as a JSON escape.
     pub(crate) fn data(&mut self, kind: &str, json: &str) {
         self.open(
             "script",

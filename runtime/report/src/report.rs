@@ -115,7 +115,8 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     /// Returns the report as a self-contained HTML file, which loads nothing.
     ///
     /// # Errors
-    /// [`Error::Study`] if the study is set up wrongly. A refusal of an analysis is not an error: the report states it in its place.
+    /// [`Error::Study`] if the study is set up wrongly. A refusal of an analysis is not an error: the report states it
+    /// in its place.
     pub fn html(&self) -> Result<String, Error> {
         page::html(&Content::of(self)?)
     }

@@ -9,8 +9,8 @@ use crate::words::{is_rounding, number};
 /// Maximum number of rows shown; the others are available only by copying.
 const ROWS: usize = 24;
 
-/// Writes a table with the named columns, or with all non-empty ones if none are named. Columns and rows left out are mentioned and
-/// included in the copy.
+/// Writes a table with the named columns, or with all non-empty ones if none are named. Columns and rows left out are
+/// mentioned and included in the copy.
 ///
 /// # Errors
 /// [`Error::Data`].

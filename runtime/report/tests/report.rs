@@ -570,7 +570,8 @@ fn close(a: f64, b: f64, digits: i32) -> bool {
     (a / b - 1.0).abs() < 0.6 * 10_f64.powi(1 - digits)
 }
 
-/// The summary lines have the numbers of the results: frequencies with bands and causes, events with bands, in declared units.
+/// The summary lines have the numbers of the results: frequencies with bands and causes, events with bands, in declared
+/// units.
 #[test]
 fn the_lines_in_short_have_the_numbers_of_the_results() {
     let study = two_bars();

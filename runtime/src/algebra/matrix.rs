@@ -62,8 +62,8 @@ impl<T: Copy + Default> Matrix<T> {
 }
 
 impl<T: Copy + Default> Matrix<T> {
-    /// Resizes the matrix in the same storage, to be overwritten; the contents are unspecified. Returns the entries, row
-    /// by row.
+    /// Resizes the matrix in the same storage, to be overwritten; the contents are unspecified. Returns the entries,
+    /// row by row.
     #[inline]
     pub(crate) fn make_room(&mut self, rows: usize, columns: usize) -> &mut [T] {
         (self.rows, self.columns) = (rows, columns);

@@ -27,8 +27,8 @@ pub(crate) use vector::{
     Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,
 };
 
-/// Calls `work` with the size, as a constant if it is small, so that code inlined into `work` is compiled for that size:
-/// without loop counters and bounds checks.
+/// Calls `work` with the size, as a constant if it is small, so that code inlined into `work` is compiled for that
+/// size: without loop counters and bounds checks.
 #[inline(always)]
 pub(crate) fn for_size<R>(n: usize, work: impl FnOnce(usize) -> R) -> R {
     match n {

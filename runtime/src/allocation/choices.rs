@@ -27,7 +27,8 @@ pub struct Nominal {
 
 /// The free choices.
 ///
-/// Half-widths that are not listed stay as they are; each listed one scales the distribution of its variable about the mean.
+/// Half-widths that are not listed stay as they are; each listed one scales the distribution of its variable about the
+/// mean.
 #[derive(Debug)]
 pub struct Choices<'a> {
     /// Half-widths.

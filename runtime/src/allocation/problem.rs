@@ -1,5 +1,5 @@
-//! Cost and reliability as functions of the choices: logarithms of half-widths, which make reciprocal costs convex, and nominal
-//! values as fractions of the way between their limits.
+//! Cost and reliability as functions of the choices: logarithms of half-widths, which make reciprocal costs convex, and
+//! nominal values as fractions of the way between their limits.
 
 use eigentol_statistics::normal;
 use eigentol_statistics::reliability::form;
@@ -54,7 +54,8 @@ pub(super) struct Problem<'a> {
     pub(super) half_widths: Vector,
 }
 
-/// Settings with a single search from the centre of the distribution, which suffices between successive optimiser steps.
+/// Settings with a single search from the centre of the distribution, which suffices between successive optimiser
+/// steps.
 fn settings() -> FormSettings {
     FormSettings {
         restarts: 0,

@@ -40,8 +40,8 @@ pub struct Allocation {
     pub reliability: Reliability,
     /// Probabilities of meeting the requirements, from samples of the result.
     pub chances: Chances,
-    /// Requirements refuted by the samples: their 99 % Clopper-Pearson interval lies above the allowed probability. First order has
-    /// then failed; allow a smaller probability.
+    /// Requirements refuted by the samples: their 99 % Clopper-Pearson interval lies above the allowed probability.
+    /// First order has then failed; allow a smaller probability.
     pub refuted: Vec<usize>,
     /// Number of choices tried.
     pub evaluations: usize,
@@ -55,15 +55,16 @@ pub struct Allocation {
 
 /// Finds the cheapest of the allowed tolerances, starting from those of `requirements`.
 ///
-/// Each requirement fails with at most the allowed probability to first order; if it has several limits, their probabilities are
-/// summed. A requirement without a limit ([`Requirement::Stable`](crate::requirement::Requirement::Stable)) is checked by samples
-/// only.
+/// Each requirement fails with at most the allowed probability to first order; if it has several limits, their
+/// probabilities are summed. A requirement without a limit
+/// ([`Requirement::Stable`](crate::requirement::Requirement::Stable)) is checked by samples only.
 ///
 /// # Errors
-/// [`Error::Infeasible`] if no choice is reliable enough; [`Error::Setting`], [`Error::WrongLength`] and [`Error::UnknownHandle`]
-/// for invalid choices or a cost that is not finite; the errors of [`Requirements::reliability`]; [`Error::NoReliability`] if a
-/// limit has no design point at the start although designs may fail; [`Error::Stopped`] if the search is stopped
-/// ([`Sampling::stop`]) before any choice was reliable enough. If stopped later, it returns the best choice so far.
+/// [`Error::Infeasible`] if no choice is reliable enough; [`Error::Setting`], [`Error::WrongLength`] and
+/// [`Error::UnknownHandle`] for invalid choices or a cost that is not finite; the errors of
+/// [`Requirements::reliability`]; [`Error::NoReliability`] if a limit has no design point at the start although designs
+/// may fail; [`Error::Stopped`] if the search is stopped ([`Sampling::stop`]) before any choice was reliable enough. If
+/// stopped later, it returns the best choice so far.
 pub fn allocate(
     requirements: &Requirements<'_>,
     choices: &Choices<'_>,
@@ -226,8 +227,8 @@ impl Progress {
     }
 }
 
-/// Whether `new` is better: of two sufficiently reliable choices the cheaper one, with a penalty on shortfall that outweighs its
-/// savings.
+/// Whether `new` is better: of two sufficiently reliable choices the cheaper one, with a penalty on shortfall that
+/// outweighs its savings.
 fn better(new: &Evaluated, old: &Evaluated) -> bool {
     match (new.shortfall() <= ENOUGH, old.shortfall() <= ENOUGH) {
         (true, true) => {

@@ -97,8 +97,8 @@ const NEGLIGIBLE: f64 = 1e-33;
 const SWEEPS: usize = 8;
 /// Smallest squared cosine between a mode and the nominal one; individual modes are recognised from 0.6 on.
 const RECOGNISED: f64 = 0.7;
-/// Smallest squared cosine if two states that are compared with a third must be recognised in each other: vectors within
-/// 13 degrees of it are within 26 of each other, squared cosine above 0.8.
+/// Smallest squared cosine if two states that are compared with a third must be recognised in each other: vectors
+/// within 13 degrees of it are within 26 of each other, squared cosine above 0.8.
 pub(crate) const CLEAR: f64 = 0.95;
 
 /// `flag` where `mask` holds, otherwise zero.

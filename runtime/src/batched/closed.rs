@@ -100,8 +100,8 @@ pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     }
 }
 
-/// Eigenpairs of `stiffness phi = lambda mass phi`, with matrices as for [`eigenvalues`]; row `r` of the second array is
-/// vector `r`, `phi^T mass phi = 1`.
+/// Eigenpairs of `stiffness phi = lambda mass phi`, with matrices as for [`eigenvalues`]; row `r` of the second array
+/// is vector `r`, `phi^T mass phi = 1`.
 ///
 /// The flag says that each is clearly the unit vector of its position: squared cosine at least [`algebra::CLEAR`].
 #[inline(always)]

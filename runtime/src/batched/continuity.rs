@@ -5,8 +5,8 @@ use super::block::{Block, Past};
 use crate::equilibrium::{MISSED, STILL};
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
-/// Keeps the flags of lanes whose state is close to the parabola through the three states before it, much closer than to
-/// the last of them: the vector form of [`confirmed`](crate::equilibrium::confirmed).
+/// Keeps the flags of lanes whose state is close to the parabola through the three states before it, much closer than
+/// to the last of them: the vector form of [`confirmed`](crate::equilibrium::confirmed).
 pub(super) struct Continuity<'a, 'b> {
     pub(super) past: &'a Past<'a>,
     pub(super) block: &'a mut Block<'b>,

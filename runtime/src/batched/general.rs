@@ -70,7 +70,8 @@ struct Pair<V, const N: usize> {
     weighed: Vector<V, N>,
 }
 
-/// Eigenvalues in the order of the nearby ones, with their possible errors, 1/s; as many as there are, across both rows.
+/// Eigenvalues in the order of the nearby ones, with their possible errors, 1/s; as many as there are, across both
+/// rows.
 pub(crate) type Eigenvalues<V, const N: usize> = [[(Complex<V>, V); N]; 2];
 
 impl<V: Lanes, const N: usize> Pencil<V, N> {

@@ -1,6 +1,6 @@
 //! Total derivatives of the modes in every lane: `dlambda/db = da/db - (dg/db)^T w`, `Khat^T w = da/dq`,
-//! `a = phi^T (Khat - lambda Mhat) phi`, the counterpart of [`sensitivities`](crate::sensitivity::sensitivities) for one
-//! state.
+//! `a = phi^T (Khat - lambda Mhat) phi`, the counterpart of [`sensitivities`](crate::sensitivity::sensitivities) for
+//! one state.
 
 use super::algebra::{self, LARGEST, Row, Square, for_size, load_matrix};
 use super::block::{Block, POSITIVE};

@@ -38,8 +38,8 @@ impl<'a> Scratch<'a> {
 
 /// Completes the states of a block.
 ///
-/// `shapes` are nearby modes, one per row, that identify the modes. Keeps the flags of lanes that are solved to rounding
-/// and clearly a minimum, with each mode recognised, oscillating and apart from the others.
+/// `shapes` are nearby modes, one per row, that identify the modes. Keeps the flags of lanes that are solved to
+/// rounding and clearly a minimum, with each mode recognised, oscillating and apart from the others.
 pub(super) fn state<'m>(
     kernels: &dyn BatchKernels,
     instructions: Instructions,

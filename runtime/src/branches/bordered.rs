@@ -1,4 +1,5 @@
-//! Triangular factors of a square matrix bordered by `B` rows and columns: where `Khat` is singular, the bordered matrix is not.
+//! Triangular factors of a square matrix bordered by `B` rows and columns: where `Khat` is singular, the bordered
+//! matrix is not.
 
 use core::array;
 
@@ -10,8 +11,8 @@ pub(crate) struct Bordered<const B: usize = 1> {
 }
 
 impl<const B: usize> Bordered<B> {
-    /// Factorises the matrix; `None` if a pivot does not exceed the rounding error of its own row. `columns[j]` is the `j`-th added
-    /// column, `rows[i]` the `i`-th added row.
+    /// Factorises the matrix; `None` if a pivot does not exceed the rounding error of its own row. `columns[j]` is the
+    /// `j`-th added column, `rows[i]` the `i`-th added row.
     pub(crate) fn new(
         core: &Matrix,
         columns: [&[f64]; B],

@@ -1,9 +1,9 @@
 //! Branch points, where two branches cross.
 //!
-//! Near a branch point the equations reduce to one scalar equation in two variables (Lyapunov and Schmidt): with `g(x) + mu c = 0`,
-//! `n1 . x = xi`, `n2 . x = eta`, `x = (q, u_k)`, the branches are the curves `mu(xi, eta) = 0`, and they cross where `mu` has a
-//! saddle of height zero. Newton's method on the gradient of `mu` is regular there, and the second derivatives give the directions
-//! of both branches (algebraic branching equation).
+//! Near a branch point the equations reduce to one scalar equation in two variables (Lyapunov and Schmidt): with
+//! `g(x) + mu c = 0`, `n1 . x = xi`, `n2 . x = eta`, `x = (q, u_k)`, the branches are the curves `mu(xi, eta) = 0`, and
+//! they cross where `mu` has a saddle of height zero. Newton's method on the gradient of `mu` is regular there, and the
+//! second derivatives give the directions of both branches (algebraic branching equation).
 
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble, plane};
@@ -18,7 +18,8 @@ use crate::error::NotFound;
 const MAX_ITERATIONS: usize = 30;
 /// A direction whose input component is smaller than this is the critical vector's.
 const STATIONARY: f64 = 1e-6;
-/// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7 of each other.
+/// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7 of each
+/// other.
 const CROSSING: f64 = 1e-13;
 /// Maximum number of bisections towards the sign change when looking for the critical vectors.
 const NEARER: usize = 12;
@@ -165,8 +166,8 @@ impl Curve<'_> {
         })
     }
 
-    /// `[Khat dg/du; n1^T]` near its sign change between the origin of the frame and `end`. Farther away, another direction may be
-    /// softer than the one that becomes singular.
+    /// `[Khat dg/du; n1^T]` near its sign change between the origin of the frame and `end`. Farther away, another
+    /// direction may be softer than the one that becomes singular.
     fn nearly_singular(
         &self,
         frame: &Frame,

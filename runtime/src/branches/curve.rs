@@ -256,7 +256,8 @@ impl<'a> Curve<'a> {
         })
     }
 
-    /// Largest residual, each relative to the forces due to a thousandth of the input range and of the coordinates' units.
+    /// Largest residual, each relative to the forces due to a thousandth of the input range and of the coordinates'
+    /// units.
     fn with_input(&self, q: &[f64], system: &System) -> f64 {
         (0..q.len()).fold(0.0, |most: f64, i| {
             let input = system.by_input[i].abs() * self.settings.range();

@@ -135,7 +135,8 @@ impl CurvePoint {
         }
     }
 
-    /// Whether the determinant of `Khat` (reduced by constraints) is positive and, if it is symmetric, every eigenvalue is.
+    /// Whether the determinant of `Khat` (reduced by constraints) is positive and, if it is symmetric, every eigenvalue
+    /// is.
     pub(crate) fn stiff(&self) -> bool {
         self.signs.falling == self.signs.crossed
             && self.signs.negative.is_none_or(|count| count == 0)

@@ -18,8 +18,8 @@ const BESIDE: f64 = 1e-7;
 type LastStep = (Option<CurvePoint>, BranchEnd);
 
 impl Curve<'_> {
-    /// Like [`Self::arrive`], for an end of the range that is a singular point: tangent and signs are those of the previous
-    /// station.
+    /// Like [`Self::arrive`], for an end of the range that is a singular point: tangent and signs are those of the
+    /// previous station.
     pub(super) fn arrive_singular(
         &self,
         corrected: &Corrected,
@@ -98,8 +98,8 @@ impl Curve<'_> {
         Ok(landed)
     }
 
-    /// Steps along the tangent to an end of the range right next to a station, where the branch is singular. No step is needed if
-    /// the station is already there.
+    /// Steps along the tangent to an end of the range right next to a station, where the branch is singular. No step is
+    /// needed if the station is already there.
     pub(super) fn last_step(&self, at: &CurvePoint) -> Option<LastStep> {
         let (least, most) = self.settings.bounds();
         let away = |bound: f64| (bound - at.place.p) / self.settings.range();

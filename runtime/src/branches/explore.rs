@@ -32,8 +32,8 @@ enum Lead {
 
 /// Follows, in both directions, the branch through the stable equilibrium at `settings.low` that is found from `start`.
 ///
-/// `u` are the inputs (`settings.input` is replaced), `b` the design variables, `start` the coordinates, all SI. Branches that
-/// cross this one appear as special points but are not followed; use [`branches`] for that.
+/// `u` are the inputs (`settings.input` is replaced), `b` the design variables, `start` the coordinates, all SI.
+/// Branches that cross this one appear as special points but are not followed; use [`branches`] for that.
 ///
 /// # Errors
 /// [`Error::Setting`], [`Error::UnknownHandle`], and the errors of [`equilibrium`] at the low end of the range.
@@ -56,14 +56,14 @@ pub fn branch(
 
 /// Finds the branches of equilibria over a range of one input.
 ///
-/// The search starts with the equilibria found from `start` at the low end of the range, at the high end if there are none at the
-/// low end, and at both ends with those that `search` finds. It then follows every branch and enters every branch that crosses one.
-/// The arms of a pitchfork are separate branches. A branch that is not connected to any of these and passes neither end near a
-/// start is not found: completeness is not guaranteed.
+/// The search starts with the equilibria found from `start` at the low end of the range, at the high end if there are
+/// none at the low end, and at both ends with those that `search` finds. It then follows every branch and enters every
+/// branch that crosses one. The arms of a pitchfork are separate branches. A branch that is not connected to any of
+/// these and passes neither end near a start is not found: completeness is not guaranteed.
 ///
 /// # Errors
-/// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotFinite`]; the errors of [`equilibrium`] if there is no equilibrium at
-/// either end.
+/// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotFinite`]; the errors of [`equilibrium`] if there is no
+/// equilibrium at either end.
 pub fn branches(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],

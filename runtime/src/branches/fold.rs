@@ -1,5 +1,5 @@
-//! Limit points: Newton's method on `(g, h) = 0` with `h` from `[Khat c; d^T 0] [v; h] = [0; 1]`, which vanishes where `Khat` is
-//! singular (Griewank and Reddien, 1984).
+//! Limit points: Newton's method on `(g, h) = 0` with `h` from `[Khat c; d^T 0] [v; h] = [0; 1]`, which vanishes where
+//! `Khat` is singular (Griewank and Reddien, 1984).
 
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble};

@@ -152,8 +152,8 @@ impl Frame {
     }
 }
 
-/// Units of the unknowns and the input. A reaction is measured by the work it does on a unit of the coordinates it holds, relative
-/// to the work of the other forces on all units: it weighs as much as the forces it balances.
+/// Units of the unknowns and the input. A reaction is measured by the work it does on a unit of the coordinates it
+/// holds, relative to the work of the other forces on all units: it weighs as much as the forces it balances.
 fn units(
     place: &CurvePosition,
     size: f64,

@@ -1,7 +1,8 @@
-//! Branches of equilibria: how equilibria move with one input, where they turn back, where they cross, and where they are stable.
+//! Branches of equilibria: how equilibria move with one input, where they turn back, where they cross, and where they
+//! are stable.
 //!
-//! A branch is followed by pseudo-arclength continuation in `(q, u_k)`, so that it can turn back at limit points. Special points
-//! are located to rounding accuracy, and at branch points the other branch is followed as well.
+//! A branch is followed by pseudo-arclength continuation in `(q, u_k)`, so that it can turn back at limit points.
+//! Special points are located to rounding accuracy, and at branch points the other branch is followed as well.
 
 mod bordered;
 mod branch_point;
@@ -37,8 +38,8 @@ pub struct BranchPoint {
     pub value: f64,
     /// The equilibrium; at a special point its critical modes count as neutral.
     pub equilibrium: Equilibrium,
-    /// `dq/ds` along the branch, in the order of its points; together with [`Self::input_tangent`] it has length one in the units
-    /// of [`Continuation`].
+    /// `dq/ds` along the branch, in the order of its points; together with [`Self::input_tangent`] it has length one in
+    /// the units of [`Continuation`].
     pub tangent: Vector,
     /// `du/ds` along the branch, SI.
     pub input_tangent: f64,

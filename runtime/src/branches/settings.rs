@@ -6,9 +6,9 @@ use crate::{Any, Description, Error, Input};
 
 /// Settings of a continuation: the range of one input and the sizes of the steps.
 ///
-/// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|` as the unit of a coordinate
-/// or speed. A constraint reaction is measured by the work it does on a unit of the coordinates it holds, relative to the work of
-/// all other forces.
+/// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|` as the unit of a
+/// coordinate or speed. A constraint reaction is measured by the work it does on a unit of the coordinates it holds,
+/// relative to the work of all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -32,7 +32,8 @@ pub struct Continuation<M = Any> {
     pub max_branches: usize,
     /// A change of a coordinate, rad or m (of a speed, rad/s or m/s), that counts as large. 1 by default.
     pub size: f64,
-    /// Multiple of `size` (plus the largest coordinate at the start) beyond which a coordinate counts as infinite. 1e6 by default.
+    /// Multiple of `size` (plus the largest coordinate at the start) beyond which a coordinate counts as infinite. 1e6
+    /// by default.
     pub escape: f64,
 }
 

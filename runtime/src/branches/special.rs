@@ -19,8 +19,8 @@ pub enum SpecialKind {
     Fold,
     /// Crossed by a branch on which the input is stationary, whose two arms leave to the same side of the input.
     Pitchfork {
-        /// Whether the arms lie where the critical mode of the branch they leave has lost its stiffness (supercritical, a soft
-        /// loss), or where it still has it (subcritical, a hard loss). `None` if the third order vanishes.
+        /// Whether the arms lie where the critical mode of the branch they leave has lost its stiffness (supercritical,
+        /// a soft loss), or where it still has it (subcritical, a hard loss). `None` if the third order vanishes.
         supercritical: Option<bool>,
     },
     /// Crossed by another branch that continues to both sides of the input.
@@ -71,8 +71,8 @@ pub(crate) struct Located {
 }
 
 impl Curve<'_> {
-    /// The special point at a place with critical vectors `v` and `w` of any length; `zero` modes are critical; `also` as for
-    /// [`Self::equilibrium`].
+    /// The special point at a place with critical vectors `v` and `w` of any length; `zero` modes are critical; `also`
+    /// as for [`Self::equilibrium`].
     pub(crate) fn special(
         &self,
         kind: SpecialKind,
@@ -100,8 +100,8 @@ impl Curve<'_> {
         })
     }
 
-    /// Like [`Self::special`], for a point that is not resolved further. The critical vector is the softest mode if there are
-    /// modes, otherwise the tangent.
+    /// Like [`Self::special`], for a point that is not resolved further. The critical vector is the softest mode if
+    /// there are modes, otherwise the tangent.
     pub(crate) fn degenerate(
         &self,
         place: &CurvePosition,
@@ -129,7 +129,8 @@ impl Curve<'_> {
     }
 }
 
-/// Scales the vectors so that `v^T M v = 1`, with the largest of the first `motions` components positive, and `w^T M v = 1`.
+/// Scales the vectors so that `v^T M v = 1`, with the largest of the first `motions` components positive, and
+/// `w^T M v = 1`.
 fn normalised(linear: &Linear, motions: usize, v: &[f64], w: &[f64]) -> Option<(Vector, Vector)> {
     let motion = &v[..motions];
     let most = motion

@@ -12,8 +12,8 @@ use crate::error::NotFound;
 const STRAIGHT: f64 = 0.9;
 /// Maximum distance of a point from the tangent, relative to the step.
 const BEND: f64 = 0.3;
-/// First steps away from a branch point, as fractions of the largest step: small, so that no event lies within them, as far as
-/// rounding permits.
+/// First steps away from a branch point, as fractions of the largest step: small, so that no event lies within them, as
+/// far as rounding permits.
 const DEPARTURES: [f64; 6] = [2e-3, 2e-2, 0.2, 2e-4, 2e-5, 2e-6];
 /// Local distance within which two points are the same.
 pub(super) const SAME: f64 = 1e-7;
@@ -36,8 +36,8 @@ struct Step {
 }
 
 impl Curve<'_> {
-    /// Follows the branch from a station along its tangent until the branch ends, or until `stop` returns true for a special point
-    /// and the station before it. The branch started at `home`.
+    /// Follows the branch from a station along its tangent until the branch ends, or until `stop` returns true for a
+    /// special point and the station before it. The branch started at `home`.
     pub(crate) fn walk(
         &self,
         start: &CurvePoint,
@@ -169,8 +169,8 @@ impl Curve<'_> {
         }
     }
 
-    /// The first station of the branch that leaves a junction in a local direction; `None` if it leaves the range at once or cannot
-    /// be followed.
+    /// The first station of the branch that leaves a junction in a local direction; `None` if it leaves the range at
+    /// once or cannot be followed.
     pub(crate) fn depart(
         &self,
         junction: &Junction,

@@ -1,5 +1,6 @@
-//! Coupling of modes by design variables: the derivatives of the matrices in modal coordinates. Where eigenvalues are (nearly)
-//! equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997, Dailey 1989).
+//! Coupling of modes by design variables: the derivatives of the matrices in modal coordinates. Where eigenvalues are
+//! (nearly) equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997,
+//! Dailey 1989).
 
 use crate::algebra::{Matrix, dot_complex, times_complex};
 use crate::kernels::{DirectionalKernels, Linear};
@@ -19,8 +20,8 @@ pub struct ModalCouplings {
     pub family: Family,
     /// The eigenvalues of the modes.
     pub eigenvalues: Vec<Complex>,
-    /// One square matrix per input, per SI unit. The diagonal holds the derivatives of the eigenvalues as if each mode stood alone;
-    /// the other elements tell how the input mixes the modes.
+    /// One square matrix per input, per SI unit. The diagonal holds the derivatives of the eigenvalues as if each mode
+    /// stood alone; the other elements tell how the input mixes the modes.
     pub by_input: Vec<Matrix<Complex>>,
     /// One such matrix per design variable.
     pub by_design: Vec<Matrix<Complex>>,
@@ -51,8 +52,8 @@ impl ModalCouplings {
         self.by_input.iter().map(|own| self.trace(own)).collect()
     }
 
-    /// Total derivatives of the mean eigenvalue with respect to the design variables; they exist even where those of single modes
-    /// do not.
+    /// Total derivatives of the mean eigenvalue with respect to the design variables; they exist even where those of
+    /// single modes do not.
     #[must_use]
     pub fn mean_by_design(&self) -> Vec<Complex> {
         self.by_design.iter().map(|own| self.trace(own)).collect()
@@ -138,8 +139,8 @@ fn undamped(members: &[&Mode], change: &Linear) -> Matrix<Complex> {
     })
 }
 
-/// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system between
-/// its left and right vectors.
+/// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system
+/// between its left and right vectors.
 fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Matrix<Complex> {
     matrix(members, |b| {
         let moved = pencil_times(change, b.s, &b.shape);

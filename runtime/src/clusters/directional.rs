@@ -1,4 +1,5 @@
-//! Derivatives of equal eigenvalues, which exist only along one direction at a time (Prells and Friswell 1997, Dailey 1989).
+//! Derivatives of equal eigenvalues, which exist only along one direction at a time (Prells and Friswell 1997, Dailey
+//! 1989).
 
 use super::couplings::modal_couplings;
 use crate::arguments::check_count;
@@ -26,15 +27,16 @@ pub struct DirectionalDerivatives {
     pub description: Shared<Description>,
 }
 
-/// Derivatives of the eigenvalues in the cluster of mode number `mode` along the change `du` of the inputs and `db` of the design
-/// variables (SI), including the shift of the equilibrium. They are the eigenvalues of `Phi^T (dKhat - lambda dMhat) Phi`, for
-/// general modes those of the couplings `-psi_i^T (s^2 dMhat + s dChat + dKhat) phi_j / psi_i^T (2 s Mhat + Chat) phi_i`. The
-/// opposite direction has the opposite derivatives; derivatives along other directions do not add up, because each direction splits
-/// the cluster in its own way. For a mode apart from all others it is the ordinary derivative.
+/// Derivatives of the eigenvalues in the cluster of mode number `mode` along the change `du` of the inputs and `db` of
+/// the design variables (SI), including the shift of the equilibrium. They are the eigenvalues of
+/// `Phi^T (dKhat - lambda dMhat) Phi`, for general modes those of the couplings
+/// `-psi_i^T (s^2 dMhat + s dChat + dKhat) phi_j / psi_i^T (2 s Mhat + Chat) phi_i`. The opposite direction has the
+/// opposite derivatives; derivatives along other directions do not add up, because each direction splits the cluster in
+/// its own way. For a mode apart from all others it is the ordinary derivative.
 ///
 /// # Errors
-/// [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`] if eigenvalues have merged, [`Error::CriticalState`] if
-/// `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite.
+/// [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`] if eigenvalues have merged,
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite.
 pub fn directional_derivatives(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,

@@ -1,5 +1,5 @@
-//! Sampling of a cluster of eigenvalues that tolerances mix: no member has a derivative of its own, but the small matrix that
-//! splits them does.
+//! Sampling of a cluster of eigenvalues that tolerances mix: no member has a derivative of its own, but the small
+//! matrix that splits them does.
 
 use eigentol_statistics::summary::{CHUNK, Moments};
 
@@ -91,18 +91,19 @@ impl SortedSpread {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MemberSpread {
-    /// Statistics over the samples whose member has the quantity, in its unit, without quantiles; `None` if there are none.
+    /// Statistics over the samples whose member has the quantity, in its unit, without quantiles; `None` if there are
+    /// none.
     pub value: Option<Statistics>,
     /// Number of samples whose member lacks the quantity, for example a frequency.
     pub without: usize,
 }
 
-/// Samples the eigenvalues of `diag(eigenvalues) + sum_k x_k by_design[k]` for deviations `x ~ N(0, Sigma)` of the design
-/// variables.
+/// Samples the eigenvalues of `diag(eigenvalues) + sum_k x_k by_design[k]` for deviations `x ~ N(0, Sigma)` of the
+/// design variables.
 ///
 /// # Errors
-/// [`Error::Setting`] if matrices have the wrong number or size, are not finite, or for undamped modes are not real and symmetric,
-/// and for samples beyond the range of a double.
+/// [`Error::Setting`] if matrices have the wrong number or size, are not finite, or for undamped modes are not real and
+/// symmetric, and for samples beyond the range of a double.
 pub fn sample_cluster(
     couplings: &ModalCouplings,
     tolerances: &Tolerances,
@@ -184,7 +185,8 @@ fn damping_ratio(s: Complex) -> Option<f64> {
     (s.norm() > 0.0).then(|| Quantity::DampingRatio.value(s))
 }
 
-/// Checks that the matrices have the right number and size, are finite, and are symmetric where the method relies on it.
+/// Checks that the matrices have the right number and size, are finite, and are symmetric where the method relies on
+/// it.
 fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Error> {
     let m = couplings.eigenvalues.len();
     let (count, variables) = (couplings.by_design.len(), tolerances.half_widths().len());

@@ -1,5 +1,5 @@
-//! Clusters of modes that mix within the tolerances, and their spread: the mean of the eigenvalues, which has derivatives, and the
-//! sorted members, by sampling.
+//! Clusters of modes that mix within the tolerances, and their spread: the mean of the eigenvalues, which has
+//! derivatives, and the sorted members, by sampling.
 
 use super::couplings::{ModalCouplings, modal_couplings};
 use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
@@ -23,14 +23,14 @@ pub struct ClusterTolerance {
     pub family: Family,
     /// Nominal eigenvalues: `lambda` (1/s^2) for undamped modes, `s` (1/s) for general ones.
     pub eigenvalues: Vec<Complex>,
-    /// Smallest distance between two members, in standard deviations of the effects that change their difference ([`clusters`]
-    /// defines it); zero for equal eigenvalues.
+    /// Smallest distance between two members, in standard deviations of the effects that change their difference
+    /// ([`clusters`] defines it); zero for equal eigenvalues.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
     /// Mean of the eigenvalues with its derivatives; `None` for a defective cluster.
     pub mean: Option<MeanEigenvalue>,
-    /// Spread of the sorted members from 4096 samples with a fixed seed, or the reason why there is none: [`Error::Defective`], or
-    /// [`Error::Setting`] for tolerances beyond the range of a double.
+    /// Spread of the sorted members from 4096 samples with a fixed seed, or the reason why there is none:
+    /// [`Error::Defective`], or [`Error::Setting`] for tolerances beyond the range of a double.
     pub spread: Result<ClusterSpread, Error>,
     /// Number of standard deviations that a tolerance and a band represent.
     pub sigma_level: f64,
@@ -65,7 +65,8 @@ pub struct MeanEigenvalue {
     /// Standard deviation of the imaginary part; zero for undamped modes.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma_im: f64,
-    /// First-order spread of the frequency of the mean, `sqrt(lambda)` or `Im s`, rad/s; `None` if it does not oscillate.
+    /// First-order spread of the frequency of the mean, `sqrt(lambda)` or `Im s`, rad/s; `None` if it does not
+    /// oscillate.
     pub frequency: Option<Spread>,
     /// First-order spread of the damping ratio of the mean; `None` for undamped modes or without a frequency.
     pub damping_ratio: Option<Spread>,
@@ -73,17 +74,18 @@ pub struct MeanEigenvalue {
 
 /// Finds the clusters of a set of modes under tolerances, each once, in the order of their first modes.
 ///
-/// For a change `x` of the design variables, two modes differ by `sqrt((gap + d)^2 + 4 o_ij o_ji)` with `d = x.(S_ii - S_jj)` and
-/// `o = x.S`, where `S` are the couplings of [`modal_couplings`]. This lies within `|d| + 2 sqrt|o_ij o_ji|` of the gap. Adding the
-/// standard deviations of both terms gives `spread = sigma(d) + 2 sqrt(sigma(o_ij) sigma(o_ji))`, where the standard deviation of a
-/// complex number is that of its distance from the mean. Two modes belong together if `gap / spread` is less than
-/// [`TRUSTED_DISTANCE`], or if the gap is within rounding (1e-6 of the larger eigenvalue); clusters are chains of such pairs. For
-/// two modes about to merge into a defective one, `gap / spread` is the distance to that state: half the gap squared over the
-/// standard deviation of the discriminant.
+/// For a change `x` of the design variables, two modes differ by `sqrt((gap + d)^2 + 4 o_ij o_ji)` with
+/// `d = x.(S_ii - S_jj)` and `o = x.S`, where `S` are the couplings of [`modal_couplings`]. This lies within
+/// `|d| + 2 sqrt|o_ij o_ji|` of the gap. Adding the standard deviations of both terms gives
+/// `spread = sigma(d) + 2 sqrt(sigma(o_ij) sigma(o_ji))`, where the standard deviation of a complex number is that of
+/// its distance from the mean. Two modes belong together if `gap / spread` is less than [`TRUSTED_DISTANCE`], or if the
+/// gap is within rounding (1e-6 of the larger eigenvalue); clusters are chains of such pairs. For two modes about to
+/// merge into a defective one, `gap / spread` is the distance to that state: half the gap squared over the standard
+/// deviation of the discriminant.
 ///
 /// # Errors
-/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`], [`Error::WrongLength`] for tolerances of another
-/// mechanism.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`], [`Error::WrongLength`] for tolerances of
+/// another mechanism.
 pub fn clusters(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,
@@ -151,8 +153,8 @@ impl Pair {
         self.gap / (self.apart + self.mixing)
     }
 
-    /// Whether the difference under tolerances results from cancellation: near a defective eigenvalue, couplings grow without bound
-    /// and cancel in the observable difference `(gap + d)^2 + 4 o_ij o_ji`.
+    /// Whether the difference under tolerances results from cancellation: near a defective eigenvalue, couplings grow
+    /// without bound and cancel in the observable difference `(gap + d)^2 + 4 o_ij o_ji`.
     fn hidden_by_rounding(&self, condition: f64) -> bool {
         const WELL_CONDITIONED: f64 = 1e4;
         const NOTICEABLE: f64 = 1e-3;

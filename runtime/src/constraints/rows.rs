@@ -170,8 +170,8 @@ impl Rows {
         self.order.len()
     }
 
-    /// Basis vector `i` of the row space, raised by the metric: the vectors `x = sum_i c_i normal(i)` are orthogonal, in
-    /// the metric, to the null space.
+    /// Basis vector `i` of the row space, raised by the metric: the vectors `x = sum_i c_i normal(i)` are orthogonal,
+    /// in the metric, to the null space.
     pub(crate) fn normal(&self, i: usize) -> Vector {
         let mut normal = Vector::from(&self.unit[i]);
         divide_each(&mut normal, &self.scale);

@@ -1,11 +1,11 @@
 //! The directions that constraints leave free, and the gauge of multipliers that they leave undetermined.
 //!
-//! `H = Phi_q` are the constraints on positions, `A = [A_q, A_v]` those on velocities (see [`crate::Role`]); the columns
-//! of `Khat` for their multipliers are the transposes. Dependent rows leave combinations of multipliers undetermined,
-//! and make `Khat` singular. The gauge `Khat[mu, mu] -= gamma sum_k m_k m_k^T`, with `m_k` the left null vectors `n_k`
-//! of the rows times the squares of their sizes, makes it regular again. Multiplied by `n_k^T` from the left,
-//! `Khat x = f` then gives `m_k^T mu = 0` where the constraints agree; solutions, eigenvalues and the rows of `H` are
-//! otherwise unchanged.
+//! `H = Phi_q` are the constraints on positions, `A = [A_q, A_v]` those on velocities (see [`crate::Role`]); the
+//! columns of `Khat` for their multipliers are the transposes. Dependent rows leave combinations of multipliers
+//! undetermined, and make `Khat` singular. The gauge `Khat[mu, mu] -= gamma sum_k m_k m_k^T`, with `m_k` the left null
+//! vectors `n_k` of the rows times the squares of their sizes, makes it regular again. Multiplied by `n_k^T` from the
+//! left, `Khat x = f` then gives `m_k^T mu = 0` where the constraints agree; solutions, eigenvalues and the rows of `H`
+//! are otherwise unchanged.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"
@@ -68,9 +68,9 @@ impl Tangent {
         placed(self.structure, &self.all.null_left(k))
     }
 
-    /// Multipliers, at their positions, that balance a force by coordinate and speed: `H^T mu_1 + A_q^T mu_2 = force` by
-    /// coordinate, `A_v^T mu_2 = force` by speed. Exact where possible, otherwise least squares; undetermined parts are
-    /// zero, consistent with [`fix_gauge`].
+    /// Multipliers, at their positions, that balance a force by coordinate and speed: `H^T mu_1 + A_q^T mu_2 = force`
+    /// by coordinate, `A_v^T mu_2 = force` by speed. Exact where possible, otherwise least squares; undetermined parts
+    /// are zero, consistent with [`fix_gauge`].
     pub(crate) fn multipliers(&self, force: &[f64]) -> Vector {
         let mut force = Vector::from(force);
         force[self.structure.motions()..].fill(0.0);
@@ -199,8 +199,8 @@ fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64
     }
 }
 
-/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a lower limit relative to the largest;
-/// one if there are none, and at reactions.
+/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a lower limit relative to the
+/// largest; one if there are none, and at reactions.
 pub(crate) fn inertias(linear: &Linear, structure: Structure) -> Vector {
     let mut mass = Vector::filled(structure.size(), 1.0_f64);
     for block in [0..structure.coordinates, structure.speed_range()] {

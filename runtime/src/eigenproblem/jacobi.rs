@@ -12,8 +12,8 @@ const SWEEPS: usize = 40;
 /// Computations, section 8.5).
 ///
 /// On return its diagonal holds the eigenvalues, in no particular order, accurate to a few rounding errors of the
-/// largest. `vector` becomes `Q^T vector`, where the columns of `Q` are the eigenvectors; it may be empty. Elements must
-/// be finite and their sum must not overflow.
+/// largest. `vector` becomes `Q^T vector`, where the columns of `Q` are the eigenvectors; it may be empty. Elements
+/// must be finite and their sum must not overflow.
 pub(crate) fn diagonalise(matrix: &mut [f64], n: usize, vector: &mut [f64]) {
     let size = matrix
         .iter()

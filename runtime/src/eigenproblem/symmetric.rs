@@ -40,7 +40,8 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Residual above which a pair is improved by inverse iteration.
 pub(crate) const INACCURATE: f64 = 1e-13;
 
-/// Share of the largest eigenvalue below which an eigenvalue may be no more than the effect of other modes in its shape.
+/// Share of the largest eigenvalue below which an eigenvalue may be no more than the effect of other modes in its
+/// shape.
 const SMALL: f64 = 1e-6;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.

@@ -10,10 +10,10 @@ use crate::{Coordinate, Description, Error, Shared, Text};
 
 /// The assembly mode: on which side of the dead centres a mechanism is assembled.
 ///
-/// It is the sign of the determinant of `Phi_q` over the coordinates that are not held, with constraints and coordinates
-/// in the order of their declaration (of dependent constraints, the first ones). Any motion from one side to the other,
-/// with the held coordinates free to move, passes through a dead centre, so states on different sides are in different
-/// assembly modes. States on the same side may be in different modes, too.
+/// It is the sign of the determinant of `Phi_q` over the coordinates that are not held, with constraints and
+/// coordinates in the order of their declaration (of dependent constraints, the first ones). Any motion from one side
+/// to the other, with the held coordinates free to move, passes through a dead centre, so states on different sides are
+/// in different assembly modes. States on the same side may be in different modes, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AssemblyMode {
@@ -48,8 +48,8 @@ pub struct Assembly {
     /// How well the constraints determine the coordinates that are not held: one at best, zero at a dead centre.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub margin: f64,
-    /// The state is a dead centre or a singular configuration: to first order, coordinates that are not held can move on
-    /// their own or cannot follow those that are.
+    /// The state is a dead centre or a singular configuration: to first order, coordinates that are not held can move
+    /// on their own or cannot follow those that are.
     pub singular: bool,
     /// The inputs it belongs to, SI.
     pub inputs: Vector,
@@ -77,8 +77,8 @@ const DEAD_CENTRE: f64 = 1e-6;
 /// the constraints.
 ///
 /// `u` are inputs, `b` design variables, `start` coordinates (then speeds; values for reactions are ignored), all SI.
-/// The start values of the coordinates that are not held select the assembly mode. A mechanism without constraints stays
-/// where it is.
+/// The start values of the coordinates that are not held select the assembly mode. A mechanism without constraints
+/// stays where it is.
 ///
 /// # Errors
 /// [`Error::NotAssembled`] with the gaps that remain, if too many coordinates are held, links are too short, or

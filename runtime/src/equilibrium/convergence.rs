@@ -27,8 +27,8 @@ pub(crate) const SMALL_MOTION: f64 = 1e-3;
 /// Share of a coordinate that counts as a displacement in the scale of a residual. Multiplied by [`TOLERANCE`] it is
 /// about seven rounding units of the coordinate, the resolution of a large coordinate.
 pub(crate) const ROUNDED: f64 = 1.5e-5;
-/// Distance, relative to the state where the residual last fell, beyond which an unchanged residual means that the state
-/// runs away.
+/// Distance, relative to the state where the residual last fell, beyond which an unchanged residual means that the
+/// state runs away.
 const DRIFT: f64 = 1e3;
 
 /// How far a solve has come.
@@ -135,8 +135,8 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
     })
 }
 
-/// Whether the relative residual is within `tolerance`; evaluates the forces only if the stiffness does not already show
-/// it.
+/// Whether the relative residual is within `tolerance`; evaluates the forces only if the stiffness does not already
+/// show it.
 pub(crate) fn residual_is_small(
     point: &OperatingPoint<'_>,
     q: &[f64],
@@ -152,8 +152,9 @@ pub(crate) fn residual_is_small(
 /// The largest residual, each relative to its own scale.
 ///
 /// The scale consists of the parts of the residual (inertia, applied forces) and of what a small motion of each
-/// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, a reaction that
-/// is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions open.
+/// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, a reaction
+/// that is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions
+/// open.
 pub(crate) fn relative_residual(
     point: &OperatingPoint<'_>,
     q: &[f64],

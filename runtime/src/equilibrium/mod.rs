@@ -63,8 +63,8 @@ pub enum Policy {
 /// does that with some coordinates held); the reactions in `start` are ignored.
 ///
 /// # Errors
-/// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`], [`Error::OutsideDomain`],
-/// [`Error::NotAssembled`], [`Error::NoEquilibrium`].
+/// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`],
+/// [`Error::OutsideDomain`], [`Error::NotAssembled`], [`Error::NoEquilibrium`].
 pub fn equilibrium(
     mechanism: &dyn Kernels,
     u: &[f64],

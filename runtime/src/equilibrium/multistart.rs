@@ -50,9 +50,9 @@ const MOST_STARTS: usize = 2000;
 /// (Boender and Rinnooy Kan 1987). The search ends after 2000 further starts at the latest. With [`Search::starts`] set
 /// to zero there are no random starts.
 ///
-/// States that differ by full turns of an angle count as one if a full turn leaves forces and stiffnesses unchanged, but
-/// not if a spring or a screw counts the turns. An empty list means that no start led to an equilibrium; completeness is
-/// not guaranteed.
+/// States that differ by full turns of an angle count as one if a full turn leaves forces and stiffnesses unchanged,
+/// but not if a spring or a screw counts the turns. An empty list means that no start led to an equilibrium;
+/// completeness is not guaranteed.
 ///
 /// # Errors
 /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`].

@@ -241,8 +241,8 @@ pub(crate) enum Failure {
     /// The state is next to a singular configuration in which the forces do not balance.
     Unbalanced {
         coordinates: Vec<f64>,
-        /// The direction, down the applied forces, in which the constraints give no support there; its largest component
-        /// is one.
+        /// The direction, down the applied forces, in which the constraints give no support there; its largest
+        /// component is one.
         downhill: Vec<f64>,
         /// The constraints that become dependent there.
         dependent: Vector<bool>,

@@ -42,8 +42,8 @@ impl Path {
         })
     }
 
-    /// Extrapolates the state to a value of the input, by a parabola or straight line through the last states. `None` if
-    /// there are fewer than two states, or if values of the input repeat.
+    /// Extrapolates the state to a value of the input, by a parabola or straight line through the last states. `None`
+    /// if there are fewer than two states, or if values of the input repeat.
     pub(crate) fn at(&self, value: f64) -> Option<Vector> {
         let [(u0, q0), (u1, q1), (u2, q2)] = self.latest_first();
         if self.count < 2 {
@@ -62,7 +62,8 @@ impl Path {
     }
 }
 
-/// Whether the state found from a prediction is the predicted one: much closer to the prediction than to the last state.
+/// Whether the state found from a prediction is the predicted one: much closer to the prediction than to the last
+/// state.
 pub(crate) fn confirmed(found: &[f64], predicted: &[f64], last: &[f64]) -> bool {
     let distance = |from: &[f64]| {
         let pairs = found.iter().zip(from);

@@ -2,8 +2,8 @@
 //!
 //! Let `s` be the distance from a singular configuration of the constraints, and `F` the applied force in the direction
 //! in which they give no support there. Close to it their reactions grow as `F / s`. A gap `d` rotates the directions
-//! that they leave free by `d / s^2`, so that an imbalance `F d / s^2` goes unnoticed. With a stiffness `K` this makes a
-//! displacement, which reaches the singular configuration at `s^3 = F d / K`. For gaps of rounding this is about a
+//! that they leave free by `d / s^2`, so that an imbalance `F d / s^2` goes unnoticed. With a stiffness `K` this makes
+//! a displacement, which reaches the singular configuration at `s^3 = F d / K`. For gaps of rounding this is about a
 //! micrometre in a metre: states found there are random, balanced to all digits by reactions of a million times the
 //! weight, and are no equilibria. The test is therefore not a residual, but how far rounding moves a state towards the
 //! singular configuration.
@@ -17,8 +17,8 @@ use crate::kernels::Linear;
 /// Share of the distance from a singular configuration by which rounding may move an equilibrium. Beyond it, reactions
 /// and stiffness have less than three correct digits.
 const KNOWN: f64 = 1e-3;
-/// The force close to a singular configuration counts as zero up to this multiple of what the stiffness contributes over
-/// the distance.
+/// The force close to a singular configuration counts as zero up to this multiple of what the stiffness contributes
+/// over the distance.
 const BESIDE: f64 = 10.0;
 /// Share in the weakest combination of constraints above which a constraint takes part in it.
 const TAKES_PART: f64 = 1e-3;
@@ -95,8 +95,8 @@ struct Weakest {
     direction: Vector,
     /// Multipliers of the constraints that together support it: their force along it is one, across it zero.
     combination: Vector,
-    /// Derivative of that support with respect to every unknown, relative to the support: the inverse of the distance to
-    /// where it vanishes.
+    /// Derivative of that support with respect to every unknown, relative to the support: the inverse of the distance
+    /// to where it vanishes.
     approach: Vector,
 }
 

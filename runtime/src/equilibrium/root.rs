@@ -12,8 +12,8 @@ pub(crate) struct Bracket {
 
 /// Shrinks the bracket to rounding and returns its best point.
 ///
-/// `function` returns its value and, if known, its slope; `None` if it is not defined: the point then counts as lying on
-/// the side of `high`.
+/// `function` returns its value and, if known, its slope; `None` if it is not defined: the point then counts as lying
+/// on the side of `high`.
 pub(crate) fn refine(
     mut bracket: Bracket,
     mut function: impl FnMut(f64) -> Option<(f64, Option<f64>)>,

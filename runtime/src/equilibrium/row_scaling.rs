@@ -6,8 +6,9 @@ use crate::constraints::inertias;
 
 /// Inverse generalised masses, which make the squares of forces and moments comparable.
 ///
-/// The gap of a constraint counts as the force with which the largest stiffness of the mechanism would resist the motion
-/// that closes it. In mechanisms without any other stiffness, a reaction acts as the stiffness against a unit motion.
+/// The gap of a constraint counts as the force with which the largest stiffness of the mechanism would resist the
+/// motion that closes it. In mechanisms without any other stiffness, a reaction acts as the stiffness against a unit
+/// motion.
 pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
     let structure = point.structure;
     let linear = &point.linear(q)?;

@@ -58,9 +58,9 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
 ///
 /// A positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is stable (Kelvin, Tait, Chetaev);
 /// `det Khat < 0` has a growing real solution whatever `Chat` is. The general eigenvalues decide all other cases,
-/// including an odd number of negative directions next to free ones. With constraints on positions the theorems hold for
-/// the directions they leave free. With speeds or constraints on velocities the general eigenvalues decide; they are
-/// found from the modes `nearby`, if given.
+/// including an odd number of negative directions next to free ones. With constraints on positions the theorems hold
+/// for the directions they leave free. With speeds or constraints on velocities the general eigenvalues decide; they
+/// are found from the modes `nearby`, if given.
 pub(crate) fn judge(
     mechanism: &dyn Kernels,
     at: &CheckedState<'_>,

@@ -1,8 +1,8 @@
 //! The kernels at several states at once, with the processor's vector instructions.
 //!
-//! A [`Batch`] holds one number for each of [`WIDTH`] states, so that a list of `N` batches is `WIDTH` sets of unknowns.
-//! Every result is, bit for bit, what the kernel gives for that state alone, whatever the processor: the operations are
-//! the same, each is rounded once, and none are fused.
+//! A [`Batch`] holds one number for each of [`WIDTH`] states, so that a list of `N` batches is `WIDTH` sets of
+//! unknowns. Every result is, bit for bit, what the kernel gives for that state alone, whatever the processor: the
+//! operations are the same, each is rounded once, and none are fused.
 
 use super::DirectionalKernels;
 use crate::mechanism::{Array, Gradient, Linear, LinearPartials, Mechanism, RestParts, Square};
@@ -258,16 +258,16 @@ kernel! {
     }
 }
 
-/// Whether vectors pay. For larger mechanisms rustc takes minutes per vector type, and the solvers take other mechanisms
-/// one state at a time.
+/// Whether vectors pay. For larger mechanisms rustc takes minutes per vector type, and the solvers take other
+/// mechanisms one state at a time.
 const fn pays<M: Mechanism>() -> bool {
     let description = const { &M::DESCRIPTION };
     let conservative = !damped(description) && description.symmetric_stiffness;
     M::Coordinates::<f64>::LEN <= 16 && conservative
 }
 
-/// Runs a kernel. If vectors do not pay, or the compiler did not generate the kernel and so there is no inlined form, it
-/// is called state by state.
+/// Runs a kernel. If vectors do not pay, or the compiler did not generate the kernel and so there is no inlined form,
+/// it is called state by state.
 #[inline]
 fn run<M: Mechanism>(
     mechanism: &M,

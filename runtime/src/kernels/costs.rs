@@ -6,8 +6,8 @@ use crate::mechanism::KernelInfo;
 /// Cost of an elementary function, in additions and multiplications.
 const FUNCTION: usize = 40;
 
-/// Costs, in additions and multiplications, of the kernels from which derivatives of modes can be computed; `None` for a
-/// kernel that was not generated.
+/// Costs, in additions and multiplications, of the kernels from which derivatives of modes can be computed; `None` for
+/// a kernel that was not generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

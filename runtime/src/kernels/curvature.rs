@@ -1,12 +1,13 @@
-//! Derivatives of the gradients of modes and outputs along a direction, as needed for second derivatives. They are long,
-//! and few callers need them: only those that do compile them.
+//! Derivatives of the gradients of modes and outputs along a direction, as needed for second derivatives. They are
+//! long, and few callers need them: only those that do compile them.
 
 use super::{DirectionalKernels, Gradient, output_partials_zeros};
 use crate::algebra::Matrix;
 
 /// Gradients of modes and outputs in dual numbers.
 pub trait CurvatureKernels: DirectionalKernels {
-    /// [`Mechanism::mode_gradient_along`](crate::Mechanism::mode_gradient_along); `direction` is `dq`, `du`, `db`, `dphi`.
+    /// [`Mechanism::mode_gradient_along`](crate::Mechanism::mode_gradient_along); `direction` is `dq`, `du`, `db`,
+    /// `dphi`.
     #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along_into(
         &self,

@@ -6,8 +6,8 @@
 //! the suffix allocates them.
 //!
 //! # Panics
-//! Kernels may panic on a slice whose length does not match the mechanism: this is a bug in the caller. Values passed by
-//! users are checked first.
+//! Kernels may panic on a slice whose length does not match the mechanism: this is a bug in the caller. Values passed
+//! by users are checked first.
 
 mod batch;
 mod compiled;
@@ -221,8 +221,8 @@ pub trait Kernels: Sync {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::pencil_gradient`](crate::Mechanism::pencil_gradient); `vectors` are `left`, `acceleration`, `velocity` and
-    /// `position`.
+    /// [`Mechanism::pencil_gradient`](crate::Mechanism::pencil_gradient); `vectors` are `left`, `acceleration`,
+    /// `velocity` and `position`.
     fn pencil_gradient_into(
         &self,
         q: &[f64],

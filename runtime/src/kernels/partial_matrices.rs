@@ -83,8 +83,8 @@ impl PartialMatrices {
         [by_coordinate, by_input, by_design]
     }
 
-    /// The derivatives with respect to each variable: coordinates first, then inputs, then design variables; each matrix
-    /// row by row.
+    /// The derivatives with respect to each variable: coordinates first, then inputs, then design variables; each
+    /// matrix row by row.
     #[inline]
     pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = mechanism::Linear<&mut [f64]>> {
         let each = entries_of(self.sizes.coordinates);

@@ -142,21 +142,21 @@ pub struct CoordinateInfo {
 ///
 /// In the arguments `velocity` and `acceleration` of [`Mechanism::motion_residual`](crate::Mechanism::motion_residual),
 /// the position of a speed `v` holds `vdot` in `velocity` and is unused in `acceleration`; that of a reaction is unused
-/// in both. `Mhat`, `Chat`, `Khat` are therefore the derivatives of the whole residual with respect to the second, first
-/// and zeroth time derivative of all unknowns. Without speeds and constraints on velocities
+/// in both. `Mhat`, `Chat`, `Khat` are therefore the derivatives of the whole residual with respect to the second,
+/// first and zeroth time derivative of all unknowns. Without speeds and constraints on velocities
 /// `Khat = [[K_c, Phi_q^T], [Phi_q, 0]]`, `K_c = d(g + Phi_q^T mu)/dq`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Role {
     /// A coordinate that is constant in steady motion; the equation is its equation of motion.
     Position,
-    /// The speed of a coordinate that runs at a constant rate and on which nothing depends; the equation is its equation
-    /// of motion.
+    /// The speed of a coordinate that runs at a constant rate and on which nothing depends; the equation is its
+    /// equation of motion.
     Speed,
     /// The multiplier of a constraint `Phi(q) = 0` on positions; the equation is the constraint.
     PositionReaction,
-    /// The multiplier of a constraint on velocities (rolling, or a coupling of running coordinates); the equation is the
-    /// constraint.
+    /// The multiplier of a constraint on velocities (rolling, or a coupling of running coordinates); the equation is
+    /// the constraint.
     VelocityReaction,
 }
 

@@ -49,8 +49,8 @@ pub type GradientOf<M, T> = Gradient<
 
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
 ///
-/// Implemented by `mechanism!`. Every method is straight-line arithmetic over plain arrays: no allocation, no branch, no
-/// panic. All quantities are SI, angles in radians. Conventions for all methods:
+/// Implemented by `mechanism!`. Every method is straight-line arithmetic over plain arrays: no allocation, no branch,
+/// no panic. All quantities are SI, angles in radians. Conventions for all methods:
 ///
 /// - `q`: free coordinates, `u`: inputs, `b`: design variables, in the order of [`Mechanism::DESCRIPTION`];
 /// - matrices are arrays of rows; `matrix[i][j]` is the derivative of residual `i` with respect to coordinate `j`;
@@ -177,8 +177,8 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// Explicit partial derivatives of `Mhat`, `Chat` and `Khat` with respect to every coordinate, input and design
     /// variable.
     ///
-    /// Generated for small mechanisms. A large one computes them one direction at a time, as here, because straight-line
-    /// code for all of them grows with the cube of its size.
+    /// Generated for small mechanisms. A large one computes them one direction at a time, as here, because
+    /// straight-line code for all of them grows with the cube of its size.
     fn linear_partials<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -236,7 +236,8 @@ pub trait Mechanism: Clone + Sync + Sized {
 
     /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`).
     ///
-    /// Like the other kernels along a direction, this one is not generated: it is [`Mechanism::linear`] in dual numbers.
+    /// Like the other kernels along a direction, this one is not generated: it is [`Mechanism::linear`] in dual
+    /// numbers.
     fn linear_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -362,13 +363,13 @@ pub trait Mechanism: Clone + Sync + Sized {
         gradient_slopes::<Self, T>(&self.residual_gradient(&q, &u, &b, &along(w, dw)))
     }
 
-    /// Whirl of the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`: whether it circles in the direction in
-    /// which the bodies spin.
+    /// Whirl of the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`: whether it circles in the direction
+    /// in which the bodies spin.
     ///
     /// Returns `[moment, size]`, `-size <= moment <= size` up to rounding. `moment / size` is one if every orbit is a
     /// circle in the direction of the spin (forward whirl), minus one if every orbit is a circle against it (backward
-    /// whirl), and zero on straight lines. Both are zero if nothing rotates, or if nothing that rotates moves transverse
-    /// to its axis. They are exactly zero for a mechanism in which no massive body is driven to rotate.
+    /// whirl), and zero on straight lines. Both are zero if nothing rotates, or if nothing that rotates moves
+    /// transverse to its axis. They are exactly zero for a mechanism in which no massive body is driven to rotate.
     ///
     /// They are sums over the bodies, with `omega` the angular velocity in the state of rest, `r` and `s` the
     /// displacements of the centre of mass along `real` and `imaginary`, and `m` the mass:

@@ -21,8 +21,8 @@ const CERTAIN: f64 = 0.6;
 /// For undamped modes this is the modal assurance criterion: the squared cosine between the shapes, weighted with the
 /// mass matrix of `linear`. With speeds the weight is that of the kinetic energy, with displacements converted to
 /// velocities by the largest `|s|`. General modes are motions of positions and velocities: the phase of the eigenvalue
-/// counts as well, and among modes of equal shape the one with the nearer eigenvalue scores up to 5 % more. Both sets and
-/// the matrices must belong to one mechanism.
+/// counts as well, and among modes of equal shape the one with the nearer eigenvalue scores up to 5 % more. Both sets
+/// and the matrices must belong to one mechanism.
 #[must_use]
 pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     let own = kinetic(from, to, linear);
@@ -124,8 +124,8 @@ pub(crate) fn match_with_assurance(
     if here == 1 && there == 1 {
         return [Some((0, 1.0))].into();
     }
-    // The shapes of one undamped set are orthogonal, so each matches at most one shape of another set with more than one
-    // half.
+    // The shapes of one undamped set are orthogonal, so each matches at most one shape of another set with more than
+    // one half.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
         let pairs = from.modes.iter().zip(&to.modes);
@@ -214,8 +214,8 @@ pub(crate) fn merged(modes: &Modes, r: usize) -> bool {
     !own.condition.is_finite() || gaps.chain(conjugate).any(|gap| gap <= own.error)
 }
 
-/// Marks the modes whose eigenvalue (`lambda` for undamped modes, `s` for general ones) lies within `gap` of another one,
-/// relative to the larger of the two.
+/// Marks the modes whose eigenvalue (`lambda` for undamped modes, `s` for general ones) lies within `gap` of another
+/// one, relative to the larger of the two.
 ///
 /// Marked modes share a cluster and have no derivative of their own.
 #[must_use]

@@ -1,11 +1,11 @@
 //! Natural modes of small vibrations about an equilibrium.
 //!
-//! Undamped modes solve `Khat phi = lambda Mhat phi`; they describe the motion completely where `Chat` is zero and `Khat`
-//! symmetric. Every other case needs general modes, `(s^2 Mhat + s Chat + Khat) phi = 0` with left vectors
+//! Undamped modes solve `Khat phi = lambda Mhat phi`; they describe the motion completely where `Chat` is zero and
+//! `Khat` symmetric. Every other case needs general modes, `(s^2 Mhat + s Chat + Khat) phi = 0` with left vectors
 //! `psi^T (s^2 Mhat + s Chat + Khat) = 0`. One type describes both: an undamped mode has `s^2 = -lambda`.
 //!
-//! With constraints and speeds the same equations hold over all unknowns, reactions included; the number of modes is the
-//! number of motions that the constraints leave free.
+//! With constraints and speeds the same equations hold over all unknowns, reactions included; the number of modes is
+//! the number of motions that the constraints leave free.
 
 mod assurance;
 mod constrained;
@@ -58,8 +58,8 @@ impl Family {
 
 /// All modes at one equilibrium.
 ///
-/// Undamped modes are sorted by `lambda`, general ones by `|s|`, both ascending, unless they follow the order of another
-/// set.
+/// Undamped modes are sorted by `lambda`, general ones by `|s|`, both ascending, unless they follow the order of
+/// another set.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -152,8 +152,8 @@ impl Modes {
         Matrix::from_fn(self.modes.len(), columns, |r, i| self.modes[r].shape[i].re)
     }
 
-    /// Positions, ascending, of the modes whose eigenvalues rounding cannot distinguish from that of mode `mode`, itself
-    /// included.
+    /// Positions, ascending, of the modes whose eigenvalues rounding cannot distinguish from that of mode `mode`,
+    /// itself included.
     ///
     /// They form a chain in which each eigenvalue is within 1e-6 of the next, relative to the larger. Tolerances can
     /// merge more modes ([`clusters::clusters`](crate::clusters::clusters)). Empty if there is no such mode.
@@ -219,7 +219,8 @@ pub(crate) fn modes_at(
 /// difference of large terms, as at a critical speed.
 ///
 /// # Errors
-/// Those of [`undamped_modes`], and [`Error::WrongLength`] if the matrices do not have the size that `description` gives.
+/// Those of [`undamped_modes`], and [`Error::WrongLength`] if the matrices do not have the size that `description`
+/// gives.
 pub fn modes_of(
     linear: &Linear,
     family: Family,
@@ -229,8 +230,8 @@ pub fn modes_of(
     solve_modes(linear, family, description, 0.0).map_err(|failure| failure.explain(description))
 }
 
-/// Refuses matrices that are not square or differ in size. Mechanisms with constraints or speeds also fix the size; open
-/// ones accept any.
+/// Refuses matrices that are not square or differ in size. Mechanisms with constraints or speeds also fix the size;
+/// open ones accept any.
 fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> {
     let expected = if Structure::of(description).open() {
         linear.mass.row_count()
@@ -320,7 +321,8 @@ impl Modes {
         Ok(())
     }
 
-    /// Like [`Self::solve_at`], but leaves the inputs alone and starts from all modes of a nearby equilibrium, if given.
+    /// Like [`Self::solve_at`], but leaves the inputs alone and starts from all modes of a nearby equilibrium, if
+    /// given.
     pub(crate) fn solve_judged(
         &mut self,
         at: &Equilibrium,
@@ -334,8 +336,8 @@ impl Modes {
         self.solve_near(&at.linear, at.rounding, nearby)
     }
 
-    /// Overwrites this set with the modes of these matrices, reusing its vectors. A `lambda` not beyond `floor` counts as
-    /// zero. For damped modes of an open mechanism, passing all modes of a nearby one saves time.
+    /// Overwrites this set with the modes of these matrices, reusing its vectors. A `lambda` not beyond `floor` counts
+    /// as zero. For damped modes of an open mechanism, passing all modes of a nearby one saves time.
     pub(crate) fn solve_near(
         &mut self,
         linear: &Linear,

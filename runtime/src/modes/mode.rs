@@ -45,8 +45,8 @@ impl Behaviour {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mode {
-    /// Eigenvalue, 1/s: the motion varies as `exp(s t)`. For a conjugate pair, the one with positive imaginary part; for
-    /// an undamped divergent mode, the growing one.
+    /// Eigenvalue, 1/s: the motion varies as `exp(s t)`. For a conjugate pair, the one with positive imaginary part;
+    /// for an undamped divergent mode, the growing one.
     pub s: Complex,
     /// `-Re s^2`, 1/s^2. For an undamped mode, the eigenvalue of `Khat phi = lambda Mhat phi`: the square of the
     /// frequency, negative for divergence.
@@ -83,8 +83,8 @@ impl Mode {
         }
     }
 
-    /// Left vector `psi`, normalised as [`shape`](Self::shape), except that with speeds or constraints on velocities the
-    /// largest of all its components is one. For an undamped mode it is the shape.
+    /// Left vector `psi`, normalised as [`shape`](Self::shape), except that with speeds or constraints on velocities
+    /// the largest of all its components is one. For an undamped mode it is the shape.
     #[must_use]
     pub fn left(&self) -> &[Complex] {
         if self.left.is_empty() {

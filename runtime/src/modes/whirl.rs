@@ -20,7 +20,8 @@ pub enum Sense {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Whirl {
-    /// From 1 (every orbit a circle traversed with the spin) through 0 (straight lines) to -1 (circles against the spin).
+    /// From 1 (every orbit a circle traversed with the spin) through 0 (straight lines) to -1 (circles against the
+    /// spin).
     ///
     /// The orbits are those of the centres of mass and of the small rotations of the bodies, weighted with mass, second
     /// moment and the square of the spin. They are seen by an observer who moves with the coordinates: in the rotating

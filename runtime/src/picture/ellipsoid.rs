@@ -3,8 +3,9 @@
 use super::scene::Shape;
 use crate::eigenproblem::diagonalise;
 
-/// The uniform ellipsoid with a given mass and tensor `inertia` (xx, yy, zz, xy, yz, xz) about a point that is `about` from the
-/// centre of mass. Both are given along the axes `frame`; the shape is given along the axes in which `frame` is written.
+/// The uniform ellipsoid with a given mass and tensor `inertia` (xx, yy, zz, xy, yz, xz) about a point that is `about`
+/// from the centre of mass. Both are given along the axes `frame`; the shape is given along the axes in which `frame`
+/// is written.
 ///
 /// With semi-axes `a`: `J_1 = m (a_2^2 + a_3^2) / 5`, so that `a_1^2 = 5 (J_2 + J_3 - J_1) / (2 m)`.
 pub(super) fn ellipsoid(

@@ -10,7 +10,8 @@ use crate::{Description, Error, PictureInfo, SolidInfo, SolidKind};
 
 /// The scene at one state.
 ///
-/// `q` are the coordinates (then speeds and reactions, which are ignored), `u` the inputs, `b` the design variables; all SI.
+/// `q` are the coordinates (then speeds and reactions, which are ignored), `u` the inputs, `b` the design variables;
+/// all SI.
 ///
 /// ```
 /// use eigentol::picture::{Shape, scene};

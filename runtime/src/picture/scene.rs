@@ -1,7 +1,7 @@
 //! The contents of a picture: bodies with their solids, joints, points, links and wheels.
 //!
-//! Only bodies have a pose in the common frame; everything else is fixed to one of them or to the ground. To show another state of
-//! the same mechanism, only the poses need to be replaced.
+//! Only bodies have a pose in the common frame; everything else is fixed to one of them or to the ground. To show
+//! another state of the same mechanism, only the poses need to be replaced.
 
 use crate::Text;
 
@@ -41,9 +41,9 @@ impl Scene {
 
     /// The upward direction, a unit vector in the common frame: against gravity.
     ///
-    /// Without gravity it is the axis of the first driven joint on the ground, since most machines turn about their long axis or
-    /// stand on it; without such a joint it is z. Of the two directions of an axis, the one whose largest component is positive is
-    /// used.
+    /// Without gravity it is the axis of the first driven joint on the ground, since most machines turn about their
+    /// long axis or stand on it; without such a joint it is z. Of the two directions of an axis, the one whose largest
+    /// component is positive is used.
     #[must_use]
     pub fn up(&self) -> [f64; 3] {
         if let Some(gravity) = self.gravity {
@@ -179,8 +179,8 @@ pub enum Shape {
         /// Radius, m.
         radius: f64,
     },
-    /// The uniform solid ellipsoid with the mass and inertia of a body whose tensor is given; flat if no body can have this
-    /// inertia.
+    /// The uniform solid ellipsoid with the mass and inertia of a body whose tensor is given; flat if no body can have
+    /// this inertia.
     Ellipsoid {
         /// Directions of its semi-axes.
         axes: [[f64; 3]; 3],
@@ -269,7 +269,8 @@ pub struct Element {
     pub name: Text,
     /// The keyword it was declared with, for example `bushing`; `drive` for a driven coordinate.
     pub kind: Text,
-    /// The elements it acts on and its law, omitting zero arguments, with numbers in SI: `on theta stiffness k rest 0.1`.
+    /// The elements it acts on and its law, omitting zero arguments, with numbers in SI:
+    /// `on theta stiffness k rest 0.1`.
     pub law: Text,
 }
 

@@ -12,20 +12,21 @@ use crate::{Complex, Equilibrium, Error, Modes};
 const STEP: f64 = 1e-4;
 /// Smaller displacements, relative to the size of the mechanism, are rounding: the body stands still.
 const STILL: f64 = 1e-12;
-/// Maximum rotation of a body to either side, rad: the rotation is the only visible motion of a slender shaft in torsion.
+/// Maximum rotation of a body to either side, rad: the rotation is the only visible motion of a slender shaft in
+/// torsion.
 const MOST_TURN: f64 = 0.5;
 
-/// Poses of all bodies over one period of mode `mode` (counted from 0): at `q* + a Re(phi e^(i theta))` for `phases` evenly spaced
-/// phases `theta`, the first at zero.
+/// Poses of all bodies over one period of mode `mode` (counted from 0): at `q* + a Re(phi e^(i theta))` for `phases`
+/// evenly spaced phases `theta`, the first at zero.
 ///
-/// The factor `a` is chosen such that, to first order, the largest displacement to either side is the fraction `amplitude` of the
-/// size of the mechanism ([`Scene::size`]; a metre if the size is zero), and no body rotates by more than half a radian. Growth and
-/// decay are not shown. Loops are closed: coordinates move to the nearest point that satisfies the position constraints, and stay
-/// if none is found.
+/// The factor `a` is chosen such that, to first order, the largest displacement to either side is the fraction
+/// `amplitude` of the size of the mechanism ([`Scene::size`]; a metre if the size is zero), and no body rotates by more
+/// than half a radian. Growth and decay are not shown. Loops are closed: coordinates move to the nearest point that
+/// satisfies the position constraints, and stay if none is found.
 ///
 /// # Errors
-/// [`Error::NoSuchMode`], [`Error::WrongLength`], [`Error::OutsideDomain`]; [`Error::Setting`] for an amplitude that is negative or
-/// not finite.
+/// [`Error::NoSuchMode`], [`Error::WrongLength`], [`Error::OutsideDomain`]; [`Error::Setting`] for an amplitude that is
+/// negative or not finite.
 pub fn mode_pictures(
     mechanism: &dyn PictureKernels,
     at: &Equilibrium,
@@ -145,8 +146,8 @@ impl Motion<'_> {
     }
 }
 
-/// The largest displacement of the visible parts of the bodies; `displaced` gives the displacements of a place on a body at two
-/// phases a quarter of a period apart.
+/// The largest displacement of the visible parts of the bodies; `displaced` gives the displacements of a place on a
+/// body at two phases a quarter of a period apart.
 fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
     let solids = scene.bodies.iter().enumerate().flat_map(|(body, found)| {
         let tips = found.solids.iter().flat_map(|solid| solid.tips());

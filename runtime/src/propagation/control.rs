@@ -22,8 +22,8 @@ pub struct ControlledSpread {
     pub mean: Estimated,
     /// Standard deviation, with its standard error.
     pub sigma: Estimated,
-    /// Number of plain samples that one of these is worth for the mean: the ratio of the response variance to the variance that the
-    /// model leaves unexplained. Infinite if the model is exact.
+    /// Number of plain samples that one of these is worth for the mean: the ratio of the response variance to the
+    /// variance that the model leaves unexplained. Infinite if the model is exact.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub worth: f64,
     /// Number of plain samples that one of these is worth for the standard deviation.
@@ -40,8 +40,8 @@ pub struct ControlledSpread {
 pub struct Controlled {
     /// The responses requested.
     pub wanted: Vec<Response>,
-    /// One per response; `None` if the response has no slopes at the nominal design, or if some samples lack it, because the
-    /// model's mean over the remaining samples is unknown.
+    /// One per response; `None` if the response has no slopes at the nominal design, or if some samples lack it,
+    /// because the model's mean over the remaining samples is unknown.
     pub spreads: Vec<Option<ControlledSpread>>,
     /// Outcomes of the samples.
     pub counts: Counts,
@@ -123,7 +123,8 @@ pub fn controlled(
     })
 }
 
-/// Quantities per response: its value, that of the model, and the squared deviations of both from the mean of the model.
+/// Quantities per response: its value, that of the model, and the squared deviations of both from the mean of the
+/// model.
 const QUANTITIES: usize = 4;
 
 /// A model with exact mean and standard deviation.

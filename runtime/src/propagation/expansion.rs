@@ -35,8 +35,9 @@ impl Expansion {
     }
 }
 
-/// Expands the responses about the nominal design; `None` if a response has no value or slopes there. Second derivatives are
-/// missing for modes that are too close together, outputs that are not smooth, and transcritical branch points.
+/// Expands the responses about the nominal design; `None` if a response has no value or slopes there. Second
+/// derivatives are missing for modes that are too close together, outputs that are not smooth, and transcritical branch
+/// points.
 pub(super) fn expansions(
     mechanism: &dyn CurvatureKernels,
     responses: &Responses<'_>,

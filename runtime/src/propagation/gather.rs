@@ -157,8 +157,9 @@ impl Gathered {
         Ok(Covariance::of(&all).and_then(covariance))
     }
 
-    /// Factor that replaces the variance divisor `n - 1` by the right one for these points. A mean over random points takes one
-    /// degree of freedom from a variance; a mean over balanced points is so much more accurate than the spread that it takes none.
+    /// Factor that replaces the variance divisor `n - 1` by the right one for these points. A mean over random points
+    /// takes one degree of freedom from a variance; a mean over balanced points is so much more accurate than the
+    /// spread that it takes none.
     fn divisor(&self, count: u64) -> f64 {
         let n = count as f64;
         if self.parts.len() == 1 {

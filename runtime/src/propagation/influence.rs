@@ -22,8 +22,8 @@ use crate::{Description, Error, Shared};
 pub struct VariableInfluence {
     /// Position of the design variable.
     pub variable: usize,
-    /// First-order Sobol' index: the fraction of the variance that vanishes if this variable is known, with its 95 % interval.
-    /// `None` if variables depend on each other or if the response does not vary.
+    /// First-order Sobol' index: the fraction of the variance that vanishes if this variable is known, with its 95 %
+    /// interval. `None` if variables depend on each other or if the response does not vary.
     pub first: Option<Estimate>,
     /// Total Sobol' index: the fraction of the variance that remains if all other variables are known.
     pub total: Option<Estimate>,
@@ -31,8 +31,8 @@ pub struct VariableInfluence {
     pub correlation: Option<f64>,
     /// Spearman rank correlation of the response with the variable.
     pub rank_correlation: Option<f64>,
-    /// Standardised regression coefficient: standard deviations of the response per standard deviation of the variable in the best
-    /// linear fit. `None` also if variables are linear functions of each other.
+    /// Standardised regression coefficient: standard deviations of the response per standard deviation of the variable
+    /// in the best linear fit. `None` also if variables are linear functions of each other.
     pub regression: Option<f64>,
     /// The response with the variable at its lower limit and all others nominal, SI; `None` if it has no value there.
     pub at_low: Option<f64>,
@@ -74,11 +74,12 @@ pub struct Influence {
     pub description: Shared<Description>,
 }
 
-/// Attributes the scatter of responses to the variables by Sobol' indices of independent variables, correlation and regression, and
-/// the responses at the limits of each variable by itself (the bars of a tornado diagram). At most `effort.samples` designs are
-/// sampled, at scrambled Sobol' points.
+/// Attributes the scatter of responses to the variables by Sobol' indices of independent variables, correlation and
+/// regression, and the responses at the limits of each variable by itself (the bars of a tornado diagram). At most
+/// `effort.samples` designs are sampled, at scrambled Sobol' points.
 ///
-/// If variables depend on each other, no share of the variance belongs to a single variable, and there are no Sobol' indices.
+/// If variables depend on each other, no share of the variance belongs to a single variable, and there are no Sobol'
+/// indices.
 ///
 /// ```
 #[doc = include_str!("example.txt")]

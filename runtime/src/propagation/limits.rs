@@ -4,8 +4,8 @@ use eigentol_statistics::Distribution;
 
 use crate::tolerance::Tolerances;
 
-/// Smallest and largest value of each design variable, SI. Distributions bounded on both sides use their limits; all others use as
-/// many standard normal deviations from the median as a half-width represents.
+/// Smallest and largest value of each design variable, SI. Distributions bounded on both sides use their limits; all
+/// others use as many standard normal deviations from the median as a half-width represents.
 pub(super) fn limits(nominal: &[f64], tolerances: &Tolerances) -> Vec<(f64, f64)> {
     let level = tolerances.sigma_level();
     let Some((joint, about)) = tolerances.joint() else {

@@ -1,5 +1,5 @@
-//! Propagation of tolerances to any responses, several at once with their covariance: quantities of modes, outputs, critical values
-//! of an input.
+//! Propagation of tolerances to any responses, several at once with their covariance: quantities of modes, outputs,
+//! critical values of an input.
 //!
 //! | method | cost | result |
 //! | --- | --- | --- |

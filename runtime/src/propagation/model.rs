@@ -41,8 +41,8 @@ pub(super) const TOGETHER: usize = SideBySide::MOST;
 pub(super) struct Designs<'a> {
     responses: &'a Responses<'a>,
     space: &'a Space<'a>,
-    /// If every response is a quantity of a mode and designs can be solved in vectorised blocks: the block solver and these
-    /// quantities.
+    /// If every response is a quantity of a mode and designs can be solved in vectorised blocks: the block solver and
+    /// these quantities.
     side_by_side: Option<(SideBySide<'a>, Vec<(usize, Quantity)>)>,
 }
 

@@ -12,8 +12,8 @@ pub(super) struct ExactMoments {
     pub(super) skewness: Option<f64>,
 }
 
-/// Skewness and excess kurtosis of independent variables `y` of unit variance with `b = mean + L y`; `None` for dependent variables
-/// that are not normal.
+/// Skewness and excess kurtosis of independent variables `y` of unit variance with `b = mean + L y`; `None` for
+/// dependent variables that are not normal.
 fn shape(tolerances: &Tolerances) -> Option<Vec<[f64; 2]>> {
     let Some((joint, _)) = tolerances.joint() else {
         return Some(vec![[0.0; 2]; tolerances.sigmas().len()]);
@@ -26,8 +26,8 @@ fn shape(tolerances: &Tolerances) -> Option<Vec<[f64; 2]>> {
     })
 }
 
-/// First order: mean `f0 + S m`, variance `|a|^2`, third moment `sum a^3 g`, with `a = L^T S`, the shift `m` of the means, and the
-/// skewness `g` of each independent variable.
+/// First order: mean `f0 + S m`, variance `|a|^2`, third moment `sum a^3 g`, with `a = L^T S`, the shift `m` of the
+/// means, and the skewness `g` of each independent variable.
 pub(super) fn first_order(own: &Expansion, tolerances: &Tolerances) -> ExactMoments {
     let sigma = tolerances.sigma(&own.slopes);
     let a = times(&tolerances.factor().transpose(), &own.slopes);
@@ -45,8 +45,8 @@ pub(super) fn first_order(own: &Expansion, tolerances: &Tolerances) -> ExactMome
 }
 
 /// Second order, for any distribution: with `a = L^T (S + H m)` and `B = L^T H L`, the mean is
-/// `f0 + S m + m^T H m / 2 + tr(B) / 2`. For independent variables of skewness `g` and excess kurtosis `k`, the variance is
-/// `sum a^2 + sum a_j B_jj g_j + sum B_jj^2 k_j / 4 + sum_jk B_jk^2 / 2`.
+/// `f0 + S m + m^T H m / 2 + tr(B) / 2`. For independent variables of skewness `g` and excess kurtosis `k`, the
+/// variance is `sum a^2 + sum a_j B_jj g_j + sum B_jj^2 k_j / 4 + sum_jk B_jk^2 / 2`.
 pub(super) fn second_order(
     own: &Expansion,
     curvature: &Matrix,

@@ -20,9 +20,10 @@ type Node = (Vec<f64>, [f64; 2]);
 
 /// Mean, standard deviation, skewness and covariance by Gauss-Hermite quadrature.
 ///
-/// Up to three variables it uses the tensor product of rules with `level + 1` nodes, beyond that Smolyak's sparse grid of this
-/// level. It is exact for responses whose square is a polynomial of total degree `2 level + 1` in the standard normal numbers
-/// behind the variables. Errors are the differences from the next lower level, which usually overestimate.
+/// Up to three variables it uses the tensor product of rules with `level + 1` nodes, beyond that Smolyak's sparse grid
+/// of this level. It is exact for responses whose square is a polynomial of total degree `2 level + 1` in the standard
+/// normal numbers behind the variables. Errors are the differences from the next lower level, which usually
+/// overestimate.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -202,8 +203,8 @@ impl Found {
     }
 }
 
-/// Weighted sums of deviations from a centre, their products and cubes, on both grids: for the responses, then for all design
-/// variables.
+/// Weighted sums of deviations from a centre, their products and cubes, on both grids: for the responses, then for all
+/// design variables.
 struct Sums {
     centres: Vec<f64>,
     first: Vec<[CompensatedSum; 2]>,

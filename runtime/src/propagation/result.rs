@@ -7,8 +7,8 @@ use crate::{Description, Shared};
 
 use super::Points;
 
-/// Probabilities of the reported quantiles: the median, and those of a normal variable at 1, 2 and 3 standard deviations on either
-/// side.
+/// Probabilities of the reported quantiles: the median, and those of a normal variable at 1, 2 and 3 standard
+/// deviations on either side.
 pub const QUANTILES: [f64; 7] = [
     0.001_349_898_031_630_094_6,
     0.022_750_131_948_179_21,

@@ -127,8 +127,8 @@ impl Samples {
     /// Adds further samples of the same run.
     ///
     /// # Errors
-    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that have already been added; in
-    /// either case nothing is added.
+    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that have already been
+    /// added; in either case nothing is added.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
         let added = (&other.run, other.gathered.parts);
         self.run.merge(&mut self.gathered.parts, added)

@@ -29,8 +29,8 @@ pub struct Sampler<'a> {
     pub points: Points,
     /// Maximum number of samples: see [`Self::total`].
     pub samples: u64,
-    /// Number of independent randomisations of a Latin hypercube or a Sobol' sequence; the scatter between them is the reported
-    /// error. Random samples have one.
+    /// Number of independent randomisations of a Latin hypercube or a Sobol' sequence; the scatter between them is the
+    /// reported error. Random samples have one.
     pub randomisations: u64,
     /// Seed. The same seed gives the same samples, and the same bits for any number of threads.
     pub seed: u64,
@@ -78,8 +78,8 @@ impl<'a> Sampler<'a> {
     /// Total number of samples: equally many in each randomisation, and a power of two for a Sobol' sequence.
     ///
     /// # Errors
-    /// [`Error::Setting`] for zero samples, fewer than two randomisations of points that are not random, or fewer than two samples
-    /// in each.
+    /// [`Error::Setting`] for zero samples, fewer than two randomisations of points that are not random, or fewer than
+    /// two samples in each.
     pub fn total(&self) -> Result<u64, Error> {
         Ok(self.groups() * self.of_each()?)
     }

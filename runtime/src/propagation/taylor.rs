@@ -46,14 +46,14 @@ pub fn first_order(
 
 /// Second-order propagation of tolerances, for any distribution.
 ///
-/// The mean is exact for the quadratic model, as is the standard deviation unless dependent variables are not normal. Skewness,
-/// quantiles and covariances come from samples of the model. Responses without second derivatives have no spread: quantities of
-/// modes that are too close together, outputs that are not smooth, transcritical branch points.
+/// The mean is exact for the quadratic model, as is the standard deviation unless dependent variables are not normal.
+/// Skewness, quantiles and covariances come from samples of the model. Responses without second derivatives have no
+/// spread: quantities of modes that are too close together, outputs that are not smooth, transcritical branch points.
 ///
-/// Errors extrapolate the difference from first order like a series: it is multiplied by `r`, the ratio of the contributions of
-/// curvature and slopes to the standard deviation. The error of the standard deviation itself is the whole difference plus `r^2`
-/// times the standard deviation, because the neglected third derivatives contribute terms of this order. Near a critical state the
-/// series does not converge, and these error estimates do not hold.
+/// Errors extrapolate the difference from first order like a series: it is multiplied by `r`, the ratio of the
+/// contributions of curvature and slopes to the standard deviation. The error of the standard deviation itself is the
+/// whole difference plus `r^2` times the standard deviation, because the neglected third derivatives contribute terms
+/// of this order. Near a critical state the series does not converge, and these error estimates do not hold.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -192,8 +192,8 @@ impl Models<'_> {
         Ok(found)
     }
 
-    /// Ratio of the contributions of curvature (to the standard deviation and, if means are shifted, to the slopes) to that of the
-    /// slopes; at most 1.
+    /// Ratio of the contributions of curvature (to the standard deviation and, if means are shifted, to the slopes) to
+    /// that of the slopes; at most 1.
     fn ratio(&self, own: &Expansion, curvature: &Matrix) -> f64 {
         let columns = self.tolerances.factor().transpose();
         let curved = columns.iter().map(|row| times(curvature, row));
@@ -272,8 +272,8 @@ fn without_errors(mut own: ResponseSpread) -> ResponseSpread {
     own
 }
 
-/// Adds the fraction `share` of the difference from another spread to each error, and the whole difference to that of the standard
-/// deviation.
+/// Adds the fraction `share` of the difference from another spread to each error, and the whole difference to that of
+/// the standard deviation.
 fn add_difference(own: &mut ResponseSpread, other: &ResponseSpread, share: f64) {
     let further = |own: &mut Estimated, other: Option<Estimated>, share: f64| {
         let difference = other.map(|other| share * (own.value - other.value).abs());

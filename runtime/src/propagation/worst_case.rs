@@ -1,4 +1,5 @@
-//! Worst case: the corners of the box of limits at which responses are smallest and largest, found with exact gradients.
+//! Worst case: the corners of the box of limits at which responses are smallest and largest, found with exact
+//! gradients.
 
 use std::collections::BTreeMap;
 
@@ -10,8 +11,8 @@ use crate::{Description, Error, Shared};
 
 /// Maximum number of variables for which all corners are checked if a response is not monotonic.
 const ALL_CORNERS: usize = 10;
-/// A slope counts as zero if its variable changes the response by less than this fraction of the change due to the most important
-/// variable.
+/// A slope counts as zero if its variable changes the response by less than this fraction of the change due to the most
+/// important variable.
 const NO_SIGN: f64 = 1e-9;
 
 /// Values with a smaller relative difference are equal.
@@ -52,16 +53,16 @@ pub struct ResponseLimits {
     pub least: Option<Extreme>,
     /// The maximum; `None` if no evaluated design has the response.
     pub greatest: Option<Extreme>,
-    /// The design variables whose slope changes sign between evaluated designs: the response is not monotonic, and may be worse
-    /// inside the box than at its corners.
+    /// The design variables whose slope changes sign between evaluated designs: the response is not monotonic, and may
+    /// be worse inside the box than at its corners.
     pub turning: Vec<usize>,
     /// The evaluated corners without a value.
     pub missing: Vec<MissingCorner>,
 }
 
 impl ResponseLimits {
-    /// Whether the limits are reliable: the gradient kept its signs at all evaluated designs, both extremes are confirmed, and no
-    /// corner lacks a value.
+    /// Whether the limits are reliable: the gradient kept its signs at all evaluated designs, both extremes are
+    /// confirmed, and no corner lacks a value.
     #[must_use]
     pub fn is_monotonic(&self) -> bool {
         let confirmed = |end: &Option<Extreme>| end.as_ref().is_some_and(|end| end.confirmed);
@@ -93,8 +94,8 @@ pub struct WorstCase {
 
 /// Smallest and largest value of each response over the box of limits.
 ///
-/// Distributions bounded on both sides use their hard limits; the others extend as many standard normal deviations as half-widths
-/// represent ([`Tolerances::sigma_level`]). A box ignores correlation.
+/// Distributions bounded on both sides use their hard limits; the others extend as many standard normal deviations as
+/// half-widths represent ([`Tolerances::sigma_level`]). A box ignores correlation.
 ///
 /// From the nominal design the search goes to the corner that the gradient points to, and continues until the gradient
 /// there agrees with the corner. A variable with zero slope at the nominal design is checked at both its ends, because
@@ -194,8 +195,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Checks the ends of variables with zero slope at the nominal design: either they do not matter, or the response is stationary
-    /// in them.
+    /// Checks the ends of variables with zero slope at the nominal design: either they do not matter, or the response
+    /// is stationary in them.
     fn look_where_still(&mut self, response: usize) -> Result<(), Error> {
         let nominal = vec![0; self.limits.len()];
         let Some(signs) = self.signs(&nominal, response) else {

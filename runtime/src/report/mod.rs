@@ -1,8 +1,8 @@
-//! Results as text: every result prints itself as an aligned table with names and declared units, under the name of its mechanism
-//! and its operating point.
+//! Results as text: every result prints itself as an aligned table with names and declared units, under the name of its
+//! mechanism and its operating point.
 //!
-//! A text shows what matters. It omits values below 0.1 % of the largest next to them, points between those shown, and digits
-//! beyond the fourth to sixth, and it says so. The tables of `eigentol-tables` omit nothing.
+//! A text shows what matters. It omits values below 0.1 % of the largest next to them, points between those shown, and
+//! digits beyond the fourth to sixth, and it says so. The tables of `eigentol-tables` omit nothing.
 
 mod allocation;
 mod branches;

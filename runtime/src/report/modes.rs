@@ -88,7 +88,8 @@ impl fmt::Display for Modes {
     }
 }
 
-/// Shapes as columns: one column for each coordinate or speed that moves in any mode, or a single one with the largest components.
+/// Shapes as columns: one column for each coordinate or speed that moves in any mode, or a single one with the largest
+/// components.
 struct Shapes<'a> {
     /// Index and description of the unknown, and its largest motion in any mode.
     moving: Vec<(usize, &'a CoordinateInfo, f64)>,

@@ -1,5 +1,5 @@
-//! Decides what is worth reading, for all reports. Whatever a text omits is counted in it, and is contained in the tables from
-//! which CSV, JSON and Parquet are written.
+//! Decides what is worth reading, for all reports. Whatever a text omits is counted in it, and is contained in the
+//! tables from which CSV, JSON and Parquet are written.
 
 use crate::Description;
 
@@ -12,7 +12,8 @@ pub(super) const EVERYTHING: &str = "CSV and JSON have all";
 
 /// Values below this fraction of their neighbours are rounding.
 const ROUNDING: f64 = 1e-12;
-/// Lengths, angles, speeds and forces (SI) of an equilibrium are not known more accurately: if all are smaller, all are zero.
+/// Lengths, angles, speeds and forces (SI) of an equilibrium are not known more accurately: if all are smaller, all are
+/// zero.
 const NOTHING: f64 = 1e-15;
 /// A smaller probability is indistinguishable from zero: no tolerance is known so far out.
 pub(super) const CHANCE: f64 = 1e-12;

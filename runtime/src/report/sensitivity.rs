@@ -31,9 +31,9 @@ struct Derivatives<'a> {
 }
 
 impl Derivatives<'_> {
-    /// Writes one row for each variable that matters, in its declared unit, and one column for each quantity that depends on any. A
-    /// variable matters if the derivative times its value is among the large ones in a column; a variable whose value is zero
-    /// cannot be judged.
+    /// Writes one row for each variable that matters, in its declared unit, and one column for each quantity that
+    /// depends on any. A variable matters if the derivative times its value is among the large ones in a column; a
+    /// variable whose value is zero cannot be judged.
     fn write(
         &self,
         f: &mut fmt::Formatter<'_>,

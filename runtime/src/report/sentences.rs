@@ -38,8 +38,8 @@ impl fmt::Display for Sentence {
 }
 
 impl Summary {
-    /// The assessment, in the order a reader needs it: each doubt once, with all the modes that share it; the errors of first and
-    /// second order compared to the samples of those modes; recommendations; the outcomes of the samples.
+    /// The assessment, in the order a reader needs it: each doubt once, with all the modes that share it; the errors of
+    /// first and second order compared to the samples of those modes; recommendations; the outcomes of the samples.
     ///
     /// ```
     /// use eigentol::report::News;
@@ -164,7 +164,8 @@ fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
     }
 }
 
-/// Errors of first and second order compared to the samples; where the series does not converge, second order has no sigma.
+/// Errors of first and second order compared to the samples; where the series does not converge, second order has no
+/// sigma.
 fn measured(mode: usize, check: &Check, converges: bool) -> String {
     let percent = |error: Measured| {
         let (value, uncertain) = (100.0 * error.value, 200.0 * error.standard_error);

@@ -10,8 +10,8 @@ use crate::Description;
 const NAMED: usize = 4;
 const MOST: f64 = 0.9;
 
-/// Columns of shares for several quantities: one column for each variable that matters to any of them, or a single one that names
-/// the largest.
+/// Columns of shares for several quantities: one column for each variable that matters to any of them, or a single one
+/// that names the largest.
 pub(super) struct Shares<'a> {
     description: &'a Description,
     columns: Vec<usize>,

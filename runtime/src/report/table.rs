@@ -5,8 +5,8 @@ use core::fmt;
 use crate::modes::Family;
 use crate::{DampingKind, Description};
 
-/// A table with a header and rows. The first column and columns of words are left-aligned, the others right-aligned. Columns that
-/// exceed the page width follow below, next to the first column again.
+/// A table with a header and rows. The first column and columns of words are left-aligned, the others right-aligned.
+/// Columns that exceed the page width follow below, next to the first column again.
 #[derive(Default)]
 pub(super) struct Table {
     rows: Vec<Vec<String>>,

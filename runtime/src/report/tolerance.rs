@@ -316,8 +316,8 @@ const SKEWED: f64 = 0.1;
 const QUANTILES: [f64; 5] = [0.00135, 0.15866, 0.5, 0.84134, 0.99865];
 
 impl MonteCarlo {
-    /// The settings that reproduce the samples, in words: `4000 samples, seed 7`, with stream and ranges unless these are the first
-    /// and all.
+    /// The settings that reproduce the samples, in words: `4000 samples, seed 7`, with stream and ranges unless these
+    /// are the first and all.
     #[must_use]
     pub fn drawn(&self) -> String {
         let mut text = format!("{} samples, seed {}", self.samples, self.seed);

@@ -102,8 +102,8 @@ pub struct Chances {
 impl Requirements<'_> {
     /// Probabilities of meeting the requirements, by plain Monte Carlo; identical for any number of threads.
     ///
-    /// The counts of sample ranges that make up a run add up to those of the run. A stopped run has at least its first 64 samples.
-    /// The settings of `sampling` for keeping samples and for vector instructions have no effect.
+    /// The counts of sample ranges that make up a run add up to those of the run. A stopped run has at least its first
+    /// 64 samples. The settings of `sampling` for keeping samples and for vector instructions have no effect.
     ///
     /// # Errors
     /// [`Error::Setting`] for zero samples or an invalid range, [`Error::Threads`].

@@ -19,21 +19,22 @@ pub struct DesignPoint {
     pub design: Vector,
     /// The point in standard normal space.
     pub normal: reliability::DesignPoint,
-    /// Share of each design variable in the variance of the limit linearised at the point. The shares sum to 1; for correlated
-    /// variables some may be negative.
+    /// Share of each design variable in the variance of the limit linearised at the point. The shares sum to 1; for
+    /// correlated variables some may be negative.
     pub importance: Vector,
-    /// Derivatives of the reliability index and the first-order probability with respect to the nominal value of each design
-    /// variable, per SI unit, with the tolerances moving along.
+    /// Derivatives of the reliability index and the first-order probability with respect to the nominal value of each
+    /// design variable, per SI unit, with the tolerances moving along.
     pub by_nominal: Vec<FormSensitivity>,
-    /// Derivatives with respect to each half-width, per SI unit, scaling the distribution about its mean at fixed correlation.
+    /// Derivatives with respect to each half-width, per SI unit, scaling the distribution about its mean at fixed
+    /// correlation.
     pub by_half_width: Vec<FormSensitivity>,
     /// Principal curvatures of the limit in standard normal space; `None` if the limit has no value near the point.
     pub curvatures: Option<Vec<f64>>,
-    /// Failure probability of the paraboloid with these curvatures, exactly (Tvedt); `None` without curvatures, or if they bend
-    /// around the origin more than a sphere.
+    /// Failure probability of the paraboloid with these curvatures, exactly (Tvedt); `None` without curvatures, or if
+    /// they bend around the origin more than a sphere.
     pub second_order: Option<f64>,
-    /// Whether the re-solved mechanism fails a thousandth of a standard deviation beyond this point and does not fail the same
-    /// distance before it.
+    /// Whether the re-solved mechanism fails a thousandth of a standard deviation beyond this point and does not fail
+    /// the same distance before it.
     pub verified: bool,
 }
 

@@ -1,5 +1,5 @@
-//! Designs as functions of independent standard normal numbers, with shifted nominal values and tolerances scaled about their
-//! means.
+//! Designs as functions of independent standard normal numbers, with shifted nominal values and tolerances scaled about
+//! their means.
 
 use eigentol_statistics::{Distribution, semidefinite_factor};
 
@@ -23,7 +23,8 @@ impl<'a> Deviations<'a> {
     /// Deviations of `tolerances` about a nominal design.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a correlation that cannot be factorised.
+    /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a correlation that cannot be
+    /// factorised.
     pub(crate) fn new(tolerances: &'a Tolerances, nominal: &[f64]) -> Result<Self, Error> {
         tolerances.check_count(nominal.len())?;
         let size = nominal.len();
@@ -97,7 +98,8 @@ impl<'a> Deviations<'a> {
         design
     }
 
-    /// Transforms derivatives with respect to the design variables into derivatives with respect to the standard normal numbers.
+    /// Transforms derivatives with respect to the design variables into derivatives with respect to the standard normal
+    /// numbers.
     pub(crate) fn gradient(&self, z: &[f64], by_design: &[f64]) -> Vec<f64> {
         let scaled: Vec<f64> = by_design
             .iter()
@@ -140,9 +142,9 @@ impl<'a> Deviations<'a> {
         (0..size).map(|j| element(j) * z[j]).sum()
     }
 
-    /// Share of each design variable in the variance of a function linearised at `z`: `s_k (Sigma s)_k / (s Sigma s)`, with the
-    /// slopes `s` of the function and the covariance `Sigma` of the equivalent normal variables. The shares sum to 1; for
-    /// independent variables they are the squares of the direction cosines.
+    /// Share of each design variable in the variance of a function linearised at `z`: `s_k (Sigma s)_k / (s Sigma s)`,
+    /// with the slopes `s` of the function and the covariance `Sigma` of the equivalent normal variables. The shares
+    /// sum to 1; for independent variables they are the squares of the direction cosines.
     pub(crate) fn shares(&self, z: &[f64], by_design: &[f64]) -> Vector {
         let by_normal = self.gradient(z, by_design);
         let square: f64 = by_normal.iter().map(|slope| slope * slope).sum();

@@ -34,8 +34,8 @@ pub enum Requirement {
     },
     /// The equilibrium is stable: the design has [`Outcome::Stable`].
     ///
-    /// Stability is not a number, so it has a probability but no design point. For a design point, require a critical value of an
-    /// input beyond the operating point ([`Response::Critical`]).
+    /// Stability is not a number, so it has a probability but no design point. For a design point, require a critical
+    /// value of an input beyond the operating point ([`Response::Critical`]).
     Stable,
 }
 

@@ -1,9 +1,10 @@
-//! Requirements on a design and the probability of meeting them under tolerances: by samples, by design points in standard normal
-//! space, and by samples about these points where failure is rare.
+//! Requirements on a design and the probability of meeting them under tolerances: by samples, by design points in
+//! standard normal space, and by samples about these points where failure is rare.
 //!
-//! First-order reliability (A. M. Hasofer and N. C. Lind, *Exact and invariant second-moment code format*, J. Eng. Mech. 1974)
-//! finds the most probable design that just fails, with exact total derivatives of the responses
-//! ([`Responses`](crate::response::Responses)). The methods themselves are those of [`eigentol_statistics::reliability`].
+//! First-order reliability (A. M. Hasofer and N. C. Lind, *Exact and invariant second-moment code format*, J. Eng.
+//! Mech. 1974) finds the most probable design that just fails, with exact total derivatives of the responses
+//! ([`Responses`](crate::response::Responses)). The methods themselves are those of
+//! [`eigentol_statistics::reliability`].
 
 mod chances;
 mod design_point;

@@ -38,13 +38,13 @@ pub struct RareFailure {
 }
 
 impl Requirements<'_> {
-    /// Probability of failing any requirement, from samples about the design points of `about`, on `threads` threads (0 for all
-    /// available); identical for any number of threads. The estimate is unbiased wherever failure lies, but its error estimate
-    /// cannot see a failure region far from all design points.
+    /// Probability of failing any requirement, from samples about the design points of `about`, on `threads` threads (0
+    /// for all available); identical for any number of threads. The estimate is unbiased wherever failure lies, but its
+    /// error estimate cannot see a failure region far from all design points.
     ///
     /// # Errors
-    /// [`Error::Setting`] if `about` has no design point, for zero samples or for an invalid target coefficient of variation;
-    /// [`Error::Threads`].
+    /// [`Error::Setting`] if `about` has no design point, for zero samples or for an invalid target coefficient of
+    /// variation; [`Error::Threads`].
     pub fn rare_failure(
         &self,
         about: &Reliability,

@@ -19,8 +19,8 @@ use crate::{Description, Error, Shared};
 pub struct LimitReliability {
     /// The limit.
     pub limit: Limit,
-    /// Its design points, most probable first, at least one; or the reason why there are none, for example because no design within
-    /// reach fails.
+    /// Its design points, most probable first, at least one; or the reason why there are none, for example because no
+    /// design within reach fails.
     pub design_points: Result<Vec<DesignPoint>, Error>,
 }
 
@@ -63,8 +63,8 @@ pub struct SystemFailure {
 pub struct Reliability {
     /// Every limit that the requirements set.
     pub limits: Vec<LimitReliability>,
-    /// Failure of any of the limits that have design points; `None` if none has, or if the centre of the distribution fails at a
-    /// forbidden band, which is not a plane.
+    /// Failure of any of the limits that have design points; `None` if none has, or if the centre of the distribution
+    /// fails at a forbidden band, which is not a plane.
     pub system: Option<SystemFailure>,
     /// Requirements without a limit: [`Requirement::Stable`](super::Requirement::Stable).
     pub left_out: Vec<usize>,
@@ -75,8 +75,8 @@ pub struct Reliability {
 }
 
 impl Reliability {
-    /// First-order reliability index of a requirement, `-Phi^-1` of the summed probabilities of its limits; `None` if it has no
-    /// design point.
+    /// First-order reliability index of a requirement, `-Phi^-1` of the summed probabilities of its limits; `None` if
+    /// it has no design point.
     #[must_use]
     pub fn beta_of(&self, requirement: usize) -> Option<f64> {
         let own = self
@@ -102,8 +102,8 @@ impl Requirements<'_> {
     /// Failure probabilities by first- and second-order reliability, with design points and exact derivatives.
     ///
     /// # Errors
-    /// [`Error::Setting`] if no requirement sets a limit on a response, if nothing varies, or for variables without a density. A
-    /// limit without a design point carries its own error.
+    /// [`Error::Setting`] if no requirement sets a limit on a response, if nothing varies, or for variables without a
+    /// density. A limit without a design point carries its own error.
     pub fn reliability(&self, settings: &FormSettings) -> Result<Reliability, Error> {
         reliability_of(self, self.deviations(), settings)
     }

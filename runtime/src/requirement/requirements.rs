@@ -10,8 +10,9 @@ use crate::{Equilibrium, Error, Modes, Watch};
 
 /// Requirements on designs near a nominal one, all to be met at once.
 ///
-/// If a design lacks a response, it cannot tell whether it meets a requirement on it. It then counts as neither meeting nor
-/// failing, unless another requirement decides: add [`Requirement::Stable`] if a design without a stable equilibrium is a failure.
+/// If a design lacks a response, it cannot tell whether it meets a requirement on it. It then counts as neither meeting
+/// nor failing, unless another requirement decides: add [`Requirement::Stable`] if a design without a stable
+/// equilibrium is a failure.
 pub struct Requirements<'a> {
     wanted: Vec<Requirement>,
     responses: Responses<'a>,
@@ -22,8 +23,8 @@ impl<'a> Requirements<'a> {
     /// Requirements on designs that vary by `tolerances` about the nominal one.
     ///
     /// # Errors
-    /// [`Error::Setting`] for an empty list, an empty band, or a band that excludes nothing; the errors of [`Responses::new`];
-    /// [`Error::WrongLength`] for tolerances of another mechanism.
+    /// [`Error::Setting`] for an empty list, an empty band, or a band that excludes nothing; the errors of
+    /// [`Responses::new`]; [`Error::WrongLength`] for tolerances of another mechanism.
     pub fn new(
         mechanism: &'a dyn DirectionalKernels,
         nominal: &'a Equilibrium,

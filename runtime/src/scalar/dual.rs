@@ -7,8 +7,8 @@ use super::real::Real;
 
 /// A value and its derivative along some direction (forward differentiation).
 ///
-/// Kernels are generic over their scalar. Evaluated in duals whose slopes form a direction, they return values and exact
-/// directional derivatives at about three times the cost. Duals of duals carry second derivatives.
+/// Kernels are generic over their scalar. Evaluated in duals whose slopes form a direction, they return values and
+/// exact directional derivatives at about three times the cost. Duals of duals carry second derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T> {
     /// The number.

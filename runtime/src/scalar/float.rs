@@ -13,8 +13,8 @@ fn sin_cos_all<const K: usize>(angles: [f64; K]) -> [(f64, f64); K] {
     angles.map(sin_cos)
 }
 
-/// One implementation for both floating-point types, based on the standard library or libm. Sine and cosine of `f64` are
-/// our own.
+/// One implementation for both floating-point types, based on the standard library or libm. Sine and cosine of `f64`
+/// are our own.
 macro_rules! float {
     ($float:ident, $sin_cos:expr, $sin_cos_all:expr, $($libm:ident),*) => {
         impl Real for $float {

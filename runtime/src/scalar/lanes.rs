@@ -29,8 +29,8 @@ pub trait Lanes: Real {
     /// (`e`, `m`) with `self = m 2^e` and `m` between 0.7 and 1.5, for positive normal numbers.
     fn split(self) -> (Self, Self);
 
-    /// `(k + 1/2) / 2^52` for the first 52 bits `k` of the random numbers from `at` on: strictly inside (0, 1), with one
-    /// bit less than a double has.
+    /// `(k + 1/2) / 2^52` for the first 52 bits `k` of the random numbers from `at` on: strictly inside (0, 1), with
+    /// one bit less than a double has.
     fn probability(bits: &[u64; WIDTH], at: usize) -> Self;
 
     /// True in every lane.

@@ -2,9 +2,9 @@
 
 /// A cubic spline, or its derivative of order `derivative`, at `x`.
 ///
-/// Each piece consists of its start and four coefficients: `c0 + c1 t + c2 t^2 + c3 t^3` with `t = x - start`. The first
-/// piece applies before the starts of all others. The piece is found by counting starts, without a branch. Zero if there
-/// are no pieces.
+/// Each piece consists of its start and four coefficients: `c0 + c1 t + c2 t^2 + c3 t^3` with `t = x - start`. The
+/// first piece applies before the starts of all others. The piece is found by counting starts, without a branch. Zero
+/// if there are no pieces.
 ///
 /// ```
 /// use eigentol::scalar::spline;

@@ -5,8 +5,8 @@ use core::f64::consts::FRAC_2_PI;
 
 use super::lanes::Lanes;
 
-/// Largest `|x|` that [`sin_cos_within`] accepts, rad: beyond it the multiple of pi/2 has more bits than [`PI_2`] leaves
-/// free.
+/// Largest `|x|` that [`sin_cos_within`] accepts, rad: beyond it the multiple of pi/2 has more bits than [`PI_2`]
+/// leaves free.
 pub(crate) const LIMIT: f64 = 1e5;
 
 /// pi/2 in three parts, the first two of 36 bits: their products with an integer up to 2^16 are exact. The missing
@@ -20,7 +20,8 @@ const PI_2: [f64; 3] = [
 /// 1.5 * 2^52: adding and subtracting it rounds to an integer, and the last bits of the sum are those of the integer.
 const ROUND: f64 = 6755399441055744.0;
 
-/// `sin r = r + r^3 (S0 + S1 r^2 + ..)` on `|r| <= pi/4`, relative error below 2^-57 (Remez, coefficients rounded in turn).
+/// `sin r = r + r^3 (S0 + S1 r^2 + ..)` on `|r| <= pi/4`, relative error below 2^-57 (Remez, coefficients rounded in
+/// turn).
 const SINE: [f64; 6] = [
     -0.1666666666666663,
     0.00833333333332184,

@@ -36,8 +36,8 @@ impl<'a> Adjoint<'a> {
         w
     }
 
-    /// Turns the derivative of a partial gradient along a direction into that of the total gradient; `w` is the result of
-    /// [`Self::total`].
+    /// Turns the derivative of a partial gradient along a direction into that of the total gradient; `w` is the result
+    /// of [`Self::total`].
     pub(super) fn total_along(
         &self,
         change: &mut Gradient,

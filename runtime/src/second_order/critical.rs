@@ -15,14 +15,14 @@ use crate::sweep::{CriticalState, Crossed, bordered, critical_sensitivity};
 ///
 /// They follow the state where `Khat` is singular; `v` and `w` are its critical vectors.
 ///
-/// - At a limit point, `w^T dg/du_c du_c + w^T dg/db = 0` is differentiated along the curve of limit points: `dq` includes the
-///   component along `v` that keeps `Khat` singular, and `dw` follows `Khat`.
-/// - At a pitchfork, `w^T Khat v` vanishes; its first and second derivatives with respect to input and design are taken along the
-///   crossed branch, which survives changes of the design.
+/// - At a limit point, `w^T dg/du_c du_c + w^T dg/db = 0` is differentiated along the curve of limit points: `dq`
+///   includes the component along `v` that keeps `Khat` singular, and `dw` follows `Khat`.
+/// - At a pitchfork, `w^T Khat v` vanishes; its first and second derivatives with respect to input and design are taken
+///   along the crossed branch, which survives changes of the design.
 ///
 /// # Errors
-/// As [`critical_sensitivity`](crate::sweep::critical_sensitivity); [`Error::NoSensitivity`] at a transcritical branch point, which
-/// needs third derivatives of the residual, and at a cusp.
+/// As [`critical_sensitivity`](crate::sweep::critical_sensitivity); [`Error::NoSensitivity`] at a transcritical branch
+/// point, which needs third derivatives of the residual, and at a cusp.
 pub fn critical_curvature(
     mechanism: &dyn CurvatureKernels,
     critical: &CriticalState,
@@ -100,8 +100,9 @@ impl State<'_> {
         Ok(rows.collect())
     }
 
-    /// Whether `curved`, the value of `w^T g'' v v` at a limit point, is negligible compared with its values a small motion along
-    /// `v` away. If so, another limit point may coincide with this one within the accuracy of its location.
+    /// Whether `curved`, the value of `w^T g'' v v` at a limit point, is negligible compared with its values a small
+    /// motion along `v` away. If so, another limit point may coincide with this one within the accuracy of its
+    /// location.
     fn flat(&self, curved: f64) -> bool {
         /// A point where a slope vanishes is known to half the digits only; as a fraction of a small motion.
         const UNCERTAIN: f64 = 1e-5;
@@ -159,8 +160,8 @@ impl State<'_> {
         Ok(rows.collect())
     }
 
-    /// Derivative along a direction of the total gradient of `w^T Khat v`; `z` is `Khat^-T` times its derivative with respect to
-    /// the coordinates.
+    /// Derivative along a direction of the total gradient of `w^T Khat v`; `z` is `Khat^-T` times its derivative with
+    /// respect to the coordinates.
     fn stiffness_change(&self, factors: &Bordered, z: &[f64], along: &Direction) -> Gradient {
         let CriticalState {
             equilibrium: at,

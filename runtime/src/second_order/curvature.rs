@@ -1,5 +1,6 @@
-//! Exact second total derivatives of a mode. Its adjoint gradient is differentiated along the change of the equilibrium, the shapes
-//! and the eigenvalue with each variable, so the number of gradient evaluations equals the number of variables.
+//! Exact second total derivatives of a mode. Its adjoint gradient is differentiated along the change of the
+//! equilibrium, the shapes and the eigenvalue with each variable, so the number of gradient evaluations equals the
+//! number of variables.
 
 use super::adjoint::Adjoint;
 use super::derivatives::{SecondDerivatives, symmetric};
@@ -29,8 +30,8 @@ pub struct ModeCurvature {
     pub lambda: SecondDerivatives<f64>,
     /// Second derivatives of `s`; `None` for an undamped neutral mode.
     pub eigenvalue: Option<SecondDerivatives<Complex>>,
-    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative: zero in exact
-    /// arithmetic.
+    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative:
+    /// zero in exact arithmetic.
     pub asymmetry: f64,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
@@ -102,9 +103,9 @@ pub fn mode_curvature(
     })
 }
 
-/// The adjoint gradient of a mode, prepared for differentiation. For an undamped mode `dlambda = n`, where `n` is the total
-/// derivative of `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors. For a general mode `ds = -n / d`, where `n` is that of
-/// `a = psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi`.
+/// The adjoint gradient of a mode, prepared for differentiation. For an undamped mode `dlambda = n`, where `n` is the
+/// total derivative of `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors. For a general mode `ds = -n / d`, where
+/// `n` is that of `a = psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi`.
 struct AdjointGradient<'a> {
     mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,
@@ -202,7 +203,8 @@ impl<'a> AdjointGradient<'a> {
         slopes
     }
 
-    /// Derivative of `d` when the matrices change by `change`, the eigenvalue by `ds` and the shapes by `dphi` and `dpsi`.
+    /// Derivative of `d` when the matrices change by `change`, the eigenvalue by `ds` and the shapes by `dphi` and
+    /// `dpsi`.
     fn denominator_along(
         &self,
         change: &Linear,

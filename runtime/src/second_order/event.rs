@@ -17,13 +17,14 @@ pub struct EventCurvature {
     pub input: Input,
     /// Its value at the event.
     pub value: f64,
-    /// First derivatives with respect to the design variables ([`critical_sensitivity`](crate::sweep::critical_sensitivity),
+    /// First derivatives with respect to the design variables
+    /// ([`critical_sensitivity`](crate::sweep::critical_sensitivity),
     /// [`crossing_sensitivity`](crate::sweep::crossing_sensitivity)).
     pub first: Vector,
     /// Second derivatives with respect to two design variables.
     pub second: Matrix,
-    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative: zero in exact
-    /// arithmetic.
+    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative:
+    /// zero in exact arithmetic.
     pub asymmetry: f64,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
@@ -39,8 +40,8 @@ impl EventCurvature {
     }
 }
 
-/// First and second derivatives of a crossing with respect to all design variables: `f(u, b) = 0` with `f = omega_j - k u - c` or
-/// `Re s_j`, differentiated twice along `u(b)`.
+/// First and second derivatives of a crossing with respect to all design variables: `f(u, b) = 0` with
+/// `f = omega_j - k u - c` or `Re s_j`, differentiated twice along `u(b)`.
 ///
 /// # Errors
 /// As [`crossing_sensitivity`] and [`mode_curvature`].

@@ -1,5 +1,5 @@
-//! Probability that a quantity of a mode lies in a forbidden band: a frequency within 10 % of the running speed, a growth rate
-//! above zero.
+//! Probability that a quantity of a mode lies in a forbidden band: a frequency within 10 % of the running speed, a
+//! growth rate above zero.
 
 use super::curvature::mode_curvature;
 use super::margin::{Margin, margin};
@@ -25,8 +25,8 @@ pub enum Band {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
-    /// Within a fraction of a multiple of an input: from `(1 - fraction) order u` to `(1 + fraction) order u`. If the input
-    /// deviates ([`DeviatingInputs`](crate::kernels::DeviatingInputs)), the band moves with it.
+    /// Within a fraction of a multiple of an input: from `(1 - fraction) order u` to `(1 + fraction) order u`. If the
+    /// input deviates ([`DeviatingInputs`](crate::kernels::DeviatingInputs)), the band moves with it.
     Around {
         /// The input `u`, rad/s in SI.
         input: Input,
@@ -112,8 +112,8 @@ fn actual(mechanism: &dyn Kernels, at: &Equilibrium, input: usize) -> f64 {
     at.inputs[input] + mechanism.deviation(input, &at.design)
 }
 
-/// Relative derivatives of the reciprocal of the band's centre with respect to each design variable. For a deviation `d` of the
-/// input the reciprocal is `u / (u + d)`, with `u` the present value of the input.
+/// Relative derivatives of the reciprocal of the band's centre with respect to each design variable. For a deviation
+/// `d` of the input the reciprocal is `u / (u + d)`, with `u` the present value of the input.
 fn reciprocal_slopes(mechanism: &dyn Kernels, at: &Equilibrium, band: Band) -> Vector {
     let slope = |design: usize| match mechanism.input_of_deviation(design) {
         Some(input) if band.is_around(input) => -actual(mechanism, at, input).recip(),
@@ -122,8 +122,8 @@ fn reciprocal_slopes(mechanism: &dyn Kernels, at: &Equilibrium, band: Band) -> V
     Vector::from_fn(at.design.len(), slope)
 }
 
-/// The model of `f r`, where the reciprocal `r` has nominal value one and the given slopes. A quantity `f` lies in a band about
-/// `u + d` exactly where `f u / (u + d)` lies in the band about `u`.
+/// The model of `f r`, where the reciprocal `r` has nominal value one and the given slopes. A quantity `f` lies in a
+/// band about `u + d` exactly where `f u / (u + d)` lies in the band about `u`.
 fn relative(model: &Quadratic, reciprocal: &[f64]) -> Quadratic {
     let (f, s, r) = (model.value, &model.slopes, reciprocal);
     let mut curvature = model.curvature.clone();
@@ -150,11 +150,11 @@ pub struct ModeMargin {
     pub quantity: Quantity,
     /// The band to avoid.
     pub band: Band,
-    /// Probabilities, distance, and derivatives with respect to design variables and half-widths; SI. If the band deviates, they
-    /// refer to the quantity times the ratio of the band's nominal centre to its actual centre.
+    /// Probabilities, distance, and derivatives with respect to design variables and half-widths; SI. If the band
+    /// deviates, they refer to the quantity times the ratio of the band's nominal centre to its actual centre.
     pub margin: Margin,
-    /// Total derivatives of the first-order probability with respect to each input, per SI unit: the quantity, its standard
-    /// deviation and a band around the input all move. `None` where [`Margin::derivatives`] is.
+    /// Total derivatives of the first-order probability with respect to each input, per SI unit: the quantity, its
+    /// standard deviation and a band around the input all move. `None` where [`Margin::derivatives`] is.
     pub by_input: Option<Vector>,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
@@ -162,14 +162,15 @@ pub struct ModeMargin {
     pub description: Shared<Description>,
 }
 
-/// Probability that a quantity of mode number `mode` lies in a forbidden band, to first and second order, with its sensitivities.
+/// Probability that a quantity of mode number `mode` lies in a forbidden band, to first and second order, with its
+/// sensitivities.
 ///
 /// With [`Quantity::Growth`] between zero and infinity it is the probability that the mode is unstable.
 ///
 /// # Errors
 /// [`Error::NotOscillating`] for a mode without that quantity, [`Error::ClusteredMode`], [`Error::CriticalState`],
-/// [`Error::OutsideDomain`], [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::WrongLength`], [`Error::Setting`] for an
-/// invalid band.
+/// [`Error::OutsideDomain`], [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::WrongLength`],
+/// [`Error::Setting`] for an invalid band.
 pub fn mode_margin(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
@@ -192,8 +193,8 @@ pub fn mode_margin(
     let by_input = margin.derivatives.as_ref().map(|derivatives| {
         Vector::from_fn(at.inputs.len(), |k| {
             let (low, high) = band.slopes(mechanism, at, k);
-            // The derivative of the reciprocal `u / (u + d)` with respect to `d` is `r = -1/u`, and the derivative of `r` with
-            // respect to `u` is `r^2`.
+            // The derivative of the reciprocal `u / (u + d)` with respect to `d` is `r = -1/u`, and the derivative of
+            // `r` with respect to `u` is `r^2`.
             let bend = if band.is_around(k) { model.value } else { 0.0 };
             let slopes = Vector::from_fn(reciprocal.len(), |j| {
                 mixed[k][j] + reciprocal[j] * (first.by_input[k] + bend * reciprocal[j])

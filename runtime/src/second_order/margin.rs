@@ -1,4 +1,5 @@
-//! Safety margin against a forbidden band: the probability that tolerances bring a quantity into it, and its derivatives.
+//! Safety margin against a forbidden band: the probability that tolerances bring a quantity into it, and its
+//! derivatives.
 
 use super::probability::{Probability, check_interval};
 use super::quadratic::Quadratic;
@@ -21,25 +22,26 @@ pub struct Margin {
     /// First-order standard deviation.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
-    /// Distance of the first-order mean from the nearest end of the band, in standard deviations: negative inside, infinite if
-    /// nothing varies.
+    /// Distance of the first-order mean from the nearest end of the band, in standard deviations: negative inside,
+    /// infinite if nothing varies.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
     /// First-order probability of the band; for normal variables, that of a normal distribution.
     pub first_order: f64,
     /// Probability of the band from the second-order model ([`Quadratic::probability`]).
     pub corrected: Probability,
-    /// Derivatives of the first-order probability. `None` if nothing varies, if variables are not normal, or if a derivative
-    /// exceeds the range of a double.
+    /// Derivatives of the first-order probability. `None` if nothing varies, if variables are not normal, or if a
+    /// derivative exceeds the range of a double.
     pub derivatives: Option<MarginDerivatives>,
 }
 
 /// Derivatives of the first-order probability of a band.
 ///
-/// The derivatives with respect to mean, sigma and band ends are exact for a normal distribution, those with respect to half-widths
-/// for the first-order model. Those with respect to design variables are exact for the first-order probability as a function of the
-/// nominal design, because slopes and curvature are total derivatives and half-widths are held fixed; for a half-width that follows
-/// its nominal value (a tolerance in percent), add `by_half_width` times the derivative of the half-width.
+/// The derivatives with respect to mean, sigma and band ends are exact for a normal distribution, those with respect to
+/// half-widths for the first-order model. Those with respect to design variables are exact for the first-order
+/// probability as a function of the nominal design, because slopes and curvature are total derivatives and half-widths
+/// are held fixed; for a half-width that follows its nominal value (a tolerance in percent), add `by_half_width` times
+/// the derivative of the half-width.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -72,9 +74,9 @@ impl MarginDerivatives {
 /// Margin of `quadratic` against the forbidden `band` (low and high end; either may be infinite).
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ in the number
-/// of design variables, [`Error::Setting`] for a band whose ends are NaN or in the wrong order, or a spread beyond the range of a
-/// double.
+/// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ
+/// in the number of design variables, [`Error::Setting`] for a band whose ends are NaN or in the wrong order, or a
+/// spread beyond the range of a double.
 pub fn margin(
     quadratic: &Quadratic,
     tolerances: &Tolerances,
@@ -137,7 +139,8 @@ fn derivatives(
     finite.then_some(found)
 }
 
-/// Derivatives of `sigma = sqrt(S Sigma S^T)` with respect to the nominal design, `H Sigma S / sigma`, and to the half-widths.
+/// Derivatives of `sigma = sqrt(S Sigma S^T)` with respect to the nominal design, `H Sigma S / sigma`, and to the
+/// half-widths.
 fn sigma_derivatives(
     quadratic: &Quadratic,
     tolerances: &Tolerances,

@@ -1,5 +1,5 @@
-//! Second-order theory: the quadratic dependence of frequencies, outputs and critical values on tolerances, and the exact
-//! distribution of such a quadratic model.
+//! Second-order theory: the quadratic dependence of frequencies, outputs and critical values on tolerances, and the
+//! exact distribution of such a quadratic model.
 
 mod adjoint;
 mod critical;

@@ -13,8 +13,8 @@ impl Quadratic {
     /// Variables, 1992, section 3.2).
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ in the
-    /// number of design variables, [`Error::Setting`] for a spread beyond the range of a double.
+    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances
+    /// differ in the number of design variables, [`Error::Setting`] for a spread beyond the range of a double.
     pub fn moments(&self, tolerances: &Tolerances) -> Result<ModelMoments, Error> {
         self.check(tolerances)?;
         let central = self.about_means(tolerances);

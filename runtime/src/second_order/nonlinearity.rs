@@ -6,8 +6,8 @@ use crate::tolerance::Tolerances;
 
 /// Second-order terms in units of the first-order standard deviation; both are small where first order holds.
 ///
-/// They measure the curvature at the nominal design, not the terms beyond second order. Near a critical state the series does not
-/// converge; there, use the distance to it in standard deviations.
+/// They measure the curvature at the nominal design, not the terms beyond second order. Near a critical state the
+/// series does not converge; there, use the distance to it in standard deviations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -21,7 +21,8 @@ pub struct Nonlinearity {
 }
 
 impl Nonlinearity {
-    /// Relative error of the first-order standard deviation with respect to the second-order model, `1 - 1 / sqrt(1 + spread^2)`.
+    /// Relative error of the first-order standard deviation with respect to the second-order model,
+    /// `1 - 1 / sqrt(1 + spread^2)`.
     #[must_use]
     pub fn sigma_error(&self) -> f64 {
         let ratio = 1.0_f64.hypot(self.spread);

@@ -1,5 +1,5 @@
-//! Exact second total derivatives of an output, by differentiating its adjoint gradient along the change of the equilibrium with
-//! each variable.
+//! Exact second total derivatives of an output, by differentiating its adjoint gradient along the change of the
+//! equilibrium with each variable.
 
 use super::adjoint::Adjoint;
 use super::derivatives::{SecondDerivatives, symmetric};
@@ -22,19 +22,19 @@ pub struct OutputCurvature {
     pub first: Slopes<f64>,
     /// Second derivatives.
     pub second: SecondDerivatives<f64>,
-    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative: zero in exact
-    /// arithmetic.
+    /// Largest difference between mirrored second derivatives before averaging, relative to the largest derivative:
+    /// zero in exact arithmetic.
     pub asymmetry: f64,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
-/// First and second total derivatives of an output with respect to all inputs and design variables, including the motion of the
-/// equilibrium.
+/// First and second total derivatives of an output with respect to all inputs and design variables, including the
+/// motion of the equilibrium.
 ///
 /// # Errors
-/// [`Error::UnknownHandle`], [`Error::CriticalState`] if `Khat` is singular, [`Error::NoSensitivity`] if a derivative is not
-/// finite, such as that of the distance from an axis at a point on it.
+/// [`Error::UnknownHandle`], [`Error::CriticalState`] if `Khat` is singular, [`Error::NoSensitivity`] if a derivative
+/// is not finite, such as that of the distance from an axis at a point on it.
 pub fn output_curvature(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,

@@ -20,14 +20,14 @@ pub struct Probability {
 impl Quadratic {
     /// First-order probability that the quantity lies between `low` and `high` (either may be infinite).
     ///
-    /// For normal variables it is that of a normal quantity with standard deviation `sqrt(S Sigma S^T)`, with relative accuracy in
-    /// the tails; for others it is the fraction of 32,768 quasi-random points. If nothing varies it is zero or one, the ends of the
-    /// interval included.
+    /// For normal variables it is that of a normal quantity with standard deviation `sqrt(S Sigma S^T)`, with relative
+    /// accuracy in the tails; for others it is the fraction of 32,768 quasi-random points. If nothing varies it is zero
+    /// or one, the ends of the interval included.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ in the
-    /// number of design variables, [`Error::Setting`] for ends that are NaN or in the wrong order or a spread beyond the range of a
-    /// double.
+    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances
+    /// differ in the number of design variables, [`Error::Setting`] for ends that are NaN or in the wrong order or a
+    /// spread beyond the range of a double.
     pub fn probability_first_order(
         &self,
         tolerances: &Tolerances,
@@ -48,14 +48,16 @@ impl Quadratic {
         Ok(normal_probability(mean, sigma, (low, high)))
     }
 
-    /// Probability that the quantity lies between `low` and `high` (either may be infinite), exact for the second-order model in
-    /// normal variables. For other variables it is the fraction of 32,768 quasi-random points, with an estimate of its error.
+    /// Probability that the quantity lies between `low` and `high` (either may be infinite), exact for the second-order
+    /// model in normal variables. For other variables it is the fraction of 32,768 quasi-random points, with an
+    /// estimate of its error.
     ///
     /// With `L^T H L = Q diag(nu) Q^T`, `Sigma = L L^T` and `c = Q^T L^T S`, the quantity is
     /// `f0 + sum_j (c_j z_j + nu_j z_j^2 / 2)` with independent standard normal `z_j`; its characteristic function is
-    /// `e^(i t f0) prod_j (1 - i t nu_j)^(-1/2) exp(-t^2 c_j^2 / (2 (1 - i t nu_j)))` (Imhof 1961). Closed forms with accurate
-    /// tails exist without curvature and for a single variable. Otherwise it is inverted numerically (Gil-Pelaez 1951, Davies 1980,
-    /// or on a tilted contour), with an absolute error below about `1e-11`, which is returned with the value.
+    /// `e^(i t f0) prod_j (1 - i t nu_j)^(-1/2) exp(-t^2 c_j^2 / (2 (1 - i t nu_j)))` (Imhof 1961). Closed forms with
+    /// accurate tails exist without curvature and for a single variable. Otherwise it is inverted numerically
+    /// (Gil-Pelaez 1951, Davies 1980, or on a tilted contour), with an absolute error below about `1e-11`, which is
+    /// returned with the value.
     ///
     /// # Errors
     /// As [`probability_first_order`](Self::probability_first_order).

@@ -6,7 +6,8 @@ use crate::algebra::{Matrix, Vector, dot};
 use crate::tolerance::Tolerances;
 use crate::{Error, Text};
 
-/// Second-order model `f(b0 + x) = value + S x + x^T H x / 2` of a quantity, with `x` distributed according to the tolerances.
+/// Second-order model `f(b0 + x) = value + S x + x^T H x / 2` of a quantity, with `x` distributed according to the
+/// tolerances.
 ///
 /// Slopes and curvature are total derivatives: they include the motion of the equilibrium. All in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,9 +23,9 @@ pub struct Quadratic {
 
 /// Moments of a second-order model.
 ///
-/// They are exact for the model if the variables are jointly normal. Mean and first-order standard deviation are exact for any
-/// distribution; otherwise the remaining moments are those of 32,768 quasi-random points, with standard deviations accurate to
-/// about four digits.
+/// They are exact for the model if the variables are jointly normal. Mean and first-order standard deviation are exact
+/// for any distribution; otherwise the remaining moments are those of 32,768 quasi-random points, with standard
+/// deviations accurate to about four digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -38,8 +39,9 @@ pub struct ModelMoments {
     /// First-order standard deviation `sqrt(S Sigma S^T)`, with `S` at the means of the variables.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub first_order_sigma: f64,
-    /// Contribution of curvature alone, `sqrt(tr((H Sigma)^2) / 2)`. For variables that are not normal, where curvature also
-    /// interacts with their skewness, it is the root of the difference between the variances with and without curvature.
+    /// Contribution of curvature alone, `sqrt(tr((H Sigma)^2) / 2)`. For variables that are not normal, where curvature
+    /// also interacts with their skewness, it is the root of the difference between the variances with and without
+    /// curvature.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub curvature_sigma: f64,
     /// Standard deviation; for normal variables `sqrt(S Sigma S^T + tr((H Sigma)^2) / 2)`, with `S` at their means.

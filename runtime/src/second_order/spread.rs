@@ -63,8 +63,8 @@ impl ModeCurvature {
     }
 }
 
-/// Second-order spread of every mode: exact mean and variance of the second-order model of each quantity under normally distributed
-/// design variables.
+/// Second-order spread of every mode: exact mean and variance of the second-order model of each quantity under normally
+/// distributed design variables.
 pub fn second_order(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,

@@ -240,8 +240,8 @@ impl Factors {
     }
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi - w^T dg` for several variables, from the derivatives of matrices and residual with
-/// respect to them.
+/// `phi^T (dKhat - lambda dMhat) phi - w^T dg` for several variables, from the derivatives of matrices and residual
+/// with respect to them.
 #[inline(always)]
 fn total_rates(
     n: usize,

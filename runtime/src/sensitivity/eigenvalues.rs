@@ -81,8 +81,8 @@ fn hessenberg(a: &mut [Complex], n: usize) {
     }
 }
 
-/// Explicit QR iteration with Wilkinson's shift on a complex Hessenberg matrix (Golub and Van Loan, Matrix Computations,
-/// sections 7.5 and 8.3).
+/// Explicit QR iteration with Wilkinson's shift on a complex Hessenberg matrix (Golub and Van Loan, Matrix
+/// Computations, sections 7.5 and 8.3).
 fn iterate(a: &mut [Complex], n: usize, values: &mut [Complex]) -> bool {
     let mut end = n;
     let mut steps = 0;

@@ -101,8 +101,8 @@ impl<'a> Rate<'a> {
         }
     }
 
-    /// Derivative along a change of the matrices: `phi^T (dK - lambda dM) phi` (eq. 20), and its counterpart for general
-    /// modes.
+    /// Derivative along a change of the matrices: `phi^T (dK - lambda dM) phi` (eq. 20), and its counterpart for
+    /// general modes.
     pub(crate) fn along(&self, change: &Linear) -> Complex {
         let mode = self.mode;
         match self.family {

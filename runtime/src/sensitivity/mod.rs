@@ -1,5 +1,5 @@
-//! Total derivatives of an equilibrium, its modes and the outputs with respect to inputs and design variables, including
-//! the shift of the equilibrium (eqs. 19-21 completed).
+//! Total derivatives of an equilibrium, its modes and the outputs with respect to inputs and design variables,
+//! including the shift of the equilibrium (eqs. 19-21 completed).
 
 mod adjoint;
 mod eigenvalues;

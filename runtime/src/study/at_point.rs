@@ -113,7 +113,8 @@ impl<M: Kernels> Study<M> {
         Ok(solved.modes)
     }
 
-    /// Derivatives of the equilibrium with respect to every input and design variable ([`sensitivity::equilibrium_shift`]).
+    /// Derivatives of the equilibrium with respect to every input and design variable
+    /// ([`sensitivity::equilibrium_shift`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -260,8 +261,9 @@ impl<M: PictureKernels> Study<M> {
 }
 
 impl<M: DirectionalKernels> Study<M> {
-    /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a direction in the
-    /// space of inputs and design variables ([`directional_derivatives`](crate::clusters::directional_derivatives)).
+    /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a
+    /// direction in the space of inputs and design variables
+    /// ([`directional_derivatives`](crate::clusters::directional_derivatives)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -281,7 +283,8 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.directional_derivatives(mode, direction)
     }
 
-    /// Derivatives of the mode shapes of one mode, counted from 0 ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
+    /// Derivatives of the mode shapes of one mode, counted from 0
+    /// ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -296,7 +299,8 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.shape_sensitivity(mode)
     }
 
-    /// Finds the clusters of modes that mix within the tolerances, and their spread ([`clusters`](crate::clusters::clusters)).
+    /// Finds the clusters of modes that mix within the tolerances, and their spread
+    /// ([`clusters`](crate::clusters::clusters)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -313,7 +317,8 @@ impl<M: DirectionalKernels> Study<M> {
 }
 
 impl<M: CurvatureKernels> Study<M> {
-    /// First and second derivatives of one mode, counted from 0 ([`mode_curvature`](crate::second_order::mode_curvature)).
+    /// First and second derivatives of one mode, counted from 0
+    /// ([`mode_curvature`](crate::second_order::mode_curvature)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -379,8 +384,8 @@ impl<M: CurvatureKernels> Study<M> {
         self.solve()?.margin(mode, band)
     }
 
-    /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is the
-    /// probability that the mode is unstable.
+    /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is
+    /// the probability that the mode is unstable.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -444,8 +449,8 @@ impl<M: BatchKernels> Study<M> {
         self.solve()?.monte_carlo_with_progress(progress)
     }
 
-    /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same bits as the
-    /// whole run.
+    /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same
+    /// bits as the whole run.
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -38,10 +38,10 @@ use crate::{Coordinate, Description, DesignVariable, Error, Input, Law, Matrix, 
 /// # Ok::<(), eigentol::Error>(())
 /// ```
 ///
-/// The examples below continue this one. A study starts with the declared nominal values and tolerances, with all inputs and start
-/// values zero, and looks for a stable equilibrium. Values are in SI units unless wrapped in
-/// [`InDeclaredUnit`](crate::InDeclaredUnit). Each method solves whatever it needs; to ask several questions about one operating
-/// point, call [`Study::solve`] once and call the methods of the result.
+/// The examples below continue this one. A study starts with the declared nominal values and tolerances, with all
+/// inputs and start values zero, and looks for a stable equilibrium. Values are in SI units unless wrapped in
+/// [`InDeclaredUnit`](crate::InDeclaredUnit). Each method solves whatever it needs; to ask several questions about one
+/// operating point, call [`Study::solve`] once and call the methods of the result.
 ///
 /// Handles such as `Pendulum::omega` belong to their mechanism. Using a handle of another mechanism does not compile:
 ///
@@ -89,8 +89,8 @@ impl<M: Kernels> Study<M> {
 
     /// Sets the value of a design variable.
     ///
-    /// A declared tolerance keeps its absolute half-width, even if it was declared in percent (use [`Study::relative_tolerance`]
-    /// for one that scales with the value).
+    /// A declared tolerance keeps its absolute half-width, even if it was declared in percent (use
+    /// [`Study::relative_tolerance`] for one that scales with the value).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -106,8 +106,8 @@ impl<M: Kernels> Study<M> {
 
     /// Sets the value at which the search for an equilibrium starts.
     ///
-    /// A mechanism with constraints is first assembled with this coordinate held at the value: give start values to as many
-    /// coordinates as are independent, and a [`Study::guess`] to the others.
+    /// A mechanism with constraints is first assembled with this coordinate held at the value: give start values to as
+    /// many coordinates as are independent, and a [`Study::guess`] to the others.
     #[must_use]
     pub fn start(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
         self.settings
@@ -162,7 +162,8 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the limits of a tolerance as deviations from the value, lower limit first: `(0.0, 0.1e-3)` for a bore of +0.1 -0 mm.
+    /// Sets the limits of a tolerance as deviations from the value, lower limit first: `(0.0, 0.1e-3)` for a bore of
+    /// +0.1 -0 mm.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -232,7 +233,8 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the correlation matrix of the design variables followed by the inputs that have a tolerance (uncorrelated by default).
+    /// Sets the correlation matrix of the design variables followed by the inputs that have a tolerance (uncorrelated
+    /// by default).
     #[must_use]
     pub fn correlation(mut self, matrix: impl Into<Matrix>) -> Self {
         self.settings.set_correlation(matrix.into());
@@ -248,8 +250,8 @@ impl<M: Kernels> Study<M> {
 
     /// Chooses the family of modes to compute.
     ///
-    /// By default it is the family that neglects nothing: undamped modes where `Chat` is zero and `Khat` symmetric, general modes
-    /// otherwise ([`Family::of`]).
+    /// By default it is the family that neglects nothing: undamped modes where `Chat` is zero and `Khat` symmetric,
+    /// general modes otherwise ([`Family::of`]).
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
         self.settings.family = Some(family);
@@ -279,10 +281,11 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Chooses the vector instructions used to solve several samples (in Monte Carlo runs and response studies) or several input
-    /// values (in sweeps) at once, where the mechanism allows it. The default is the best set that the processor supports; `None`
-    /// solves one at a time. Scalar and vector results differ in the last bits; all instruction sets give identical bits. A run
-    /// reports which way was used ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
+    /// Chooses the vector instructions used to solve several samples (in Monte Carlo runs and response studies) or
+    /// several input values (in sweeps) at once, where the mechanism allows it. The default is the best set that the
+    /// processor supports; `None` solves one at a time. Scalar and vector results differ in the last bits; all
+    /// instruction sets give identical bits. A run reports which way was used
+    /// ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
         self.settings.vectors = vectors;
@@ -300,8 +303,8 @@ impl<M: Kernels> Study<M> {
 
     /// Registers a callback for long computations.
     ///
-    /// It is called from any thread with the number of steps done since its last call: samples, input values, branch points or
-    /// tolerance choices.
+    /// It is called from any thread with the number of steps done since its last call: samples, input values, branch
+    /// points or tolerance choices.
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -81,8 +81,8 @@ impl<M: CurvatureKernels> Study<M> {
 }
 
 impl<M: Kernels> Study<M> {
-    /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the line `k u`, or
-    /// a [`Line`] ([`sweep::crossings`]).
+    /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
+    /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -15,7 +15,8 @@ use crate::tolerance::{FirstOrder, Tolerances};
 use crate::{Error, Input, Watch};
 
 impl<M: BatchKernels> Study<M> {
-    /// Computes equilibria and modes at each value of one input, and the critical values between them ([`sweep::sweep`]).
+    /// Computes equilibria and modes at each value of one input, and the critical values between them
+    /// ([`sweep::sweep`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -36,8 +37,8 @@ impl<M: BatchKernels> Study<M> {
             .sweep((input.any(), &values))
     }
 
-    /// Like [`Study::sweep`], but passes each point to `each` as soon as it is found and keeps none; `each` can break off the sweep
-    /// ([`sweep::sweep_each`]).
+    /// Like [`Study::sweep`], but passes each point to `each` as soon as it is found and keeps none; `each` can break
+    /// off the sweep ([`sweep::sweep_each`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -138,8 +139,8 @@ impl<M: DirectionalKernels> Study<M> {
             .campbell(&Axes::new(input.any(), &values, &orders))
     }
 
-    /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can break off the
-    /// sweep ([`campbell::campbell_each`]).
+    /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can
+    /// break off the sweep ([`campbell::campbell_each`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -213,7 +214,8 @@ impl<M: DirectionalKernels> Study<M> {
         self.branches_each(continuation, search, |_| {})
     }
 
-    /// Like [`Study::branches_with`], passing each branch to `each` as soon as it is complete ([`branches::branches_each`]).
+    /// Like [`Study::branches_with`], passing each branch to `each` as soon as it is complete
+    /// ([`branches::branches_each`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -72,8 +72,8 @@ impl<M: SummaryKernels> Study<M> {
         self.solve()?.worst_case(wanted)
     }
 
-    /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control variate
-    /// ([`propagation::controlled`]).
+    /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control
+    /// variate ([`propagation::controlled`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -59,7 +59,8 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             .chances_by(wanted, sampling)
     }
 
-    /// Failure probabilities from design points, with importance factors and exact derivatives ([`Requirements::reliability`]).
+    /// Failure probabilities from design points, with importance factors and exact derivatives
+    /// ([`Requirements::reliability`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

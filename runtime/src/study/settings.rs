@@ -239,8 +239,8 @@ impl Settings {
         Tolerances::distributed(&nominal, values, level, correlation)
     }
 
-    /// Settings for the mechanism in which input deviations are additional design variables. The tolerances are unchanged; the
-    /// inputs themselves no longer vary.
+    /// Settings for the mechanism in which input deviations are additional design variables. The tolerances are
+    /// unchanged; the inputs themselves no longer vary.
     pub(super) fn widened(&self, description: Shared<Description>, design: Vector) -> Self {
         let none = Variation::About(ToleranceInfo::NONE);
         let mut settings = self.clone();

@@ -51,7 +51,8 @@ impl<'a, M: Kernels> Solved<'a, M> {
             .solve_into(&study.mechanism, equilibrium, modes)
     }
 
-    /// Derivatives of the equilibrium with respect to every input and design variable ([`sensitivity::equilibrium_shift`]).
+    /// Derivatives of the equilibrium with respect to every input and design variable
+    /// ([`sensitivity::equilibrium_shift`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -191,8 +192,8 @@ impl<M: PictureKernels> Solved<'_, M> {
 }
 
 impl<M: DirectionalKernels> Solved<'_, M> {
-    /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a direction in the
-    /// space of inputs and design variables ([`clusters::directional_derivatives`]).
+    /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a
+    /// direction in the space of inputs and design variables ([`clusters::directional_derivatives`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -305,7 +306,8 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             .second_order()
     }
 
-    /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band ([`second_order::mode_margin`]).
+    /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
+    /// ([`second_order::mode_margin`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -323,8 +325,8 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         self.margin_of(mode, Quantity::Frequency, band)
     }
 
-    /// Like [`Solved::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is the
-    /// probability that the mode is unstable.
+    /// Like [`Solved::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is
+    /// the probability that the mode is unstable.
     ///
     /// ```
     #[doc = include_str!("example.txt")]

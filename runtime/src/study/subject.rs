@@ -1,5 +1,6 @@
-//! The operand of a question: kernels and settings without the mechanism's type, so that each question is compiled only once. If
-//! inputs have tolerances, the kernels are those of the mechanism with the input deviations as additional design variables.
+//! The operand of a question: kernels and settings without the mechanism's type, so that each question is compiled only
+//! once. If inputs have tolerances, the kernels are those of the mechanism with the input deviations as additional
+//! design variables.
 
 use super::settings::Settings;
 use super::{Solved, Study};

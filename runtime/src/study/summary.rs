@@ -7,8 +7,8 @@ use crate::kernels::SummaryKernels;
 use crate::summary::{self, BUDGET, Summary};
 
 impl<M: SummaryKernels> Solved<'_, M> {
-    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be trusted
-    /// ([`summary::summary`]).
+    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
+    /// trusted ([`summary::summary`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -22,7 +22,8 @@ impl<M: SummaryKernels> Solved<'_, M> {
         self.summary_within(BUDGET)
     }
 
-    /// Like [`Solved::summary`], with a limit on the number of operations spent on samples ([`summary::summary_within`]).
+    /// Like [`Solved::summary`], with a limit on the number of operations spent on samples
+    /// ([`summary::summary_within`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -40,8 +41,8 @@ impl<M: SummaryKernels> Solved<'_, M> {
 }
 
 impl<M: SummaryKernels> Study<M> {
-    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be trusted
-    /// ([`summary`](crate::summary::summary)).
+    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
+    /// trusted ([`summary`](crate::summary::summary)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -2,11 +2,11 @@
 
 use crate::Unit;
 
-/// A number in the declared unit of the quantity it is assigned to: for an input declared in rpm, `InDeclaredUnit(3000.0)` is 3000
-/// rpm.
+/// A number in the declared unit of the quantity it is assigned to: for an input declared in rpm,
+/// `InDeclaredUnit(3000.0)` is 3000 rpm.
 ///
-/// Wherever a [`Study`](crate::Study) takes a value, it accepts this or a plain `f64` in SI. Coordinates have no declared unit:
-/// they are in rad or m.
+/// Wherever a [`Study`](crate::Study) takes a value, it accepts this or a plain `f64` in SI. Coordinates have no
+/// declared unit: they are in rad or m.
 ///
 /// ```
 /// use eigentol::{InDeclaredUnit, Study, mechanism};

@@ -22,8 +22,8 @@ pub(super) fn operations(modes: &Modes, together: bool) -> f64 {
     let n = description.coordinates.len() as f64;
     let kernels =
         STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
-    // The n^3 terms: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size, left and
-    // right.
+    // The n^3 terms: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size,
+    // left and right.
     match (together, modes.family) {
         (true, Family::Undamped) => 200.0 + SIDE_BY_SIDE * (kernels + 16.0 * n.powi(3)),
         (true, Family::General) => 400.0 + SIDE_BY_SIDE * (kernels + 160.0 * n.powi(3)),

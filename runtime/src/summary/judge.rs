@@ -38,8 +38,8 @@ struct Findings {
 }
 
 impl<'a> Judge<'a> {
-    /// The predictions that samples are to check: for modes that have a frequency of their own, or would have one beside a critical
-    /// state.
+    /// The predictions that samples are to check: for modes that have a frequency of their own, or would have one
+    /// beside a critical state.
     pub(super) fn predictions(&self, mode: usize, own: &Mode) -> Vec<Prediction<'a>> {
         let oscillates = own.frequency().is_some();
         let critical = own.behaviour == Behaviour::Neutral;
@@ -220,8 +220,8 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// `(Im s)^2` divided by its own standard deviation, `Im s / (2 sigma)`; `None` for undamped modes and those that do not
-    /// oscillate.
+    /// `(Im s)^2` divided by its own standard deviation, `Im s / (2 sigma)`; `None` for undamped modes and those that
+    /// do not oscillate.
     fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
         let own = self.first.modes[mode].frequency()?;
         (self.first.family == Family::General && own.sigma > 0.0)
@@ -267,8 +267,8 @@ fn second_spread_of(mode: &ModeSecondOrder, quantity: Quantity) -> &SecondOrderS
     }
 }
 
-/// Whether a frequency is the root of something that vanishes nearby. Its Taylor series then does not converge within the
-/// tolerances, and second order is no check of first order.
+/// Whether a frequency is the root of something that vanishes nearby. Its Taylor series then does not converge within
+/// the tolerances, and second order is no check of first order.
 pub(super) fn expanded_near_a_root(doubts: &[Doubt]) -> bool {
     doubts.iter().any(|doubt| {
         matches!(

@@ -1,20 +1,21 @@
-//! First order, second order and clusters side by side, and for every mode whether its standard deviation can be trusted: checked
-//! against samples where these are cheap.
+//! First order, second order and clusters side by side, and for every mode whether its standard deviation can be
+//! trusted: checked against samples where these are cheap.
 //!
 //! # How a verdict is reached
 //!
-//! A number of samples, always the same ones, are solved anew, each on its own stable equilibrium, and first and second order
-//! predict each of them. The ratio of the standard deviations over the same samples is known much more accurately than either of
-//! them. More samples are drawn until the error of first order is clearly below 3 %, clearly above it, or known to 0.4 %. The
-//! number of operations is limited ([`BUDGET`]), not the time, so that the answer is the same on every machine. Cases that samples
-//! cannot decide within the budget are judged by distances to the critical state and by the second-order model. These are less
-//! reliable: a distance does not tell how large the error is, and near a critical state the Taylor series does not converge.
+//! A number of samples, always the same ones, are solved anew, each on its own stable equilibrium, and first and second
+//! order predict each of them. The ratio of the standard deviations over the same samples is known much more accurately
+//! than either of them. More samples are drawn until the error of first order is clearly below 3 %, clearly above it,
+//! or known to 0.4 %. The number of operations is limited ([`BUDGET`]), not the time, so that the answer is the same on
+//! every machine. Cases that samples cannot decide within the budget are judged by distances to the critical state and
+//! by the second-order model. These are less reliable: a distance does not tell how large the error is, and near a
+//! critical state the Taylor series does not converge.
 //!
 //! # The meaning of a frequency across critical states
 //!
-//! Standard deviations of samples are taken over all stable samples together, on whatever branch of equilibria each of them has
-//! settled. A mode that does not oscillate in a sample has no frequency there, and an unstable sample has none at all. Both are
-//! counted ([`Check::count`], [`Sampled`]) and excluded from mean and standard deviation.
+//! Standard deviations of samples are taken over all stable samples together, on whatever branch of equilibria each of
+//! them has settled. A mode that does not oscillate in a sample has no frequency there, and an unstable sample has none
+//! at all. Both are counted ([`Check::count`], [`Sampled`]) and excluded from mean and standard deviation.
 
 mod branch;
 mod chances;
@@ -77,8 +78,8 @@ impl Summary {
         (self.trust.get(mode)?.doubts.iter().any(mixed)).then_some(own)
     }
 
-    /// The second-order standard deviation of a frequency, rad/s; `None` if there is none, or if it is meaningless because the
-    /// series does not converge.
+    /// The second-order standard deviation of a frequency, rad/s; `None` if there is none, or if it is meaningless
+    /// because the series does not converge.
     pub(crate) fn second_order_sigma(&self, mode: usize) -> Option<f64> {
         let second = self.second.modes[mode].as_ref().ok()?;
         let trust = &self.trust[mode];
@@ -99,8 +100,8 @@ impl Summary {
 /// First order, second order, clusters and a verdict for each mode, checked by samples within [`BUDGET`].
 ///
 /// # Errors
-/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite, [`Error::WrongLength`]
-/// for tolerances of another mechanism, [`Error::Threads`] if worker threads cannot be started.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite,
+/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Threads`] if worker threads cannot be started.
 pub fn summary(
     mechanism: &dyn SummaryKernels,
     at: &Equilibrium,
@@ -110,8 +111,8 @@ pub fn summary(
     summary_within(mechanism, at, modes, tolerances, BUDGET)
 }
 
-/// Like [`summary`], with a custom budget for samples: a larger one decides closer cases; with zero, only distances and the
-/// second-order model remain.
+/// Like [`summary`], with a custom budget for samples: a larger one decides closer cases; with zero, only distances and
+/// the second-order model remain.
 ///
 /// # Errors
 /// As [`summary`].

@@ -1,5 +1,5 @@
-//! Samples paired with their predictions: the ratio of two standard deviations over the same samples is known much more accurately
-//! than either.
+//! Samples paired with their predictions: the ratio of two standard deviations over the same samples is known much more
+//! accurately than either.
 
 /// Number of groups of samples; the jackknife leaves out one at a time.
 const GROUPS: usize = 32;
@@ -64,8 +64,8 @@ pub struct Measured {
     pub standard_error: f64,
 }
 
-/// A quantity of a mode over samples, with its first- and second-order prediction for each. All are deviations from the nominal
-/// value, so that no digits are lost.
+/// A quantity of a mode over samples, with its first- and second-order prediction for each. All are deviations from the
+/// nominal value, so that no digits are lost.
 #[derive(Clone, Debug)]
 pub(super) struct Paired {
     groups: [Group; GROUPS],
@@ -129,8 +129,8 @@ impl Paired {
         total
     }
 
-    /// A statistic and its standard error, from its values with one group left out at a time (Efron, The Jackknife, the Bootstrap
-    /// and Other Resampling Plans, 1982, section 2.2); `None` if it is not finite.
+    /// A statistic and its standard error, from its values with one group left out at a time (Efron, The Jackknife, the
+    /// Bootstrap and Other Resampling Plans, 1982, section 2.2); `None` if it is not finite.
     fn jackknife(&self, statistic: impl Fn(&Group) -> Option<f64>) -> Option<Measured> {
         let total = self.total();
         let value = statistic(&total)?;

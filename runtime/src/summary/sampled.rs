@@ -14,7 +14,8 @@ use crate::{Equilibrium, Error, Modes, Stability, Watch};
 
 /// Successive numbers of samples; the next is used if the last did not decide.
 const STAGES: [usize; 5] = [256, 1024, 4096, 16_384, 65_536];
-/// Minimum number of samples for a decision, and the number where rare samples matter. Quantities without values do not count.
+/// Minimum number of samples for a decision, and the number where rare samples matter. Quantities without values do not
+/// count.
 const DECISIVE: usize = 1024;
 const DECISIVE_IN_DOUBT: usize = 4096;
 /// Maximum number of samples drawn at once.

@@ -55,8 +55,8 @@ pub enum Advice {
 
 /// A quantity of a mode over re-solved samples, with its predictions.
 ///
-/// A mode that does not oscillate has no frequency and no damping ratio. Mean and standard deviation are over the samples in which
-/// it does, on whatever branch of equilibria these lie; the number of other samples is known.
+/// A mode that does not oscillate has no frequency and no damping ratio. Mean and standard deviation are over the
+/// samples in which it does, on whatever branch of equilibria these lie; the number of other samples is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -71,8 +71,8 @@ pub struct Check {
     pub mean: f64,
     /// Standard deviation over the samples that have the quantity.
     pub sigma: Measured,
-    /// Relative error of the first-order standard deviation with respect to the sampled one; negative if first order is too small.
-    /// `None` if there is nothing to compare.
+    /// Relative error of the first-order standard deviation with respect to the sampled one; negative if first order is
+    /// too small. `None` if there is nothing to compare.
     pub first_order_error: Option<Measured>,
     /// Relative error of the second-order standard deviation, likewise.
     pub second_order_error: Option<Measured>,
@@ -102,8 +102,8 @@ pub enum Doubt {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         distance: f64,
     },
-    /// The mode is close to growing: the distance is zero if it neither grows nor decays within rounding, negative if it grows. It
-    /// is reported whatever samples show, because sigma says nothing about unstable ones.
+    /// The mode is close to growing: the distance is zero if it neither grows nor decays within rounding, negative if
+    /// it grows. It is reported whatever samples show, because sigma says nothing about unstable ones.
     NearInstability {
         /// Standard deviations.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
@@ -116,8 +116,8 @@ pub enum Doubt {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         distance: f64,
     },
-    /// First order disagrees with the standard deviation of the second-order model. Checked only where samples did not decide and
-    /// the series may converge: not near a critical state or critical damping.
+    /// First order disagrees with the standard deviation of the second-order model. Checked only where samples did not
+    /// decide and the series may converge: not near a critical state or critical damping.
     Nonlinear {
         /// The quantity.
         quantity: Quantity,

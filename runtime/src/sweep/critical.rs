@@ -15,16 +15,16 @@ const COARSEST_STEP: f64 = 0.05;
 /// Maximum number of continuation points.
 const MOST_POINTS: usize = 50_000;
 
-/// Finds the first input value at which the branch that is stable at `range.low` loses its stiffness: a limit point or branch
-/// point, located to rounding accuracy.
+/// Finds the first input value at which the branch that is stable at `range.low` loses its stiffness: a limit point or
+/// branch point, located to rounding accuracy.
 ///
 /// The branch itself is followed by continuation, even where a neighbouring branch is the stable one, with steps of at
 /// most `1/steps` of the range (clamped to between 1e-4 and 0.05). A branch that runs to infinity is not critical. A
 /// non-symmetric `Khat` is critical where its determinant changes sign.
 ///
 /// # Errors
-/// [`Error::NotInRange`] if the branch keeps its stiffness; the cause if the branch cannot be followed to the end of the range;
-/// otherwise as [`equilibrium`].
+/// [`Error::NotInRange`] if the branch keeps its stiffness; the cause if the branch cannot be followed to the end of
+/// the range; otherwise as [`equilibrium`].
 pub fn critical_state(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],
@@ -80,8 +80,8 @@ const MOST_STATES: usize = 32;
 pub(crate) struct Path {
     /// Whether stable equilibria are followed.
     stable: bool,
-    /// Value, state, and whether the path reaches it from the previous state so smoothly that no critical state lies between. Of
-    /// consecutive smooth states only the last is kept.
+    /// Value, state, and whether the path reaches it from the previous state so smoothly that no critical state lies
+    /// between. Of consecutive smooth states only the last is kept.
     stations: Vec<(f64, Vector, bool)>,
     /// The first and the last value.
     ends: Option<(f64, f64)>,
@@ -127,8 +127,8 @@ impl Path {
         }
     }
 
-    /// The critical states, each on the branch that leads up to it. Empty if the path does not follow stable equilibria or if its
-    /// values are not monotonic.
+    /// The critical states, each on the branch that leads up to it. Empty if the path does not follow stable equilibria
+    /// or if its values are not monotonic.
     pub(crate) fn critical_states(
         &self,
         mechanism: &dyn DirectionalKernels,

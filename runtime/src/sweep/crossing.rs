@@ -1,5 +1,6 @@
-//! Values of an input at which a mode meets a condition: its frequency equals a multiple of the input (resonance, critical speed of
-//! a rotor), or its oscillation stops decaying (onset of flutter). They are located by Newton's method with exact slopes.
+//! Values of an input at which a mode meets a condition: its frequency equals a multiple of the input (resonance,
+//! critical speed of a rotor), or its oscillation stops decaying (onset of flutter). They are located by Newton's
+//! method with exact slopes.
 
 use super::points::SweepPoint;
 use super::range::Range;
@@ -70,8 +71,8 @@ impl Condition {
         })
     }
 
-    /// Whether a mode meets the condition within rounding. Where the equilibrium jumps to another branch, a frequency jumps across
-    /// a line without meeting it.
+    /// Whether a mode meets the condition within rounding. Where the equilibrium jumps to another branch, a frequency
+    /// jumps across a line without meeting it.
     fn is_met(self, mode: &Mode, value: f64) -> bool {
         const ROUNDING: f64 = 1e-6;
         let Some(omega) = mode.frequency() else {
@@ -87,7 +88,8 @@ impl Condition {
         }
     }
 
-    /// The quantity of the mode on one side of the condition, and the rate at which the other side changes with the input.
+    /// The quantity of the mode on one side of the condition, and the rate at which the other side changes with the
+    /// input.
     pub(crate) fn sides(self) -> (Quantity, f64) {
         match self {
             Self::Line(line) => (Quantity::Frequency, line.ratio),
@@ -111,9 +113,9 @@ impl Condition {
     }
 }
 
-/// Finds every input value in a range at which a frequency equals a line (a plain number is the multiple of the input), along the
-/// followed equilibria. Modes keep their identity along the range. Points without an equilibrium or without modes are skipped. A
-/// frequency that jumps across the line together with the equilibrium does not count.
+/// Finds every input value in a range at which a frequency equals a line (a plain number is the multiple of the input),
+/// along the followed equilibria. Modes keep their identity along the range. Points without an equilibrium or without
+/// modes are skipped. A frequency that jumps across the line together with the equilibrium does not count.
 ///
 /// # Errors
 /// [`Error::UnknownHandle`], [`Error::Setting`], or the error of the first point.
@@ -164,7 +166,8 @@ pub fn flutter_onsets(
     )
 }
 
-/// The first value in a range at which the mode that has position `mode` at the start meets a condition; `None` if there is none.
+/// The first value in a range at which the mode that has position `mode` at the start meets a condition; `None` if
+/// there is none.
 pub(crate) fn first_crossing(
     mechanism: &dyn Kernels,
     values: (&[f64], &[f64]),

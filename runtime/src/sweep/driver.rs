@@ -1,5 +1,5 @@
-//! Follows an equilibrium through successive values of an input: in vectorised blocks where the path is smooth, one value at a time
-//! elsewhere.
+//! Follows an equilibrium through successive values of an input: in vectorised blocks where the path is smooth, one
+//! value at a time elsewhere.
 
 use core::ops::ControlFlow;
 
@@ -20,8 +20,8 @@ pub(crate) struct Station<'a> {
     pub(crate) smooth: bool,
 }
 
-/// Advances through `values` until `each` breaks off. `each` receives the results in order, with derivatives of the modes if
-/// requested.
+/// Advances through `values` until `each` breaks off. `each` receives the results in order, with derivatives of the
+/// modes if requested.
 pub(crate) fn follow(
     tracker: &mut Tracker<'_>,
     kernels: &dyn BatchKernels,

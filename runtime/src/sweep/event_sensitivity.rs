@@ -15,12 +15,13 @@ const MERGED: f64 = 1e5;
 
 /// Derivative `du_c/db` of a crossing, in SI units of the input per SI unit of the design variable.
 ///
-/// For `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, for an onset of flutter `-(dRe s/db) / (dRe s/du)`. With respect
-/// to a deviation of the input it is -1: the set value is what is located, while the line follows the actual one.
+/// For `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, for an onset of flutter `-(dRe s/db) / (dRe s/du)`.
+/// With respect to a deviation of the input it is -1: the set value is what is located, while the line follows the
+/// actual one.
 ///
 /// # Errors
-/// [`Error::ClusteredMode`] if the mode has no derivative of its own, [`Error::NoSensitivity`] if the two sides of the condition
-/// touch without crossing; otherwise as [`sensitivities`].
+/// [`Error::ClusteredMode`] if the mode has no derivative of its own, [`Error::NoSensitivity`] if the two sides of the
+/// condition touch without crossing; otherwise as [`sensitivities`].
 pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Result<Vector, Error> {
     let all = sensitivities(mechanism, &crossing.equilibrium, &crossing.modes)?;
     let mode = crossing.mode;
@@ -71,22 +72,23 @@ fn finite(slopes: Vector, at: &Equilibrium) -> Result<Vector, Error> {
     }
 }
 
-/// Components of the residual along the critical mode count as zero below this fraction of what a unit of motion there produces.
+/// Components of the residual along the critical mode count as zero below this fraction of what a unit of motion there
+/// produces.
 const UNFORCED: f64 = 1e-6;
 
-/// Derivative `du_c/db` of a critical value, where `Khat` is singular and the ordinary formulas fail; `v` and `w` are the critical
-/// vectors.
+/// Derivative `du_c/db` of a critical value, where `Khat` is singular and the ordinary formulas fail; `v` and `w` are
+/// the critical vectors.
 ///
 /// - At a limit point, where the input has a component along the critical mode: `-(w^T dg/db) / (w^T dg/du)`.
-/// - At a branch point, where neither input nor design has such a component, the crossing of the branches moves: with the null
-///   vectors `x_1 = (v, 0)`, `x_2 = (dq/du, 1)` of `[Khat dg/du]` and the shift `x_b` in their complement,
-///   `H (dxi, du) = -w^T (g''(x_i, x_b) + dg'/db x_i)`, `H_ij = w^T g''(x_i, x_j)`. At a pitchfork `H_11 = 0`, and this is the
-///   ratio of the slopes of the critical eigenvalue, `-(dlambda/db) / (dlambda/du)`.
+/// - At a branch point, where neither input nor design has such a component, the crossing of the branches moves: with
+///   the null vectors `x_1 = (v, 0)`, `x_2 = (dq/du, 1)` of `[Khat dg/du]` and the shift `x_b` in their complement,
+///   `H (dxi, du) = -w^T (g''(x_i, x_b) + dg'/db x_i)`, `H_ij = w^T g''(x_i, x_j)`. At a pitchfork `H_11 = 0`, and this
+///   is the ratio of the slopes of the critical eigenvalue, `-(dlambda/db) / (dlambda/du)`.
 ///
 /// # Errors
-/// [`Error::NoSensitivity`] if a design variable acts along the mode at a branch point (it destroys the crossing: its effect is not
-/// differentiable) or the branches do not cross; [`Error::ClusteredMode`] if several modes are critical at once;
-/// [`Error::OutsideDomain`] if a derivative is not finite.
+/// [`Error::NoSensitivity`] if a design variable acts along the mode at a branch point (it destroys the crossing: its
+/// effect is not differentiable) or the branches do not cross; [`Error::ClusteredMode`] if several modes are critical
+/// at once; [`Error::OutsideDomain`] if a derivative is not finite.
 pub fn critical_sensitivity(
     mechanism: &dyn DirectionalKernels,
     critical: &CriticalState,

@@ -1,4 +1,5 @@
-//! Studies along an input: equilibria and modes at successive values, and where they become critical, resonant or unstable.
+//! Studies along an input: equilibria and modes at successive values, and where they become critical, resonant or
+//! unstable.
 
 mod critical;
 mod crossing;

@@ -13,8 +13,9 @@ pub struct Sweep {
     pub input: Input,
     /// One point per value.
     pub points: Vec<SweepPoint>,
-    /// Critical values of the input, where the stable equilibrium that the sweep follows loses its stiffness, each located to
-    /// rounding accuracy on the branch before it. Computed only if stable equilibria are followed and the values are monotonic.
+    /// Critical values of the input, where the stable equilibrium that the sweep follows loses its stiffness, each
+    /// located to rounding accuracy on the branch before it. Computed only if stable equilibria are followed and the
+    /// values are monotonic.
     pub critical: Vec<CriticalState>,
     /// Number of values not reached because the run was stopped.
     pub unreached: usize,
@@ -78,7 +79,8 @@ pub struct CriticalState {
     pub value: f64,
     /// The kind of critical point.
     pub kind: SpecialKind,
-    /// The equilibrium at the critical value, on the branch that is stable below it; its critical mode counts as neutral.
+    /// The equilibrium at the critical value, on the branch that is stable below it; its critical mode counts as
+    /// neutral.
     pub equilibrium: Equilibrium,
     /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of several if degenerate.
     pub v: Vector,

@@ -10,12 +10,12 @@ use crate::kernels::BatchKernels;
 use crate::sensitivity::Sensitivities;
 use crate::{Error, Input};
 
-/// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and passes them to `each` in order until
-/// it breaks off. This is the fastest way to derivatives along an input, because neighbouring values are solved together and
-/// nothing is kept.
+/// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and passes them to `each` in
+/// order until it breaks off. This is the fastest way to derivatives along an input, because neighbouring values are
+/// solved together and nothing is kept.
 ///
-/// The arguments are those of [`sweep`](crate::sweep::sweep), which keeps its points and looks for critical states between them;
-/// states and modes are identical. The derivatives, or the error, are those of
+/// The arguments are those of [`sweep`](crate::sweep::sweep), which keeps its points and looks for critical states
+/// between them; states and modes are identical. The derivatives, or the error, are those of
 /// [`sensitivities`](crate::sensitivity::sensitivities).
 ///
 /// # Errors

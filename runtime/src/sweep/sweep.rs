@@ -12,8 +12,9 @@ use crate::{Error, Input};
 
 /// Solves equilibrium and modes at each of `values` of one input; the other inputs keep their values in `u`.
 ///
-/// The first point starts at `start`, each later one at the last equilibrium found. A point that fails carries its error and the
-/// sweep continues. A sweep that follows stable equilibria switches branches by itself and reports the critical values it passes.
+/// The first point starts at `start`, each later one at the last equilibrium found. A point that fails carries its
+/// error and the sweep continues. A sweep that follows stable equilibria switches branches by itself and reports the
+/// critical values it passes.
 ///
 /// # Errors
 /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
@@ -36,8 +37,8 @@ pub fn sweep(
     Ok(Sweep { points, ..found })
 }
 
-/// Like [`sweep`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result contains only
-/// the critical states. The sweep ends when `each` breaks off.
+/// Like [`sweep`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result
+/// contains only the critical states. The sweep ends when `each` breaks off.
 ///
 /// # Errors
 /// As [`sweep`].

@@ -1,5 +1,5 @@
-//! Follows one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes keep their
-//! identity.
+//! Follows one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes
+//! keep their identity.
 
 use super::points::SweepPoint;
 use crate::algebra::Vector;
@@ -25,8 +25,8 @@ pub struct Following {
     pub policy: Policy,
     /// Which modes to follow; `None` for the family that neglects nothing ([`Family::of`]).
     pub family: Option<Family>,
-    /// The vector instructions used to solve neighbouring values of a sweep at once, where the mechanism allows it; `None` solves
-    /// each value by itself. Results agree up to rounding.
+    /// The vector instructions used to solve neighbouring values of a sweep at once, where the mechanism allows it;
+    /// `None` solves each value by itself. Results agree up to rounding.
     pub vectors: Option<Instructions>,
 }
 
@@ -66,7 +66,8 @@ pub(crate) struct Tracker<'a> {
     path: Path,
     /// The smallest label not yet used; labels of modes that have ended are not reused.
     unused: usize,
-    /// Whether the last advance ended where the path so far predicted, with no stiffness near zero: it passed no critical state.
+    /// Whether the last advance ended where the path so far predicted, with no stiffness near zero: it passed no
+    /// critical state.
     pub(crate) smooth: bool,
     /// The last point with modes.
     pub(crate) last: Option<Box<SweepPoint>>,
@@ -120,8 +121,9 @@ impl<'a> Tracker<'a> {
         inputs
     }
 
-    /// Solves the equilibrium at a value of the input into `state`, starting from the prediction if that converges at once (returns
-    /// true), otherwise from `from`. Also returns its general modes if they were needed to judge its stability.
+    /// Solves the equilibrium at a value of the input into `state`, starting from the prediction if that converges at
+    /// once (returns true), otherwise from `from`. Also returns its general modes if they were needed to judge its
+    /// stability.
     fn equilibrium_into(
         &self,
         value: f64,
@@ -182,8 +184,8 @@ impl<'a> Tracker<'a> {
         Workspace::new(memory, self.mechanism, values, with_slopes)
     }
 
-    /// Solves the first of `values` as one block where the path so far is smooth. Returns how many of them, counted from the first,
-    /// agree with a one-by-one solution.
+    /// Solves the first of `values` as one block where the path so far is smooth. Returns how many of them, counted
+    /// from the first, agree with a one-by-one solution.
     pub(super) fn solve_block(
         &self,
         kernels: &dyn BatchKernels,
@@ -223,8 +225,8 @@ impl<'a> Tracker<'a> {
         }
     }
 
-    /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new point is
-    /// [`Self::last`]; a point without modes is returned instead.
+    /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new
+    /// point is [`Self::last`]; a point without modes is returned instead.
     pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
         let (equilibrium, error) = match self.go(value) {
             Ok(None) => return None,

@@ -50,8 +50,8 @@ pub struct ModeTolerance {
     value: Complex,
     /// Contribution to `lambda` of means that differ from the nominal values.
     shift: f64,
-    /// For a general mode, the spreads of its quantities in the order of [`Quantity::ALL`]. Those of an undamped mode are
-    /// that of `lambda`, scaled: its eigenvalue is a root.
+    /// For a general mode, the spreads of its quantities in the order of [`Quantity::ALL`]. Those of an undamped mode
+    /// are that of `lambda`, scaled: its eigenvalue is a root.
     general: Option<[Option<Spread>; 4]>,
 }
 
@@ -159,8 +159,8 @@ pub struct FirstOrder {
 impl FirstOrder {
     /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]).
     ///
-    /// It considers each mode alone; [`summary`](crate::summary::summary) also detects which modes mix and how nonlinear
-    /// frequencies are.
+    /// It considers each mode alone; [`summary`](crate::summary::summary) also detects which modes mix and how
+    /// nonlinear frequencies are.
     pub fn trusted(&self) -> bool {
         self.distance_to_critical >= TRUSTED_DISTANCE && self.modes.iter().all(ModeTolerance::alone)
     }
@@ -225,7 +225,8 @@ fn undamped(
     found.clustered = own.clustered;
 }
 
-/// The spread of a general mode, without the distance to its neighbours; each quantity is spread by its own derivatives.
+/// The spread of a general mode, without the distance to its neighbours; each quantity is spread by its own
+/// derivatives.
 fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &mut ModeTolerance) {
     let slopes = &own.lambda.by_design;
     let lambda = &mut found.lambda;

@@ -30,8 +30,8 @@ pub struct Sampling<'a> {
     pub seed: u64,
     /// Which of the seed's independent sequences to use; points of a sweep that must not share samples take one each.
     pub stream: u64,
-    /// Number of threads; 0 takes as many as the machine has. The limit is 256, or the number the machine has if that is
-    /// larger. Threads, once started, wait for the next run.
+    /// Number of threads; 0 takes as many as the machine has. The limit is 256, or the number the machine has if that
+    /// is larger. Threads, once started, wait for the next run.
     pub threads: usize,
     /// Returns every sample, not only the statistics.
     pub keep_samples: bool,

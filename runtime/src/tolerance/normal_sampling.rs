@@ -29,8 +29,8 @@ fn ln<V: Lanes>(x: V) -> V {
     exponent * number(core::f64::consts::LN_2) + s * (number(2.0) + z * sum)
 }
 
-/// `(2 artanh(s) / s - 2) / s^2` in powers of `s^2` for mantissas around 1; the relative error of the logarithm is below
-/// 2^-59.
+/// `(2 artanh(s) / s - 2) / s^2` in powers of `s^2` for mantissas around 1; the relative error of the logarithm is
+/// below 2^-59.
 const LN: [f64; 7] = [
     0.6666666666666735,
     0.39999999999409136,

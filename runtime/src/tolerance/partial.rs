@@ -43,8 +43,8 @@ impl PartialMonteCarlo {
     /// Adds other samples of the same run.
     ///
     /// # Errors
-    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that were already added; in
-    /// either case nothing is added.
+    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that were already added;
+    /// in either case nothing is added.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
         let own = core::slice::from_mut(&mut self.part);
         self.run.merge(own, (&other.run, vec![other.part]))?;

@@ -26,16 +26,17 @@ pub struct MonteCarlo {
     pub counts: Counts,
     /// Stable samples whose nominal position is itself unstable: they settled on another branch.
     pub left_nominal_branch: usize,
-    /// Statistics of the frequency, rad/s, by nominal mode, over the stable samples in which the mode oscillates; `None`
-    /// if there are none. They include quantiles and a histogram ([`Statistics::quantile`], [`Statistics::sketch`]).
+    /// Statistics of the frequency, rad/s, by nominal mode, over the stable samples in which the mode oscillates;
+    /// `None` if there are none. They include quantiles and a histogram ([`Statistics::quantile`],
+    /// [`Statistics::sketch`]).
     pub modes: Vec<Option<Statistics>>,
     /// Statistics of the damping ratio over the same samples.
     pub damping_ratios: Vec<Option<Statistics>>,
     /// Samples were solved side by side in vectors ([`Sampling::vectors`](super::Sampling::vectors)), except those that
     /// had to be solved alone. If solved one by one, the statistics differ in the last bits.
     pub side_by_side: bool,
-    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode matches is arbitrary, so only statistics
-    /// over all of them together are meaningful ([`clusters`](crate::clusters::clusters)).
+    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode matches is arbitrary, so only
+    /// statistics over all of them together are meaningful ([`clusters`](crate::clusters::clusters)).
     pub clustered: bool,
     /// Every sample, in order, if requested.
     pub all: Option<Vec<Sample>>,

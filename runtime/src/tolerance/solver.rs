@@ -65,8 +65,8 @@ impl<'a> Solver<'a> {
         self.prepared.is_some()
     }
 
-    /// What is gathered: the frequency of each nominal mode, and its damping ratio if modes can be damped; the outcomes,
-    /// followed by [`LEFT_NOMINAL_BRANCH`].
+    /// What is gathered: the frequency of each nominal mode, and its damping ratio if modes can be damped; the
+    /// outcomes, followed by [`LEFT_NOMINAL_BRANCH`].
     pub(super) fn plan(&self) -> Result<Plan, Error> {
         let slopes = sensitivities(self.mechanism, self.nominal, self.modes).ok();
         let quantities = match self.modes.family {

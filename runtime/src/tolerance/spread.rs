@@ -46,8 +46,8 @@ impl Spread {
         }
     }
 
-    /// Completes the spread of a quantity whose derivatives are already written; returns the effect of means that differ
-    /// from the nominal values.
+    /// Completes the spread of a quantity whose derivatives are already written; returns the effect of means that
+    /// differ from the nominal values.
     #[inline]
     pub(super) fn finish(&mut self, mean: f64, tolerances: &Tolerances) -> f64 {
         let shift = tolerances.mean_shift(&self.by_design);

@@ -251,8 +251,8 @@ impl Tolerances {
         }
     }
 
-    /// Location and scale of the values expected of a quantity, SI: its nominal value and, if there are derivatives, its
-    /// first-order standard deviation. The scale is reduced to a power of two, so that scaling causes no rounding.
+    /// Location and scale of the values expected of a quantity, SI: its nominal value and, if there are derivatives,
+    /// its first-order standard deviation. The scale is reduced to a power of two, so that scaling causes no rounding.
     pub(crate) fn scale(&self, value: Option<f64>, slopes: Option<&[f64]>) -> (f64, f64) {
         let value = value.unwrap_or(0.0);
         let sigma = slopes.map_or(0.0, |slopes| self.sigma(slopes));

@@ -110,8 +110,8 @@ pub enum Error {
         /// The reason given by the limit state.
         reason: String,
     },
-    /// No start of the search led to a point on the limit that is nearest to the origin. Either nothing fails within reach, or the
-    /// limit state is not smooth enough; a looser tolerance, more restarts or sampling may then help.
+    /// No start of the search led to a point on the limit that is nearest to the origin. Either nothing fails within
+    /// reach, or the limit state is not smooth enough; a looser tolerance, more restarts or sampling may then help.
     #[error("no design point within {radius} standard deviations: {closest}")]
     NoDesignPoint {
         /// Distance from the origin to which the search went.

@@ -1,5 +1,5 @@
-//! Random variables, points at which to sample them, and statistics of samples: everything stochastic that tolerance analysis
-//! needs, independent of mechanisms.
+//! Random variables, points at which to sample them, and statistics of samples: everything stochastic that tolerance
+//! analysis needs, independent of mechanisms.
 //!
 //! Functions take slices of numbers in any consistent units.
 

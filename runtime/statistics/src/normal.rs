@@ -103,8 +103,8 @@ mod tests {
         assert!(quantile(1.5).is_nan() && quantile(f64::NAN).is_nan());
     }
 
-    /// Checked on both sides of the point where the formula changes: to its left by the derivative of the logarithm, the negative
-    /// hazard.
+    /// Checked on both sides of the point where the formula changes: to its left by the derivative of the logarithm,
+    /// the negative hazard.
     #[test]
     fn far_tails_continue() {
         let (below, above) = (FAR - 1e-3, FAR + 1e-3);

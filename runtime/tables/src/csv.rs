@@ -1,8 +1,9 @@
-//! Tables as CSV files (RFC 4180): a heading line of `name [unit]`, then one line per row; comma-separated, quoted where necessary.
+//! Tables as CSV files (RFC 4180): a heading line of `name [unit]`, then one line per row; comma-separated, quoted
+//! where necessary.
 //!
-//! Numbers are written with enough digits to restore them exactly. Missing values are empty cells; yes/no values are `true` and `false`.
-//! The last columns repeat the operating point in every row, so files of several points can be concatenated and read by programs that do
-//! not understand comments.
+//! Numbers are written with enough digits to restore them exactly. Missing values are empty cells; yes/no values are
+//! `true` and `false`. The last columns repeat the operating point in every row, so files of several points can be
+//! concatenated and read by programs that do not understand comments.
 
 use std::io::{Read, Write};
 
@@ -99,12 +100,13 @@ pub fn to_string(table: &Table) -> Result<String, Error> {
 
 /// Reads a table back, inferring the kind of each column.
 ///
-/// A column holds whole numbers, numbers or yes/no values if all its non-empty cells parse as such, and words otherwise; a column of empty
-/// cells holds numbers.
+/// A column holds whole numbers, numbers or yes/no values if all its non-empty cells parse as such, and words
+/// otherwise; a column of empty cells holds numbers.
 ///
 /// # Errors
-/// [`Error::Read`]; [`Error::Malformed`] with the number of a line that has a different cell count from the headings, or that has no line
-/// end, like the last line of a truncated file. Truncation between two lines cannot be detected in CSV.
+/// [`Error::Read`]; [`Error::Malformed`] with the number of a line that has a different cell count from the headings,
+/// or that has no line end, like the last line of a truncated file. Truncation between two lines cannot be detected in
+/// CSV.
 pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(Error::Read)?;

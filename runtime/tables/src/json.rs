@@ -20,18 +20,18 @@
 //! }
 //! ```
 //!
-//! - `format` and `version` come first. An unknown version is rejected with its number; within a version, fields may be added but none
-//!   changes.
-//! - The schema of all documents ([JSON Schema](https://json-schema.org), draft 2020-12) is the file `eigentol.schema.json` of this crate,
-//!   [`SCHEMA`].
+//! - `format` and `version` come first. An unknown version is rejected with its number; within a version, fields may be
+//!   added but none changes.
+//! - The schema of all documents ([JSON Schema](https://json-schema.org), draft 2020-12) is the file
+//!   `eigentol.schema.json` of this crate, [`SCHEMA`].
 //! - `inputs` is the operating point in declared units, without any varied input.
-//! - `tables` is meant for people and other programs ([`tables`](crate::tables)): columns of equal length, each of the `kind` `numbers`,
-//!   `whole`, `texts` or `flags`, in declared units; missing values are `null`.
-//! - `result` is the complete result in SI, with the field names of the Rust type, so that [`read`] restores it exactly. Complex numbers
-//!   are `[real, imaginary]`, matrices are lists of rows, and infinities are the strings `"Infinity"` and `"-Infinity"`. A `description` of
-//!   `null` inside the result means the description of the document.
-//! - `lengths` is a hexadecimal hash of the lengths of all lists in `description` and `result`; [`read`] uses it to reject documents whose
-//!   lists no longer match. Other programs can ignore it.
+//! - `tables` is meant for people and other programs ([`tables`](crate::tables)): columns of equal length, each of the
+//!   `kind` `numbers`, `whole`, `texts` or `flags`, in declared units; missing values are `null`.
+//! - `result` is the complete result in SI, with the field names of the Rust type, so that [`read`] restores it
+//!   exactly. Complex numbers are `[real, imaginary]`, matrices are lists of rows, and infinities are the strings
+//!   `"Infinity"` and `"-Infinity"`. A `description` of `null` inside the result means the description of the document.
+//! - `lengths` is a hexadecimal hash of the lengths of all lists in `description` and `result`; [`read`] uses it to
+//!   reject documents whose lists no longer match. Other programs can ignore it.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
@@ -130,8 +130,9 @@ pub fn to_string<A: Answer>(answer: &A) -> Result<String, Error> {
 /// Reads the result of a document back, bit for bit.
 ///
 /// # Errors
-/// [`Error::Read`]; [`Error::Malformed`] for a file that is truncated or not JSON; [`Error::Foreign`] for JSON from other programs;
-/// [`Error::Version`] for a document of another version; [`Error::Kind`] for a different kind of result; [`Error::Content`].
+/// [`Error::Read`]; [`Error::Malformed`] for a file that is truncated or not JSON; [`Error::Foreign`] for JSON from
+/// other programs; [`Error::Version`] for a document of another version; [`Error::Kind`] for a different kind of
+/// result; [`Error::Content`].
 pub fn read<A: Answer>(file: impl Read) -> Result<A, Error> {
     let document: Value = serde_json::from_reader(file).map_err(reading)?;
     let kind = kind(&document)?;

@@ -1,9 +1,10 @@
-//! Tables as Parquet files, for large sample sets and long sweeps: each table written becomes one row group, so only one needs to be in
-//! memory.
+//! Tables as Parquet files, for large sample sets and long sweeps: each table written becomes one row group, so only
+//! one needs to be in memory.
 //!
-//! Columns use the CSV headings, `name [unit]`, and may hold missing values; numbers are `DOUBLE`, whole numbers `INT64`, words UTF-8,
-//! yes/no values `BOOLEAN`. Nothing is compressed. The metadata keys `eigentol` and `table` hold the format version and the table name. A
-//! file is complete only once [`Writer::finish`] has returned; a truncated file cannot be read.
+//! Columns use the CSV headings, `name [unit]`, and may hold missing values; numbers are `DOUBLE`, whole numbers
+//! `INT64`, words UTF-8, yes/no values `BOOLEAN`. Nothing is compressed. The metadata keys `eigentol` and `table` hold
+//! the format version and the table name. A file is complete only once [`Writer::finish`] has returned; a truncated
+//! file cannot be read.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -69,8 +70,8 @@ impl<W: Write + Send> Writer<W> {
     /// Writes the rows of a table as one row group.
     ///
     /// # Errors
-    /// [`Error::Write`], after which nothing more can be written; [`Error::OtherColumns`] if headings or kinds differ from the previous
-    /// rows; [`Error::Lengths`].
+    /// [`Error::Write`], after which nothing more can be written; [`Error::OtherColumns`] if headings or kinds differ
+    /// from the previous rows; [`Error::Lengths`].
     pub fn write(&mut self, table: &Table) -> Result<(), Error> {
         table.check()?;
         let own: Vec<(String, Physical)> = (table.columns.iter())
@@ -213,8 +214,8 @@ fn present<T, R>(all: &[Option<T>], value: impl Fn(&T) -> R) -> (Vec<i16>, Vec<R
 /// Reads all rows of a file, including files from other programs if tables support their column types.
 ///
 /// # Errors
-/// [`Error::Read`]; [`Error::Content`] for a file that is truncated, damaged or not Parquet, and for unsupported column types;
-/// [`Error::Version`].
+/// [`Error::Read`]; [`Error::Content`] for a file that is truncated, damaged or not Parquet, and for unsupported column
+/// types; [`Error::Version`].
 pub fn read(mut file: impl Read) -> Result<Table, Error> {
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(Error::Read)?;

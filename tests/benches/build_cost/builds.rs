@@ -8,7 +8,8 @@ use std::process::Command;
 use crate::clock::Children;
 use crate::machines::{Extent, Machine};
 
-/// Profile settings of a user's manifest: none, the lines that the README recommends, and all macro-related packages optimised.
+/// Profile settings of a user's manifest: none, the lines that the README recommends, and all macro-related packages
+/// optimised.
 const SETTINGS: [(&str, &str); 3] = [
     ("default", ""),
     (

@@ -31,7 +31,8 @@ impl Children {
 /// User and system time of all child processes that have ended and been waited for, including their own children.
 fn used_by_children() -> Option<f64> {
     let text = fs::read_to_string("/proc/self/stat").ok()?;
-    // The program name, in parentheses, may contain anything; the state is the first field after it and the third overall.
+    // The program name, in parentheses, may contain anything; the state is the first field after it and the third
+    // overall.
     let (_, fields) = text.rsplit_once(')')?;
     let mut times = fields.split_whitespace().skip(13);
     let mut ticks = || times.next()?.parse::<f64>().ok();

@@ -1,4 +1,5 @@
-//! Times the macro's stages in this process: optimised, and without rustc's lexer, which reads the generated text afterwards.
+//! Times the macro's stages in this process: optimised, and without rustc's lexer, which reads the generated text
+//! afterwards.
 
 use std::cell::Cell;
 use std::convert::Infallible;

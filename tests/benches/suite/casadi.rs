@@ -37,8 +37,8 @@ impl CasadiWork {
         inputs: Vec<Vec<Vec<f64>>>,
     ) -> Result<Self, String> {
         let fail = |error: libloading::Error| error.to_string();
-        // SAFETY: the library was compiled from C that CasADi generated. It runs no code when loaded, its functions have
-        // the signatures that CasADi documents, and it outlives the pointer taken from it.
+        // SAFETY: the library was compiled from C that CasADi generated. It runs no code when loaded, its functions
+        // have the signatures that CasADi documents, and it outlives the pointer taken from it.
         #[allow(unsafe_code)]
         unsafe {
             let library = Library::new(library).map_err(fail)?;

@@ -1,4 +1,5 @@
-//! The benchmark suite: eigentol against its strongest peers. `tests/benches/README.md` explains how to run and read it.
+//! The benchmark suite: eigentol against its strongest peers. `tests/benches/README.md` explains how to run and read
+//! it.
 
 mod arm;
 mod casadi;

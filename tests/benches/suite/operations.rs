@@ -1,4 +1,5 @@
-//! Operation counts: every node of the expression graph except inputs, outputs and constants, by the same rule for both sides.
+//! Operation counts: every node of the expression graph except inputs, outputs and constants, by the same rule for both
+//! sides.
 
 use eigentol_compiler::algebra::{cost, regroup};
 use eigentol_compiler::base::ids::ExprId;
@@ -19,9 +20,9 @@ const MOST_WITH_ALL: usize = 16;
 /// Operation counts of one set of expressions.
 #[derive(Clone, Debug)]
 pub(crate) struct Operations {
-    /// Mechanism and set. The sets of a chain are `mk`: residual, upper triangles of mass and stiffness; `adj`: gradient of a
-    /// mode's functional by coordinates and design variables; `all`: `mk` with all its partial derivatives except those of
-    /// the residual by coordinates.
+    /// Mechanism and set. The sets of a chain are `mk`: residual, upper triangles of mass and stiffness; `adj`:
+    /// gradient of a mode's functional by coordinates and design variables; `all`: `mk` with all its partial
+    /// derivatives except those of the residual by coordinates.
     pub(crate) set: String,
     /// Ours, including sign changes.
     pub(crate) ours: usize,

@@ -1,5 +1,5 @@
-//! The complete workflow on the double pendulum: equilibrium, modes and exact derivatives along speeds, and Monte Carlo,
-//! against hand-written C++.
+//! The complete workflow on the double pendulum: equilibrium, modes and exact derivatives along speeds, and Monte
+//! Carlo, against hand-written C++.
 
 use std::error::Error as StdError;
 use std::ffi::c_int;
@@ -195,7 +195,8 @@ struct SweepByHand {
 
 impl SweepByHand {
     fn load(library: &Path, name: &str) -> Result<Box<dyn Work>, String> {
-        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function has this type.
+        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function
+        // has this type.
         #[allow(unsafe_code)]
         let (library, function) = unsafe {
             let library = Library::new(library).map_err(|error| error.to_string())?;
@@ -324,7 +325,8 @@ struct MonteCarloByHand {
 
 impl MonteCarloByHand {
     fn load(library: &Path) -> Result<Box<dyn Work>, String> {
-        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function has this type.
+        // SAFETY: the library is compiled from the C++ of this package: it runs no code when loaded, and the function
+        // has this type.
         #[allow(unsafe_code)]
         let (library, function) = unsafe {
             let library = Library::new(library).map_err(|error| error.to_string())?;

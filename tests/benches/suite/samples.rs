@@ -45,7 +45,8 @@ fn at<M: Mechanism>(machine: M, inputs: &[f64], start: &[f64]) -> Study<M> {
     study
 }
 
-/// A gyroscopic rotor, a linkage with four angles and two reactions, a long chain, and a damped press with nine coordinates.
+/// A gyroscopic rotor, a linkage with four angles and two reactions, a long chain, and a damped press with nine
+/// coordinates.
 pub(crate) fn samples() -> Vec<Fact> {
     let mut timed = Timed(Vec::new());
     let rotor = at(BearingRotor, &[314.0], &[]);

@@ -4,8 +4,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use eigentol::Real;
 
-/// A value and a first-order bound on its rounding error. Two ways to compute the same number agree when they differ by no
-/// more than the sum of both bounds.
+/// A value and a first-order bound on its rounding error. Two ways to compute the same number agree when they differ by
+/// no more than the sum of both bounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounded {
     /// The computed number.
@@ -77,8 +77,8 @@ impl Neg for Bounded {
 }
 
 impl Real for Bounded {
-    /// The compiler has folded constants: one that is not a simple number may be the result of operations on larger ones, such
-    /// as the sine of half a turn.
+    /// The compiler has folded constants: one that is not a simple number may be the result of operations on larger
+    /// ones, such as the sine of half a turn.
     fn constant(value: f64) -> Self {
         let simple = (2.0 * value).fract() == 0.0;
         Self {

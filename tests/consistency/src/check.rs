@@ -38,7 +38,8 @@ pub struct Outcome {
     pub differences: Vec<Difference>,
     /// Number of values compared.
     pub compared: usize,
-    /// How many of these have a rounding bound above a millionth of the largest value of their kind, so that agreement says little.
+    /// How many of these have a rounding bound above a millionth of the largest value of their kind, so that agreement
+    /// says little.
     pub blurred: usize,
     /// The largest difference relative to the largest value of its kind.
     pub worst: f64,
@@ -170,7 +171,8 @@ impl Check<'_> {
         matrix
     }
 
-    /// The directional derivative, along the state's direction, of the sum of the matrices at rest, each times a vector.
+    /// The directional derivative, along the state's direction, of the sum of the matrices at rest, each times a
+    /// vector.
     fn second(&self, vectors: &[(By, &[f64])]) -> Vec<Bounded> {
         let along = self.state.along.each_ref().map(|list| exact(list));
         let still = exact(&vec![0.0; self.n()]);
@@ -266,8 +268,8 @@ impl Check<'_> {
         self.compare("motion.force", &found[1], &force);
     }
 
-    /// The reaction along a coordinate equals the change of the constraint equation per unit of that coordinate or of its
-    /// speed. With coasting coordinates the speeds are unknowns themselves, and these columns belong to them.
+    /// The reaction along a coordinate equals the change of the constraint equation per unit of that coordinate or of
+    /// its speed. With coasting coordinates the speeds are unknowns themselves, and these columns belong to them.
     fn reactions(&mut self, roles: &[Role]) {
         let n = self.n();
         let [damping, stiffness] = [By::Velocity, By::Position].map(|by| self.matrix(by, true));

@@ -1,4 +1,5 @@
-//! Runs kernels in any scalar type without rustc: instantiating the generated code for one more scalar would cost minutes.
+//! Runs kernels in any scalar type without rustc: instantiating the generated code for one more scalar would cost
+//! minutes.
 
 use eigentol::{Dual, Real};
 use eigentol_compiler::algebra::{Operator, Unary};

@@ -91,8 +91,8 @@ impl Summary {
     }
 }
 
-/// The declaration of tree `number`. Most trees have only springs on their coordinates: other forces have few special cases but
-/// take most of the time.
+/// The declaration of tree `number`. Most trees have only springs on their coordinates: other forces have few special
+/// cases but take most of the time.
 pub fn text(number: u64) -> String {
     let mut random = Random::new(number ^ 0x51AC_1A15);
     let settings = [

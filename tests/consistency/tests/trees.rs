@@ -1,5 +1,5 @@
-//! Random mechanisms full of special cases: a tenth of ten thousand by default, all of them with `-- --ignored`. For more:
-//! `cargo run --release --package eigentol-consistency`.
+//! Random mechanisms full of special cases: a tenth of ten thousand by default, all of them with `-- --ignored`. For
+//! more: `cargo run --release --package eigentol-consistency`.
 
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::{Operand, Operation, Program};
@@ -133,8 +133,8 @@ fn same_results(one: &Program, other: &Program, kernel: &str, state: &State) -> 
     pairs.all(|(a, b)| (a - b).abs() <= 1e-12 * size)
 }
 
-/// A comparison that cannot fail proves nothing: flips every sign of every sum of every kernel once, and requires each flip
-/// that changes a result to be detected.
+/// A comparison that cannot fail proves nothing: flips every sign of every sum of every kernel once, and requires each
+/// flip that changes a result to be detected.
 #[test]
 fn every_wrong_sign_is_found() {
     let text = "pub mechanism Crane {

@@ -1,12 +1,13 @@
 //! A mechanism compiled without the standard library, as in controller firmware.
 //!
-//! `cargo check -p eigentol-embedded` builds it alone, without the solvers; in a workspace build, other packages enable them.
+//! `cargo check -p eigentol-embedded` builds it alone, without the solvers; in a workspace build, other packages enable
+//! them.
 #![no_std]
 
 pub mod smallest;
 
-/// Declarations of this and other packages as a build script generates them. rustc treats this text as if the user had written
-/// it, so it must compile without warnings.
+/// Declarations of this and other packages as a build script generates them. rustc treats this text as if the user had
+/// written it, so it must compile without warnings.
 #[deny(warnings, unused, clippy::all, clippy::pedantic)]
 pub mod generated {
     include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));

@@ -1,4 +1,5 @@
-//! Checks that the C functions are the kernels: the same bits in the order of the header, and no output if an argument is null.
+//! Checks that the C functions are the kernels: the same bits in the order of the header, and no output if an argument
+//! is null.
 #![allow(unsafe_code)]
 
 use std::ffi::CStr;

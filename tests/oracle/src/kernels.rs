@@ -1,6 +1,7 @@
 //! The kernels of generated code over vectors of `f64`: the contract of the runtime's `Mechanism`, kernel by kernel.
 //!
-//! Matrices are flattened by rows. Where a kernel returns derivatives of matrices, the index of differentiation is the outermost.
+//! Matrices are flattened by rows. Where a kernel returns derivatives of matrices, the index of differentiation is the
+//! outermost.
 
 use crate::matrices::{
     Along, Linear, LinearPartials, ModeFunctional, Oracle, PencilFunctional, ResidualFunctional,

@@ -1,9 +1,9 @@
 //! First and second total derivatives, obtained by solving the whole problem again in hyper-dual numbers: equilibrium,
-//! matrices, eigenpairs. No derivative formula is used here, neither adjoint nor Nelson's; where the product uses one, it
-//! must agree with this.
+//! matrices, eigenpairs. No derivative formula is used here, neither adjoint nor Nelson's; where the product uses one,
+//! it must agree with this.
 //!
-//! A solution `x` of `F(x; p) = 0` in doubles becomes one in hyper-dual numbers by repeating `x -= J^-1 F(x; p)` with the
-//! Jacobian in doubles: each repetition makes one more order of the infinitesimals exact.
+//! A solution `x` of `F(x; p) = 0` in doubles becomes one in hyper-dual numbers by repeating `x -= J^-1 F(x; p)` with
+//! the Jacobian in doubles: each repetition makes one more order of the infinitesimals exact.
 //!
 //! Variables are the design variables, then the inputs. The only compiler kernels used are `residual`, `linear` and
 //! `outputs`, and the stiffness from `residual_and_stiffness` where Newton's method needs a Jacobian.

@@ -26,7 +26,8 @@ macro_rules! scalar {
                 let (sin, cos) = num_dual::DualNum::sin_cos(&self.0);
                 (Self(sin), Self(cos))
             }
-            /// In axes aligned with the value itself, where the quotient is defined: `num-dual`'s own formula divides by `x`.
+            /// In axes aligned with the value itself, where the quotient is defined: `num-dual`'s own formula divides
+            /// by `x`.
             fn atan2(self, x: Self) -> Self {
                 let (x0, y0) = (Self::constant(x.0.re), Self::constant(self.0.re));
                 let turned = (self * x0 - x * y0) / (x * x0 + self * y0);

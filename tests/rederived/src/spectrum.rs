@@ -1,6 +1,6 @@
 //! Eigenvalues of a matrix polynomial in doubles: the Ehrlich-Aberth method applied to its determinant (O. Aberth,
-//! Iteration methods for finding all zeros of a polynomial simultaneously, 1973). The iteration count is bounded, and the
-//! method is unlike the product's solvers.
+//! Iteration methods for finding all zeros of a polynomial simultaneously, 1973). The iteration count is bounded, and
+//! the method is unlike the product's solvers.
 
 use nalgebra::{Complex, DMatrix};
 

@@ -1,4 +1,5 @@
-//! Directional derivatives of equal eigenvalues against closed forms, and what reports say about single-mode derivatives.
+//! Directional derivatives of equal eigenvalues against closed forms, and what reports say about single-mode
+//! derivatives.
 
 use eigentol::{
     DampingKind, Description, Error, Family, Real, Shared, Study, Violation, mechanism,
@@ -27,8 +28,8 @@ mechanism! {
     }
 }
 
-/// Two equal unit masses with stiffness 100 and damping 2. `c` and `f` are the stiffnesses through which the second acts on the
-/// first and the first on the second; `d` damps only the first.
+/// Two equal unit masses with stiffness 100 and damping 2. `c` and `f` are the stiffnesses through which the second
+/// acts on the first and the first on the second; `d` damps only the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Twins;
 

@@ -129,7 +129,8 @@ fn without_tolerances_only_rounding_makes_a_cluster() {
 
 #[test]
 fn three_equal_modes_have_order_statistics() {
-    // Three independent normal values: the mean of the largest is 3 / (2 sqrt(pi)), the variance of the middle one 1 - sqrt(3)/pi.
+    // Three independent normal values: the mean of the largest is 3 / (2 sqrt(pi)), the variance of the middle one 1 -
+    // sqrt(3)/pi.
     let study = Study::new(Derived(Triple));
     let found = only(study.clusters().unwrap());
     assert_eq!(found.modes, [0, 1, 2]);

@@ -126,8 +126,8 @@ law!(
 );
 
 law!(
-    /// A non-symmetric `Khat` with a cubic spring at the first joint: `det Khat = k^2 - 6 k u + u^2` at `q = 0`, zero at
-    /// `u = k (3 -+ 8^(1/2))`; on the arms `q2 = k q1 / (k - u)`.
+    /// A non-symmetric `Khat` with a cubic spring at the first joint: `det Khat = k^2 - 6 k u + u^2` at `q = 0`, zero
+    /// at `u = k (3 -+ 8^(1/2))`; on the arms `q2 = k q1 / (k - u)`.
     Lopsided, 2, 1, symmetric: false, RAD, ["k" = 1.0],
     |q, u, b, c| [
         b[0] * (q[0] + q[0] - q[1]) - u * (q[0] + c(3.0) * q[1]) + q[0] * q[0] * q[0],

@@ -229,9 +229,9 @@ impl Model for Triple {
     }
 }
 
-/// A point mass on a plate that turns at `omega` about the origin, held by a pretensioned radial spring, `k (r + a)`, and free to
-/// slip about the axis. `r* = k a / (m omega^2 - k)`; with `omega^2 > k / m` its radial stiffness `k - m omega^2` is negative,
-/// and `s^2 = 0` or `-(k / m + 3 omega^2)`.
+/// A point mass on a plate that turns at `omega` about the origin, held by a pretensioned radial spring, `k (r + a)`,
+/// and free to slip about the axis. `r* = k a / (m omega^2 - k)`; with `omega^2 > k / m` its radial stiffness
+/// `k - m omega^2` is negative, and `s^2 = 0` or `-(k / m + 3 omega^2)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slipping;
 
@@ -274,9 +274,9 @@ impl Model for Slipping {
     }
 }
 
-/// A unit mass on a plate that turns at `omega`, on hardening springs of unit stiffness, `q_i + q_i^3`, in `x` about `e`.
-/// Beyond `omega = 1` only gyroscopic forces hold it near the axis, at `x* = -e / (omega^2 - 1)` approximately, and two stable
-/// equilibria lie far outside.
+/// A unit mass on a plate that turns at `omega`, on hardening springs of unit stiffness, `q_i + q_i^3`, in `x` about
+/// `e`. Beyond `omega = 1` only gyroscopic forces hold it near the axis, at `x* = -e / (omega^2 - 1)` approximately,
+/// and two stable equilibria lie far outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Supercritical;
 
@@ -315,7 +315,8 @@ impl Model for Supercritical {
     }
 }
 
-/// Two unit masses on stiffnesses 1 and 4 whose damping peaks at `u = 1` and `u = 3`: each is overdamped in its own range.
+/// Two unit masses on stiffnesses 1 and 4 whose damping peaks at `u = 1` and `u = 3`: each is overdamped in its own
+/// range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overdamped;
 

@@ -59,8 +59,8 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
     );
 }
 
-/// Second derivatives of `(3 g / 2 L)^(1/2)` with a constraint stated once and twice, and of a limit point in minimal coordinates
-/// and with a loop.
+/// Second derivatives of `(3 g / 2 L)^(1/2)` with a constraint stated once and twice, and of a limit point in minimal
+/// coordinates and with a loop.
 #[test]
 fn critical_values_bend_with_the_design() {
     let bar = |machine: &dyn CurvatureKernels, start: &[f64]| {

@@ -133,8 +133,8 @@ const CRANK: &[DesignInfo] = &[
     design("torque", NUMBER, 3.0, 0.1),
 ];
 
-/// A slider-crank on a turntable: crank angle `theta`, slider at `x` on a spring about `x0`, massless rod of length `l`,
-/// constant torque on the crank. `free` is an otherwise unconnected pendulum on the slider's frame.
+/// A slider-crank on a turntable: crank angle `theta`, slider at `x` on a spring about `x0`, massless rod of length
+/// `l`, constant torque on the crank. `free` is an otherwise unconnected pendulum on the slider's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SliderCrank;
 
@@ -324,8 +324,8 @@ const SPHERE: &[DesignInfo] = &[
     design("e", NUMBER, 1.0, 0.01),
 ];
 
-/// A point mass on a rod of length `L` on a turntable with vertical axis, with two springs to the point `e` (0.3 m, 0.2 m)
-/// and a damper in the turning frame: gyroscopic and damped.
+/// A point mass on a rod of length `L` on a turntable with vertical axis, with two springs to the point `e` (0.3 m, 0.2
+/// m) and a damper in the turning frame: gyroscopic and damped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spherical;
 

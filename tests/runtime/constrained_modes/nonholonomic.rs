@@ -264,8 +264,8 @@ fn a_driven_disk_has_the_roots_of_its_cubic() {
     }
 }
 
-/// A free disk: `s^2 = -(C (C + m r^2) spin^2 / A - m g r) / (A + m r^2)`, and two zero eigenvalues, because it may roll at
-/// another speed or in a circle.
+/// A free disk: `s^2 = -(C (C + m r^2) spin^2 / A - m g r) / (A + m r^2)`, and two zero eigenvalues, because it may
+/// roll at another speed or in a circle.
 #[test]
 fn a_free_disk_stands_by_its_spin() {
     let [m, r, axial, transverse] = [2.0, 0.3, 0.1, 0.05];

@@ -1,4 +1,5 @@
-//! Random bordered pencils: every reported root is one, left and right; no two are the same; and their number matches the freedom.
+//! Random bordered pencils: every reported root is one, left and right; no two are the same; and their number matches
+//! the freedom.
 
 use eigentol::kernels::Linear;
 use eigentol::modes::modes_of;

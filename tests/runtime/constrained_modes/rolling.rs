@@ -85,9 +85,9 @@ impl Model for Trail {
     no_forces! {2, 1}
 }
 
-/// A caster at speed `v`. Its kingpin moves sideways by `y` on a spring `k`; the fork, of mass `m` at distance `b` behind
-/// the kingpin and inertia `J` about its centre, trails by `theta`; the wheel at distance `a` does not slip sideways. A
-/// torsion spring `kt` about the angle `t0` keeps the wheel pushing, a damper `c` resists:
+/// A caster at speed `v`. Its kingpin moves sideways by `y` on a spring `k`; the fork, of mass `m` at distance `b`
+/// behind the kingpin and inertia `J` about its centre, trails by `theta`; the wheel at distance `a` does not slip
+/// sideways. A torsion spring `kt` about the angle `t0` keeps the wheel pushing, a damper `c` resists:
 /// `(J + m (a - b)^2) s^3 + (m v (a - b) + c) s^2 + (k a^2 + kt) s + k a v = 0`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caster;
@@ -146,9 +146,9 @@ impl Model for Caster {
     no_forces! {3, 8}
 }
 
-/// A disk on a plane: lean `phi` and height `z` of the centre; its speeds forward, to the left and in yaw; and its spin,
-/// either free ([`Disk`]) or driven at `v` over the radius with a yaw damper `c` ([`DrivenDisk`]). Axial inertia `C`,
-/// transverse inertia `A`.
+/// A disk on a plane: lean `phi` and height `z` of the centre; its speeds forward, to the left and in yaw; and its
+/// spin, either free ([`Disk`]) or driven at `v` over the radius with a yaw damper `c` ([`DrivenDisk`]). Axial inertia
+/// `C`, transverse inertia `A`.
 fn disk<T: Real, const N: usize>(
     (phi, z, forward, side, yaw, spin): (T, T, T, T, T, T),
     (phi_rate, phi_rate_2, z_rate_2): (T, T, T),

@@ -1,5 +1,6 @@
-//! Mechanisms of point masses and bodies in absolute coordinates: `M qddot + grad (V + mu . Phi) = 0`, `Phi = 0`, where the
-//! static part is the gradient of `V + mu . Phi` by all unknowns. Every row of the bordered system comes from one function.
+//! Mechanisms of point masses and bodies in absolute coordinates: `M qddot + grad (V + mu . Phi) = 0`, `Phi = 0`, where
+//! the static part is the gradient of `V + mu . Phi` by all unknowns. Every row of the bordered system comes from one
+//! function.
 
 use eigentol::{
     Array, CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared,

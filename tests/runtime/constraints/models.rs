@@ -141,7 +141,8 @@ pub(crate) fn four_bar_potential<T: Real>(p: &[T; 4], omega: T, b: &[T; 8]) -> T
         - c::<T>(0.5) * omega * omega * radii
 }
 
-/// A crank `O A` (bar), a rod `A B` (bar) and a slider along `x` on a spring, each body in the absolute coordinates of its centre.
+/// A crank `O A` (bar), a rod `A B` (bar) and a slider along `x` on a spring, each body in the absolute coordinates of
+/// its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SliderCrank;
 

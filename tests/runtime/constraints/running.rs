@@ -9,8 +9,8 @@ use eigentol::{
 use crate::common::derived::{Derived, Model};
 use crate::common::{NUMBER, SPEED, coordinate, design, input, sizes};
 
-/// Two geared rotors with drag, the first driven by a torque; beside them a mass on a spring, loaded by the second speed:
-/// `J1 v1' + c1 v1 - T + mu = 0`, `J2 v2' + c2 v2 + r mu = 0`, `v1 + r v2 = 0`, `m x'' + k x - p v2^2 = 0`.
+/// Two geared rotors with drag, the first driven by a torque; beside them a mass on a spring, loaded by the second
+/// speed: `J1 v1' + c1 v1 - T + mu = 0`, `J2 v2' + c2 v2 + r mu = 0`, `v1 + r v2 = 0`, `m x'' + k x - p v2^2 = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Gears;
 

@@ -19,7 +19,8 @@ use eigentol::summary::summary;
 use eigentol::tolerance::{first_order, output_tolerances};
 use eigentol::{Complex, Output, Quantity, Tolerances};
 
-/// Checks all derivatives of a state by deviations against those by inputs, and the others against the mechanism without deviations.
+/// Checks all derivatives of a state by deviations against those by inputs, and the others against the mechanism
+/// without deviations.
 fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
     let plain: &dyn Kernels = machine;
     let deviating = all_deviate(machine);

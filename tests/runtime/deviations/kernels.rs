@@ -1,4 +1,5 @@
-//! Every kernel against the mechanism's own at shifted inputs, to the last bit, and derivatives by deviations against differences.
+//! Every kernel against the mechanism's own at shifted inputs, to the last bit, and derivatives by deviations against
+//! differences.
 
 use super::{Double, Single, Spherical, all_deviate};
 use crate::common::chain::DOUBLE;

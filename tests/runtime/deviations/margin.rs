@@ -27,7 +27,8 @@ fn tail(low: f64) -> f64 {
     parts.sum::<f64>() * step
 }
 
-/// The ratio of frequency to speed, `sqrt(1 - c^2 / v^4)`, increases with the speed: it reaches 0.9 where `v^4 = c^2 / 0.19`.
+/// The ratio of frequency to speed, `sqrt(1 - c^2 / v^4)`, increases with the speed: it reaches 0.9 where
+/// `v^4 = c^2 / 0.19`.
 #[test]
 fn the_band_is_around_the_speed_that_it_is() {
     let speed = 5.6_f64;

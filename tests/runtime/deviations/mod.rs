@@ -46,7 +46,8 @@ mechanism! {
 }
 
 mechanism! {
-    /// A damped bar on a spherical joint that can be turned into its singular pose, with a mass and a length that inputs set.
+    /// A damped bar on a spherical joint that can be turned into its singular pose, with a mass and a length that
+    /// inputs set.
     mechanism Spherical {
         input m: kg;
         input omega: rad/s;
@@ -68,7 +69,8 @@ mechanism! {
 }
 
 mechanism! {
-    /// A bob on a rod whose length is a constraint, on a shaft: unknowns are its two coordinates and the tension of the rod.
+    /// A bob on a rod whose length is a constraint, on a shaft: unknowns are its two coordinates and the tension of the
+    /// rod.
     mechanism Governor {
         input omega: rad/s;
         design m = 2.0 kg;

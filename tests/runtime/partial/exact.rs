@@ -15,8 +15,8 @@ struct Exact {
 const WEIGHT: f64 = 1.5 * 9.81;
 
 impl Exact {
-    /// Where the bar hangs down, `f^2 = 3 g / (2 l) - omega^2`; where it is swung out, `f^2 = omega^2 - (3 g / (2 l omega))^2`.
-    /// Lengths between the two with frequency `f` have lower frequencies.
+    /// Where the bar hangs down, `f^2 = 3 g / (2 l) - omega^2`; where it is swung out,
+    /// `f^2 = omega^2 - (3 g / (2 l omega))^2`. Lengths between the two with frequency `f` have lower frequencies.
     fn cdf(&self, f: f64) -> f64 {
         let square = self.omega * self.omega;
         let shorter = WEIGHT / (square + f * f);

@@ -1,4 +1,5 @@
-//! The Taylor model as a control variate: accurate within its stated error, which is much smaller than that of plain samples.
+//! The Taylor model as a control variate: accurate within its stated error, which is much smaller than that of plain
+//! samples.
 
 use eigentol::propagation::{
     Controlled, ControlledSpread, Method, Points, Propagation, Sampler, controlled, sampled,
@@ -20,7 +21,8 @@ fn of(tolerances: &Tolerances, samples: u64, seed: u64) -> (Controlled, Propagat
     })
 }
 
-/// Over many seeds, the errors in units of the stated error have unit scatter, and the stated gain matches the actual errors.
+/// Over many seeds, the errors in units of the stated error have unit scatter, and the stated gain matches the actual
+/// errors.
 #[test]
 fn the_stated_error_is_that_of_many_runs() {
     for (k, length) in lengths().into_iter().enumerate() {

@@ -77,7 +77,8 @@ fn a_resonance_spreads() {
     });
 }
 
-/// The resonance stays above 4.8 rad/s as long as the length stays below `1.5 g / (0.6 4.8^2)`: the design point is exact.
+/// The resonance stays above 4.8 rad/s as long as the length stays below `1.5 g / (0.6 4.8^2)`: the design point is
+/// exact.
 #[test]
 fn a_resonance_can_be_required() {
     let limit = 1.5 * GRAVITY / (0.6 * 4.8 * 4.8);
@@ -92,8 +93,8 @@ fn a_resonance_can_be_required() {
 }
 
 mechanism! {
-    /// A disk on an elastic shaft, damping at rest and in the shaft: `m z'' + (e + i) z' + (k - i W i) z = 0`, and the forward whirl
-    /// grows beyond `W = sqrt(k / m) (1 + e / i)`.
+    /// A disk on an elastic shaft, damping at rest and in the shaft: `m z'' + (e + i) z' + (k - i W i) z = 0`, and the
+    /// forward whirl grows beyond `W = sqrt(k / m) (1 + e / i)`.
     mechanism Whirl {
         input speed: rad/s;
         design m = 2 kg;

@@ -7,7 +7,8 @@ use crate::common::close;
 
 const SIGMAS: [f64; 5] = [0.0, 0.0, 0.1, 0.2, 0.05];
 
-/// For `a + 2 b - 3 c` every share is the variable's share of the variance; for `a b` the product adds only to the total indices.
+/// For `a + 2 b - 3 c` every share is the variable's share of the variance; for `a b` the product adds only to the
+/// total indices.
 #[test]
 fn indices_of_simple_responses() {
     let tolerances = Tolerances::new(SIGMAS, 3.0, None).unwrap();

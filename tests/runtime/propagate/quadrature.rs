@@ -32,7 +32,8 @@ fn statistics_of_the_exact_distribution() {
     }
 }
 
-/// A linear response and a product of two variables: means, variances and covariances are exact on a sparse grid in five variables.
+/// A linear response and a product of two variables: means, variances and covariances are exact on a sparse grid in
+/// five variables.
 #[test]
 fn polynomials_are_exact() {
     let sigmas = [0.0, 0.0, 0.1, 0.2, 0.05];

@@ -55,8 +55,8 @@ fn statistics_of_the_exact_distribution() {
     }
 }
 
-/// Over many seeds errors scatter about zero as stated: balanced points cause no bias, as their means take no degree of freedom
-/// from their variances.
+/// Over many seeds errors scatter about zero as stated: balanced points cause no bias, as their means take no degree of
+/// freedom from their variances.
 #[test]
 fn stated_errors_are_those_of_many_runs() {
     for length in lengths() {

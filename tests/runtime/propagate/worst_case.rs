@@ -52,7 +52,8 @@ fn a_linear_response() {
     assert!(sum.is_monotonic() && product.is_monotonic());
 }
 
-/// A product of two variables about zero is largest in two corners and smallest in two; gradients alone find one of each.
+/// A product of two variables about zero is largest in two corners and smallest in two; gradients alone find one of
+/// each.
 #[test]
 fn a_response_that_turns() {
     let limits = [1.5, 3.0].map(|high| Distribution::uniform(-1.0, high).unwrap());

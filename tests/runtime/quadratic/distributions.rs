@@ -14,7 +14,8 @@ fn quadratic(value: f64, slopes: &[f64], curvature: &[&[f64]]) -> Quadratic {
     }
 }
 
-/// Normal variables whose means differ from the nominal values: the model about these means, with its coefficients written out.
+/// Normal variables whose means differ from the nominal values: the model about these means, with its coefficients
+/// written out.
 #[test]
 fn means_beside_the_nominal_values() {
     let model = quadratic(2.0, &[1.0, -3.0], &[&[0.5, 0.2], &[0.2, -1.0]]);
@@ -78,8 +79,8 @@ fn a_uniform_variable() {
     );
 }
 
-/// The same relative tolerance: a band at 2.2 standard deviations contains 1.4 % of a normal variable and nothing of a uniform
-/// one, whose limits are closer.
+/// The same relative tolerance: a band at 2.2 standard deviations contains 1.4 % of a normal variable and nothing of a
+/// uniform one, whose limits are closer.
 #[test]
 fn a_band_sees_the_distribution() {
     let model = quadratic(0.0, &[1.0, 1.0], &[&[0.0; 2], &[0.0; 2]]);

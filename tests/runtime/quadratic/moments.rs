@@ -5,7 +5,8 @@ use eigentol::{Error, Matrix, Tolerances, Vector};
 
 use super::{close, coupled, factor, independent, spread, value_at};
 
-/// Points and weights of Gauss-Hermite quadrature for the standard normal, exact to degree 9 (Abramowitz and Stegun 25.4.46).
+/// Points and weights of Gauss-Hermite quadrature for the standard normal, exact to degree 9 (Abramowitz and Stegun
+/// 25.4.46).
 fn gauss_hermite() -> [(f64, f64); 5] {
     let (inner, outer) = (10.0_f64.sqrt(), 5.0);
     let (near, far) = ((outer - inner).sqrt(), (outer + inner).sqrt());

@@ -1,7 +1,8 @@
 //! A rotor in an oil film: non-symmetric matrices, and curves over the speed and over a design variable.
 
 machine! {
-    /// A rigid rotor in an oil film that couples its axes; stiffness and damping change with the speed, damping with the temperature.
+    /// A rigid rotor in an oil film that couples its axes; stiffness and damping change with the speed, damping with
+    /// the temperature.
     pub mechanism FilmRotor {
         input speed: rpm;
         design mass = 49 kg +/- 1%;

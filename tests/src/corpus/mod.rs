@@ -1,5 +1,6 @@
-//! A corpus of machines in the language of `mechanism!`. Each declaration is written once and kept in two forms: compiled
-//! by the macro, and as text for the compiler's other front ends. Together they use every construct of the language.
+//! A corpus of machines in the language of `mechanism!`. Each declaration is written once and kept in two forms:
+//! compiled by the macro, and as text for the compiler's other front ends. Together they use every construct of the
+//! language.
 
 use eigentol::Mechanism;
 

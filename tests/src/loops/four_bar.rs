@@ -3,7 +3,8 @@
 use crate::corpus::machine;
 
 machine! {
-    /// A four-bar linkage in a vertical plane through the axis of a driven table, with a spring and a dashpot on a diagonal.
+    /// A four-bar linkage in a vertical plane through the axis of a driven table, with a spring and a dashpot on a
+    /// diagonal.
     pub mechanism FourBar {
         input omega: rad/s;
         design crank = 150 mm +/- 0.4 mm;

@@ -1,7 +1,7 @@
 //! Mechanisms with closed loops and couplings, whose solutions in minimal coordinates are stored in `truth/loops.json`.
 //!
-//! Their loops are closed in every way that the language offers: cut joints, chosen by the declaration or by the compiler;
-//! coincident points; distances; couplings and equations of coordinates, both at rest and running.
+//! Their loops are closed in every way that the language offers: cut joints, chosen by the declaration or by the
+//! compiler; coincident points; distances; couplings and equations of coordinates, both at rest and running.
 
 use crate::corpus::Visitor;
 

@@ -6,7 +6,8 @@
 use crate::corpus::machine;
 
 machine! {
-    /// A disk in the middle of an elastic horizontal shaft; external damping is at rest, internal damping turns with the shaft.
+    /// A disk in the middle of an elastic horizontal shaft; external damping is at rest, internal damping turns with
+    /// the shaft.
     pub mechanism JeffcottRotor {
         input speed: rad/s;
         design mass = 8 kg +/- 1%;

@@ -1,7 +1,8 @@
-//! Machines whose eigenvalues have closed forms: whirl, nutation, gyroscopic splitting, follower forces, rigid-body modes.
+//! Machines whose eigenvalues have closed forms: whirl, nutation, gyroscopic splitting, follower forces, rigid-body
+//! modes.
 //!
-//! They are declared and stored like those of the corpus, but are not part of it: they would add nothing to the snapshots or
-//! to the agreement checks of all kernels.
+//! They are declared and stored like those of the corpus, but are not part of it: they would add nothing to the
+//! snapshots or to the agreement checks of all kernels.
 
 use crate::corpus::Visitor;
 

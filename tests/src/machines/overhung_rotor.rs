@@ -1,8 +1,8 @@
 //! Conical whirl of a disk with gyroscopic moments.
 //!
 //! For the tilt `w = alpha + i beta`: `It w'' - i W Ip w' + k w = 0`, frequencies
-//! `W Ip / (2 It) +- sqrt((W Ip / (2 It))^2 + k / It)`. The forward frequency equals the speed at `W = sqrt(k / (It - Ip))`, if
-//! `It > Ip`.
+//! `W Ip / (2 It) +- sqrt((W Ip / (2 It))^2 + k / It)`. The forward frequency equals the speed at
+//! `W = sqrt(k / (It - Ip))`, if `It > Ip`.
 
 use crate::corpus::machine;
 

@@ -1,7 +1,8 @@
 //! Ziegler's column under a follower force (H. Ziegler, Die Stabilitaetskriterien der Elastomechanik, 1952).
 //!
 //! Masses `2 m` and `m`, equal hinges `k` and `c`. With `p = P l / k` and `x = w^2 m l^2 / k`, undamped:
-//! `2 x^2 - (7 - 2 p) x + 1 = 0`. Flutter begins at `p = 7/2 - sqrt(2)`, with damping at `p = 41/28 + c^2 / (2 m l^2 k)`.
+//! `2 x^2 - (7 - 2 p) x + 1 = 0`. Flutter begins at `p = 7/2 - sqrt(2)`, with damping at
+//! `p = 41/28 + c^2 / (2 m l^2 k)`.
 
 use crate::corpus::machine;
 

@@ -1,9 +1,9 @@
 //! A cart that finds its own speed, with a pendulum that trails in the wind.
 //!
-//! `speed = push / (drag + air)`, `tan(swing) = -air speed / (bob g)`. With `m = cart + wheel + polar / radius^2 + bob`, the
-//! length `l`, and `c`, `s` the cosine and sine of the swing, the eigenvalues are the roots of
-//! `(m s + drag + air) ((bob l^2 + inertia) s^2 + air l^2 s + bob g l c - air l s speed) -
-//! (bob l c s^2 + air l c s) (bob l c s + air l c)`.
+//! `speed = push / (drag + air)`, `tan(swing) = -air speed / (bob g)`. With
+//! `m = cart + wheel + polar / radius^2 + bob`, the length `l`, and `c`, `s` the cosine and sine of the swing, the
+//! eigenvalues are the roots of
+//! `(m s + drag + air) ((bob l^2 + inertia) s^2 + air l^2 s + bob g l c - air l s speed) - (bob l c s^2 + air l c s) (bob l c s + air l c)`.
 
 use crate::corpus::machine;
 

@@ -1,7 +1,7 @@
 //! A trailer on a circle: no velocity freedom is left, as the wheels determine every rate.
 //!
-//! `sin(swing) = -length / radius`, `s = -(speed / length) sqrt(radius^2 - length^2)`: the trailer jackknifes when the circle
-//! is smaller than its length. Both wheels resist sideways motion in the same way, a redundant constraint.
+//! `sin(swing) = -length / radius`, `s = -(speed / length) sqrt(radius^2 - length^2)`: the trailer jackknifes when the
+//! circle is smaller than its length. Both wheels resist sideways motion in the same way, a redundant constraint.
 
 use crate::corpus::machine;
 

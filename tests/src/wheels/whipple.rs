@@ -1,12 +1,14 @@
-//! The bicycle of Whipple (1899) with the benchmark parameters of Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A
-//! 463 (2007) 1955-1982, Table 1: `x` forward, `y` right, `z` down, all body frames at the rear contact point.
+//! The bicycle of Whipple (1899) with the benchmark parameters of Meijaard, Papadopoulos, Ruina and Schwab, Proc. R.
+//! Soc. A 463 (2007) 1955-1982, Table 1: `x` forward, `y` right, `z` down, all body frames at the rear contact point.
 //!
-//! `M q'' + v C1 q' + (g K0 + v^2 K2) q = 0` with `q = (lean, steer)`: two velocity freedoms and twelve further unknowns.
+//! `M q'' + v C1 q' + (g K0 + v^2 K2) q = 0` with `q = (lean, steer)`: two velocity freedoms and twelve further
+//! unknowns.
 
 use crate::corpus::machine;
 
 machine! {
-    /// Two wheels, a rear body and a front body, each symmetric about its middle plane, rolling straight ahead without hands.
+    /// Two wheels, a rear body and a front body, each symmetric about its middle plane, rolling straight ahead without
+    /// hands.
     pub mechanism WhippleBicycle {
         /// Forward speed.
         input v: m/s;

@@ -90,7 +90,8 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
-    /// `None` if no joint can be cut this way, or if a coordinate has no resistance without the forces on the cut joint.
+    /// `None` if no joint can be cut this way, or if a coordinate has no resistance without the forces on the cut
+    /// joint.
     pub(crate) fn new(plan: Plan, closing: Closing) -> Option<Self> {
         let mut random = Random::new(plan.seed);
         let tree = plan.model();
@@ -133,8 +134,8 @@ impl Pair {
             .collect();
         let embedding = embedding(&model.joints[joint], &own, &case.at[2], closing.placed);
         let text = cut_text(&model, joint, &embedding, closing);
-        // A body on a ball joint that turns freely about the vertical: this rotation is a coordinate of the double but not of
-        // the ball joint.
+        // A body on a ball joint that turns freely about the vertical: this rotation is a coordinate of the double but
+        // not of the ball joint.
         let cut = resisted(&text)?;
         Some(Self {
             model,

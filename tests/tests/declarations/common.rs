@@ -143,7 +143,8 @@ pub(crate) const OPEN_MECHANISM: &str = "
         output gap = distance(grip, anchor) - slide;
     }";
 
-/// Every constraint, cut and coasting joints, and everything that refers to them. It is not a machine that could be built.
+/// Every constraint, cut and coasting joints, and everything that refers to them. It is not a machine that could be
+/// built.
 pub(crate) const CLOSED_MECHANISM: &str = "
     pub mechanism ClosedMechanism {
         input omega: rad/s;

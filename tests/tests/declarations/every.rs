@@ -35,8 +35,8 @@ fn of_every(mechanism: &Mechanism) -> Vec<String> {
     lines.map(str::to_owned).collect()
 }
 
-/// Driven coordinates, coordinates of cut joints, and coordinates with their own springs get none; the loop is cut in the
-/// same place as without them.
+/// Driven coordinates, coordinates of cut joints, and coordinates with their own springs get none; the loop is cut in
+/// the same place as without them.
 #[test]
 fn every_free_coordinate_gets_what_it_has_not() {
     let gripper = compiled(every::DECLARATION);

@@ -25,8 +25,8 @@ impl Mass {
     }
 }
 
-/// By how much the largest principal moment of the combined masses falls short of the sum of the other two, relative to the
-/// sum of all three.
+/// By how much the largest principal moment of the combined masses falls short of the sum of the other two, relative to
+/// the sum of all three.
 fn surplus(masses: &[Mass]) -> f64 {
     let total: f64 = masses.iter().map(|m| m.mass).sum();
     let center = masses
@@ -118,7 +118,8 @@ impl Weld {
         )
     }
 
-    /// The masses in the frame of the first one; the last mass and the offsets of the first joint scale with the design.
+    /// The masses in the frame of the first one; the last mass and the offsets of the first joint scale with the
+    /// design.
     fn together(&self, scale: f64) -> Vec<Mass> {
         let mut third = self.masses[2];
         third.inertia *= scale;

@@ -19,8 +19,8 @@ fn interpreted(name: &str, declaration: &str) -> Program {
     program(tokens(declaration)).unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"))
 }
 
-/// The compiler's interpreter takes sine and cosine from the standard library, while the runtime has its own: they agree
-/// except for rounding.
+/// The compiler's interpreter takes sine and cosine from the standard library, while the runtime has its own: they
+/// agree except for rounding.
 fn near(found: &[Vec<f64>], expected: &[Vec<f64>], name: &str, kernel: &str) {
     for (found, expected) in found.iter().zip(expected) {
         assert_eq!(found.len(), expected.len(), "{name} {kernel}");
@@ -113,7 +113,8 @@ fn generated_code_computes_what_the_interpreter_computes() {
     assert!(agreement.numbers > 50_000, "{}", agreement.numbers);
 }
 
-/// Violates requirements one at a time: the generated check must name the quantity that the interpreter finds not positive.
+/// Violates requirements one at a time: the generated check must name the quantity that the interpreter finds not
+/// positive.
 struct Requirements {
     broken: usize,
 }

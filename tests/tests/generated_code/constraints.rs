@@ -1,4 +1,5 @@
-//! Constraint reactions do no work on motions that the constraints allow: the column of a reaction is the row of its constraint.
+//! Constraint reactions do no work on motions that the constraints allow: the column of a reaction is the row of its
+//! constraint.
 
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Limits, Role};
@@ -122,7 +123,8 @@ fn reactions_do_no_work() {
     assert!(compared[0] >= 40 && compared[1] >= 20, "{compared:?}");
 }
 
-/// Every spatial constraint at three states: 6 + 5 + 5 + 4 + 4 + 3 + 3 equations from joints, 3 + 2 + 2 + 1 from constraints.
+/// Every spatial constraint at three states: 6 + 5 + 5 + 4 + 4 + 3 + 3 equations from joints, 3 + 2 + 2 + 1 from
+/// constraints.
 #[test]
 fn reactions_in_space_do_no_work() {
     let equations: usize = CLOSING

@@ -7,7 +7,8 @@ use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
 
 use super::sound::assert_equilibrium;
 
-/// Scales lengths by `a`, masses by `c`, speeds by `1/sqrt(a)`: angles stay the same, and frequencies scale with the speed.
+/// Scales lengths by `a`, masses by `c`, speeds by `1/sqrt(a)`: angles stay the same, and frequencies scale with the
+/// speed.
 #[test]
 fn pendulums_of_every_size() {
     let at = |length: f64, mass: f64, speed: f64| {

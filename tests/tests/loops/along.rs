@@ -1,5 +1,5 @@
-//! Along the speed: folds and resonances with their derivatives and standard deviations, and sweeps from rest through the
-//! points of the file.
+//! Along the speed: folds and resonances with their derivatives and standard deviations, and sweeps from rest through
+//! the points of the file.
 
 use eigentol::branches::SpecialKind;
 use eigentol::sweep::Condition;
@@ -78,7 +78,8 @@ fn folds_and_resonances() {
     assert_eq!(found, [1, 2, 2, 1]);
 }
 
-/// Sweeps from rest to the last point of the file in a hundred steps: the assembly mode is kept, and the modes keep their labels.
+/// Sweeps from rest to the last point of the file in a hundred steps: the assembly mode is kept, and the modes keep
+/// their labels.
 fn check_sweep<M: Mechanism>(machine: M, name: &'static str) {
     let case = Case::new(name);
     let points = case.points();

@@ -1,7 +1,8 @@
 //! A driven shaft geared to a freely running one, each with a disk on a torsion spring: closed forms.
 //!
-//! The gear prescribes the speed `-r W` of the second shaft, so the disks are uncoupled: eigenvalues of `J s^2 + c s + k`.
-//! The drag `c r W` on the second disk winds its spring up by `c r W / k2` and equals the torque of the gear.
+//! The gear prescribes the speed `-r W` of the second shaft, so the disks are uncoupled: eigenvalues of
+//! `J s^2 + c s + k`. The drag `c r W` on the second disk winds its spring up by `c r W / k2` and equals the torque of
+//! the gear.
 
 use eigentol::{Role, Stability, Study, mechanism};
 

@@ -1,6 +1,6 @@
-//! The sign of reactions. Among the unknowns, in the report and as outputs, a reaction is the load of the `from` side on the
-//! `to` side; for a distance it is the tension, for an equation the force in the direction in which its expression grows. Each
-//! kind of constraint is checked by hand statics.
+//! The sign of reactions. Among the unknowns, in the report and as outputs, a reaction is the load of the `from` side
+//! on the `to` side; for a distance it is the tension, for an equation the force in the direction in which its
+//! expression grows. Each kind of constraint is checked by hand statics.
 
 use eigentol::{Equilibrium, Input, Kernels, Policy, Study, mechanism};
 use eigentol_tests::wheels::{PushedCart, RollingDisk};

@@ -1,5 +1,5 @@
-//! Standard deviations beyond first order: moments of the second-order model from the file's second derivatives, and samples
-//! in which the loops are closed again.
+//! Standard deviations beyond first order: moments of the second-order model from the file's second derivatives, and
+//! samples in which the loops are closed again.
 
 use eigentol::Mechanism;
 use eigentol_oracle::truth::Truth;

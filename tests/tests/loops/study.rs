@@ -1,5 +1,5 @@
-//! The complete workflow through the public interface: assembly and equilibrium from rough values, modes, total derivatives
-//! by both methods, second derivatives, outputs including reactions, and first-order standard deviations.
+//! The complete workflow through the public interface: assembly and equilibrium from rough values, modes, total
+//! derivatives by both methods, second derivatives, outputs including reactions, and first-order standard deviations.
 
 use eigentol::equilibrium::Stability;
 use eigentol::second_order::SecondDerivatives;
@@ -17,8 +17,8 @@ use eigentol_tests::loops::{
 
 use super::common::{Case, Point, assert_close, assert_near, complex};
 
-/// A study of a point that starts from angles rounded to a tenth of a radian and displacements rounded to a centimetre, so
-/// that no loop is closed; speeds start from zero.
+/// A study of a point that starts from angles rounded to a tenth of a radian and displacements rounded to a centimetre,
+/// so that no loop is closed; speeds start from zero.
 pub(super) fn study<M: Mechanism>(machine: M, case: &Case, point: &Point) -> Study<M> {
     let mut study = Study::new(machine)
         .input(Input::new(0), point.input)

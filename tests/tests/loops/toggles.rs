@@ -1,14 +1,14 @@
 //! Two loops that share a body: two mirror-image toggles that carry one slider.
 //!
-//! Both toggles have the same slider, so their elbows bend by the same angle, to the same side of the mirror or to opposite
-//! sides. The positions form four circles, two for the slider below and two for the slider above the pivots. Where the toggles
-//! are straight or folded, two circles cross: singular configurations. There the potential is stationary on the circle of
-//! opposite bends but not on the other. This is not an equilibrium, but rounding-sized gaps allow states at random places a
-//! micrometre away, held by reactions of a million newtons.
+//! Both toggles have the same slider, so their elbows bend by the same angle, to the same side of the mirror or to
+//! opposite sides. The positions form four circles, two for the slider below and two for the slider above the pivots.
+//! Where the toggles are straight or folded, two circles cross: singular configurations. There the potential is
+//! stationary on the circle of opposite bends but not on the other. This is not an equilibrium, but rounding-sized gaps
+//! allow states at random places a micrometre away, held by reactions of a million newtons.
 //!
-//! Before such states were distinguished from equilibria, 20, 200 and 2000 starts gave 13, 36 and 270 equilibria; 3, 24 and 258
-//! of them had reactions beyond 1e5 N, and of these 2, 19 and 193 were "stable". Of 441 single starts 83 ended at such a state
-//! and 6 at none, with frequencies from 23 to 31 rad/s for one place.
+//! Before such states were distinguished from equilibria, 20, 200 and 2000 starts gave 13, 36 and 270 equilibria; 3, 24
+//! and 258 of them had reactions beyond 1e5 N, and of these 2, 19 and 193 were "stable". Of 441 single starts 83 ended
+//! at such a state and 6 at none, with frequencies from 23 to 31 rad/s for one place.
 
 use eigentol::branches::{Continuation, branches};
 use eigentol::equilibrium::Search;
@@ -147,7 +147,8 @@ fn circles(offset: f64) -> [Circle; 4] {
     })
 }
 
-/// The force that a lower bar exerts on its pin, from moments about the elbow for the lower bar and about the pivot for both.
+/// The force that a lower bar exerts on its pin, from moments about the elbow for the lower bar and about the pivot for
+/// both.
 fn pin_force(toggle: Toggle) -> [f64; 2] {
     let Toggle { elbow, pin } = toggle;
     let lever = [pin[0] - elbow[0], pin[1] - elbow[1]];

@@ -1,5 +1,5 @@
-//! For every machine: the two sides of each joint, loop-closing joints included, meet as the joint allows; declared points are
-//! where the outputs say; wheels touch the surfaces they roll on.
+//! For every machine: the two sides of each joint, loop-closing joints included, meet as the joint allows; declared
+//! points are where the outputs say; wheels touch the surfaces they roll on.
 
 use eigentol::equilibrium::assemble;
 use eigentol::kernels::Kernels;

@@ -110,8 +110,8 @@ fn with(scene: &Scene, frame: &[Pose]) -> Scene {
     moved
 }
 
-/// Both modes of the rotor are circular, in opposite senses as seen from the ground relative to the shaft: the centre keeps its
-/// distance from its equilibrium position and turns by a right angle in a quarter period.
+/// Both modes of the rotor are circular, in opposite senses as seen from the ground relative to the shaft: the centre
+/// keeps its distance from its equilibrium position and turns by a right angle in a quarter period.
 #[test]
 fn whirling_shapes_circle() {
     let study = Study::new(JeffcottRotor).input(JeffcottRotor::speed, 50.0);

@@ -1,5 +1,5 @@
-//! Random trees, half of them full of special cases, against the oracle: poses by matrix products, seats and axes of joints,
-//! points, and the inertias implied by the drawn solids.
+//! Random trees, half of them full of special cases, against the oracle: poses by matrix products, seats and axes of
+//! joints, points, and the inertias implied by the drawn solids.
 
 use std::cell::Cell;
 
@@ -118,8 +118,8 @@ fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
 
 const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Whether an ellipsoid can have this central inertia `J`: `tr(J)/2 1 - J` has no negative eigenvalue beyond rounding. Random
-/// design values may make a valid inertia invalid.
+/// Whether an ellipsoid can have this central inertia `J`: `tr(J)/2 1 - J` has no negative eigenvalue beyond rounding.
+/// Random design values may make a valid inertia invalid.
 fn of_a_body(inertia: &[[f64; 3]; 3]) -> bool {
     let trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
     let half = (0.5 + 1e-12) * trace;
@@ -233,7 +233,8 @@ fn agree_on(trees: u32) {
     assert!(compared >= trees * 3 / 4, "{compared} trees compared");
 }
 
-/// What is left out of the comparison: a tensor whose greatest moment exceeds the sum of the other two, not a flat body.
+/// What is left out of the comparison: a tensor whose greatest moment exceeds the sum of the other two, not a flat
+/// body.
 #[test]
 fn only_inertias_that_no_body_has_are_left_out() {
     let diagonal = |moments: [f64; 3]| {
@@ -266,8 +267,8 @@ fn pictures_of_many_random_trees_are_those_of_the_oracle() {
     agree_on(600);
 }
 
-/// A comparison that cannot fail proves nothing: flips every sign of every sum in the kernel, exchanges every result with the
-/// next, and changes every literal number. Changes that only affect zeros are not counted.
+/// A comparison that cannot fail proves nothing: flips every sign of every sum in the kernel, exchanges every result
+/// with the next, and changes every literal number. Changes that only affect zeros are not counted.
 #[test]
 fn every_wrong_sign_and_place_is_found() {
     let seen = Cell::new([0; 3]);

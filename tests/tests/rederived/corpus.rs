@@ -110,7 +110,8 @@ fn first_derivatives_of_equilibria_outputs_and_undamped_modes() {
     let mut gradients = Gradients::default();
     every_machine(&mut gradients);
     assert!(gradients.points >= corpus().len());
-    // From the corpus the bearing rotor and the press once and the film rotor twice; the Jeffcott rotor twice, and the column.
+    // From the corpus the bearing rotor and the press once and the film rotor twice; the Jeffcott rotor twice, and the
+    // column.
     assert_eq!(gradients.nonsymmetric, 7);
     // Four isotropic states with two modes each.
     assert_eq!(gradients.repeated, 8);

@@ -1,5 +1,5 @@
-//! `W1`, `W2`, `W3`: bars in series. The file uses absolute angles and the machines use relative coordinates; frequencies
-//! and their derivatives do not depend on this.
+//! `W1`, `W2`, `W3`: bars in series. The file uses absolute angles and the machines use relative coordinates;
+//! frequencies and their derivatives do not depend on this.
 
 use eigentol::kernels::{BatchKernels, Linear};
 use eigentol::sensitivity::{

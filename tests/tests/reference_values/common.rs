@@ -56,7 +56,8 @@ pub(crate) fn moved(shift: &EquilibriumShift, by: By) -> Vector {
     }
 }
 
-/// `dM/db`, `dC/db`, `dK/db`, the explicit part plus the part through the equilibrium: from explicit partials, and in one direction.
+/// `dM/db`, `dC/db`, `dK/db`, the explicit part plus the part through the equilibrium: from explicit partials, and in
+/// one direction.
 pub(crate) fn total_linear(
     machine: &dyn DirectionalKernels,
     at: &Equilibrium,

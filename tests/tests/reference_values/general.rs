@@ -185,7 +185,8 @@ fn general_modes_of_the_sliders() {
     assert!(modes >= 4);
 }
 
-/// Derivatives of the damping ratio, with damping as a design variable, against derivatives calculated by hand from those of `s`.
+/// Derivatives of the damping ratio, with damping as a design variable, against derivatives calculated by hand from
+/// those of `s`.
 #[test]
 fn damping_ratios_follow_the_eigenvalue() {
     let study = Study::new(SlidersOnPlate)

@@ -54,7 +54,8 @@ fn moments_of_the_single_bar() {
     }
 }
 
-/// Mean and standard deviation of `omega(L)` over both branches, integrated over the normal density by the midpoint rule.
+/// Mean and standard deviation of `omega(L)` over both branches, integrated over the normal density by the midpoint
+/// rule.
 fn quadrature(omega: f64, sigma: f64) -> (f64, f64) {
     const STEPS: usize = 400_000;
     let (mut weight, mut first, mut second) = (0.0, 0.0, 0.0);

@@ -28,7 +28,8 @@ pub(crate) fn design<const P: usize>(study: &Study<impl Kernels>) -> [f64; P] {
     values.expect("a place for each design variable")
 }
 
-/// Checks an event against its value and its derivatives by `design`, and its standard deviation against the resulting one.
+/// Checks an event against its value and its derivatives by `design`, and its standard deviation against the resulting
+/// one.
 #[track_caller]
 pub(crate) fn event(
     found: &EventTolerance,

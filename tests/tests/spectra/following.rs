@@ -57,8 +57,8 @@ fn uncoupled_modes_cross() {
 }
 
 /// Coupled, the two never meet: the lower one changes from the first slider to the second. A sweep of four points gives
-/// the same result as one of a thousand: across the middle each shape resembles the other mode's more (0.69) than its own
-/// (0.31), and modes that are not recognised are followed in smaller steps.
+/// the same result as one of a thousand: across the middle each shape resembles the other mode's more (0.69) than its
+/// own (0.31), and modes that are not recognised are followed in smaller steps.
 #[test]
 fn coupled_modes_veer() {
     let study = pair(2.0);

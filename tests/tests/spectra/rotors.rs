@@ -13,8 +13,8 @@ fn rotor() -> Rotor {
     Study::new(JeffcottRotor)
 }
 
-/// Both roots of `m s^2 + (c_e + c_i) s + k - i W c_i = 0` for `z = x + i y`: the forward one (positive imaginary part) and
-/// the backward one.
+/// Both roots of `m s^2 + (c_e + c_i) s + k - i W c_i = 0` for `z = x + i y`: the forward one (positive imaginary part)
+/// and the backward one.
 fn roots([m, k, external, internal]: [f64; 4], speed: f64) -> (Complex, Complex) {
     let b = Complex::from(external + internal);
     let root = (b * b - 4.0 * m * Complex::new(k, -speed * internal)).sqrt();
@@ -80,7 +80,8 @@ fn onset_of_instability_by_internal_damping() {
         panic!("{found:?}")
     };
     event(only, expected, &slopes, &design, tolerances.half_widths());
-    // Slightly above the onset, samples lie on both sides; their shares follow from the standard deviation of the onset.
+    // Slightly above the onset, samples lie on both sides; their shares follow from the standard deviation of the
+    // onset.
     let sigma = only.sigma().expect("a spread");
     let run = study
         .clone()

@@ -35,8 +35,8 @@ fn precession_and_nutation_of_a_sleeping_top() {
     assert_eq!(stability, Stability::Divergent { negative: 2 });
 }
 
-/// `sqrt(g / l) +- W` in the turning frame: a double frequency at rest. Its derivatives by the speed, +1 and -1 rad/s per
-/// rad/s, belong to the cluster and not to a single mode.
+/// `sqrt(g / l) +- W` in the turning frame: a double frequency at rest. Its derivatives by the speed, +1 and -1 rad/s
+/// per rad/s, belong to the cluster and not to a single mode.
 #[test]
 fn turning_splits_a_double_frequency() {
     let study: Study<SphericalPendulum> = Study::new(SphericalPendulum);
@@ -81,7 +81,8 @@ fn turning_splits_a_double_frequency() {
     }
 }
 
-/// A sweep follows a state held by gyroscopic forces: the top keeps sleeping as its spin decreases, until nothing holds it.
+/// A sweep follows a state held by gyroscopic forces: the top keeps sleeping as its spin decreases, until nothing holds
+/// it.
 #[test]
 fn a_sweep_follows_the_sleeping_top_until_it_falls() {
     let study: Study<SleepingTop> = Study::new(SleepingTop);

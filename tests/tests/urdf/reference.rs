@@ -72,7 +72,8 @@ impl Robot {
         names.into_iter().step_by(step).collect()
     }
 
-    /// The largest error of each quantity over all states. Reactions of couplings are set to zero, as if nothing were coupled.
+    /// The largest error of each quantity over all states. Reactions of couplings are set to zero, as if nothing were
+    /// coupled.
     pub(crate) fn errors(
         &self,
         names: &[&str],

@@ -1,5 +1,5 @@
-//! Free rolling has a whole family of steady motions: modes belong to the current one, and quantities that depend on the
-//! choice of motion give an error.
+//! Free rolling has a whole family of steady motions: modes belong to the current one, and quantities that depend on
+//! the choice of motion give an error.
 
 use eigentol::{Behaviour, Error, Stability, Study};
 use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk};
@@ -47,9 +47,9 @@ fn a_disk_without_drag() {
     }
 }
 
-/// Without drag a force allows no steady speed of the cart, and without a force every speed is steady. The pendulum swings
-/// against the cart: `s^2 = -g b l / (J - b^2 l^2 / m)`, with the bob mass `b`, its inertia `J` about the hinge, and the
-/// total mass `m`.
+/// Without drag a force allows no steady speed of the cart, and without a force every speed is steady. The pendulum
+/// swings against the cart: `s^2 = -g b l / (J - b^2 l^2 / m)`, with the bob mass `b`, its inertia `J` about the hinge,
+/// and the total mass `m`.
 #[test]
 fn a_cart_without_drag() {
     let study = Study::<PushedCart>::new(PushedCart)

@@ -1,7 +1,8 @@
 //! The full nonlinear motion of a coin that rolls and leans, against its equations written by hand.
 //!
-//! With `phi` the lean, `psi'` the yaw rate, `n = spin + psi' sin phi`, `A` and `C` the moments of inertia across and along the
-//! axle, angular momentum about the centre along the horizontal diameter, the axle and the steepest diameter gives
+//! With `phi` the lean, `psi'` the yaw rate, `n = spin + psi' sin phi`, `A` and `C` the moments of inertia across and
+//! along the axle, angular momentum about the centre along the horizontal diameter, the axle and the steepest diameter
+//! gives
 //!
 //! ```text
 //! (A + m r^2) phi'' = -A psi'^2 sin cos + (C + m r^2) n psi' cos + m g r sin

@@ -6,8 +6,9 @@ use eigentol_tests::wheels::WhippleBicycle;
 
 use super::common::{close, complex, truth};
 
-/// Mean shift and standard deviation of the weave at 5 m/s to second order. With `g_i` and `H_ij` the derivatives times the
-/// standard deviations of the parameters, the mean shifts by `sum H_ii / 2` and the variance is `sum g_i^2 + sum H_ij^2 / 2`.
+/// Mean shift and standard deviation of the weave at 5 m/s to second order. With `g_i` and `H_ij` the derivatives times
+/// the standard deviations of the parameters, the mean shifts by `sum H_ii / 2` and the variance is
+/// `sum g_i^2 + sum H_ij^2 / 2`.
 #[test]
 fn samples_spread_as_the_derivatives_say() {
     const SAMPLES: usize = 3000;

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! They read their arguments by value before they write a result. No reference to C memory ever exists, so arrays may
-//! overlap; the caller is only responsible for the lengths. All of the unsafe code is in the text that is generated here,
-//! in a module of the user's crate.
+//! overlap; the caller is only responsible for the lengths. All of the unsafe code is in the text that is generated
+//! here, in a module of the user's crate.
 
 mod constants;
 mod function;

@@ -57,8 +57,8 @@ fn gathered(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) ->
     in_order(&seen, found)
 }
 
-/// `found` in order of ids, for each of which `seen` has a bit set. Sorting would take a fifth of the macro's time if it is
-/// compiled without optimisation.
+/// `found` in order of ids, for each of which `seen` has a bit set. Sorting would take a fifth of the macro's time if
+/// it is compiled without optimisation.
 fn in_order(seen: &[u64], mut found: Vec<ExprId>) -> Vec<ExprId> {
     let mut next = 0;
     for (word, &bits) in seen.iter().enumerate() {

@@ -6,8 +6,8 @@ use crate::base::operators::{Operator, Unary};
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// A value and a first-order bound on its rounding error (running error analysis; Higham, Accuracy and Stability of
-/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, because they are rounded numbers or were computed
-/// from rounded numbers.
+/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, because they are rounded numbers or were
+/// computed from rounded numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     /// The value.

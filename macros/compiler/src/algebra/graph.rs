@@ -39,8 +39,8 @@ pub struct Graph {
     interned: Interner,
     symbols: Vec<Symbol>,
     names: Vec<Option<Box<str>>>,
-    /// Bound on the rounding error of each constant computed from others. Otherwise the remainder of larger constants that should
-    /// cancel would look like any other number.
+    /// Bound on the rounding error of each constant computed from others. Otherwise the remainder of larger constants
+    /// that should cancel would look like any other number.
     rounding: Vec<Option<f64>>,
 }
 
@@ -88,7 +88,8 @@ impl Graph {
     }
 
     /// Gives a node a name for readers of the generated code. The first name stays, and constants and symbols keep
-    /// theirs. The operand of a negation called `name` becomes `minus_name`, because signs have no statement of their own.
+    /// theirs. The operand of a negation called `name` becomes `minus_name`, because signs have no statement of their
+    /// own.
     pub fn set_name(&mut self, id: ExprId, name: impl FnOnce() -> String) {
         match self.node(id) {
             Node::Constant(_) | Node::Symbol(_) => {}

@@ -3,10 +3,12 @@
 use super::node::Node;
 use crate::base::ids::ExprId;
 
-/// A hash table with open addressing: in unoptimised builds of the macro, the standard library's takes a quarter of its time.
+/// A hash table with open addressing: in unoptimised builds of the macro, the standard library's takes a quarter of its
+/// time.
 #[derive(Clone, Debug)]
 pub(super) struct Interner {
-    /// The number of a node, counted from one, or zero. The length is a power of two, and at most half of the slots are taken.
+    /// The number of a node, counted from one, or zero. The length is a power of two, and at most half of the slots are
+    /// taken.
     slots: Vec<u32>,
     taken: usize,
 }
@@ -61,8 +63,8 @@ impl Interner {
     }
 }
 
-/// Multiplication by a large odd number spreads the bits upwards, so the leading ones are used (Knuth, The Art of Computer
-/// Programming, volume 3, section 6.4).
+/// Multiplication by a large odd number spreads the bits upwards, so the leading ones are used (Knuth, The Art of
+/// Computer Programming, volume 3, section 6.4).
 fn hash(node: Node) -> u64 {
     const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
     let (kind, operands) = match node {

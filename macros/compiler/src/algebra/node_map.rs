@@ -2,8 +2,8 @@
 
 use crate::base::ids::ExprId;
 
-/// Maps some nodes of a graph to nodes. Zeroed memory costs nothing until it is used, so a walk over part of a large graph
-/// pays only for this part.
+/// Maps some nodes of a graph to nodes. Zeroed memory costs nothing until it is used, so a walk over part of a large
+/// graph pays only for this part.
 pub(super) struct NodeMap {
     /// By node: the number of its image, counted from one, or zero.
     images: Vec<u32>,

@@ -15,8 +15,8 @@ use super::graph::Graph;
 use crate::base::census::taken;
 use crate::base::ids::ExprId;
 
-/// The same functions with sums and products regrouped where that needs fewer operations. Results that several of the functions
-/// return are computed in the same way by all of them, so they agree to the last bit.
+/// The same functions with sums and products regrouped where that needs fewer operations. Results that several of the
+/// functions return are computed in the same way by all of them, so they agree to the last bit.
 pub fn regrouped(graph: &mut Graph, functions: &[Function]) -> Vec<Function> {
     let roots: Vec<ExprId> = functions.iter().flat_map(Function::roots).collect();
     let mut values = regroup(graph, &roots).into_iter();

@@ -20,8 +20,8 @@ impl Vector3 {
         self.0.iter().all(|&x| g.is(x, 0.0))
     }
 
-    /// The frame axis that it is a unit vector along. The test is exact: the sine of nearly a right angle rounds to one, but
-    /// its cosine is not zero.
+    /// The frame axis that it is a unit vector along. The test is exact: the sine of nearly a right angle rounds to
+    /// one, but its cosine is not zero.
     fn unit(self, g: &Graph) -> Option<usize> {
         let along = |k: usize| g.is(self.0[k], 1.0) || g.is(self.0[k], -1.0);
         let across = |k: usize| g.is(self.0[(k + 1) % 3], 0.0) && g.is(self.0[(k + 2) % 3], 0.0);
@@ -111,9 +111,9 @@ impl Matrix3 {
 
     /// `self s self^T` for a rotation and a symmetric matrix; the result is symmetric.
     ///
-    /// A rotation about an axis, possibly with right angles before and after, turns the perpendicular plane by rows `(p, q)` and
-    /// `sign (-q, p)`: with `v = p (s11 - s22) + 2 q s12` the plane becomes `[s22 + p v, sign (s12 - q v)]`,
-    /// `[sign (s12 - q v), s11 - p v]`.
+    /// A rotation about an axis, possibly with right angles before and after, turns the perpendicular plane by rows
+    /// `(p, q)` and `sign (-q, p)`: with `v = p (s11 - s22) + 2 q s12` the plane becomes
+    /// `[s22 + p v, sign (s12 - q v)]`, `[sign (s12 - q v), s11 - p v]`.
     pub fn turn_symmetric(self, g: &mut Graph, s: [[ExprId; 3]; 3]) -> [[ExprId; 3]; 3] {
         let entry = |i: usize, j: usize| self.0[j].0[i];
         let mut turned = s;

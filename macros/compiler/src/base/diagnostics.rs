@@ -43,8 +43,8 @@ impl Diagnostic {
     }
 }
 
-/// A collector of mistakes. Dropping a collector whose mistakes were never read is a bug in the compiler, which would then
-/// accept a wrong declaration; debug builds panic.
+/// A collector of mistakes. Dropping a collector whose mistakes were never read is a bug in the compiler, which would
+/// then accept a wrong declaration; debug builds panic.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,

@@ -1,8 +1,8 @@
 //! Natural cubic splines: curves through points, with two continuous derivatives.
 //!
-//! Operators of expressions are small values that are copied and compared. The points of a curve are therefore stored once and
-//! kept for the lifetime of the program, as compilers do with interned names: the same curve takes no extra memory when it is
-//! used again.
+//! Operators of expressions are small values that are copied and compared. The points of a curve are therefore stored
+//! once and kept for the lifetime of the program, as compilers do with interned names: the same curve takes no extra
+//! memory when it is used again.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -12,8 +12,8 @@ use std::sync::{Mutex, PoisonError};
 /// Start and coefficients of a piece: `c0 + c1 t + c2 t^2 + c3 t^3` with `t = x - start`.
 pub type Piece = [f64; 5];
 
-/// A natural cubic spline through points. It continues as a straight line before the first and after the last point, so two
-/// derivatives are continuous everywhere.
+/// A natural cubic spline through points. It continues as a straight line before the first and after the last point, so
+/// two derivatives are continuous everywhere.
 #[derive(Clone, Copy)]
 pub struct Spline(&'static Data);
 
@@ -196,7 +196,8 @@ mod tests {
         assert_ne!(spline, Spline::through("other", &x, &y));
     }
 
-    /// `x^3` up to one, then `(2 - x)^3 + 6 x - 6`: the curvature grows from zero and falls back to it. Two points give a line.
+    /// `x^3` up to one, then `(2 - x)^3 + 6 x - 6`: the curvature grows from zero and falls back to it. Two points give
+    /// a line.
     #[test]
     fn known_splines_come_back() {
         let spline = Spline::through("hat", &[0.0, 1.0, 2.0], &[0.0, 1.0, 6.0]);

@@ -9,8 +9,8 @@ use super::expression::Text;
 use super::names::{Names, local, wanted};
 use super::sines::{Group, groups};
 
-/// Number of statements per block. A long chain of plain `let`s nests one scope per statement, which rustc cannot handle beyond
-/// a few thousand; longer bodies declare the names of each block at once and then assign them.
+/// Number of statements per block. A long chain of plain `let`s nests one scope per statement, which rustc cannot
+/// handle beyond a few thousand; longer bodies declare the names of each block at once and then assign them.
 const BLOCK: usize = 256;
 
 /// Maximum number of operations that an unnamed value used once may contain to be written inline where it is used.

@@ -9,8 +9,8 @@ use super::form::Form;
 use super::results::Results;
 use super::signature::{call, head, signature};
 
-/// Kernels that loops over vector lanes call. Their bodies are inlined at the call, because the instruction set of such a loop
-/// applies only to code inlined into it.
+/// Kernels that loops over vector lanes call. Their bodies are inlined at the call, because the instruction set of such
+/// a loop applies only to code inlined into it.
 const INLINED: [KernelName; 7] = [
     KernelName::ResidualParts,
     KernelName::ResidualAndStiffness,
@@ -21,8 +21,8 @@ const INLINED: [KernelName; 7] = [
     KernelName::ResidualGradient,
 ];
 
-/// Kernels of any length for which `Real::run` selects the processor's instruction set: their values are needed repeatedly and
-/// take three quarters to nine tenths of the time.
+/// Kernels of any length for which `Real::run` selects the processor's instruction set: their values are needed
+/// repeatedly and take three quarters to nine tenths of the time.
 const CHOSEN: [KernelName; 4] = [
     KernelName::LinearPartials,
     KernelName::ModeGradient,
@@ -30,8 +30,8 @@ const CHOSEN: [KernelName; 4] = [
     KernelName::ResidualGradient,
 ];
 
-/// Numbers of instructions for which selection pays in any other kernel: shorter kernels are up to a quarter slower with AVX, and
-/// since a kernel is compiled once per choice, longer ones would take too long to compile.
+/// Numbers of instructions for which selection pays in any other kernel: shorter kernels are up to a quarter slower
+/// with AVX, and since a kernel is compiled once per choice, longer ones would take too long to compile.
 const LONG: RangeInclusive<usize> = 1024..=2048;
 
 fn is_one_of(kernel: &Kernel, names: &[KernelName]) -> bool {

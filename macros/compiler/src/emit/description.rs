@@ -75,8 +75,8 @@ pub(super) fn description(
     }
 }
 
-/// One constant per name of the declaration, spelled as declared and with its span, so that editors can complete it and jump
-/// to it.
+/// One constant per name of the declaration, spelled as declared and with its span, so that editors can complete it and
+/// jump to it.
 pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStream {
     let visibility = &mechanism.visibility;
     let handle = |name: &Ident, kind: &str, index: usize, doc: String| {
@@ -141,8 +141,9 @@ fn unit(unit: &Unit) -> TokenStream {
     quote! { ::eigentol::Unit { symbol: ::eigentol::Shared::Static(#symbol), scale: #scale } }
 }
 
-/// An unread local variable for every design variable that nothing refers to: rustc warns at its declaration, and the usual
-/// attributes silence the warning. The functions shadow constants of the same names, which `let` would otherwise match.
+/// An unread local variable for every design variable that nothing refers to: rustc warns at its declaration, and the
+/// usual attributes silence the warning. The functions shadow constants of the same names, which `let` would otherwise
+/// match.
 pub(super) fn unused(mechanism: &Mechanism) -> TokenStream {
     let unused = mechanism.unused_design();
     let names: Vec<_> = unused.map(|variable| &variable.name).collect();

@@ -8,9 +8,9 @@ use crate::program::{Instruction, Operand, Operation};
 /// Longest name that is built from the names of two operands.
 const COMPOUND: usize = 28;
 
-/// The local variable for a name. Rust reads a variable spelt like a constant, a static or a unit struct of the user's module
-/// as that item, and such an item may have any name. The trailing underscore avoids collisions: people do not write such names,
-/// and no keyword ends like this either.
+/// The local variable for a name. Rust reads a variable spelt like a constant, a static or a unit struct of the user's
+/// module as that item, and such an item may have any name. The trailing underscore avoids collisions: people do not
+/// write such names, and no keyword ends like this either.
 pub(super) fn local(name: &str) -> String {
     format!("{name}_")
 }

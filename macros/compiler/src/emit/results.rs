@@ -1,10 +1,10 @@
 //! The result of a method, assembled at the end or, if it consists of many matrices, stored entry by entry.
 //!
-//! Entries that are assembled at the end must be held somewhere and copied; a variable that they are stored into must first be
-//! set to zero. Measured with 600 entries, both take the same time; with 5000 entries of a chain of eight bars, storing takes
-//! half the time. A fifth of that is the zeros, which a caller who reuses the variable need not write again. However, rustc
-//! needs a quarter of a millisecond to check each storing statement, so only partial derivatives are stored: they are generated
-//! for small mechanisms.
+//! Entries that are assembled at the end must be held somewhere and copied; a variable that they are stored into must
+//! first be set to zero. Measured with 600 entries, both take the same time; with 5000 entries of a chain of eight
+//! bars, storing takes half the time. A fifth of that is the zeros, which a caller who reuses the variable need not
+//! write again. However, rustc needs a quarter of a millisecond to check each storing statement, so only partial
+//! derivatives are stored: they are generated for small mechanisms.
 
 use std::fmt::Write;
 
@@ -76,7 +76,8 @@ impl<'a> Results<'a> {
         )
     }
 
-    /// The statements that store every entry that can be nonzero into `result`; `None` if the result is assembled at the end.
+    /// The statements that store every entry that can be nonzero into `result`; `None` if the result is assembled at
+    /// the end.
     pub(super) fn stores(&self) -> Option<String> {
         let body = (!self.at_once).then(|| Body::storing(self.kernel, self.places()))?;
         Some(format!("{}{}", body.statements(), self.rest(&body)))

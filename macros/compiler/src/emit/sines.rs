@@ -11,8 +11,8 @@ pub(super) struct Group {
     pub(super) last: usize,
 }
 
-/// Maximum number of instructions of a kernel for which grouping pays: in longer kernels the cost of sines and cosines is
-/// negligible, and code that computes two at a time is longer.
+/// Maximum number of instructions of a kernel for which grouping pays: in longer kernels the cost of sines and cosines
+/// is negligible, and code that computes two at a time is longer.
 const FEW: usize = 2048;
 
 /// The groups, and the group of every instruction, if any. A single function of a single angle is not grouped.

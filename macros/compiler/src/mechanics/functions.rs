@@ -54,12 +54,12 @@ pub enum Role {
 /// Limits on the size of the generated code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Maximum number of entries, `3 n^2 (n + inputs + design)`, up to which the partial derivatives of the linearised matrices
-    /// are written out. Larger mechanisms compute them column by column from directional derivatives, because the generated
-    /// code would grow with the cube of their size.
+    /// Maximum number of entries, `3 n^2 (n + inputs + design)`, up to which the partial derivatives of the linearised
+    /// matrices are written out. Larger mechanisms compute them column by column from directional derivatives, because
+    /// the generated code would grow with the cube of their size.
     pub explicit_partials: usize,
-    /// Maximum number of operations up to which the three matrices linearised along any motion are written out; a robot with 32
-    /// joints takes 40,000. Above this limit they are differentiated one column at a time.
+    /// Maximum number of operations up to which the three matrices linearised along any motion are written out; a robot
+    /// with 32 joints takes 40,000. Above this limit they are differentiated one column at a time.
     pub motion_linear: usize,
 }
 
@@ -96,7 +96,8 @@ pub struct Requirement {
 pub struct Pose {
     /// Name of the joint.
     pub joint: String,
-    /// Signed volume spanned by the three unit axes: zero in the singular pose, one in magnitude when they are perpendicular.
+    /// Signed volume spanned by the three unit axes: zero in the singular pose, one in magnitude when they are
+    /// perpendicular.
     pub volume: ExprId,
 }
 

@@ -45,8 +45,8 @@ pub enum ConstraintLaw {
         /// m.
         length: Expr,
     },
-    /// An expression of coordinates and points is zero. An expression of coordinates only may contain running ones (a gear);
-    /// then its rate is zero.
+    /// An expression of coordinates and points is zero. An expression of coordinates only may contain running ones (a
+    /// gear); then its rate is zero.
     Equation {
         /// The expression.
         zero: Expr,

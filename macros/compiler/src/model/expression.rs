@@ -30,8 +30,8 @@ pub enum Expr {
     Length,
     /// Rate of the distance of the two points in a tension law.
     LengthRate,
-    /// Component of the load that a joint transmits at rest (in outputs): 0 to 2 the force, 3 to 5 the moment at the joint, by
-    /// the `from` side on the `to` side, in the axes of the joint frame on the `from` side.
+    /// Component of the load that a joint transmits at rest (in outputs): 0 to 2 the force, 3 to 5 the moment at the
+    /// joint, by the `from` side on the `to` side, in the axes of the joint frame on the `from` side.
     Reaction(JointId, usize),
     /// Component of the load that a constraint exerts at rest (in outputs). Coincident: 0 to 2 the force of `from` on
     /// `to`, in the axes of `from`. Aligned: 3 to 5 the moment of `from` on `to`, in the axes of `from`. Distance: 0

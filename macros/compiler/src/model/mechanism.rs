@@ -204,7 +204,8 @@ pub struct Part {
     pub placement: Placement,
 }
 
-/// A fixed placement in a body frame: first the offset, then the rotations, each about the axes left by the previous one.
+/// A fixed placement in a body frame: first the offset, then the rotations, each about the axes left by the previous
+/// one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// Origin.
@@ -213,8 +214,8 @@ pub struct Placement {
     pub rotations: Vec<(Vector, Expr)>,
 }
 
-/// A joint between two frames: a sequence of elementary motions takes its frame on the `from` side into its frame on the
-/// `to` side.
+/// A joint between two frames: a sequence of elementary motions takes its frame on the `from` side into its frame on
+/// the `to` side.
 #[derive(Clone, Debug)]
 pub struct Joint {
     /// Declared name.
@@ -354,7 +355,8 @@ pub struct Force {
     pub name: Ident,
     /// The law.
     pub law: ForceLaw,
-    /// Whether it was declared for every coordinate: it does not keep its joint from being cut, and disappears if that happens.
+    /// Whether it was declared for every coordinate: it does not keep its joint from being cut, and disappears if that
+    /// happens.
     pub of_every: bool,
 }
 
@@ -411,8 +413,8 @@ pub enum ForceLaw {
         /// The energy.
         energy: Expr,
     },
-    /// Elastic connection between two frames, in the axes of `from`: force `-stiffness d - damping d'` and
-    /// moment `-turning_stiffness r - turning_damping r'` on `to`, opposite on `from` at the place of `to`, where `d` is the
+    /// Elastic connection between two frames, in the axes of `from`: force `-stiffness d - damping d'` and moment
+    /// `-turning_stiffness r - turning_damping r'` on `to`, opposite on `from` at the place of `to`, where `d` is the
     /// displacement of `to` and `r` half the antisymmetric part of its rotation (the rotation vector while small).
     Bushing {
         /// One frame.

@@ -1,5 +1,6 @@
-//! From the syntax tree to the mechanism: every name becomes an id, every value is converted to SI. A wrong item still declares
-//! its name, and a wrong value causes no further errors where it is used, so that each mistake is reported once.
+//! From the syntax tree to the mechanism: every name becomes an id, every value is converted to SI. A wrong item still
+//! declares its name, and a wrong value causes no further errors where it is used, so that each mistake is reported
+//! once.
 
 mod arguments;
 mod bare;
@@ -49,8 +50,8 @@ pub struct Resolution {
     pub mechanism: Mechanism,
     /// The mistakes in the other parts.
     pub mistakes: Diagnostics,
-    /// Whether every body, joint and constraint is present and none is used under the name of another, so that the connections
-    /// are known.
+    /// Whether every body, joint and constraint is present and none is used under the name of another, so that the
+    /// connections are known.
     pub is_connected: bool,
 }
 

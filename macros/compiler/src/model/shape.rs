@@ -1,12 +1,12 @@
-//! The shapes, and everything that later stages need from one: its arguments, the values that must be positive, and its mass
-//! distribution.
+//! The shapes, and everything that later stages need from one: its arguments, the values that must be positive, and its
+//! mass distribution.
 
 use std::rc::Rc;
 
 use super::expression::{Expr, Vector};
 
-/// A mass distribution in a frame. Directions are unit vectors; lengths are in m, masses in kg, inertias in kg m^2. Densities
-/// have already been multiplied by the volume.
+/// A mass distribution in a frame. Directions are unit vectors; lengths are in m, masses in kg, inertias in kg m^2.
+/// Densities have already been multiplied by the volume.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A point mass.

@@ -128,7 +128,8 @@ pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
     [entry(1, 2), entry(2, 0), entry(0, 1)]
 }
 
-/// The angle between two vectors, from 0 to pi: `atan2(|a x b|, a . b)`, accurate near 0 and pi where an arc cosine is not.
+/// The angle between two vectors, from 0 to pi: `atan2(|a x b|, a . b)`, accurate near 0 and pi where an arc cosine is
+/// not.
 pub(super) fn angle(a: &Vector, b: &Vector) -> Expr {
     atan2(norm(&cross(a, b)), dot(a, b))
 }

@@ -16,7 +16,8 @@ pub struct Member {
     pub placements: Vec<Placement>,
 }
 
-/// All bodies except those welded to the ground, which never move, in groups that move as one: most contain a single body.
+/// All bodies except those welded to the ground, which never move, in groups that move as one: most contain a single
+/// body.
 pub fn groups(bodies: usize, joints: &[Joint]) -> Vec<Vec<Member>> {
     let welds: Vec<&Joint> = joints
         .iter()

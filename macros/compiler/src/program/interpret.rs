@@ -10,8 +10,9 @@ impl Program {
 }
 
 impl Kernel {
-    /// Values of the results for the given arguments; arrays are flattened with the first index outermost. Elementary functions
-    /// are those of the standard library, so sines and cosines may differ from the runtime's in the last digit.
+    /// Values of the results for the given arguments; arrays are flattened with the first index outermost. Elementary
+    /// functions are those of the standard library, so sines and cosines may differ from the runtime's in the last
+    /// digit.
     ///
     /// # Panics
     ///

@@ -1,7 +1,7 @@
 //! Straight-line code: the operations, their order, and nothing that is not needed.
 //!
-//! Dead code and common subexpressions are eliminated by construction: a kernel is made from the nodes that its results reach,
-//! and equal expressions are one node. This module knows no mechanics.
+//! Dead code and common subexpressions are eliminated by construction: a kernel is made from the nodes that its results
+//! reach, and equal expressions are one node. This module knows no mechanics.
 
 mod interpret;
 mod lower;

@@ -1,8 +1,9 @@
 //! The order of the operations.
 //!
-//! A processor has sixteen registers, and values that do not fit are written to memory and read again. Values are therefore
-//! computed where they are needed: depth first from the results, starting with the operand that needs more registers. Sines and
-//! cosines come first: no other value then has to survive the branch that they contain, and several are computed at once.
+//! A processor has sixteen registers, and values that do not fit are written to memory and read again. Values are
+//! therefore computed where they are needed: depth first from the results, starting with the operand that needs more
+//! registers. Sines and cosines come first: no other value then has to survive the branch that they contain, and
+//! several are computed at once.
 
 use crate::algebra::{Graph, Node, Unary, reachable};
 use crate::base::ids::ExprId;
@@ -23,7 +24,8 @@ pub(super) fn schedule(graph: &Graph, results: &[ExprId]) -> Vec<ExprId> {
     schedule.order
 }
 
-/// Sines and cosines, starting with those that need no others: those that can be computed side by side become neighbours.
+/// Sines and cosines, starting with those that need no others: those that can be computed side by side become
+/// neighbours.
 fn sines(graph: &Graph, needed: &[ExprId]) -> Vec<ExprId> {
     let mut depth = vec![0; graph.len()];
     let mut sines = Vec::new();

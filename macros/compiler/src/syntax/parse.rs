@@ -1,5 +1,5 @@
-//! From tokens to the syntax tree. A syntax error ends its item, not the declaration: parsing resumes after the next semicolon,
-//! and the names of the item are kept.
+//! From tokens to the syntax tree. A syntax error ends its item, not the declaration: parsing resumes after the next
+//! semicolon, and the names of the item are kept.
 
 mod body;
 mod item;

@@ -1,5 +1,5 @@
-//! From the syntax tree to canonical text: one item per line, one spelling for each construct. Parsing the text gives the same
-//! tree.
+//! From the syntax tree to canonical text: one item per line, one spelling for each construct. Parsing the text gives
+//! the same tree.
 
 use std::fmt::Write as _;
 

@@ -54,7 +54,8 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
 
 /// A graph of frames and joints, kept a forest. The ground is node 0, body `i` is node `i + 1`.
 struct Graph {
-    /// Joints at each node in order of declaration: the joint, the other node, and whether it is declared from the other node.
+    /// Joints at each node in order of declaration: the joint, the other node, and whether it is declared from the
+    /// other node.
     joints: Vec<Vec<(JointId, usize, bool)>>,
 }
 
@@ -166,7 +167,8 @@ impl Graph {
     }
 }
 
-/// Reports bodies that nothing holds to the ground: they have no equilibrium. Bodies joined to each other count as one mistake.
+/// Reports bodies that nothing holds to the ground: they have no equilibrium. Bodies joined to each other count as one
+/// mistake.
 fn report_unreached(
     mechanism: &Mechanism,
     graph: &Graph,

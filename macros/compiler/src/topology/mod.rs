@@ -1,5 +1,5 @@
-//! The computed spanning forest: the parent of each body, in an order that visits parents first, and the joints that close
-//! loops in it.
+//! The computed spanning forest: the parent of each body, in an order that visits parents first, and the joints that
+//! close loops in it.
 
 pub mod build;
 mod cut;

@@ -18,7 +18,8 @@ use crate::point::{Point, whole};
 use crate::progress;
 use crate::verdict::Verdict;
 
-/// Samples of the design within its tolerances, each solved anew; all of them, or a part that `merge` puts together with others
+/// Samples of the design within its tolerances, each solved anew; all of them, or a part that `merge` puts together
+/// with others
 #[derive(Args, Debug)]
 pub(crate) struct Sample {
     #[command(flatten)]

@@ -150,7 +150,8 @@ fn what_has_no_half_leaves_the_old_file() {
     assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
 }
 
-/// Ctrl-C some seconds after the start, or later if nothing has begun by then: exit code 130; returns what was written and printed.
+/// Ctrl-C some seconds after the start, or later if nothing has begun by then: exit code 130; returns what was written
+/// and printed.
 fn stopped(arguments: &[&str]) -> (String, String) {
     for seconds in [1, 4, 12, 36] {
         let mut command = command(arguments);

@@ -1,5 +1,5 @@
-//! A newcomer's first hour, with only the README and the first chapter of the guide: clone, commands, an edited tolerance, a new
-//! mechanism, a Rust project.
+//! A newcomer's first hour, with only the README and the first chapter of the guide: clone, commands, an edited
+//! tolerance, a new mechanism, a Rust project.
 
 use std::fs;
 use std::path::{Path, PathBuf};

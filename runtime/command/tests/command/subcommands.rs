@@ -302,8 +302,8 @@ fn allocation_finds_the_widest_tolerance() {
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
 }
 
-/// `u_c = (1.5 g / l)^(1/2)`, and the frequency is `0.8 u` at `u = (1.5 g / (0.6 l))^(1/2)`: both decrease with the length, so
-/// that the widest half-width is again the one with the limit 3.09 sigmas away.
+/// `u_c = (1.5 g / l)^(1/2)`, and the frequency is `0.8 u` at `u = (1.5 g / (0.6 l))^(1/2)`: both decrease with the
+/// length, so that the widest half-width is again the one with the limit 3.09 sigmas away.
 #[test]
 fn allocation_for_values_of_an_input() {
     let folder = folder("events");

@@ -24,7 +24,8 @@ pub(super) enum Anchor {
     Below,
 }
 
-/// Width of a letter as a fraction of the font size given to plotters, a fifth of which is line spacing; most letters are narrower.
+/// Width of a letter as a fraction of the font size given to plotters, a fifth of which is line spacing; most letters
+/// are narrower.
 pub(super) const LETTER: f64 = 0.52;
 /// Smallest letters readable in print.
 const SMALLEST: i32 = 10;
@@ -67,7 +68,8 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         self.coloured(text, at, size, anchor, Colour::Black)
     }
 
-    /// Draws a text into a room of this length, in drawing pixels, with smaller letters or, if these would be unreadable, truncated.
+    /// Draws a text into a room of this length, in drawing pixels, with smaller letters or, if these would be
+    /// unreadable, truncated.
     pub(super) fn fitted(
         &self,
         text: &str,

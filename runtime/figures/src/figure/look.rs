@@ -1,12 +1,13 @@
-//! Colours, strokes and shapes. Elements that differ in colour also differ in stroke or shape, for readers and printers without colour.
+//! Colours, strokes and shapes. Elements that differ in colour also differ in stroke or shape, for readers and printers
+//! without colour.
 
 use serde::{Serialize, Serializer};
 
 /// A colour; serialised as text, `"#0072b2"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
-    /// The colour of series 0, 1, 2, ...: distinguishable for colour-blind readers (Okabe and Ito 2008), and ordered so that neighbours
-    /// also differ in grey.
+    /// The colour of series 0, 1, 2, ...: distinguishable for colour-blind readers (Okabe and Ito 2008), and ordered so
+    /// that neighbours also differ in grey.
     Series(usize),
     /// For reference data.
     Grey,
@@ -105,8 +106,8 @@ mod tests {
 
     type Matrix = [[f64; 3]; 3];
 
-    /// Linear RGB as perceived by readers lacking one type of cone: Machado, Oliveira and Fernandes (2009), "A Physiologically-based Model
-    /// for Simulation of Color Vision Deficiency", severity 1.
+    /// Linear RGB as perceived by readers lacking one type of cone: Machado, Oliveira and Fernandes (2009), "A
+    /// Physiologically-based Model for Simulation of Color Vision Deficiency", severity 1.
     const BLIND: [(&str, Matrix); 3] = [
         (
             "protanopes",

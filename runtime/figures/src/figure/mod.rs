@@ -1,7 +1,7 @@
 //! The contents of a figure, independent of how it is drawn.
 //!
-//! All numbers are finite and in the units of the axes. A serialised figure is a tree of lists and plain objects: points are `[x, y]`,
-//! colours `"#0072b2"`, and all other keys are the field names below.
+//! All numbers are finite and in the units of the axes. A serialised figure is a tree of lists and plain objects:
+//! points are `[x, y]`, colours `"#0072b2"`, and all other keys are the field names below.
 
 mod axis;
 mod build;
@@ -28,7 +28,8 @@ pub struct Figure {
     pub panels: Vec<Panel>,
 }
 
-/// One pair of axes and the elements between them, drawn in this order: bands, bars, marks, curves, error bars, markers, labels.
+/// One pair of axes and the elements between them, drawn in this order: bands, bars, marks, curves, error bars,
+/// markers, labels.
 ///
 /// Anything outside the ranges of the axes is clipped.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -42,7 +42,8 @@ pub(crate) mod sealed {
         fn description(&self) -> &Description;
         fn input(&self) -> Input;
         fn inputs(&self) -> &[f64];
-        /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and whirl senses of their modes.
+        /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and whirl senses of their
+        /// modes.
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)>;
         /// Values, SI, at which stiffness is lost, with the equilibrium if it changes without a jump.
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)>;

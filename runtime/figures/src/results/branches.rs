@@ -114,7 +114,8 @@ type Joined<'a> = (
     Option<[&'a BranchPoint; 2]>,
 );
 
-/// The stretches of a branch. Where stability changes away from special points, as at a flutter onset, no point belongs to both stretches.
+/// The stretches of a branch. Where stability changes away from special points, as at a flutter onset, no point belongs
+/// to both stretches.
 fn joined(branch: &Branch) -> Vec<Joined<'_>> {
     let all = branch.stretches();
     let gap = |before: Option<usize>, after: usize| {

@@ -16,8 +16,8 @@ use crate::caption::{in_unit, number};
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point, Stroke};
 use crate::style::Style;
 
-/// The Campbell diagram: frequencies with their bands (backward whirl dashed), excitation lines, and numbered crossings and stability
-/// changes.
+/// The Campbell diagram: frequencies with their bands (backward whirl dashed), excitation lines, and numbered crossings
+/// and stability changes.
 ///
 /// Each event has a bar of as many standard deviations as the tolerances span.
 ///
@@ -101,7 +101,8 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     Ok(Figure::new(title, caption, vec![panel]))
 }
 
-/// Draws a motion in the colour of its mode; backward whirl is dashed, and if nothing whirls every mode has its own stroke.
+/// Draws a motion in the colour of its mode; backward whirl is dashed, and if nothing whirls every mode has its own
+/// stroke.
 pub(super) fn oscillation(
     track: &Track,
     style: &Style,
@@ -124,8 +125,8 @@ pub(super) fn oscillation(
     }
 }
 
-/// Shades a band of as many standard deviations as the tolerances span about each mode, and returns the factor by which it is exaggerated.
-/// Modes of a cluster have no spread of their own.
+/// Shades a band of as many standard deviations as the tolerances span about each mode, and returns the factor by which
+/// it is exaggerated. Modes of a cluster have no spread of their own.
 pub(super) fn bands(
     panel: &mut Panel,
     result: &Campbell,

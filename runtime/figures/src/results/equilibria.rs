@@ -13,8 +13,8 @@ const STEPS: usize = 8;
 
 /// The coordinates of the equilibrium along the input, one panel per unit.
 ///
-/// Unstable stretches are dotted. Curves are interrupted where there is no equilibrium and where it passes to another branch at a critical
-/// value.
+/// Unstable stretches are dotted. Curves are interrupted where there is no equilibrium and where it passes to another
+/// branch at a critical value.
 ///
 /// # Errors
 /// [`Error::Nothing`] without an equilibrium, or if the mechanism has no coordinates at rest.
@@ -62,8 +62,8 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     Ok(Figure::new(title, course.caption(style), panels))
 }
 
-/// The stable or the unstable points; each stretch includes the first point of the next, so that they meet. At a critical value where the
-/// equilibrium does not jump, the curve leaves like a square root.
+/// The stable or the unstable points; each stretch includes the first point of the next, so that they meet. At a
+/// critical value where the equilibrium does not jump, the curve leaves like a square root.
 fn stretch(
     course: &Course<'_>,
     stable: bool,

@@ -39,8 +39,8 @@ fn look(event: &Event) -> (&'static str, Shape) {
     }
 }
 
-/// Draws the events that `height` places, each with a horizontal error bar of as many standard deviations as the tolerances span, and
-/// returns a caption line for each.
+/// Draws the events that `height` places, each with a horizontal error bar of as many standard deviations as the
+/// tolerances span, and returns a caption line for each.
 pub(crate) fn draw(
     panel: &mut Panel,
     campbell: &Campbell,

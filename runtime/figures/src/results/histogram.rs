@@ -79,8 +79,8 @@ impl<'a> Histogram<'a> {
     /// The figure.
     ///
     /// # Errors
-    /// [`Error::UnknownMode`]; [`Error::Nothing`] if no sample oscillates in the mode or all have the same frequency; [`Error::Solver`] if
-    /// the second-order model has no probabilities.
+    /// [`Error::UnknownMode`]; [`Error::Nothing`] if no sample oscillates in the mode or all have the same frequency;
+    /// [`Error::Solver`] if the second-order model has no probabilities.
     pub fn figure(&self, style: &Style) -> Result<Figure, Error> {
         let (mode, modes) = (self.mode, self.sampled.modes.len());
         let own = self.sampled.modes.get(mode);

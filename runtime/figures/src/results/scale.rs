@@ -5,8 +5,8 @@ const VISIBLE: f64 = 0.01;
 /// A band wider than this fraction hides its surroundings.
 const WIDEST: f64 = 0.12;
 
-/// The smallest factor of 1, 2, 5, 10, 20, 50, ..., 1000 that makes the typical half-width visible on an axis of this length, unless the
-/// widest band would then hide its surroundings.
+/// The smallest factor of 1, 2, 5, 10, 20, 50, ..., 1000 that makes the typical half-width visible on an axis of this
+/// length, unless the widest band would then hide its surroundings.
 pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64 {
     let mut all: Vec<f64> = half_widths
         .filter(|own| own.is_finite() && *own > 0.0)

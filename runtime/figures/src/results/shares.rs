@@ -17,7 +17,8 @@ const HALF: f64 = 0.36;
 /// Maximum number of panels that fit on a page.
 const PANELS: usize = 4;
 
-/// Share of each design variable in the variance of the frequency of mode `mode`, from 0, largest at the top (a tornado chart).
+/// Share of each design variable in the variance of the frequency of mode `mode`, from 0, largest at the top (a tornado
+/// chart).
 ///
 /// If the mode has no frequency, the shares are for `lambda`. Correlated variables can have negative shares.
 ///

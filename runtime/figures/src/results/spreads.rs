@@ -83,7 +83,8 @@ impl<'a> Spreads<'a> {
         self
     }
 
-    /// The figure: standard deviations above; below, means minus the nominal frequency, so that several tolerances do not hide each other.
+    /// The figure: standard deviations above; below, means minus the nominal frequency, so that several tolerances do
+    /// not hide each other.
     ///
     /// # Errors
     /// [`Error::Nothing`] where the mode has no spread anywhere.

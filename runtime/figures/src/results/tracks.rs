@@ -1,8 +1,8 @@
 //! Eigenvalues along an input as lines: one for each motion and sense of whirl, joined where two of them meet.
 //!
-//! No sweep point lies exactly where a pair of conjugate eigenvalues becomes two real ones, or where an undamped frequency vanishes. Near
-//! such a point `s = m +- sqrt(D)` with smooth `m` and `D`; interpolating both linearly from the neighbouring points lets the lines meet as
-//! they truly do.
+//! No sweep point lies exactly where a pair of conjugate eigenvalues becomes two real ones, or where an undamped
+//! frequency vanishes. Near such a point `s = m +- sqrt(D)` with smooth `m` and `D`; interpolating both linearly from
+//! the neighbouring points lets the lines meet as they truly do.
 
 use eigentol::Complex;
 use eigentol::modes::Sense;
@@ -190,7 +190,8 @@ impl Lines {
 
     /// Draws from a station to a turning point, where all of `samples` reach `at`.
     ///
-    /// A pair of real eigenvalues stays on either side of its mean. `reverse` draws from the turning point to the station.
+    /// A pair of real eigenvalues stays on either side of its mean. `reverse` draws from the turning point to the
+    /// station.
     fn half(&mut self, samples: &[&Sample], station: f64, turn: f64, at: Complex, reverse: bool) {
         let mean = match samples {
             [a, b] => 0.5 * (a.s.re + b.s.re),

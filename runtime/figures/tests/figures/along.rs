@@ -197,7 +197,8 @@ fn modes_that_coalesce_are_drawn_without_a_gap() {
         for at in curve.pieces.iter().flatten() {
             let square = at[0] * at[0] / 4.0 - stiffness;
             let middle = -0.5 * at[0];
-            // (s - middle)^2 is interpolated linearly between two sweep values: the error is h^2 / 8 times its curvature.
+            // (s - middle)^2 is interpolated linearly between two sweep values: the error is h^2 / 8 times its
+            // curvature.
             let own = match curve.label.ends_with("imaginary part") {
                 true => -at[1] * at[1],
                 false => (at[1] - middle).powi(2),
@@ -446,8 +447,8 @@ fn frequencies_are_those_of_the_sweep() {
     }
 }
 
-/// No piece of a branch ends in the open: where stability changes without a special point, as at the onset of flutter, the stable
-/// and the unstable segments meet.
+/// No piece of a branch ends in the open: where stability changes without a special point, as at the onset of flutter,
+/// the stable and the unstable segments meet.
 #[test]
 fn stretches_of_a_branch_meet_where_flutter_begins() {
     let (low, high) = (0.0, 6000.0 * PI / 30.0);

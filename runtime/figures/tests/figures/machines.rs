@@ -103,8 +103,8 @@ pub(crate) fn rotor_diagram(count: usize) -> Campbell {
     found.expect("the rotor runs at every speed")
 }
 
-/// Saves a figure for inspection, checks that it is clean, and returns its text. PNG takes seconds without optimisation, so it is
-/// written only if the environment variable `PNG` is set.
+/// Saves a figure for inspection, checks that it is clean, and returns its text. PNG takes seconds without
+/// optimisation, so it is written only if the environment variable `PNG` is set.
 pub(crate) fn save(figure: &Figure, name: &str) -> String {
     let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("figures");
     std::fs::create_dir_all(&folder).expect("a folder for figures");

@@ -144,8 +144,9 @@ impl Assembly {
         vector(py, self.0.gaps.clone())
     }
 
-    /// On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the other but through a
-    /// dead centre. None unless as many coordinates are held as the mechanism has degrees of freedom.
+    /// On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the
+    /// other but through a dead centre. None unless as many coordinates are held as the mechanism has degrees of
+    /// freedom.
     #[getter]
     fn mode(&self) -> Option<&'static str> {
         self.0.mode.map(|mode| match mode {

@@ -9,8 +9,8 @@ use crate::arrays::{Array1, Array2, matrix, optional, vector};
 use crate::names;
 
 result! {
-    /// The modes about an equilibrium: undamped ones ascending in frequency, general ones in `|s|`. `m` is their number, `n` that
-    /// of the unknowns.
+    /// The modes about an equilibrium: undamped ones ascending in frequency, general ones in `|s|`. `m` is their
+    /// number, `n` that of the unknowns.
     Modes(eigentol::Modes)
 }
 
@@ -22,14 +22,16 @@ impl Modes {
 
 #[pymethods]
 impl Modes {
-    /// Eigenvalues `s`, 1/s, complex, shape (m,): motions go as exp(s t). Of a conjugate pair the one with positive imaginary part.
+    /// Eigenvalues `s`, 1/s, complex, shape (m,): motions go as exp(s t). Of a conjugate pair the one with positive
+    /// imaginary part.
     #[getter]
     fn eigenvalues<'py>(&self, py: Python<'py>) -> Array1<'py, Complex> {
         vector(py, self.each(|mode| mode.s))
     }
 
-    /// All eigenvalues of the first-order form, 1/s, complex. The oscillating ones stand in ROSS's order: those with a positive
-    /// imaginary part, ascending in it, after these their conjugates, again ascending. The real ones follow, ascending.
+    /// All eigenvalues of the first-order form, 1/s, complex. The oscillating ones stand in ROSS's order: those with a
+    /// positive imaginary part, ascending in it, after these their conjugates, again ascending. The real ones follow,
+    /// ascending.
     ///
     /// A neutral undamped mode has two that are zero, a divergent one both signs.
     #[getter]

@@ -58,13 +58,15 @@ impl Sensitivities {
 
 #[pymethods]
 impl Sensitivities {
-    /// Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where `s` has none.
+    /// Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
+    /// `s` has none.
     #[getter]
     fn by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
         self.complex(py, self.counts().1, |own| own.by_design.to_vec())
     }
 
-    /// Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has none.
+    /// Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
+    /// none.
     #[getter]
     fn by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
         self.complex(py, self.counts().0, |own| own.by_input.to_vec())
@@ -86,8 +88,9 @@ impl Sensitivities {
         })
     }
 
-    /// Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s), by inputs,
-    /// shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has none.
+    /// Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
+    /// by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
+    /// none.
     fn of<'py>(&self, py: Python<'py>, name: &str) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let wanted = quantity(py, name)?;
         let (inputs, design) = self.counts();
@@ -99,7 +102,8 @@ impl Sensitivities {
         ))
     }
 
-    /// Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed basis only.
+    /// Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
+    /// basis only.
     #[getter]
     fn clustered(&self) -> Vec<bool> {
         self.0.modes.iter().map(|own| own.clustered).collect()
@@ -125,8 +129,8 @@ impl ModeCurvature {
     }
 }
 
-/// Quantities are "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s); second derivatives also of
-/// "lambda" (1/s^2).
+/// Quantities are "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s); second derivatives
+/// also of "lambda" (1/s^2).
 #[pymethods]
 impl ModeCurvature {
     /// Its eigenvalue, 1/s.

@@ -27,8 +27,9 @@ macro_rules! result {
                 $crate::results::html(&self.0.to_string(), &eigentol_tables::tables(&self.0))
             }
 
-            /// A table of the result as a dictionary, a column for each heading ("frequency [rad/s]"), which pandas.DataFrame and
-            /// polars.DataFrame take. Values are in declared units. Without a name it is the first, the answer.
+            /// A table of the result as a dictionary, a column for each heading ("frequency [rad/s]"), which
+            /// pandas.DataFrame and polars.DataFrame take. Values are in declared units. Without a name it is the
+            /// first, the answer.
             #[pyo3(signature = (name=None))]
             fn table<'py>(
                 &self,
@@ -38,7 +39,8 @@ macro_rules! result {
                 $crate::results::table(py, &eigentol_tables::tables(&self.0), name)
             }
 
-            /// The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is `eigentol.json_schema()`.
+            /// The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is
+            /// `eigentol.json_schema()`.
             fn to_json(&self, py: Python<'_>) -> PyResult<String> {
                 use $crate::results::Document as _;
                 let text = self.0.document();

@@ -12,7 +12,8 @@ use crate::events::{Event, events};
 const NONE: Complex = Complex::new(f64::NAN, f64::NAN);
 
 result! {
-    /// States along an input. `k` is their number, `n` that of the unknowns; a column of an array over modes is one motion.
+    /// States along an input. `k` is their number, `n` that of the unknowns; a column of an array over modes is one
+    /// motion.
     Sweep(eigentol::sweep::Sweep)
 }
 
@@ -121,8 +122,8 @@ impl Sweep {
 }
 
 result! {
-    /// A Campbell diagram: every mode against an input, with spreads and crossings. `k` is the number of values; a column of an
-    /// array over modes is one motion, in the order of `labels`.
+    /// A Campbell diagram: every mode against an input, with spreads and crossings. `k` is the number of values; a
+    /// column of an array over modes is one motion, in the order of `labels`.
     Campbell(eigentol::Campbell)
 }
 
@@ -195,7 +196,8 @@ impl Campbell {
         self.by_label(py, f64::NAN, |mode| sigma(&mode.damping_ratio))
     }
 
-    /// Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does not apply.
+    /// Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does
+    /// not apply.
     #[getter]
     fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
         let ratio = |mode: &CampbellMode| mode.whirl.map(|own| own.ratio);

@@ -98,8 +98,8 @@ fn drawing(html: &mut Html, own: &Variable<'_>, law: &Distribution) {
     });
 }
 
-/// Values and their densities from left to right, zero at both ends; for a discrete distribution, vertical lines proportional to the
-/// probability of each value.
+/// Values and their densities from left to right, zero at both ends; for a discrete distribution, vertical lines
+/// proportional to the probability of each value.
 fn density(law: &Distribution) -> Vec<[f64; 2]> {
     let quantiles = (0..=STEPS).map(|k| REACH * (2.0 * f64::from(k) / f64::from(STEPS) - 1.0));
     let mut points = Vec::new();

@@ -55,7 +55,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     Ok(())
 }
 
-/// A row for each variable, a column for each mode; members of a cluster are left out, since they have no spread of their own.
+/// A row for each variable, a column for each mode; members of a cluster are left out, since they have no spread of
+/// their own.
 fn by_variable(first: &FirstOrder, style: &Style) -> Table {
     let design = first.description.design.iter();
     let mut table = Table::new("shares");

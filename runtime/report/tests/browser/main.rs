@@ -378,8 +378,8 @@ fn the_mechanism_is_seen_turned_and_moved() {
     );
 }
 
-/// Seen from the front: how far the letter of y is above that of x, how far it is from that of z, and the height and width of the
-/// filled area. The rotor's gravity is along -y, and its disk turns about z.
+/// Seen from the front: how far the letter of y is above that of x, how far it is from that of z, and the height and
+/// width of the filled area. The rotor's gravity is along -y, and its disk turns about z.
 const FRONT: &str = "(() => { const own = CanvasRenderingContext2D.prototype; const { fillText, beginPath, lineTo, fill } = own; \
     const letters = {}; const all = []; let corners = []; \
     own.fillText = function (text, x, y) { letters[text] = y; }; \

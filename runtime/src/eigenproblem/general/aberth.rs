@@ -1,5 +1,5 @@
-//! The fallback method: simultaneous iteration of Ehrlich and Aberth on `det Q(s)` (Bini and Noferini 2013). It works on
-//! the pencil itself, so that small eigenvalues do not carry the rounding of the large ones; the linearisation is
+//! The fallback method: simultaneous iteration of Ehrlich and Aberth on `det Q(s)` (Bini and Noferini 2013). It works
+//! on the pencil itself, so that small eigenvalues do not carry the rounding of the large ones; the linearisation is
 //! faster.
 
 use num_complex::Complex64;

@@ -36,8 +36,8 @@ pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
     (sum - solver.linearisation.sum()).abs() <= allowed
 }
 
-/// Fills in the errors of all pairs that are not part of a cluster. Returns whether each eigenvalue is clearly distinct:
-/// of two that almost meet, one may be found in place of the other.
+/// Fills in the errors of all pairs that are not part of a cluster. Returns whether each eigenvalue is clearly
+/// distinct: of two that almost meet, one may be found in place of the other.
 pub(super) fn estimate(solver: &mut Solver, found: &mut Found) -> bool {
     let mut all_told_apart = true;
     for i in 0..found.count {

@@ -103,8 +103,8 @@ impl Solver<'_> {
 
     /// Vectors of the eigenvalue next to `s`, and the smallest pivot apart from the vanishing one.
     ///
-    /// Vectors that are already close are improved by inverse iteration, which multiplies their error by the distance of
-    /// `s`. The convergence of `s` is then of third order, instead of second order with null vectors (Schreiber,
+    /// Vectors that are already close are improved by inverse iteration, which multiplies their error by the distance
+    /// of `s`. The convergence of `s` is then of third order, instead of second order with null vectors (Schreiber,
     /// "Nonlinear eigenvalue problems: Newton-type methods and nonlinear Rayleigh functionals", 2008).
     fn vectors(
         &mut self,

@@ -44,7 +44,8 @@ pub(super) fn scale_first_order(
 }
 
 /// Scales the matrices in place to `D M D`, `D C D / rate`, `D K D / rate^2`, with masses of order one on the diagonal
-/// and nothing much larger than one in damping and stiffness. The diagonal of `D` is written to `units`; returns `rate`.
+/// and nothing much larger than one in damping and stiffness. The diagonal of `D` is written to `units`; returns
+/// `rate`.
 pub(super) fn scale(
     n: usize,
     mass: &mut [f64],

@@ -1,7 +1,7 @@
 //! Closing the loops: finds coordinates that meet the constraints, from values that do not.
 //!
-//! Gauss-Newton steps of least motion (least kinetic energy, each coordinate taken alone), damped (Levenberg, Marquardt)
-//! where constraints are about to become dependent.
+//! Gauss-Newton steps of least motion (least kinetic energy, each coordinate taken alone), damped (Levenberg,
+//! Marquardt) where constraints are about to become dependent.
 
 mod gaps;
 mod step;
@@ -28,8 +28,8 @@ const BETTER: f64 = 0.9;
 /// Moves the coordinates that are not held until the constraints on positions are met; returns the state and the number
 /// of iterations.
 ///
-/// A start in which no small motion closes the gaps, such as a mechanism laid out straight or in one point, is left by a
-/// kick.
+/// A start in which no small motion closes the gaps, such as a mechanism laid out straight or in one point, is left by
+/// a kick.
 pub(super) fn close(
     point: &OperatingPoint<'_>,
     start: &[f64],

@@ -57,8 +57,8 @@ pub(super) fn scaled(gaps: &[f64], rows: &Rows) -> Vector {
 
 /// A Gauss-Newton step without the rows that almost depend on the others, if it reduces every gap.
 ///
-/// Redundant constraints are dependent only where they are met. Away from there, their differences close on their own as
-/// the squares of the remaining gaps; keeping those rows would slow the steps down to halving and lose half of the
+/// Redundant constraints are dependent only where they are met. Away from there, their differences close on their own
+/// as the squares of the remaining gaps; keeping those rows would slow the steps down to halving and lose half of the
 /// digits.
 pub(super) fn without_dependent(
     point: &OperatingPoint<'_>,

@@ -1,5 +1,5 @@
-//! Modes with speeds or constraints on velocities: roots of the first-order [`System`], their vectors completed to those
-//! of the bordered pencil.
+//! Modes with speeds or constraints on velocities: roots of the first-order [`System`], their vectors completed to
+//! those of the bordered pencil.
 
 use super::system::System;
 use super::{Gathered, Normalisation, is_shared, lift, with_reactions};
@@ -43,8 +43,8 @@ impl System<'_> {
     }
 
     /// The left vector of the bordered pencil. With `psi_nu = Z l_w` the columns of positions and velocities give
-    /// `kappa = l_y - E^T M_nu^T psi_nu` and `[A_q P, A_v]^T psi_2 = (kappa; 0) - (s M_nu + C_nu)^T psi_nu`; the columns
-    /// of coordinates give the rest.
+    /// `kappa = l_y - E^T M_nu^T psi_nu` and `[A_q P, A_v]^T psi_2 = (kappa; 0) - (s M_nu + C_nu)^T psi_nu`; the
+    /// columns of coordinates give the rest.
     fn left(&self, s: Complex, l: &[Complex]) -> Vector<Complex> {
         let (f, structure) = (self.tangent.freedom, self.tangent.structure);
         let (l_y, l_w) = l.split_at(f);

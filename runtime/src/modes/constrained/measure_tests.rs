@@ -33,7 +33,8 @@ fn root() -> Complex {
     Complex::new(real, (15.5 / 6.0 - real * real).sqrt())
 }
 
-/// The right and left vectors of that root: everything moves together, and the reactions hold the second and third mass.
+/// The right and left vectors of that root: everything moves together, and the reactions hold the second and third
+/// mass.
 fn vectors() -> [[Complex; 5]; 2] {
     let (s, one) = (root(), Complex::new(1.0, 0.0));
     let second = 3.0 * s * s + 0.4 * s;

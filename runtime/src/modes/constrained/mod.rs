@@ -4,8 +4,8 @@
 //! motions that the constraints leave free. They are the eigenvalues of a smaller problem in coordinates `y`,
 //! `delta q = P y`, along the null space of the constraints. That problem is symmetric ([`pairs`]), quadratic
 //! ([`quadratic`]) or, with speeds or constraints on velocities, of first order in positions and independent velocities
-//! ([`first_order`]). Its vectors are completed with the reactions; every pair is measured, and its eigenvalue improved,
-//! on the bordered pencil itself ([`measure`]).
+//! ([`first_order`]). Its vectors are completed with the reactions; every pair is measured, and its eigenvalue
+//! improved, on the bordered pencil itself ([`measure`]).
 
 mod first_order;
 mod measure;
@@ -79,7 +79,8 @@ fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
 pub(crate) enum Normalisation {
     /// `x^H Mhat x = 1`, with the leading component real and positive.
     Mass,
-    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass that `Mhat` contains.
+    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass that `Mhat`
+    /// contains.
     Largest,
 }
 
@@ -91,9 +92,9 @@ pub(crate) struct Leading {
 }
 
 impl Normalisation {
-    /// The normalisation for the modes of a mechanism. The leading component belongs to a coordinate or a speed. For left
-    /// vectors with speeds or constraints on velocities it may belong to any unknown, because such a vector may consist
-    /// of reactions only.
+    /// The normalisation for the modes of a mechanism. The leading component belongs to a coordinate or a speed. For
+    /// left vectors with speeds or constraints on velocities it may belong to any unknown, because such a vector may
+    /// consist of reactions only.
     pub(crate) fn of(description: &Description) -> (Self, Leading) {
         let structure = Structure::of(description);
         let motions = if structure.open() {
@@ -160,8 +161,8 @@ impl<'a> Gathered<'a> {
         }
     }
 
-    /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and stay
-    /// equal.
+    /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and
+    /// stay equal.
     fn add(
         &mut self,
         reduced: &Root,

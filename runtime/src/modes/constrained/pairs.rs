@@ -104,8 +104,8 @@ fn quotient(linear: &Linear, lambda: f64, phi: &[f64]) -> (f64, f64) {
     (numerator / size, rounding / size)
 }
 
-/// Largest component of `(K - lambda M) phi` relative to the sums of absolute terms, over the equations of motion and the
-/// constraints.
+/// Largest component of `(K - lambda M) phi` relative to the sums of absolute terms, over the equations of motion and
+/// the constraints.
 fn residual(linear: &Linear, tangent: &Tangent, lambda: f64, phi: &[f64]) -> f64 {
     let motions = tangent.structure.motions();
     let (mut most, mut terms) = (0.0_f64, 0.0_f64);

@@ -1,4 +1,5 @@
-//! Modes with speeds or constraints on velocities: a first-order system in positions `y` and independent velocities `w`.
+//! Modes with speeds or constraints on velocities: a first-order system in positions `y` and independent velocities
+//! `w`.
 //!
 //! The constraints allow the velocities `nu = (ydot; v) = Z w + E y`: `Z` spans the null space of `[A_q P, A_v]`, and
 //! `E = -[A_q P, A_v]^+ B P`. The equations of motion are projected onto `Z`, which eliminates all reactions. With the

@@ -1,11 +1,12 @@
-//! Inverts the moment generating function along a tilted ray, for characteristic functions that decay too slowly for the
-//! trapezoidal rule on the axis: with `m` squares without slope they decay as `t^(-m/2)`.
+//! Inverts the moment generating function along a tilted ray, for characteristic functions that decay too slowly for
+//! the trapezoidal rule on the axis: with `m` squares without slope they decay as `t^(-m/2)`.
 //!
-//! `P(X > y) = 1/(2 pi i) int e^(K(s) - s y) ds / s` along any path from below to above that passes to the right of the origin. On
-//! the two rays `s = r e^(+-i theta)` it becomes `theta/pi + 1/pi int_0^inf Im e^(K(s) - s y) dr / r`. All singularities of `K` lie
-//! on the real axis (at `1/nu_j`), so a ray tilted from the imaginary axis to either side meets none; the one on which the
-//! integrand stays smaller is used. With `r = e^w` the integrand is analytic in a strip about the real `w` at every scale of the
-//! curvatures, and the trapezoidal rule in `w` converges exponentially (Trefethen and Weideman, SIAM Review 56, 2014).
+//! `P(X > y) = 1/(2 pi i) int e^(K(s) - s y) ds / s` along any path from below to above that passes to the right of the
+//! origin. On the two rays `s = r e^(+-i theta)` it becomes `theta/pi + 1/pi int_0^inf Im e^(K(s) - s y) dr / r`. All
+//! singularities of `K` lie on the real axis (at `1/nu_j`), so a ray tilted from the imaginary axis to either side
+//! meets none; the one on which the integrand stays smaller is used. With `r = e^w` the integrand is analytic in a
+//! strip about the real `w` at every scale of the curvatures, and the trapezoidal rule in `w` converges exponentially
+//! (Trefethen and Weideman, SIAM Review 56, 2014).
 
 use core::f64::consts::PI;
 
@@ -126,8 +127,8 @@ impl Ray {
     }
 }
 
-/// Whether the arc from `s = e^(w + i angle)` back to the imaginary axis, along which the modulus only decreases, contributes
-/// nothing: then everything beyond may be neglected, on the ray as well.
+/// Whether the arc from `s = e^(w + i angle)` back to the imaginary axis, along which the modulus only decreases,
+/// contributes nothing: then everything beyond may be neglected, on the ray as well.
 fn can_return(terms: &Terms, y: f64, angle: f64, w: f64) -> bool {
     const POINTS: usize = 8;
     let nothing = |s| exponent(terms, y, s).0.re < NOTHING + 4.0;

@@ -1,8 +1,8 @@
 //! Inverts the characteristic function by the trapezoidal rule, with proven bounds on both its errors.
 //!
-//! `P(X < y) = 1/2 - sum_k Im(phi(t_k) e^(-i t_k y)) / (pi (k + 1/2))`, `t_k = (k + 1/2) step` (Gil-Pelaez 1951, discretised by
-//! Davies, Biometrika 60, 1973, and Applied Statistics 29, 1980, AS 155; for quadratic forms the integral is Imhof's, Biometrika
-//! 48, 1961).
+//! `P(X < y) = 1/2 - sum_k Im(phi(t_k) e^(-i t_k y)) / (pi (k + 1/2))`, `t_k = (k + 1/2) step` (Gil-Pelaez 1951,
+//! discretised by Davies, Biometrika 60, 1973, and Applied Statistics 29, 1980, AS 155; for quadratic forms the
+//! integral is Imhof's, Biometrika 48, 1961).
 
 use core::f64::consts::{LN_2, PI};
 
@@ -75,7 +75,8 @@ impl Rule {
     }
 }
 
-/// Smallest sufficient number up to `limit`, assuming that `limit` suffices and so does every number above a sufficient one.
+/// Smallest sufficient number up to `limit`, assuming that `limit` suffices and so does every number above a sufficient
+/// one.
 fn fewest(limit: usize, enough: impl Fn(usize) -> bool) -> usize {
     let (mut low, mut high) = (0, limit);
     while high - low > 1 {
@@ -109,8 +110,8 @@ fn log_modulus(terms: &Terms, t: f64) -> f64 {
     -0.5 * normal * normal - squares.sum::<f64>()
 }
 
-/// Bound on the sum beyond `t`. The modulus decreases, so each octave of `int |phi| dt / (pi t)` is at most `ln 2 / pi` times its
-/// value at the low end.
+/// Bound on the sum beyond `t`. The modulus decreases, so each octave of `int |phi| dt / (pi t)` is at most `ln 2 / pi`
+/// times its value at the low end.
 fn left_out(terms: &Terms, t: f64) -> f64 {
     const OCTAVES: usize = 400;
     let mut sum = 0.0;

@@ -31,8 +31,8 @@ impl Terms {
         }
     }
 
-    /// The trapezoidal rule where it is short, with its proven bound; otherwise the tilted ray. If neither is good, the better of
-    /// the two.
+    /// The trapezoidal rule where it is short, with its proven bound; otherwise the tilted ray. If neither is good, the
+    /// better of the two.
     fn inverted(&self, from: f64, to: f64) -> Estimate {
         let rule = davies::Rule::new(self);
         if rule.is_short() {
@@ -54,8 +54,8 @@ mod tests {
     use super::super::terms::Square;
     use super::*;
 
-    /// With standard deviation 1 and five or more variables of either sign both inversions apply, and they share no formula but the
-    /// terms.
+    /// With standard deviation 1 and five or more variables of either sign both inversions apply, and they share no
+    /// formula but the terms.
     #[test]
     fn both_inversions_agree() {
         for (normal, count, c, nu) in [

@@ -1,5 +1,5 @@
-//! The distribution of a second-order model in variables that are not normal, from the model at many scrambled Sobol' points. The
-//! differences between several randomisations give the error.
+//! The distribution of a second-order model in variables that are not normal, from the model at many scrambled Sobol'
+//! points. The differences between several randomisations give the error.
 
 use eigentol_statistics::sequence::Sequence;
 use eigentol_statistics::{Joint, normal};

@@ -58,8 +58,8 @@ impl Terms {
         })
     }
 
-    /// Logarithm `K(s)` of the moment generating function `E e^(s X)`, continued analytically off the real axis, and the magnitude
-    /// of its terms, which tells how much of it is rounding.
+    /// Logarithm `K(s)` of the moment generating function `E e^(s X)`, continued analytically off the real axis, and
+    /// the magnitude of its terms, which tells how much of it is rounding.
     pub(super) fn log_generating(&self, s: Complex<f64>) -> (Complex<f64>, f64) {
         let square = s * s;
         let mut sum = square * (0.5 * self.normal * self.normal);

@@ -8,8 +8,8 @@ use crate::batched::closed::{self, Solver};
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::scalar::Lanes;
 
-/// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last. It uses the nominal
-/// change of the stiffness, so that the remainder is a share of it comparable to that of the tolerances.
+/// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last. It uses the
+/// nominal change of the stiffness, so that the remainder is a share of it comparable to that of the tolerances.
 const LAST_CORRECTION: f64 = 1e-12;
 /// Smallest pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
 const CLEARLY_POSITIVE: f64 = 1e-3;
@@ -199,7 +199,8 @@ impl<const N: usize> Forces<N> {
         (step, last, regular)
     }
 
-    /// The nominal inverse times a stiffness, in units of the coordinates, and whether the product is near the identity.
+    /// The nominal inverse times a stiffness, in units of the coordinates, and whether the product is near the
+    /// identity.
     #[inline(always)]
     fn relative<V: Lanes>(&self, n: usize, stiffness: &Square<V, N>) -> (Square<V, N>, V) {
         let zero = V::constant(0.0);

@@ -9,8 +9,9 @@ use crate::kernels::Kernels;
 pub(super) const FEW: usize = 8;
 /// Displacement (rad or m) for differences if the equilibrium does not move.
 const SMALL: f64 = 1e-4;
-/// Largest relative change of a mode's stiffness that second derivatives may cause over the displacement of one standard
-/// deviation. [`FAR`](super::equilibrium::FAR) times the displacement still leaves three quarters of the stiffness.
+/// Largest relative change of a mode's stiffness that second derivatives may cause over the displacement of one
+/// standard deviation. [`FAR`](super::equilibrium::FAR) times the displacement still leaves three quarters of the
+/// stiffness.
 const STRAIGHT: f64 = 0.007;
 
 /// The nominal state and its neighbours.
@@ -81,8 +82,8 @@ impl Nominal<'_> {
         finite.then_some(second)
     }
 
-    /// How far one standard deviation of every varied variable moves each coordinate, all in the same direction; a small
-    /// displacement where the equilibrium does not move.
+    /// How far one standard deviation of every varied variable moves each coordinate, all in the same direction; a
+    /// small displacement where the equilibrium does not move.
     pub(super) fn reach(&self, varied: &[usize], first: &[Vector], deviations: &[f64]) -> Vector {
         Vector::from_fn(self.state.coordinates.len(), |k| {
             let motions = first.iter().zip(varied);

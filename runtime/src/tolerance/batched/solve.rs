@@ -131,7 +131,8 @@ fn through<V: Lanes, const N: usize>(
     }
 }
 
-/// Modes by the nominal pairs, for any number of unknowns: they involve so much arithmetic that the loops do not matter.
+/// Modes by the nominal pairs, for any number of unknowns: they involve so much arithmetic that the loops do not
+/// matter.
 struct GeneralModes<'a, 'b, const N: usize> {
     prepared: &'a TaylorModel<'a, N>,
     reference: &'a Reference,

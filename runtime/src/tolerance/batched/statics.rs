@@ -23,8 +23,8 @@ pub(super) struct Potential<const N: usize> {
     pub(super) shapes: Square<f64, N>,
     /// Their `lambda`, 1/s^2.
     pub(super) lambda: Row<f64, N>,
-    /// `1/2 dKhat/dq_k` by `k` and row, with off-diagonal rows doubled and rows after `k` unused: the quadratic terms of
-    /// the residual.
+    /// `1/2 dKhat/dq_k` by `k` and row, with off-diagonal rows doubled and rows after `k` unused: the quadratic terms
+    /// of the residual.
     pub(super) curvature: Vec<Square<f64, N>>,
     /// `dKhat/dq_k` in the basis of the nominal modes.
     pub(super) stiffening: Vec<Square<f64, N>>,

@@ -52,8 +52,8 @@ pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> TaylorModel<'a, N> {
-    /// `None` if the mechanism is not of a kind that is solved in vectors, the nominal state is not a clear minimum with
-    /// all of its modes, or nothing varies.
+    /// `None` if the mechanism is not of a kind that is solved in vectors, the nominal state is not a clear minimum
+    /// with all of its modes, or nothing varies.
     pub(super) fn new(
         kernels: &'a dyn BatchKernels,
         (nominal, modes): (&'a Equilibrium, &Modes),

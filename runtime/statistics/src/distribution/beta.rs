@@ -21,8 +21,8 @@ pub(super) fn check(shape: f64) -> Result<(), Error> {
     })
 }
 
-/// The `x` with the same probability below it as the standard normal `z`; if the flag is set, `1 - x` instead. Whichever is known
-/// to more digits is returned.
+/// The `x` with the same probability below it as the standard normal `z`; if the flag is set, `1 - x` instead.
+/// Whichever is known to more digits is returned.
 pub(super) fn quantile((alpha, beta): (f64, f64), z: f64) -> (f64, bool) {
     let half = beta_reg(alpha, beta, 0.5);
     let probability = normal::cdf(z);
@@ -46,8 +46,8 @@ pub(super) fn slope((alpha, beta): (f64, f64), z: f64) -> f64 {
     if slope.is_finite() { slope } else { 0.0 }
 }
 
-/// The quantile in the lower half of the interval: Newton's method on the logarithms of both sides, whose graph is nearly straight
-/// there, safeguarded by bisection.
+/// The quantile in the lower half of the interval: Newton's method on the logarithms of both sides, whose graph is
+/// nearly straight there, safeguarded by bisection.
 fn lower(alpha: f64, beta: f64, probability: f64) -> f64 {
     if probability == 0.0 {
         return 0.0;

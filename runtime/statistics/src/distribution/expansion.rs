@@ -7,8 +7,8 @@ use crate::normal;
 /// Number of terms.
 const TERMS: usize = 120;
 
-/// `x(Z) = mean + sum_k a_k he_k(Z)`, `k` from 1, with Hermite polynomials of unit variance. If the normal variables behind two
-/// variables have correlation `r`, the covariance of the variables is `sum_k a_k b_k r^k` (Mehler 1866).
+/// `x(Z) = mean + sum_k a_k he_k(Z)`, `k` from 1, with Hermite polynomials of unit variance. If the normal variables
+/// behind two variables have correlation `r`, the covariance of the variables is `sum_k a_k b_k r^k` (Mehler 1866).
 #[derive(Clone, Debug)]
 pub(crate) struct Expansion {
     coefficients: Vec<f64>,
@@ -45,8 +45,8 @@ impl Expansion {
         }
     }
 
-    /// Covariance of two variables whose normal variables have correlation `r`. The remainder of the series is treated as a term of
-    /// the next order; the result is then exact for variables of the same distribution at `r = 1`.
+    /// Covariance of two variables whose normal variables have correlation `r`. The remainder of the series is treated
+    /// as a term of the next order; the result is then exact for variables of the same distribution at `r = 1`.
     pub(crate) fn covariance(&self, other: &Self, r: f64) -> f64 {
         let mut power = 1.0;
         let mut sum = 0.0;

@@ -93,7 +93,8 @@ impl Distribution {
     /// Lognormal distribution, given the mean and standard deviation of the variable itself.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a mean that is not positive, a negative standard deviation or numbers that are not finite.
+    /// [`Error::Setting`] for a mean that is not positive, a negative standard deviation or numbers that are not
+    /// finite.
     pub fn lognormal(mean: f64, sigma: f64) -> Result<Self, Error> {
         positive("mean of a lognormal variable", mean)?;
         not_negative(sigma)?;
@@ -125,7 +126,8 @@ impl Distribution {
     /// Two-parameter Weibull distribution, given mean and standard deviation.
     ///
     /// # Errors
-    /// As [`Self::weibull`] for a mean that is not positive, or if no shape within its limits has this ratio of the two.
+    /// As [`Self::weibull`] for a mean that is not positive, or if no shape within its limits has this ratio of the
+    /// two.
     pub fn weibull_by_moments(mean: f64, sigma: f64) -> Result<Self, Error> {
         positive("mean of a Weibull variable", mean)?;
         not_negative(sigma)?;
@@ -136,13 +138,14 @@ impl Distribution {
         Self::weibull(shape, mean / weibull::unit_moments(shape)?.0)
     }
 
-    /// Normal distribution with this mean and standard deviation, truncated to the limits, either of which may be infinite.
+    /// Normal distribution with this mean and standard deviation, truncated to the limits, either of which may be
+    /// infinite.
     ///
     /// [`Self::mean`] and [`Self::sigma`] are those after truncation.
     ///
     /// # Errors
-    /// [`Error::Setting`] if the limits are not in order or leave less than 1e-300 of the probability, or if the standard deviation
-    /// is not positive.
+    /// [`Error::Setting`] if the limits are not in order or leave less than 1e-300 of the probability, or if the
+    /// standard deviation is not positive.
     pub fn truncated_normal(mean: f64, sigma: f64, (low, high): (f64, f64)) -> Result<Self, Error> {
         finite(&[mean])?;
         ordered(low, high)?;
@@ -198,8 +201,8 @@ impl Distribution {
     /// Beta distribution between limits, with density `x^(alpha - 1) (1 - x)^(beta - 1)` over them.
     ///
     /// # Errors
-    /// [`Error::Setting`] for limits that are not finite or not in order, and for shapes outside 0.05 to 1000; beyond that, a
-    /// normal distribution is as good.
+    /// [`Error::Setting`] for limits that are not finite or not in order, and for shapes outside 0.05 to 1000; beyond
+    /// that, a normal distribution is as good.
     pub fn beta((alpha, beta): (f64, f64), (low, high): (f64, f64)) -> Result<Self, Error> {
         finite(&[low, high])?;
         ordered(low, high)?;
@@ -220,7 +223,8 @@ impl Distribution {
     /// Discrete distribution over values with probabilities or weights; these are divided by their sum.
     ///
     /// # Errors
-    /// [`Error::Setting`] if there are no values, values that are not finite, or weights that are negative, not finite or all zero.
+    /// [`Error::Setting`] if there are no values, values that are not finite, or weights that are negative, not finite
+    /// or all zero.
     pub fn discrete(values: &[(f64, f64)]) -> Result<Self, Error> {
         let discrete = Discrete::new(values)?;
         let (mean, sigma) = discrete.moments();

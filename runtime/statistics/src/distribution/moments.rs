@@ -21,7 +21,8 @@ impl Distribution {
         }
     }
 
-    /// Excess kurtosis: fourth central moment over the fourth power of the standard deviation, minus the 3 of a normal variable.
+    /// Excess kurtosis: fourth central moment over the fourth power of the standard deviation, minus the 3 of a normal
+    /// variable.
     ///
     /// Zero for a constant.
     #[must_use]

@@ -4,7 +4,8 @@ use super::{Distribution, Kind, beta};
 use crate::normal;
 
 impl Distribution {
-    /// The value with the same probability of being exceeded as the standard normal `z`: increasing, and accurate in both tails.
+    /// The value with the same probability of being exceeded as the standard normal `z`: increasing, and accurate in
+    /// both tails.
     #[must_use]
     pub fn from_normal(&self, z: f64) -> f64 {
         if self.sigma == 0.0 {

@@ -50,8 +50,8 @@ pub(super) fn shape(variation: f64) -> Result<f64, Error> {
     Ok((0.5 * (low + high)).exp())
 }
 
-/// `ln (E X^2 / (E X)^2) = ln Gamma(1 + 2 e) - 2 ln Gamma(1 + e)` with `e = 1 / shape`, from the series of `ln Gamma` where the two
-/// nearly cancel: `sum zeta(n) (-e)^n (2^n - 2) / n`, `n` from 2.
+/// `ln (E X^2 / (E X)^2) = ln Gamma(1 + 2 e) - 2 ln Gamma(1 + e)` with `e = 1 / shape`, from the series of `ln Gamma`
+/// where the two nearly cancel: `sum zeta(n) (-e)^n (2^n - 2) / n`, `n` from 2.
 fn log_ratio(shape: f64) -> f64 {
     let e = 1.0 / shape;
     if e > 0.1 {

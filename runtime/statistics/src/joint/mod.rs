@@ -9,9 +9,9 @@ use crate::{Distribution, Error};
 use copula::normal_correlation;
 pub use factor::semidefinite_factor;
 
-/// Random variables with given distributions and linear correlations, joined by a Gaussian copula: each is an increasing function
-/// of a standard normal variable, and these are jointly normal (the Nataf model; P.-L. Liu and A. Der Kiureghian, Probabilistic
-/// Engineering Mechanics 1986).
+/// Random variables with given distributions and linear correlations, joined by a Gaussian copula: each is an
+/// increasing function of a standard normal variable, and these are jointly normal (the Nataf model; P.-L. Liu and A.
+/// Der Kiureghian, Probabilistic Engineering Mechanics 1986).
 ///
 /// ```
 /// use eigentol_statistics::{Distribution, Joint};
@@ -52,12 +52,13 @@ impl Joint {
         }
     }
 
-    /// Variables with these linear correlations, row by row; those of the underlying normal variables are computed from them.
+    /// Variables with these linear correlations, row by row; those of the underlying normal variables are computed from
+    /// them.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for a matrix of the wrong size; [`Error::Setting`] for a matrix that is not symmetric, lacks ones on
-    /// its diagonal or is not positive semidefinite, for a correlation that two such variables cannot have, and if no jointly
-    /// normal variables have all of them.
+    /// [`Error::WrongLength`] for a matrix of the wrong size; [`Error::Setting`] for a matrix that is not symmetric,
+    /// lacks ones on its diagonal or is not positive semidefinite, for a correlation that two such variables cannot
+    /// have, and if no jointly normal variables have all of them.
     pub fn correlated(variables: Vec<Distribution>, correlation: &[f64]) -> Result<Self, Error> {
         let count = variables.len();
         let mut factor = semidefinite_factor(correlation, count)?;
@@ -143,8 +144,8 @@ impl Joint {
         }
     }
 
-    /// Transforms the derivatives of a function with respect to the variables into those with respect to the independent standard
-    /// normal numbers at `z`.
+    /// Transforms the derivatives of a function with respect to the variables into those with respect to the
+    /// independent standard normal numbers at `z`.
     ///
     /// # Panics
     /// If a list does not have one entry per variable.

@@ -7,7 +7,8 @@ use crate::Error;
 /// The largest rule: the weights of much larger ones underflow.
 const MAX_NODES: usize = 256;
 
-/// A quadrature rule for the standard normal density: the mean of `f(z)` is approximately the sum of `weights[i] f(nodes[i])`.
+/// A quadrature rule for the standard normal density: the mean of `f(z)` is approximately the sum of
+/// `weights[i] f(nodes[i])`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
     /// The nodes, ascending and symmetric about 0.
@@ -18,8 +19,9 @@ pub struct Rule {
 
 /// The Gauss-Hermite rule with `nodes` nodes, exact for polynomials of degree `2 nodes - 1`.
 ///
-/// The starting values are the eigenvalues of the Jacobi matrix (Golub and Welsch, Math. Comp. 23, 1969), refined by Newton's
-/// method. The weights follow from the orthonormal polynomials at the nodes, which keeps even the smallest accurate.
+/// The starting values are the eigenvalues of the Jacobi matrix (Golub and Welsch, Math. Comp. 23, 1969), refined by
+/// Newton's method. The weights follow from the orthonormal polynomials at the nodes, which keeps even the smallest
+/// accurate.
 ///
 /// # Errors
 /// [`Error::Setting`] for zero nodes or more than 256.

@@ -1,5 +1,5 @@
-//! Means of functions of independent standard normal variables by quadrature: few points for smooth functions of few variables.
-//! Grids report their number of points in advance and generate them one by one.
+//! Means of functions of independent standard normal variables by quadrature: few points for smooth functions of few
+//! variables. Grids report their number of points in advance and generate them one by one.
 
 mod gauss_hermite;
 mod polynomial;

@@ -1,9 +1,10 @@
 //! Smolyak's sparse grids of Gauss-Hermite rules, with every point once.
 //!
-//! In one variable, level `l` is the rule with `2 g + 1` nodes, `g = ceil(l / 2)`: just enough for degree `2 l + 1`. Rules of
-//! different size share only the node 0, so the nonzero coordinates of a point tell which rules it belongs to. The products whose
-//! levels sum to `T` have Smolyak's coefficients `(-1)^(L-T) C(d-1, L-T)`. The weight of a point with `s` nonzero coordinates is
-//! therefore the product of their weights and the coefficient of `x^(L-t)`, where `t` is the sum of their `2 g - 1`, in
+//! In one variable, level `l` is the rule with `2 g + 1` nodes, `g = ceil(l / 2)`: just enough for degree `2 l + 1`.
+//! Rules of different size share only the node 0, so the nonzero coordinates of a point tell which rules it belongs to.
+//! The products whose levels sum to `T` have Smolyak's coefficients `(-1)^(L-T) C(d-1, L-T)`. The weight of a point
+//! with `s` nonzero coordinates is therefore the product of their weights and the coefficient of `x^(L-t)`, where `t`
+//! is the sum of their `2 g - 1`, in
 //!
 //! ```text
 //! (1-x)^(d-1) (1+x)^s Z(x)^(d-s),   Z(x) = sum over l of x^l (weight of 0 in level l)
@@ -14,8 +15,9 @@ use super::sparse_walk::SparseWalk;
 use super::{CompensatedSum, finite, gauss_hermite};
 use crate::Error;
 
-/// A sparse grid for functions of independent standard normal variables (Smolyak 1963; Gerstner and Griebel, Numer. Algorithms
-/// 18, 1998): exact for polynomials of total degree `2 level + 1`, with about `(2 d)^level / level!` points in `d` dimensions.
+/// A sparse grid for functions of independent standard normal variables (Smolyak 1963; Gerstner and Griebel, Numer.
+/// Algorithms 18, 1998): exact for polynomials of total degree `2 level + 1`, with about `(2 d)^level / level!` points
+/// in `d` dimensions.
 ///
 /// ```
 /// use eigentol_statistics::quadrature::SparseGrid;
@@ -43,8 +45,9 @@ pub struct SparseGrid {
 pub struct Integral {
     /// The mean, in the unit of the function.
     pub value: f64,
-    /// The difference from the grid of the next lower level, which uses the same points: an estimate of the error of that grid, and
-    /// usually an overestimate of the error of `value`. At level 0 there is no lower level, and this is the value itself.
+    /// The difference from the grid of the next lower level, which uses the same points: an estimate of the error of
+    /// that grid, and usually an overestimate of the error of `value`. At level 0 there is no lower level, and this is
+    /// the value itself.
     pub difference: f64,
 }
 

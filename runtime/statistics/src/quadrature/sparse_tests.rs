@@ -67,8 +67,8 @@ fn sparse_grids_are_smolyaks() {
     }
 }
 
-/// The point counts equal those of the nested grids of Heiss and Winschel (J. Econometrics 144, 2008, table 1) up to their accuracy
-/// level 4.
+/// The point counts equal those of the nested grids of Heiss and Winschel (J. Econometrics 144, 2008, table 1) up to
+/// their accuracy level 4.
 #[test]
 fn sparse_grids_are_small() {
     let points = |d, level| SparseGrid::new(d, level).unwrap().points();
@@ -83,8 +83,8 @@ fn sparse_grids_are_small() {
     assert_eq!(points(400, 2), 2 * 400 * 400 + 1);
 }
 
-/// All monomials of total degree `2 level + 1` in few variables, and the product of `level + 1` squares, the first monomial that
-/// the grid misses.
+/// All monomials of total degree `2 level + 1` in few variables, and the product of `level + 1` squares, the first
+/// monomial that the grid misses.
 #[test]
 fn sparse_grids_are_exact_up_to_their_total_degree() {
     for level in 0..=5_u32 {

@@ -1,7 +1,7 @@
 //! Accurate sums of many terms of either sign.
 
-/// A sum with compensation of its rounding errors (Neumaier, Z. Angew. Math. Mech. 54, 1974): the error does not grow with the
-/// number of terms. Needed for the weights of sparse grids in many dimensions.
+/// A sum with compensation of its rounding errors (Neumaier, Z. Angew. Math. Mech. 54, 1974): the error does not grow
+/// with the number of terms. Needed for the weights of sparse grids in many dimensions.
 ///
 /// ```
 /// use eigentol_statistics::quadrature::CompensatedSum;

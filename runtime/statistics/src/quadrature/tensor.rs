@@ -3,7 +3,8 @@
 use super::{CompensatedSum, Node, Rule, finite, gauss_hermite};
 use crate::Error;
 
-/// Every combination of the nodes of one rule per dimension: exact for polynomials of degree `2 nodes - 1` in each variable.
+/// Every combination of the nodes of one rule per dimension: exact for polynomials of degree `2 nodes - 1` in each
+/// variable.
 ///
 /// Efficient only in few dimensions.
 ///
@@ -26,7 +27,8 @@ impl TensorGrid {
     /// A grid with the given number of nodes in each dimension.
     ///
     /// # Errors
-    /// [`Error::Setting`] for zero dimensions, if a rule does not exist (see [`gauss_hermite`]) or for more than 2^64 points.
+    /// [`Error::Setting`] for zero dimensions, if a rule does not exist (see [`gauss_hermite`]) or for more than 2^64
+    /// points.
     pub fn new(nodes: &[usize]) -> Result<Self, Error> {
         let setting = |reason: &str| Error::Setting {
             setting: "nodes",
@@ -96,8 +98,8 @@ impl TensorGrid {
 pub struct TensorWalk<'a> {
     rules: &'a [Rule],
     left: u64,
-    /// For the next point: its nodes, the first dimension that differs from the previous point, its coordinates, and the products
-    /// of the weights of the leading dimensions.
+    /// For the next point: its nodes, the first dimension that differs from the previous point, its coordinates, and
+    /// the products of the weights of the leading dimensions.
     places: Vec<usize>,
     changed: usize,
     point: Vec<f64>,

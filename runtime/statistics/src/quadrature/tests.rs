@@ -10,8 +10,8 @@ pub(super) fn moment(exponent: u32) -> f64 {
     (1..exponent).step_by(2).map(f64::from).product()
 }
 
-/// Number of nodes, node and weight, computed with 50 digits from the three-term recurrence (mpmath). Scaled by `sqrt(1/2)` and
-/// `sqrt(pi)`, those of 10 nodes are in Abramowitz and Stegun, table 25.10.
+/// Number of nodes, node and weight, computed with 50 digits from the three-term recurrence (mpmath). Scaled by
+/// `sqrt(1/2)` and `sqrt(pi)`, those of 10 nodes are in Abramowitz and Stegun, table 25.10.
 const REFERENCE: [(usize, f64, f64); 17] = [
     (10, 0.48493570751549764, 0.34464233493201907),
     (10, 1.4659890943911582, 0.13548370298026774),

@@ -14,8 +14,8 @@ pub struct LimitValue {
 
 /// A limit state `g(z)` of independent standard normal variables `z`; failure is `g(z) <= 0`.
 ///
-/// It may have no value somewhere, because the quantity it describes does not exist there; it then gives the reason. Searches step
-/// back from such points and samplers count them; neither treats them as failures or as safe.
+/// It may have no value somewhere, because the quantity it describes does not exist there; it then gives the reason.
+/// Searches step back from such points and samplers count them; neither treats them as failures or as safe.
 pub trait LimitState {
     /// The reason why there is no value.
     type Error: Display;

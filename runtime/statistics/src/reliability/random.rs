@@ -51,7 +51,8 @@ mod tests {
         }
     }
 
-    /// Kolmogorov distance of 20,000 values from the normal distribution; 1.95 / sqrt(n) is exceeded once in a thousand.
+    /// Kolmogorov distance of 20,000 values from the normal distribution; 1.95 / sqrt(n) is exceeded once in a
+    /// thousand.
     #[test]
     fn samples_are_normal() {
         let mut samples = NormalSamples::new(5, 0, 0, 2);

@@ -5,11 +5,11 @@ use crate::sequence::{Cursor, Sequence};
 
 /// The design of Saltelli et al. (Comput. Phys. Commun. 181, 2010, table 1).
 ///
-/// Each row of two independent samples `A` and `B` of `d` inputs gives `d + 2` points: the row of `A`, that of `B`, and for each
-/// input `i` the row of `A` with input `i` taken from `B`.
+/// Each row of two independent samples `A` and `B` of `d` inputs gives `d + 2` points: the row of `A`, that of `B`, and
+/// for each input `i` the row of `A` with input `i` taken from `B`.
 ///
-/// Evaluation `k` belongs to row `k / (d + 2)`, in this order. Inputs are probabilities: apply the quantile functions of the
-/// inputs.
+/// Evaluation `k` belongs to row `k / (d + 2)`, in this order. Inputs are probabilities: apply the quantile functions
+/// of the inputs.
 ///
 /// ```
 /// use eigentol_statistics::sensitivity::{Bootstrap, Estimator, SaltelliDesign, sobol_indices};
@@ -33,8 +33,8 @@ pub struct SaltelliDesign {
 }
 
 impl SaltelliDesign {
-    /// Creates a design from the first `rows` points of a sequence; the first half of the coordinates belongs to `A`, the second to
-    /// `B`.
+    /// Creates a design from the first `rows` points of a sequence; the first half of the coordinates belongs to `A`,
+    /// the second to `B`.
     ///
     /// # Errors
     /// [`Error::Setting`] if the number of dimensions is odd, if the sequence has fewer points, or for zero rows.
@@ -65,7 +65,8 @@ impl SaltelliDesign {
     /// Writes the inputs of evaluation `k`.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] if `into` does not have one place per input, [`Error::BeyondLast`] if there is no evaluation `k`.
+    /// [`Error::WrongLength`] if `into` does not have one place per input, [`Error::BeyondLast`] if there is no
+    /// evaluation `k`.
     pub fn point(&self, k: u64, into: &mut [f64]) -> Result<(), Error> {
         if into.len() != self.inputs() {
             return Err(Error::WrongLength {

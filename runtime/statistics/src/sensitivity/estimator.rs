@@ -7,14 +7,15 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Estimator {
-    /// First order `mean((b - m) (c - a)) / V` (Saltelli et al. 2010, table 2 b), total `mean((a - c)^2) / 2 V` (table 2 f).
-    /// Accurate for small first-order indices.
+    /// First order `mean((b - m) (c - a)) / V` (Saltelli et al. 2010, table 2 b), total `mean((a - c)^2) / 2 V` (table
+    /// 2 f). Accurate for small first-order indices.
     Saltelli,
-    /// First order `1 - mean((b - c)^2) / 2 V` (Jansen 1999), total as in `Saltelli`. Accurate for large first-order indices.
+    /// First order `1 - mean((b - c)^2) / 2 V` (Jansen 1999), total as in `Saltelli`. Accurate for large first-order
+    /// indices.
     #[default]
     Jansen,
-    /// Correlation coefficients: first order is that of `b` and `c`, total is one minus that of `a` and `c` (Martinez 2011; Baudin
-    /// et al., SAMO 2016).
+    /// Correlation coefficients: first order is that of `b` and `c`, total is one minus that of `a` and `c` (Martinez
+    /// 2011; Baudin et al., SAMO 2016).
     Martinez,
 }
 

@@ -4,8 +4,9 @@ use super::estimator::{Estimator, Sums};
 use crate::Error;
 use crate::random::RandomNumbers;
 
-/// Settings of the bootstrap: confidence intervals are percentiles of estimates from rows drawn with replacement (Efron 1979;
-/// Archer, Saltelli and Sobol', J. Stat. Comput. Simul. 58, 1997). For quasi-random rows the intervals are too wide.
+/// Settings of the bootstrap: confidence intervals are percentiles of estimates from rows drawn with replacement (Efron
+/// 1979; Archer, Saltelli and Sobol', J. Stat. Comput. Simul. 58, 1997). For quasi-random rows the intervals are too
+/// wide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bootstrap {
@@ -54,12 +55,13 @@ pub struct SobolIndices {
     pub variance: f64,
     /// Number of rows used.
     pub rows: usize,
-    /// Number of rows omitted because a value is missing. Unless they are few, the indices describe only part of the input space.
+    /// Number of rows omitted because a value is missing. Unless they are few, the indices describe only part of the
+    /// input space.
     pub dropped: usize,
 }
 
-/// First-order and total indices of independent inputs from the values of a [`SaltelliDesign`](super::SaltelliDesign) in its order,
-/// with `None` where the model has no value.
+/// First-order and total indices of independent inputs from the values of a [`SaltelliDesign`](super::SaltelliDesign)
+/// in its order, with `None` where the model has no value.
 ///
 /// # Errors
 /// - [`Error::WrongLength`] if there are not `inputs + 2` values per row;

@@ -5,8 +5,8 @@ use super::*;
 use crate::Error;
 use crate::sequence::Sequence;
 
-/// Intervals of 90 per cent over independent samples contain the index about 90 times out of 100 (below 80 or above 98: once in a
-/// thousand), and shrink with the square root of the number of rows.
+/// Intervals of 90 per cent over independent samples contain the index about 90 times out of 100 (below 80 or above 98:
+/// once in a thousand), and shrink with the square root of the number of rows.
 #[test]
 fn intervals_hold_the_index() {
     let bootstrap = Bootstrap {

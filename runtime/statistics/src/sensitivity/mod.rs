@@ -1,8 +1,8 @@
 //! Attribution of the scatter of a result to its inputs.
 //!
-//! Variance-based indices are valid for any model of independent inputs and cost `inputs + 2` evaluations for each row of a
-//! [`SaltelliDesign`]. Correlation and regression use a plain random [`Sample`]; they are reliable for linear models, or for
-//! monotonic ones after [`Sample::ranked`].
+//! Variance-based indices are valid for any model of independent inputs and cost `inputs + 2` evaluations for each row
+//! of a [`SaltelliDesign`]. Correlation and regression use a plain random [`Sample`]; they are reliable for linear
+//! models, or for monotonic ones after [`Sample::ranked`].
 
 mod design;
 #[cfg(test)]

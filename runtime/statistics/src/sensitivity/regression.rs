@@ -13,22 +13,23 @@ const INDEPENDENT: f64 = 1e-10;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Regression {
-    /// For each input, the standardised regression coefficient (SRC): standard deviations of the result per standard deviation of
-    /// the input.
+    /// For each input, the standardised regression coefficient (SRC): standard deviations of the result per standard
+    /// deviation of the input.
     pub coefficients: Vec<f64>,
-    /// For each input, the partial correlation coefficient (PCC): its correlation with the result after removing the linear effect
-    /// of all other inputs from both.
+    /// For each input, the partial correlation coefficient (PCC): its correlation with the result after removing the
+    /// linear effect of all other inputs from both.
     pub partial: Vec<f64>,
     /// Coefficient of determination: the fraction of the variance that the fit explains, between 0 and 1.
     pub determination: f64,
 }
 
 impl Sample {
-    /// Fits the result by least squares. The coefficients indicate the importance of inputs if the determination is near 1.
+    /// Fits the result by least squares. The coefficients indicate the importance of inputs if the determination is
+    /// near 1.
     ///
     /// # Errors
-    /// [`Error::TooFew`] unless there are at least two more rows than inputs, [`Error::Dependent`] if an input is a linear function
-    /// of others.
+    /// [`Error::TooFew`] unless there are at least two more rows than inputs, [`Error::Dependent`] if an input is a
+    /// linear function of others.
     pub fn regression(&self) -> Result<Regression, Error> {
         let (rows, inputs) = (self.rows(), self.columns.len());
         at_least("rows with a result", rows, inputs + 2)?;

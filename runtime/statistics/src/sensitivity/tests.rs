@@ -43,8 +43,8 @@ fn assert_indices(f: impl Fn(&[f64]) -> f64, first: &[f64], total: &[f64], toler
     }
 }
 
-/// The function of Ishigami and Homma (1990) with a = 7, b = 0.1; the indices are as in Saltelli et al., Sensitivity Analysis
-/// (2000).
+/// The function of Ishigami and Homma (1990) with a = 7, b = 0.1; the indices are as in Saltelli et al., Sensitivity
+/// Analysis (2000).
 fn ishigami(u: &[f64]) -> f64 {
     let [x, y, z] = [0, 1, 2].map(|i| PI * (2.0 * u[i] - 1.0));
     x.sin() + 7.0 * y.sin().powi(2) + 0.1 * z.powi(4) * x.sin()

@@ -16,8 +16,8 @@ pub(super) fn keys(seed: u64, stream: u64, number: usize) -> Vec<u64> {
     (0..number).map(|_| random.bits()).collect()
 }
 
-/// Converts 64 binary digits to a fraction, with the last digit set and the result truncated to the 53 digits of a float. It lies
-/// inside the open interval, and is never moved upwards out of its dyadic interval.
+/// Converts 64 binary digits to a fraction, with the last digit set and the result truncated to the 53 digits of a
+/// float. It lies inside the open interval, and is never moved upwards out of its dyadic interval.
 pub(super) fn open_unit(bits: u64) -> f64 {
     let bits = bits | 1;
     let excess = 11_u32.saturating_sub(bits.leading_zeros());

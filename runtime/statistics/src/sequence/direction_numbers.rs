@@ -112,9 +112,9 @@ mod tests {
         }
     }
 
-    /// Sobol's property A holds up to dimension 1111 (Joe and Kuo 2008): for every `d`, the first digits of the first `d` direction
-    /// numbers of the first `d` dimensions form a regular matrix over the field with two elements. A wrong digit in the table
-    /// breaks this with a probability of one half.
+    /// Sobol's property A holds up to dimension 1111 (Joe and Kuo 2008): for every `d`, the first digits of the first
+    /// `d` direction numbers of the first `d` dimensions form a regular matrix over the field with two elements. A
+    /// wrong digit in the table breaks this with a probability of one half.
     #[test]
     fn property_a_holds_up_to_dimension_1111() {
         const DIMENSIONS: usize = 1111;

@@ -1,8 +1,8 @@
 //! Point sets in the open unit cube, for sampling.
 //!
-//! Point `k` depends only on the settings, the seed, the stream and `k`, and has the same bits on every machine, so a set can be
-//! divided in any way. Point sets of different streams are independent, so the scatter of a mean over a few streams shows how
-//! accurate the mean is.
+//! Point `k` depends only on the settings, the seed, the stream and `k`, and has the same bits on every machine, so a
+//! set can be divided in any way. Point sets of different streams are independent, so the scatter of a mean over a few
+//! streams shows how accurate the mean is.
 //!
 //! | points | error of a mean over `n` points |
 //! | --- | --- |
@@ -79,8 +79,8 @@ impl Sequence {
         Self::new(dimensions, u64::MAX, || Kind::Random(random))
     }
 
-    /// A Latin hypercube sample of `points` points (McKay, Beckman and Conover, Technometrics 21, 1979): in each dimension, every
-    /// interval `p/n..(p+1)/n` contains one of the `n` points, at a random place.
+    /// A Latin hypercube sample of `points` points (McKay, Beckman and Conover, Technometrics 21, 1979): in each
+    /// dimension, every interval `p/n..(p+1)/n` contains one of the `n` points, at a random place.
     ///
     /// # Errors
     /// [`Error::Setting`] for zero dimensions, zero points or more than 2^32 points.
@@ -101,8 +101,9 @@ impl Sequence {
         })
     }
 
-    /// The first 2^36 points of the Sobol' sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008) and
-    /// nested uniform scrambling (Owen 1995). Use `2^m` points starting at a multiple of `2^m`: only such sets are balanced.
+    /// The first 2^36 points of the Sobol' sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30,
+    /// 2008) and nested uniform scrambling (Owen 1995). Use `2^m` points starting at a multiple of `2^m`: only such
+    /// sets are balanced.
     ///
     /// # Errors
     /// [`Error::Setting`] for zero or more than 2048 dimensions.
@@ -110,7 +111,8 @@ impl Sequence {
         Self::new_sobol(dimensions, || Sobol::scrambled(dimensions, seed, stream))
     }
 
-    /// The Sobol' sequence without scrambling. Each coordinate is 2^-37 larger than in the literature, where the first point is 0.
+    /// The Sobol' sequence without scrambling. Each coordinate is 2^-37 larger than in the literature, where the first
+    /// point is 0.
     ///
     /// # Errors
     /// Those of [`Sequence::sobol`].
@@ -149,7 +151,8 @@ impl Sequence {
         self.dimensions
     }
 
-    /// Number of points in the set: that of a Latin hypercube, 2^36 for a Sobol' sequence, `u64::MAX` for random points.
+    /// Number of points in the set: that of a Latin hypercube, 2^36 for a Sobol' sequence, `u64::MAX` for random
+    /// points.
     pub fn points(&self) -> u64 {
         self.points
     }
@@ -157,7 +160,8 @@ impl Sequence {
     /// Writes the coordinates of point `k`, strictly between 0 and 1.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] if `into` does not have one place per dimension, [`Error::BeyondLast`] if there is no point `k`.
+    /// [`Error::WrongLength`] if `into` does not have one place per dimension, [`Error::BeyondLast`] if there is no
+    /// point `k`.
     pub fn point(&self, k: u64, into: &mut [f64]) -> Result<(), Error> {
         if into.len() != self.dimensions {
             return Err(Error::WrongLength {

@@ -37,8 +37,8 @@ fn shares(digits: u32, dimensions: usize) -> Vec<Vec<u32>> {
     (0..=digits).flat_map(with).collect()
 }
 
-/// The quality parameter of the Sobol' sequence is the sum of (degree - 1) over its polynomials (Sobol' 1967): the degrees are 0,
-/// 1, 2, 3, 3, and the first dimension counts as degree 1.
+/// The quality parameter of the Sobol' sequence is the sum of (degree - 1) over its polynomials (Sobol' 1967): the
+/// degrees are 0, 1, 2, 3, 3, and the first dimension counts as degree 1.
 #[test]
 fn points_form_nets() {
     for (dimensions, t) in [(1, 0), (2, 0), (3, 1), (4, 3), (5, 5)] {

@@ -2,15 +2,15 @@
 
 use super::bits::hash;
 
-/// Permutations of the numbers below `n`, one per key: a Feistel network on the next power of two, iterated until the result is
-/// below `n` (Black and Rogaway, CT-RSA 2002), then a rotation, which makes the image of each number uniform.
+/// Permutations of the numbers below `n`, one per key: a Feistel network on the next power of two, iterated until the
+/// result is below `n` (Black and Rogaway, CT-RSA 2002), then a rotation, which makes the image of each number uniform.
 #[derive(Clone, Debug)]
 pub(super) struct Permutation {
     n: u64,
     /// Number of digits in the lower and the upper half.
     halves: (u32, u32),
-    /// Number of half-rounds of the network. Four are secure on large sets (Luby and Rackoff 1988); with twelve, the permutations
-    /// of six numbers are still noticeably unequal in frequency.
+    /// Number of half-rounds of the network. Four are secure on large sets (Luby and Rackoff 1988); with twelve, the
+    /// permutations of six numbers are still noticeably unequal in frequency.
     rounds: u64,
 }
 

@@ -2,14 +2,15 @@
 
 use super::bits::hash;
 
-/// Number of binary digits that are scrambled: no two of the first `2^DIGITS` points of a Sobol' sequence agree in all of them.
+/// Number of binary digits that are scrambled: no two of the first `2^DIGITS` points of a Sobol' sequence agree in all
+/// of them.
 pub(super) const DIGITS: u32 = 36;
 
 /// Number of digits that share one hash: its 63 flips belong to the nodes of a binary tree of this depth.
 const BLOCK: u32 = 6;
 
-/// Scrambles a binary fraction of [`DIGITS`] digits and appends random digits up to 64. Because the points are distinct, these are
-/// independent, as the scrambled digits of a longer fraction would be.
+/// Scrambles a binary fraction of [`DIGITS`] digits and appends random digits up to 64. Because the points are
+/// distinct, these are independent, as the scrambled digits of a longer fraction would be.
 pub(super) fn scramble(key: u64, digits: u64) -> u64 {
     let mut scrambled = 0;
     for before in (0..DIGITS).step_by(BLOCK as usize) {

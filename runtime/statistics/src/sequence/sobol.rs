@@ -37,7 +37,8 @@ impl Sobol {
         self.directions.iter().map(sum).collect()
     }
 
-    /// Advances from the digits of point `k` to those of the next, using one direction number. The last point has no successor.
+    /// Advances from the digits of point `k` to those of the next, using one direction number. The last point has no
+    /// successor.
     pub(super) fn advance(&self, k: u64, digits: &mut [u64]) {
         let changed = (k + 1).trailing_zeros() as usize;
         for (digits, directions) in digits.iter_mut().zip(&self.directions) {
@@ -45,7 +46,8 @@ impl Sobol {
         }
     }
 
-    /// Writes the point with these digits. Without scrambling it is moved to the centre of the cell that the digits describe.
+    /// Writes the point with these digits. Without scrambling it is moved to the centre of the cell that the digits
+    /// describe.
     pub(super) fn write(&self, digits: &[u64], into: &mut [f64]) {
         match &self.keys {
             Some(keys) => {

@@ -38,8 +38,8 @@ fn points_are_addressable() {
     }
 }
 
-/// One point over many streams: its coordinates, those of the next stream and those of another seed. All are uniform and all pairs
-/// are uncorrelated, within four standard deviations.
+/// One point over many streams: its coordinates, those of the next stream and those of another seed. All are uniform
+/// and all pairs are uncorrelated, within four standard deviations.
 #[test]
 fn streams_seeds_and_dimensions_are_independent() {
     let streams = 4000;

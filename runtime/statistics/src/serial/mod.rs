@@ -1,7 +1,7 @@
 //! Serialisation of numbers and words in results, for any format.
 //!
-//! JSON has no infinite numbers. In human-readable formats they are written as the words `Infinity`, `-Infinity` and `NaN`, which
-//! Python's `float` and JavaScript's `Number` can read.
+//! JSON has no infinite numbers. In human-readable formats they are written as the words `Infinity`, `-Infinity` and
+//! `NaN`, which Python's `float` and JavaScript's `Number` can read.
 
 mod number;
 pub mod word;

@@ -51,8 +51,8 @@ pub(super) fn ranks(count: u64, p: f64, confidence: f64) -> Result<Option<Ranks>
     }))
 }
 
-/// Binomial probabilities up to a common factor, from the first that is not negligible to the last; computed from their ratios,
-/// from the most probable outwards.
+/// Binomial probabilities up to a common factor, from the first that is not negligible to the last; computed from their
+/// ratios, from the most probable outwards.
 fn weights(count: u64, p: f64) -> (u64, Vec<f64>) {
     let odds = p / (1.0 - p);
     let most_probable = (((count as f64 + 1.0) * p) as u64).min(count);

@@ -3,7 +3,8 @@
 use super::lanes;
 use super::mean::Mean;
 
-/// Statistics of the samples that have both quantities: count, means, and sums of the squares and products of the deviations from them.
+/// Statistics of the samples that have both quantities: count, means, and sums of the squares and products of the
+/// deviations from them.
 ///
 /// Merging follows Pébay (2008), equation 3.1, like that of [`super::Moments`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

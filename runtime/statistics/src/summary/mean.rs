@@ -1,5 +1,5 @@
-//! A mean in double-double precision: if values are large and close together, their mean is needed more accurately than to its last
-//! digit, or merging loses their spread.
+//! A mean in double-double precision: if values are large and close together, their mean is needed more accurately than
+//! to its last digit, or merging loses their spread.
 
 /// The sum `high + low`, where `high` is the nearest number to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,9 +1,10 @@
 //! One-pass summary statistics of samples, in memory that does not grow with their number.
 //!
-//! The result has the same bits for any split of the samples into ranges, any order of merging and any number of threads. Samples
-//! have an index; [`CHUNK`] consecutive samples are summed as a unit in a fixed order, and the sums of neighbouring chunks are
-//! combined in a binary tree over the chunk index. However they were added, each sum in the tree therefore covers the same samples
-//! in the same order. Integer counts, such as the buckets of a [`Sketch`], need no tree.
+//! The result has the same bits for any split of the samples into ranges, any order of merging and any number of
+//! threads. Samples have an index; [`CHUNK`] consecutive samples are summed as a unit in a fixed order, and the sums of
+//! neighbouring chunks are combined in a binary tree over the chunk index. However they were added, each sum in the
+//! tree therefore covers the same samples in the same order. Integer counts, such as the buckets of a [`Sketch`], need
+//! no tree.
 //!
 //! ```
 //! # fn main() -> Result<(), eigentol_statistics::Error> {

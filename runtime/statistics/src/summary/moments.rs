@@ -8,8 +8,9 @@ pub const LARGEST: f64 = 1e300;
 
 /// Count, mean, sums of the second to fourth powers of the deviations from it, and smallest and largest value.
 ///
-/// Merging follows Pébay, "Formulas for robust, one-pass parallel computation of covariances and arbitrary-order statistical
-/// moments", SAND2008-6212 (2008), equations 1.5 and 2.1 with `p` up to 4, and Chan, Golub and LeVeque (1979).
+/// Merging follows Pébay, "Formulas for robust, one-pass parallel computation of covariances and arbitrary-order
+/// statistical moments", SAND2008-6212 (2008), equations 1.5 and 2.1 with `p` up to 4, and Chan, Golub and LeVeque
+/// (1979).
 ///
 /// ```
 /// use eigentol_statistics::summary::Moments;

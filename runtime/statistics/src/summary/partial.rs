@@ -11,8 +11,8 @@ use crate::Error;
 
 /// Statistics of the samples added so far, from any set of ranges.
 ///
-/// Two instances of the same samples are equal to the last bit, however they were built. A contiguous range needs memory that grows
-/// with the logarithm of its length.
+/// Two instances of the same samples are equal to the last bit, however they were built. A contiguous range needs
+/// memory that grows with the logarithm of its length.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Partial {
@@ -47,8 +47,8 @@ impl Partial {
     ///
     /// # Errors
     ///
-    /// If some of the samples were already added, the chunk has another plan, or a value is NaN or above [`LARGEST`] in magnitude.
-    /// In that case nothing is added.
+    /// If some of the samples were already added, the chunk has another plan, or a value is NaN or above [`LARGEST`] in
+    /// magnitude. In that case nothing is added.
     // Inlined, so that it uses the vector instructions of its caller.
     #[inline(always)]
     pub fn add(&mut self, chunk: &Chunk) -> Result<(), Error> {

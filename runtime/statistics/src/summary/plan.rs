@@ -34,8 +34,8 @@ impl Plan {
         self.sketches.len()
     }
 
-    /// Adds the distribution of a quantity, for quantiles and histograms: a [`Sketch`] about `reference`, such as the nominal
-    /// value, for deviations of the order of `scale`, both in the unit of the quantity.
+    /// Adds the distribution of a quantity, for quantiles and histograms: a [`Sketch`] about `reference`, such as the
+    /// nominal value, for deviations of the order of `scale`, both in the unit of the quantity.
     ///
     /// # Errors
     ///

@@ -29,8 +29,8 @@ pub struct Interval {
     pub lower: f64,
     /// Upper end.
     pub upper: f64,
-    /// Probability that the quantile lies between the ends, at least the confidence requested: exact for a continuous distribution,
-    /// a lower bound for others.
+    /// Probability that the quantile lies between the ends, at least the confidence requested: exact for a continuous
+    /// distribution, a lower bound for others.
     pub coverage: f64,
 }
 
@@ -80,11 +80,12 @@ impl Sorted {
         Ok(below as f64 / self.0.len() as f64)
     }
 
-    /// A distribution-free confidence interval for the `p`-quantile of the distribution from which the values were drawn independently.
+    /// A distribution-free confidence interval for the `p`-quantile of the distribution from which the values were
+    /// drawn independently.
     ///
-    /// Its ends are two of the values, chosen from the binomial distribution of the number of values below the quantile (David and
-    /// Nagaraja, Order Statistics, 3rd edition, section 7.1). Each end fails with at most half of `1 - confidence`. `None` if there
-    /// are too few values.
+    /// Its ends are two of the values, chosen from the binomial distribution of the number of values below the quantile
+    /// (David and Nagaraja, Order Statistics, 3rd edition, section 7.1). Each end fails with at most half of
+    /// `1 - confidence`. `None` if there are too few values.
     ///
     /// # Errors
     ///

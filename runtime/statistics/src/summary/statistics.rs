@@ -17,17 +17,17 @@ pub struct Statistics {
     /// Standard deviation with divisor `count - 1`; `None` for a single value.
     pub sigma: Option<f64>,
     /// Standard error of `sigma`, from the fourth moment, for any distribution: the variance of `sigma^2` is
-    /// `(m4 - (n - 3) / (n - 1) sigma^4) / n` (Rao, Linear Statistical Inference, 2nd edition, section 6h). `None` for a single
-    /// value and if all values are equal.
+    /// `(m4 - (n - 3) / (n - 1) sigma^4) / n` (Rao, Linear Statistical Inference, 2nd edition, section 6h). `None` for
+    /// a single value and if all values are equal.
     pub sigma_error: Option<f64>,
-    /// Skewness, unbiased for normal values: `G1` of Joanes and Gill (1998); `None` for fewer than three values and if all values
-    /// are equal.
+    /// Skewness, unbiased for normal values: `G1` of Joanes and Gill (1998); `None` for fewer than three values and if
+    /// all values are equal.
     pub skewness: Option<f64>,
-    /// Standard error of `skewness` for normal values (Cramér 1946, section 29.3); a much larger skewness indicates another
-    /// distribution.
+    /// Standard error of `skewness` for normal values (Cramér 1946, section 29.3); a much larger skewness indicates
+    /// another distribution.
     pub skewness_error: Option<f64>,
-    /// Excess kurtosis over the 3 of a normal distribution, unbiased for normal values: `G2` of Joanes and Gill (1998); `None` for
-    /// fewer than four values and if all values are equal.
+    /// Excess kurtosis over the 3 of a normal distribution, unbiased for normal values: `G2` of Joanes and Gill (1998);
+    /// `None` for fewer than four values and if all values are equal.
     pub excess_kurtosis: Option<f64>,
     /// Standard error of `excess_kurtosis` for normal values.
     pub kurtosis_error: Option<f64>,

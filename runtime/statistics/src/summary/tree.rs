@@ -1,4 +1,5 @@
-//! Sums of chunks in a binary tree over the chunk index; only nodes that have not yet been merged into a larger one are kept.
+//! Sums of chunks in a binary tree over the chunk index; only nodes that have not yet been merged into a larger one are
+//! kept.
 
 use std::ops::Range;
 

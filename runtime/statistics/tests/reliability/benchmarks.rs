@@ -1,7 +1,8 @@
-//! Published problems. RP numbers are those of the reliability benchmark of TNO (Rozsas and Slobbe 2019, *Repository and
-//! Black-box Reliability Challenge 2019*), with the formulas of OpenTURNS's `otbenchmark`. Published versions give different
-//! probabilities for some problems (RP25: 6.14e-6 and 4.1486e-5; RP28: 1.46e-7 and 1.763e-7; RP14: 7.52e-3). Each is therefore
-//! computed here a second time, by integration over one or several variables, and compared with the version that this supports.
+//! Published problems. RP numbers are those of the reliability benchmark of TNO (Rozsas and Slobbe 2019, *Repository
+//! and Black-box Reliability Challenge 2019*), with the formulas of OpenTURNS's `otbenchmark`. Published versions give
+//! different probabilities for some problems (RP25: 6.14e-6 and 4.1486e-5; RP28: 1.46e-7 and 1.763e-7; RP14: 7.52e-3).
+//! Each is therefore computed here a second time, by integration over one or several variables, and compared with the
+//! version that this supports.
 
 use core::convert::Infallible;
 use core::f64::consts::{PI, SQRT_2};
@@ -177,8 +178,8 @@ fn rp25() {
     off(&sampled(&limits, Failure::All, &corner), exact);
 }
 
-/// Symmetric in its standard normal variables: two regions share a bend of the limit, and the nearest point of one of them
-/// gives half of the answer.
+/// Symmetric in its standard normal variables: two regions share a bend of the limit, and the nearest point of one of
+/// them gives half of the answer.
 #[test]
 fn rp28() {
     let limits = [limit(2, |z| {
@@ -354,7 +355,8 @@ fn rp111() {
     );
 }
 
-/// The series system of Waarts (2000), with four limit states of which two are curved: exact after a rotation by 45 degrees.
+/// The series system of Waarts (2000), with four limit states of which two are curved: exact after a rotation by 45
+/// degrees.
 #[test]
 fn four_branches() {
     let curved = |sign: f64| {

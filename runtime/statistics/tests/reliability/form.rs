@@ -28,7 +28,8 @@ fn linear_limits_are_exact_and_ignore_what_does_not_matter() {
     }
 }
 
-/// A curved limit in two variables (as in OpenTURNS issue 1447): hundreds of additional variables do not change the result.
+/// A curved limit in two variables (as in OpenTURNS issue 1447): hundreds of additional variables do not change the
+/// result.
 #[test]
 fn curved_limits_ignore_what_does_not_matter() {
     let curved = |dimension| {
@@ -236,7 +237,8 @@ fn nothing_to_search_is_refused() {
     }
 }
 
-/// From the origin the search reaches the apex, the farthest point of its neighbourhood; the nearest points lie beside it.
+/// From the origin the search reaches the apex, the farthest point of its neighbourhood; the nearest points lie beside
+/// it.
 #[test]
 fn a_point_that_is_nearest_in_some_directions_only_is_left() {
     // (b - z1) = k z0^2 / 2 with b k > 1: the nearest points are at z1 = 1/k.

@@ -32,8 +32,8 @@ fn quantiles_of_type_seven() -> Result<(), Error> {
     Ok(())
 }
 
-/// Ranks and coverages for medians at 95 percent as tabulated (Conover, Practical Nonparametric Statistics, 3rd edition,
-/// section 3.2): exact sums of binomial coefficients.
+/// Ranks and coverages for medians at 95 percent as tabulated (Conover, Practical Nonparametric Statistics, 3rd
+/// edition, section 3.2): exact sums of binomial coefficients.
 #[test]
 fn intervals_of_medians() -> Result<(), Error> {
     assert_eq!(ranks(5, 0.5, 0.95)?, None);
@@ -56,8 +56,8 @@ fn intervals_of_medians() -> Result<(), Error> {
     Ok(())
 }
 
-/// Wilks (1941): 59 values are needed for their maximum to exceed the 95 percent quantile with 95 percent confidence, hence 90
-/// percent with both ends; with 58 values there is no upper end.
+/// Wilks (1941): 59 values are needed for their maximum to exceed the 95 percent quantile with 95 percent confidence,
+/// hence 90 percent with both ends; with 58 values there is no upper end.
 #[test]
 fn intervals_of_tails() -> Result<(), Error> {
     assert_eq!(ranks(58, 0.95, 0.90)?, None);

@@ -20,8 +20,8 @@ fn partial(columns: &[&[f64]], plan: &Plan) -> Result<Partial, Error> {
     Ok(partial)
 }
 
-/// Count, mean and central sums of numbers `origin + unit * k` with integer `k`, from exact integer sums of powers of `k`. All
-/// products must stay below `2^127`.
+/// Count, mean and central sums of numbers `origin + unit * k` with integer `k`, from exact integer sums of powers of
+/// `k`. All products must stay below `2^127`.
 struct Exact {
     n: f64,
     mean: f64,
@@ -89,7 +89,8 @@ impl Exact {
 
 #[test]
 fn large_means_with_small_spreads() -> Result<(), Error> {
-    // Multiples of 2^-26, exact when added to 1e8, with a standard deviation of 1e-4; skewed, so that the third moment matters.
+    // Multiples of 2^-26, exact when added to 1e8, with a standard deviation of 1e-4; skewed, so that the third moment
+    // matters.
     let unit = 0.5_f64.powi(26);
     let skewed = |k| normal(1, k) + 0.3 * normal(2, k).powi(2);
     let integers: Vec<i64> = (0..10_000)

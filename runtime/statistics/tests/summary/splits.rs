@@ -143,7 +143,8 @@ fn the_samples_tell_splits_apart() {
     assert!((1..3000).any(|cut| (sum(0..cut) + sum(cut..3000)).to_bits() != whole.to_bits()));
 }
 
-/// Memory use in terms of the numbers printed: sixteen times the samples need a few more nodes, not sixteen times as many.
+/// Memory use in terms of the numbers printed: sixteen times the samples need a few more nodes, not sixteen times as
+/// many.
 #[test]
 fn memory_is_flat() -> Result<(), Error> {
     let plan = Plan::new(1).sketch(0, 0.5, 0.1)?;

@@ -4,7 +4,8 @@ use super::Tables;
 use super::names::{by, in_unit, operating_point};
 use crate::Table;
 
-/// `allocation`: a row for each design variable, numbers in its `unit`; `requirements`: a row for each requirement; `cost`: one row.
+/// `allocation`: a row for each design variable, numbers in its `unit`; `requirements`: a row for each requirement;
+/// `cost`: one row.
 impl Tables for Allocation {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

@@ -7,7 +7,8 @@ use super::names::operating_point;
 use super::tolerance::statistics;
 use crate::Table;
 
-/// `clusters`: for each cluster, a row for each member from the lowest up, and one for the splitting between the lowest and the highest.
+/// `clusters`: for each cluster, a row for each member from the lowest up, and one for the splitting between the lowest
+/// and the highest.
 impl Tables for [ClusterTolerance] {
     fn tables(&self) -> Vec<Table> {
         let Some(one) = self.first() else {

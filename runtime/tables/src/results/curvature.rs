@@ -41,8 +41,8 @@ impl Pairs<'_> {
     }
 }
 
-/// `second derivatives`: a row for each pair of variables, derivatives of `lambda` and of the eigenvalue `s` per `unit` of the first and
-/// `unit 2` of the second.
+/// `second derivatives`: a row for each pair of variables, derivatives of `lambda` and of the eigenvalue `s` per `unit`
+/// of the first and `unit 2` of the second.
 impl Tables for ModeCurvature {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -67,7 +67,8 @@ impl Tables for ModeCurvature {
     }
 }
 
-/// `second derivatives`: a row for each pair of variables, the derivative of the output per `unit` of the first and `unit 2` of the second.
+/// `second derivatives`: a row for each pair of variables, the derivative of the output per `unit` of the first and
+/// `unit 2` of the second.
 impl Tables for OutputCurvature {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -86,8 +87,8 @@ impl Tables for OutputCurvature {
     }
 }
 
-/// `second derivatives`: a row for each pair of design variables, the derivative of the critical value per `unit` of the first and `unit 2`
-/// of the second.
+/// `second derivatives`: a row for each pair of design variables, the derivative of the critical value per `unit` of
+/// the first and `unit 2` of the second.
 impl Tables for EventCurvature {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -121,8 +122,8 @@ fn element<T: Copy>(
     }
 }
 
-/// `shape sensitivities`: a row for each unknown and variable, derivatives of the right and left vector components per `unit` of the
-/// variable.
+/// `shape sensitivities`: a row for each unknown and variable, derivatives of the right and left vector components per
+/// `unit` of the variable.
 impl Tables for ShapeSensitivity {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

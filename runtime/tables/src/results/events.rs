@@ -45,8 +45,8 @@ impl Tables for CriticalState {
     }
 }
 
-/// `crossings`: a row for each frequency that equals `ratio` times the input plus `offset`, or for each flutter onset, where both are
-/// empty.
+/// `crossings`: a row for each frequency that equals `ratio` times the input plus `offset`, or for each flutter onset,
+/// where both are empty.
 impl Tables for [Crossing] {
     fn tables(&self) -> Vec<Table> {
         let Some(one) = self.first() else {

@@ -13,7 +13,8 @@ pub(super) fn in_unit(value: f64, unit: &Unit) -> f64 {
     }
 }
 
-/// A user-chosen value as the user wrote it: 3000 rpm, not 3000.0000000000005. Rounded to 15 digits if these give the same SI value.
+/// A user-chosen value as the user wrote it: 3000 rpm, not 3000.0000000000005. Rounded to 15 digits if these give the
+/// same SI value.
 pub(crate) fn as_written(value: f64, unit: &Unit) -> f64 {
     let own = in_unit(value, unit);
     let short = format!("{own:.14e}").parse().unwrap_or(own);

@@ -34,8 +34,8 @@ fn estimates<'a>(
     table.numbers(format!("error of {name}"), "", error);
 }
 
-/// `spreads`: a row for each response, numbers in its `unit`; `quantiles`: a row for each response and probability; `correlations`: a row
-/// for each pair of responses; `outcomes`.
+/// `spreads`: a row for each response, numbers in its `unit`; `quantiles`: a row for each response and probability;
+/// `correlations`: a row for each pair of responses; `outcomes`.
 impl Tables for Propagation {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -148,8 +148,8 @@ impl Tables for Controlled {
     }
 }
 
-/// `worst case`: a row for each response, numbers in its `unit`; `worst designs`: a row for each extreme of each response, with the design
-/// that attains it.
+/// `worst case`: a row for each response, numbers in its `unit`; `worst designs`: a row for each extreme of each
+/// response, with the design that attains it.
 impl Tables for WorstCase {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

@@ -45,8 +45,8 @@ impl Tables for Chances {
     }
 }
 
-/// `design points`: a row for each, or one with the error if there are none; `design point variables`: a row for each design variable of
-/// each; `system`: one row.
+/// `design points`: a row for each, or one with the error if there are none; `design point variables`: a row for each
+/// design variable of each; `system`: one row.
 impl Tables for Reliability {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

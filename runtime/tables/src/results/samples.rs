@@ -4,11 +4,11 @@ use eigentol::{Complex, Description, MonteCarlo};
 use super::names::{design, operating_point, unknowns, word};
 use crate::Table;
 
-/// A row for each sample: its number in the run, its outcome, the design variables, the unknowns, and the frequency, damping ratio and
-/// eigenvalue of each mode.
+/// A row for each sample: its number in the run, its outcome, the design variables, the unknowns, and the frequency,
+/// damping ratio and eigenvalue of each mode.
 ///
-/// `first` is the number of the first sample, counted from 0, so that parts of a run can be written one after the other: all non-empty
-/// parts have the same columns.
+/// `first` is the number of the first sample, counted from 0, so that parts of a run can be written one after the
+/// other: all non-empty parts have the same columns.
 ///
 /// ```
 /// # use eigentol::{Study, mechanism};
@@ -41,7 +41,8 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
 /// Like [`samples_table`], for samples that carry their own numbers, counted from 0, as returned by
 /// [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples).
 ///
-/// A part without samples has the same columns. The operating point, seed and stream come last, as in all tables of the run.
+/// A part without samples has the same columns. The operating point, seed and stream come last, as in all tables of the
+/// run.
 #[must_use]
 pub fn numbered_samples_table(run: &MonteCarlo, samples: &[(u64, Sample)]) -> Table {
     let numbers = samples.iter().map(|(number, _)| *number as usize + 1);

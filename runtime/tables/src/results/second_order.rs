@@ -61,7 +61,8 @@ fn margin(table: &mut Table, margin: &Margin, unit: &str) {
     table.numbers("error of probability", "", [margin.corrected.error]);
 }
 
-/// `margin`: one row; `probability by design`: a row for each design variable, per `unit` of its nominal value and half-width.
+/// `margin`: one row; `probability by design`: a row for each design variable, per `unit` of its nominal value and
+/// half-width.
 impl Tables for ModeMargin {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

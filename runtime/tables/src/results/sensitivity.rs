@@ -39,7 +39,8 @@ impl Tables for Sensitivities {
     }
 }
 
-/// `equilibrium shift`: a row for each unknown and variable, the derivative in `unit` of the unknown per `per` of the variable.
+/// `equilibrium shift`: a row for each unknown and variable, the derivative in `unit` of the unknown per `per` of the
+/// variable.
 impl Tables for EquilibriumShift {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -64,8 +65,8 @@ impl Tables for EquilibriumShift {
     }
 }
 
-/// `outputs`: one row, a column for each output; `output sensitivities`: a row for each output and variable, the derivative in `unit` of
-/// the output per `per` of the variable.
+/// `outputs`: one row, a column for each output; `output sensitivities`: a row for each output and variable, the
+/// derivative in `unit` of the output per `per` of the variable.
 impl Tables for OutputSensitivities {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

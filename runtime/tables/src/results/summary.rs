@@ -5,8 +5,8 @@ use super::Tables;
 use super::names::{operating_point, word};
 use crate::Table;
 
-/// `summary`: a row for each mode, with the sigmas of all methods and the recommended method; `doubts`: a row for each reason not to trust
-/// first order; `clusters`, if any.
+/// `summary`: a row for each mode, with the sigmas of all methods and the recommended method; `doubts`: a row for each
+/// reason not to trust first order; `clusters`, if any.
 impl Tables for Summary {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

@@ -6,10 +6,12 @@ use super::equilibrium::stability;
 use super::names::{operating_point, unknowns, varied};
 use crate::Table;
 
-/// A row for each value of the input: the unknowns, the stability, and the frequency, damping ratio and eigenvalue of each motion.
+/// A row for each value of the input: the unknowns, the stability, and the frequency, damping ratio and eigenvalue of
+/// each motion.
 ///
-/// The caller gives the number of motions so that parts of a sweep can be written one after the other with the same columns. Motions beyond
-/// that number are left out; a mechanism of `n` coordinates and speeds has up to `2 n`, or more where motions are replaced by others.
+/// The caller gives the number of motions so that parts of a sweep can be written one after the other with the same
+/// columns. Motions beyond that number are left out; a mechanism of `n` coordinates and speeds has up to `2 n`, or more
+/// where motions are replaced by others.
 #[must_use]
 pub fn sweep_table(
     d: &Description,

@@ -34,8 +34,8 @@ fn shares<'a>(
     }
 }
 
-/// `first-order tolerances`: a row for each mode; a cluster has no sigma. The shares are for the frequency, or for `lambda` if the mode has
-/// no frequency.
+/// `first-order tolerances`: a row for each mode; a cluster has no sigma. The shares are for the frequency, or for
+/// `lambda` if the mode has no frequency.
 impl Tables for FirstOrder {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -149,8 +149,8 @@ pub(super) fn outcomes(counts: &Counts) -> Table {
     table
 }
 
-/// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`: a row for each sample, if they were kept. All include
-/// the seed and stream of the random numbers, if below 2^63.
+/// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`: a row for each sample, if they
+/// were kept. All include the seed and stream of the random numbers, if below 2^63.
 impl Tables for MonteCarlo {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;

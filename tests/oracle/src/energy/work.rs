@@ -47,8 +47,8 @@ impl Work<'_> {
                     0.0
                 }
             }
-            // M . dphi with M = -kr r - cr r', and F . dd with the antisymmetric parts of k and c, which have neither energy nor
-            // dissipation; everything as seen in `from`
+            // M . dphi with M = -kr r - cr r', and F . dd with the antisymmetric parts of k and c, which have neither
+            // energy nor dissipation; everything as seen in `from`
             ForceLaw::Bushing {
                 from,
                 to,

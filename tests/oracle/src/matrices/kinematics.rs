@@ -17,7 +17,8 @@ pub(crate) struct Configuration<D> {
     pub(crate) axes: Vec<Vec<Axis<D>>>,
 }
 
-/// The motion, at unit speed of a step, of everything beyond it: rotation `spin` about `origin` and translation `slide`.
+/// The motion, at unit speed of a step, of everything beyond it: rotation `spin` about `origin` and translation
+/// `slide`.
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<D> {
     pub(crate) origin: Vector<D>,
@@ -97,8 +98,8 @@ fn axis<D: Scalar>(step: &Step, frame: Pose<D>, sign: f64, design: &[D]) -> Axis
 }
 
 impl Oracle<'_> {
-    /// Pose of every body: `X_child = X_parent X_from J_1(q_1) ... J_k(q_k) X_to^-1`. A joint declared from the child to
-    /// its parent is traversed the other way, `X_child = X_parent X_to J_k(-q_k) ... J_1(-q_1) X_from^-1`.
+    /// Pose of every body: `X_child = X_parent X_from J_1(q_1) ... J_k(q_k) X_to^-1`. A joint declared from the child
+    /// to its parent is traversed the other way, `X_child = X_parent X_to J_k(-q_k) ... J_1(-q_1) X_from^-1`.
     pub(crate) fn configuration<D: Scalar>(
         &self,
         free: &[D],

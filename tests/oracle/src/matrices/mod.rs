@@ -51,7 +51,8 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// The same mechanism with its driven coordinates at other positions; in a steady state no kernel result may change.
+    /// The same mechanism with its driven coordinates at other positions; in a steady state no kernel result may
+    /// change.
     pub fn with_driven(mut self, position: &[f64]) -> Self {
         assert_eq!(
             position.len(),

@@ -132,8 +132,8 @@ impl Oracle<'_> {
         }
     }
 
-    /// `g = M* qddot - Q*` (eq. 12) as `B_R^T (M (B_R qddot + Bdot_D u + Bdot_R qdot_R) + omega x J omega - Q)`; at rest
-    /// it is eq. 10.
+    /// `g = M* qddot - Q*` (eq. 12) as `B_R^T (M (B_R qddot + Bdot_D u + Bdot_R qdot_R) + omega x J omega - Q)`; at
+    /// rest it is eq. 10.
     pub fn motion_residual<D: Scalar>(&self, state: &State<D>) -> Vec<D> {
         let bodies = self.bodies(state);
         let free = times(&bodies.b_free, &state.acceleration, bodies.bias.len());

@@ -6,10 +6,10 @@ use super::kinematics::times;
 use super::space::Vector;
 
 impl Oracle<'_> {
-    /// For the vibration `Re((real + i imaginary) e^{i w t})`, the sums over all bodies of `-|o| o . (m r x s + k a x b)`
-    /// and `(m (|o x r|^2 + |o x s|^2) + k (|o x a|^2 + |o x b|^2)) / 2`, where `o` is the angular velocity at rest, `r`
-    /// and `s` are the displacements of the centre of mass, `a` and `b` the rotations, and `k` is half the trace of the
-    /// inertia tensor.
+    /// For the vibration `Re((real + i imaginary) e^{i w t})`, the sums over all bodies of
+    /// `-|o| o . (m r x s + k a x b)` and `(m (|o x r|^2 + |o x s|^2) + k (|o x a|^2 + |o x b|^2)) / 2`, where `o` is
+    /// the angular velocity at rest, `r` and `s` are the displacements of the centre of mass, `a` and `b` the
+    /// rotations, and `k` is half the trace of the inertia tensor.
     pub fn whirl(&self, [q, u, b]: [&[f64]; 3], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
         let at = self.configuration(q, &self.driven_position, b);
         let transformation = self.velocity_transformation(&at);

@@ -47,8 +47,8 @@ impl Curve {
             + right * (y1 / h - m[k + 1] * h / 6.0)
     }
 
-    /// Second derivatives at the points, zero at the ends. Slope continuity gives a linear system, solved by Gauss-Seidel
-    /// iteration; it converges because each diagonal entry is twice the sum of the others in its row.
+    /// Second derivatives at the points, zero at the ends. Slope continuity gives a linear system, solved by
+    /// Gauss-Seidel iteration; it converges because each diagonal entry is twice the sum of the others in its row.
     fn curvatures(&self) -> Vec<f64> {
         let points = &self.points;
         let mut m = vec![0.0; points.len()];

@@ -23,7 +23,8 @@ pub enum Frame {
     Body(usize),
 }
 
-/// A fixed placement: the offset first, then rotations (axis, angle), each about the axes resulting from the previous one.
+/// A fixed placement: the offset first, then rotations (axis, angle), each about the axes resulting from the previous
+/// one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// Origin.

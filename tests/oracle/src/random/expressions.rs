@@ -18,8 +18,8 @@ impl Source {
         Expr::Value(self.between(low, high, unit), unit)
     }
 
-    /// A curve over values of about this size, with two to six points: arbitrary, on a line, or all zero. It extends beyond the
-    /// size itself to cover arguments that do not move.
+    /// A curve over values of about this size, with two to six points: arbitrary, on a line, or all zero. It extends
+    /// beyond the size itself to cover arguments that do not move.
     fn curve(&mut self, (size, unit): (f64, Unit), argument: Expr) -> Expr {
         self.curves += 1;
         let count = 2 + self.random.below(5);
@@ -94,7 +94,8 @@ impl Builder {
         Expr::Product(factors)
     }
 
-    /// `-k q - k3 q^3 - c rate(q)`, plus couplings with another free coordinate, the speed of any coordinate, or an input.
+    /// `-k q - k3 q^3 - c rate(q)`, plus couplings with another free coordinate, the speed of any coordinate, or an
+    /// input.
     pub(super) fn generalized(
         &mut self,
         coordinate: Coordinate,
@@ -156,7 +157,8 @@ impl Builder {
         }
     }
 
-    /// `1/2 k (q1 - q2)^2` for coordinates of the same unit, `1/2 k q^2 + g q1 q2` for different ones, `-m cos q` for angles.
+    /// `1/2 k (q1 - q2)^2` for coordinates of the same unit, `1/2 k q^2 + g q1 q2` for different ones, `-m cos q` for
+    /// angles.
     pub(super) fn energy_of_coordinates(
         &mut self,
         coordinate: Coordinate,

@@ -194,8 +194,8 @@ impl Builder {
         matrix
     }
 
-    /// Forces at a point of a body other than the rotor. A ground-fixed force is parallel to the vertical where the body
-    /// turns about the vertical.
+    /// Forces at a point of a body other than the rotor. A ground-fixed force is parallel to the vertical where the
+    /// body turns about the vertical.
     fn at_point(&mut self, setting: Setting, elements: &mut Elements) {
         let rotor = self.rotor.map(|(body, _)| body);
         let body = self.source.random.below(self.bodies.len());

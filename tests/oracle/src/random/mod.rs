@@ -1,10 +1,11 @@
-//! Random mechanisms: trees that nobody would draw, and trees full of the special cases for which the compiler has dedicated code.
+//! Random mechanisms: trees that nobody would draw, and trees full of the special cases for which the compiler has
+//! dedicated code.
 //!
-//! Every model has a steady state and a regular mass matrix. Joints are declared in random order and in either direction;
-//! axes are not normalised; values are numbers or multiples of design variables, some shared by several values. Bodies are
-//! sums of shapes with holes, every joint keyword and every force law occurs, and drives appear wherever they leave a steady
-//! state. Trees of [`Plan::special`] take axes, angles, offsets, masses and inertias from small sets: parallel and equal
-//! axes, right angles, zeros, and values close to these.
+//! Every model has a steady state and a regular mass matrix. Joints are declared in random order and in either
+//! direction; axes are not normalised; values are numbers or multiples of design variables, some shared by several
+//! values. Bodies are sums of shapes with holes, every joint keyword and every force law occurs, and drives appear
+//! wherever they leave a steady state. Trees of [`Plan::special`] take axes, angles, offsets, masses and inertias from
+//! small sets: parallel and equal axes, right angles, zeros, and values close to these.
 
 mod expressions;
 mod forces;
@@ -140,8 +141,8 @@ pub fn position(model: &Model, random: &mut Random) -> Vec<f64> {
     q
 }
 
-/// Whether at three states the mass matrix, scaled to a unit diagonal, is well away from singular, and no two points that pull
-/// each other coincide.
+/// Whether at three states the mass matrix, scaled to a unit diagonal, is well away from singular, and no two points
+/// that pull each other coincide.
 fn is_regular(model: &Model) -> bool {
     let oracle = Oracle::new(model);
     (0..3).all(|seed| {

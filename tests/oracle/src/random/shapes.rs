@@ -204,7 +204,8 @@ impl Source {
             -s(1, 2),
             -s(0, 2),
         ];
-        // All six are numbers, or all multiples of one variable, so that the inertia stays possible off the nominal design.
+        // All six are numbers, or all multiples of one variable, so that the inertia stays possible off the nominal
+        // design.
         let inertia = match self.value(j[0], Unit::KilogramSquareMetre) {
             Value::Number(_) => j.map(Value::Number),
             Value::Design { variable, factor } => j.map(|entry| Value::Design {

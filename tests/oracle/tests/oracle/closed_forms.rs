@@ -67,9 +67,9 @@ fn a_top_precesses_steadily() {
 }
 
 /// A blade is a line of particles, `I = sum m r^2`, `S = sum m r`. At flap `b` and lag `z`,
-/// `g = [I W^2 sb cb cz^2 - S G cb cz, -I W^2 sb^2 sz cz + S G sb sz]`, `M = I diag(cz^2, 1)`, and the Coriolis coupling is
-/// `C12 = -C21 = 2 I W sb cz^2`. Half of it comes from `M Bdot_D u`, the other half from `M Bdot_R qdot_R`, which the
-/// linearisation must not omit.
+/// `g = [I W^2 sb cb cz^2 - S G cb cz, -I W^2 sb^2 sz cz + S G sb sz]`, `M = I diag(cz^2, 1)`, and the Coriolis
+/// coupling is `C12 = -C21 = 2 I W sb cz^2`. Half of it comes from `M Bdot_D u`, the other half from `M Bdot_R qdot_R`,
+/// which the linearisation must not omit.
 #[test]
 fn flap_and_lag_are_coupled() {
     let (m, r, w) = (2.3, 0.9, 4.0);

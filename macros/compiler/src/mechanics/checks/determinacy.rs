@@ -6,8 +6,9 @@ use crate::base::ids::{CoordinateId, ExprId};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 
-/// Rejects a mechanism with a singular mass matrix, with a coordinate that nothing resists, or with a constraint that no
-/// coordinate affects. If only the kernels are wanted, only the last is an error; for the others the coordinates are returned.
+/// Rejects a mechanism with a singular mass matrix, with a coordinate that nothing resists, or with a constraint that
+/// no coordinate affects. If only the kernels are wanted, only the last is an error; for the others the coordinates are
+/// returned.
 pub(crate) fn require_determinate_motion(
     g: &Graph,
     context: &Context,
@@ -102,9 +103,9 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// A motion of free and coasting coordinates that moves no mass at any probed state: the coordinates that change, each with
-/// its amount if that is the same at all states. With constraints, only admissible motions must move mass; along all others
-/// `A^T A` replaces the mass matrix, where `A` holds the derivatives of the constraints by the speeds.
+/// A motion of free and coasting coordinates that moves no mass at any probed state: the coordinates that change, each
+/// with its amount if that is the same at all states. With constraints, only admissible motions must move mass; along
+/// all others `A^T A` replaces the mass matrix, where `A` holds the derivatives of the constraints by the speeds.
 fn massless_motion(
     g: &Graph,
     context: &Context,

@@ -1,5 +1,5 @@
-//! Requirements on bodies and constraints at run time, for any design values: positive masses and lengths, and physically
-//! possible inertias.
+//! Requirements on bodies and constraints at run time, for any design values: positive masses and lengths, and
+//! physically possible inertias.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
@@ -11,8 +11,8 @@ use crate::model::mechanism::{Body, ConstraintLaw, CurveArgument, Mechanism};
 use crate::model::shape::{Reduced, Spread};
 use crate::model::welded::{Member, groups};
 
-/// Fraction of the trace below which a principal second moment counts as zero: a flat body has one that is exactly zero,
-/// and rounding must not make it negative.
+/// Fraction of the trace below which a principal second moment counts as zero: a flat body has one that is exactly
+/// zero, and rounding must not make it negative.
 const FLATNESS: f64 = 1e-9;
 
 /// The requirements that depend on inputs or design variables; constants are checked with the declaration.
@@ -151,8 +151,8 @@ fn inertia_together(
     inertia_of_a_body(g, &name, second)
 }
 
-/// Mass, and second moments about the centre of mass: rows of `S - F F^T / m`, with each diagonal entry raised by a small
-/// fraction of the trace of `S`.
+/// Mass, and second moments about the centre of mass: rows of `S - F F^T / m`, with each diagonal entry raised by a
+/// small fraction of the trace of `S`.
 fn central_moments(g: &mut Graph, pieces: Vec<MassDistribution>) -> (ExprId, [Vector3; 3]) {
     let zero = g.zero();
     let (mut mass, mut first) = (zero, Vector3::zero(g));
@@ -185,8 +185,8 @@ fn central_moments(g: &mut Graph, pieces: Vec<MassDistribution>) -> (ExprId, [Ve
     (mass, second)
 }
 
-/// The second moment `S = tr(J)/2 1 - J` of an inertia `J` is positive definite exactly when all its principal minors are
-/// positive. Each diagonal entry is half of the amount by which two moments of inertia exceed the third.
+/// The second moment `S = tr(J)/2 1 - J` of an inertia `J` is positive definite exactly when all its principal minors
+/// are positive. Each diagonal entry is half of the amount by which two moments of inertia exceed the third.
 fn inertia_of_a_body(g: &mut Graph, body: &str, [x, y, z]: [Vector3; 3]) -> Vec<Requirement> {
     let ([a, xy, xz], [_, b, yz], [_, _, c]) = (x.0, y.0, z.0);
     let require = |quantity: &str, unit: &str, value| Requirement {

@@ -41,8 +41,8 @@ pub(crate) fn kinetic(g: &mut Graph, context: &Context, kinematics: &Kinematics)
     g.scale(0.5, twice)
 }
 
-/// Energy of gravity, springs and declared potentials; zero at the ground's origin and at the free lengths. The resolver rejects
-/// it if some force has no potential.
+/// Energy of gravity, springs and declared potentials; zero at the ground's origin and at the free lengths. The
+/// resolver rejects it if some force has no potential.
 pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> ExprId {
     let values = context.values;
     let gravity = values.vector(g, &context.mechanism.gravity);

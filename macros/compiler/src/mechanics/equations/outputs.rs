@@ -62,8 +62,8 @@ impl State for Everything<'_> {
     }
 }
 
-/// The force and moment that the `from` side of each joint exerts on its `to` side, at the origin of the joint frame on the
-/// `from` side and in its axes.
+/// The force and moment that the `from` side of each joint exerts on its `to` side, at the origin of the joint frame on
+/// the `from` side and in its axes.
 fn reactions(
     g: &mut Graph,
     context: &Context,

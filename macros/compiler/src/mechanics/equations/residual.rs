@@ -7,7 +7,8 @@ use crate::mechanics::loads::transmitted;
 use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, ForceSelection};
 
-/// The residual in two parts. The total is their sum once the first has been transformed from absolute angles to the unknowns.
+/// The residual in two parts. The total is their sum once the first has been transformed from absolute angles to the
+/// unknowns.
 pub(crate) struct Residual {
     /// By unknown: inertia minus weight, in terms of the absolute angles.
     pub(crate) inertial: Vec<ExprId>,
@@ -16,8 +17,8 @@ pub(crate) struct Residual {
 }
 
 impl Residual {
-    /// The equations along free and coasting coordinates, followed by those of constraints. `kinematics` is the motion with the
-    /// running coordinates at `running`.
+    /// The equations along free and coasting coordinates, followed by those of constraints. `kinematics` is the motion
+    /// with the running coordinates at `running`.
     pub(crate) fn new(
         g: &mut Graph,
         context: &Context,

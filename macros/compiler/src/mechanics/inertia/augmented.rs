@@ -1,6 +1,6 @@
-//! Bodies augmented by the mass they carry. A joint that turns about its seat passes on the mass it carries as a point mass at
-//! the seat: the inertia force is this mass times the acceleration of the seat, plus a remainder that does not depend on the
-//! motion of the seat. Equations over augmented bodies are shorter, and so are their derivatives.
+//! Bodies augmented by the mass they carry. A joint that turns about its seat passes on the mass it carries as a point
+//! mass at the seat: the inertia force is this mass times the acceleration of the seat, plus a remainder that does not
+//! depend on the motion of the seat. Equations over augmented bodies are shorter, and so are their derivatives.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -64,8 +64,8 @@ impl AugmentedBody {
     }
 }
 
-/// Whether the inertia force of a body and everything it carries is the total mass times the acceleration of the joint's
-/// seat, plus a remainder that does not depend on the motion of the seat.
+/// Whether the inertia force of a body and everything it carries is the total mass times the acceleration of the
+/// joint's seat, plus a remainder that does not depend on the motion of the seat.
 pub(crate) fn rides_on_seat(g: &Graph, motion: &BodyMotion) -> bool {
     motion.frame.offset == motion.seat.offset
         && motion.steps.iter().all(|step| step.slide.is_none())

@@ -11,8 +11,8 @@ use crate::topology::Topology;
 use super::newton_euler::inertial_at;
 use super::variation::variation;
 
-/// Asserts that every entry equals the derivative of its equation, and counts the nonzero ones; `None` if the walks do not
-/// apply.
+/// Asserts that every entry equals the derivative of its equation, and counts the nonzero ones; `None` if the walks do
+/// not apply.
 pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let g = &mut Graph::new();
     let symbols = Symbols::new(g, mechanism, topology);

@@ -1,5 +1,5 @@
-//! The mass matrix from composite bodies: each entry follows from the force and moment that accelerate a body together with
-//! everything it carries, as if all of it were one rigid body.
+//! The mass matrix from composite bodies: each entry follows from the force and moment that accelerate a body together
+//! with everything it carries, as if all of it were one rigid body.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -64,8 +64,8 @@ impl Composite {
         add_symmetric(g, &mut self.second, |g, i, j| g.mul(place.0[i], share.0[j]));
     }
 
-    /// The composite about the parent's origin, in the axes of the parent's motion. Only `mass` is not part of the augmented
-    /// parent.
+    /// The composite about the parent's origin, in the axes of the parent's motion. Only `mass` is not part of the
+    /// augmented parent.
     fn moved_to_parent(&self, g: &mut Graph, motion: &BodyMotion, mass: ExprId) -> Self {
         let mut moved = Self {
             mass: g.zero(),
@@ -158,8 +158,8 @@ pub(crate) fn spun(g: &mut Graph, second: [[ExprId; 3]; 3], axis: Vector3) -> Ve
 
 /// The masses that bodies carry, by body id.
 pub(crate) struct Composites {
-    /// Everything that turns with the body's angle, with the bodies that continue its run as point masses: these move with
-    /// their seats without turning.
+    /// Everything that turns with the body's angle, with the bodies that continue its run as point masses: these move
+    /// with their seats without turning.
     pub(crate) carried: Vec<Composite>,
     /// The body with everything it carries.
     pub(crate) whole: Vec<Composite>,

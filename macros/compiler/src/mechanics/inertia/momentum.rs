@@ -52,8 +52,8 @@ impl Momentum {
         }
     }
 
-    /// The momentum about the parent's origin, in the axes of the parent's motion. The body's origin moves away from the parent's
-    /// at `rate`, and the first moment and the mass move along with it.
+    /// The momentum about the parent's origin, in the axes of the parent's motion. The body's origin moves away from
+    /// the parent's at `rate`, and the first moment and the mass move along with it.
     fn moved_to_parent(
         &self,
         g: &mut Graph,

@@ -39,17 +39,17 @@ pub(crate) fn inertial_at(
     inertial(g, context, &kinematics, selection)
 }
 
-/// Sums inertia minus weight from the leaves towards the ground. `kinematics` is written in the layout of runs, with the
-/// ground accelerated against gravity, so that weight needs no terms of its own.
+/// Sums inertia minus weight from the leaves towards the ground. `kinematics` is written in the layout of runs, with
+/// the ground accelerated against gravity, so that weight needs no terms of its own.
 ///
-/// A body and everything it carries on seats has the augmented mass `m`, moments `first` and `second`, and seats at `s_c`.
-/// Integrating `a(rho) = a_O + W rho` over the mass gives
+/// A body and everything it carries on seats has the augmented mass `m`, moments `first` and `second`, and seats at
+/// `s_c`. Integrating `a(rho) = a_O + W rho` over the mass gives
 ///
 /// - `force = m a_O + rest`, `rest = W first + sum rest_c`,
 /// - `moment = 2 isotropic alpha + sum_k e_k x (first_k a_O + sum_j second_kj W e_j + sum_c s_ck rest_c) + sum moment_c`.
 ///
-/// The absolute angle of a body turns only this body of its run, so the moments of the bodies that continue the run do no
-/// work along it.
+/// The absolute angle of a body turns only this body of its run, so the moments of the bodies that continue the run do
+/// no work along it.
 pub(crate) fn inertial(
     g: &mut Graph,
     context: &Context,

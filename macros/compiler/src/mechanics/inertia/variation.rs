@@ -1,17 +1,17 @@
 //! Derivatives of inertia and weight along every coordinate by positions and velocities, for any motion.
 //!
-//! Suppose that everything a body carries keeps its motion relative to the body. Change the body's angular velocity by `spin`,
-//! its angular acceleration by `growth - omega x spin` and the acceleration of its origin by `acceleration`. The acceleration
-//! of a particle at `r` then changes by `acceleration + growth x r + 2 spin x dr/dt`. This requires
+//! Suppose that everything a body carries keeps its motion relative to the body. Change the body's angular velocity by
+//! `spin`, its angular acceleration by `growth - omega x spin` and the acceleration of its origin by `acceleration`.
+//! The acceleration of a particle at `r` then changes by `acceleration + growth x r + 2 spin x dr/dt`. This requires
 //!
 //! - `force = m acceleration + growth x h + 2 spin x P`,
 //! - `moment = h x acceleration + I growth + (tr D 1 - D) spin + spin x L`,
 //!
-//! with mass `m`, first moment `h` and inertia `I`, and, as rates in a frame that moves with the origin without turning, linear
-//! and angular momentum `P` and `L` and the rate `D` of the second moment. For the next body outwards, `spin` and `growth` are
-//! the same and `acceleration` increases by `growth x d + 2 spin x dd/dt`, where `d` points from origin to origin. Thus each
-//! joint acts as a change of the motion of everything it carries, and each coordinate further out needs only one covector,
-//! obtained in one walk towards the ground.
+//! with mass `m`, first moment `h` and inertia `I`, and, as rates in a frame that moves with the origin without
+//! turning, linear and angular momentum `P` and `L` and the rate `D` of the second moment. For the next body outwards,
+//! `spin` and `growth` are the same and `acceleration` increases by `growth x d + 2 spin x dd/dt`, where `d` points
+//! from origin to origin. Thus each joint acts as a change of the motion of everything it carries, and each coordinate
+//! further out needs only one covector, obtained in one walk towards the ground.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -92,10 +92,10 @@ impl Step {
 
 /// The free motions of a joint, from the parent to the body.
 ///
-/// Behind an elementary motion with axis `z` and velocity `v` of the body's origin `O`, a frame moves with `omega` and `W` (its
-/// second rate), its point at `O` has the acceleration `a`, and `O` moves away from that point at `u`, the rate of the motions
-/// that follow. If the coordinate increases by one unit, the frame turns and moves relative to everything before it. Seen from
-/// the frame,
+/// Behind an elementary motion with axis `z` and velocity `v` of the body's origin `O`, a frame moves with `omega` and
+/// `W` (its second rate), its point at `O` has the acceleration `a`, and `O` moves away from that point at `u`, the
+/// rate of the motions that follow. If the coordinate increases by one unit, the frame turns and moves relative to
+/// everything before it. Seen from the frame,
 ///
 /// - `spin = omega x z`, `growth = W z`, `acceleration = a x z + W v + 2 spin x u`;
 ///

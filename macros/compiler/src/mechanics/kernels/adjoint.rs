@@ -25,9 +25,9 @@ pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
     at_rest(g, s, &functional)[0]
 }
 
-/// `left^T (Mhat acceleration + Chat velocity + Khat position)` without forming any matrix: the derivative of `left^T g` along
-/// (`qddot`, `qdot`, `q`), taken at rest. `Chat` contains products of a velocity and the drives, so the velocities are set to
-/// zero only after differentiating.
+/// `left^T (Mhat acceleration + Chat velocity + Khat position)` without forming any matrix: the derivative of
+/// `left^T g` along (`qddot`, `qdot`, `q`), taken at rest. `Chat` contains products of a velocity and the drives, so
+/// the velocities are set to zero only after differentiating.
 pub(crate) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
     let power = weighted_sum(g, &s.pencil.left.values, &e.motion);
     let rates = s

@@ -8,9 +8,9 @@
 //! - `moment = -sum |omega| omega . m (r x s)`,
 //! - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`.
 //!
-//! Small rotations contribute in the same way, with the trace of the second moment about the centre of mass in place of `m`.
-//! For one body, `moment / size` is one on a circle in the sense of the spin, minus one on a circle against it, and zero on a
-//! line.
+//! Small rotations contribute in the same way, with the trace of the second moment about the centre of mass in place of
+//! `m`. For one body, `moment / size` is one on a circle in the sense of the spin, minus one on a circle against it,
+//! and zero on a line.
 
 use crate::algebra::{Array, Direction, Function, Graph, Vector3, derivatives_along};
 use crate::base::ids::ExprId;
@@ -180,7 +180,8 @@ impl Central {
     }
 }
 
-/// `a / b`, or exactly one if both are the same node: usually one piece is the whole body, and its arm leads to its centre.
+/// `a / b`, or exactly one if both are the same node: usually one piece is the whole body, and its arm leads to its
+/// centre.
 fn ratio(g: &mut Graph, a: ExprId, b: ExprId) -> ExprId {
     if a == b { g.constant(1.0) } else { g.div(a, b) }
 }

@@ -53,9 +53,9 @@ impl Jacobians {
     }
 }
 
-/// Stiffness and damping due to inertia and weight, with respect to the unknowns instead of the absolute angles. They are
-/// obtained by differentiation, or from the [`Variation`] of the equations if that takes fewer operations, counted together
-/// with the residual and with the mass matrix.
+/// Stiffness and damping due to inertia and weight, with respect to the unknowns instead of the absolute angles. They
+/// are obtained by differentiation, or from the [`Variation`] of the equations if that takes fewer operations, counted
+/// together with the residual and with the mass matrix.
 ///
 /// [`Variation`]: crate::mechanics::inertia::Variation
 fn of_inertia(

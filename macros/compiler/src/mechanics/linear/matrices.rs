@@ -92,8 +92,8 @@ impl Linear {
         [&self.mass[..], &self.damping, &self.stiffness].concat()
     }
 
-    /// All entries of the matrices linearised along any motion. The mass matrix does not depend on the motion, and the other
-    /// two are not symmetric.
+    /// All entries of the matrices linearised along any motion. The mass matrix does not depend on the motion, and the
+    /// other two are not symmetric.
     pub(crate) fn along_motion(&self, g: &mut Graph, s: &Symbols, e: &Equations) -> Vec<ExprId> {
         let n = e.motion.len();
         let all = |g: &mut Graph, motion: &[ExprId], inertial: Option<&Variation>| {

@@ -1,9 +1,9 @@
 //! Constraints: their equations, and their reactions on bodies and coordinates.
 //!
 //! Every equation has a multiplier `mu`. Its generalised reaction forces are `-mu` times the derivative of the equation
-//! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments. An equation is the negative of
-//! the value that must vanish, `Phi = -value`. Then `mu` is the load that the `from` side exerts on the `to` side, as for the
-//! reaction of a joint, and the residual of an equation has the direction of its reaction.
+//! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments. An equation is the
+//! negative of the value that must vanish, `Phi = -value`. Then `mu` is the load that the `from` side exerts on the
+//! `to` side, as for the reaction of a joint, and the residual of an equation has the direction of its reaction.
 
 use crate::algebra::{Graph, gradient, substitute};
 use crate::base::census::taken;
@@ -65,8 +65,8 @@ pub(crate) fn constraint_rows(g: &mut Graph, context: &Context) -> Vec<Row> {
     rows
 }
 
-/// Arbitrary positions of the running coordinates, but zero for those driven at zero speed. An equation that holds only at zero
-/// is not trivial.
+/// Arbitrary positions of the running coordinates, but zero for those driven at zero speed. An equation that holds only
+/// at zero is not trivial.
 fn anywhere(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     let at_zero = in_common_frame_at_zero(g, context);
     let running = context.topology.running();
@@ -262,8 +262,8 @@ fn equation(
     g.neg(value)
 }
 
-/// The load that the `from` side of a constraint or of a cut joint exerts on the `to` side, at the point of `from` and in its
-/// axes; `None` for a declared equation.
+/// The load that the `from` side of a constraint or of a cut joint exerts on the `to` side, at the point of `from` and
+/// in its axes; `None` for a declared equation.
 pub(crate) fn held(g: &mut Graph, force_context: &ForceContext, source: Source) -> Option<Wrench> {
     let pair = geometric(g, force_context, source)?;
     let mut load = Wrench::zero(g);

@@ -175,8 +175,8 @@ impl AppliedForces {
         self.apply(g, force_context, line.to, push, line.closing);
     }
 
-    /// Force and moment from the displacement and rotation of `to` relative to `from`, in the axes of `from`; the opposite
-    /// acts on `from` at the place of `to`.
+    /// Force and moment from the displacement and rotation of `to` relative to `from`, in the axes of `from`; the
+    /// opposite acts on `from` at the place of `to`.
     fn bushing(
         &mut self,
         g: &mut Graph,
@@ -299,7 +299,8 @@ fn half_antisymmetric(g: &mut Graph, rotation: Matrix3) -> Vector3 {
     ])
 }
 
-/// Rate of [`half_antisymmetric`] while the rotation turns with `omega` (in the axes in which it is written): `R' = [omega]x R`.
+/// Rate of [`half_antisymmetric`] while the rotation turns with `omega` (in the axes in which it is written):
+/// `R' = [omega]x R`.
 fn half_antisymmetric_rate(g: &mut Graph, rotation: Matrix3, omega: Vector3) -> Vector3 {
     let rate = Matrix3(rotation.0.map(|column| omega.cross(g, column)));
     half_antisymmetric(g, rate)

@@ -3,8 +3,8 @@
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::mechanics::setup::Context;
 
-/// Two unit vectors that form a right-handed set with a given unit vector as the third. The first leans towards the frame axis
-/// that is farthest from it at the nominal design: a frame axis along the vector would give no direction.
+/// Two unit vectors that form a right-handed set with a given unit vector as the third. The first leans towards the
+/// frame axis that is farthest from it at the nominal design: a frame axis along the vector would give no direction.
 pub(crate) fn perpendiculars(g: &mut Graph, context: &Context, axis: Vector3) -> [Vector3; 2] {
     let leaning = axis.0.map(|component| {
         let is_variable = g.constant_value(component).is_none();

@@ -1,5 +1,5 @@
-//! The effect of applied forces and constraints along the coordinates: loads are summed from the leaves towards the ground
-//! and projected on the joint axes.
+//! The effect of applied forces and constraints along the coordinates: loads are summed from the leaves towards the
+//! ground and projected on the joint axes.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;

@@ -45,8 +45,8 @@ impl FrameMotion {
         }
     }
 
-    /// A body-fixed vector in the axes of the motion, and its second time derivative. A vector along a body axis shares the work
-    /// with every other vector along that axis.
+    /// A body-fixed vector in the axes of the motion, and its second time derivative. A vector along a body axis shares
+    /// the work with every other vector along that axis.
     pub(crate) fn carry(&self, g: &mut Graph, vector: Vector3) -> (Vector3, Vector3) {
         let nonzero: Vec<usize> = (0..3).filter(|&k| !g.is(vector.0[k], 0.0)).collect();
         taken(|| format!("frame: arm with {} components", nonzero.len()));

@@ -61,8 +61,8 @@ pub(crate) struct Kinematics {
 }
 
 impl Kinematics {
-    /// Runs the recursion. `coordinates` is indexed by coordinate id. Positions and points are meaningful only if everything is
-    /// written in the common frame.
+    /// Runs the recursion. `coordinates` is indexed by coordinate id. Positions and points are meaningful only if
+    /// everything is written in the common frame.
     pub(crate) fn new(
         g: &mut Graph,
         mechanism: &Mechanism,
@@ -139,8 +139,8 @@ impl Kinematics {
         &self.bodies[body.index()]
     }
 
-    /// Goes from the parent through the joint frame, one elementary motion after the other, to the body. A joint declared from
-    /// the body to its parent is traversed backwards, each motion about the opposite axis.
+    /// Goes from the parent through the joint frame, one elementary motion after the other, to the body. A joint
+    /// declared from the body to its parent is traversed backwards, each motion about the opposite axis.
     #[allow(clippy::too_many_arguments)]
     fn body(
         &self,

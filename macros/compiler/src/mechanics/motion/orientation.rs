@@ -65,7 +65,8 @@ impl Orientation {
         turned.turned_on(g, axis, angle, name)
     }
 
-    /// The orientation after turning about `axis` by `angle` since the last turn or since the beginning of a run of turns.
+    /// The orientation after turning about `axis` by `angle` since the last turn or since the beginning of a run of
+    /// turns.
     pub(crate) fn turned_on(self, g: &mut Graph, axis: Vector3, angle: ExprId, name: &str) -> Self {
         let total = match self.before {
             Some(before) => g.add(before, angle),

@@ -34,8 +34,8 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
     )
 }
 
-/// Motion of every body in the form needed for inertia and weight: in the layout of runs, with the ground accelerated against
-/// gravity.
+/// Motion of every body in the form needed for inertia and weight: in the layout of runs, with the ground accelerated
+/// against gravity.
 pub(crate) fn for_inertia(
     g: &mut Graph,
     context: &Context,

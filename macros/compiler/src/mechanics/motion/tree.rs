@@ -53,8 +53,8 @@ impl Tree {
             .unwrap_or(Frame::Ground)
     }
 
-    /// Velocity of a point of `frame`, given by its position, and angular velocity of `frame`, relative to an ancestor frame:
-    /// the sum over the joints between them.
+    /// Velocity of a point of `frame`, given by its position, and angular velocity of `frame`, relative to an ancestor
+    /// frame: the sum over the joints between them.
     pub(crate) fn relative_velocity(
         &self,
         g: &mut Graph,

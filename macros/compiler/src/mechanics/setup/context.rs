@@ -40,8 +40,8 @@ impl Context<'_> {
         self.symbols.q.values[self.moving().1 + row]
     }
 
-    /// Value of an expression of inputs and design variables at the nominal design. Inputs have no nominal values and are set
-    /// to one.
+    /// Value of an expression of inputs and design variables at the nominal design. Inputs have no nominal values and
+    /// are set to one.
     pub(crate) fn nominal(&self, g: &Graph, value: ExprId) -> f64 {
         let value = evaluate(g, &[value], |symbol| {
             let design = self.symbols.b.ids.iter().zip(&self.mechanism.design);

@@ -1,5 +1,5 @@
-//! Tests whether expressions vanish at every state: structurally if the graph shows it, otherwise by evaluation at random
-//! states, at all of which a value must vanish up to rounding.
+//! Tests whether expressions vanish at every state: structurally if the graph shows it, otherwise by evaluation at
+//! random states, at all of which a value must vanish up to rounding.
 
 use crate::algebra::{Evaluation, Graph, evaluate_with_error};
 use crate::base::ids::{ExprId, SymbolId};
@@ -35,8 +35,8 @@ pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool
         .collect()
 }
 
-/// A symbol's value in random state number `seed`: design variables near their nominal values, everything else of the order
-/// of one.
+/// A symbol's value in random state number `seed`: design variables near their nominal values, everything else of the
+/// order of one.
 fn state(context: &Context, seed: u64, symbol: SymbolId) -> f64 {
     let signed = 2.0 * random(seed, symbol) - 1.0;
     let symbols = context.symbols;

@@ -2,9 +2,9 @@
 //!
 //! Two choices make this part of the equations short:
 //!
-//! - Bodies that turn about the same axis, one after the other, form a run. The natural coordinates of a run are the absolute
-//!   angles of its bodies, that is, the sums of the joint angles: turning one body then moves the bodies behind it without
-//!   turning them. The equations are derived in these angles and summed back at the end ([`Runs`]).
+//! - Bodies that turn about the same axis, one after the other, form a run. The natural coordinates of a run are the
+//!   absolute angles of its bodies, that is, the sums of the joint angles: turning one body then moves the bodies
+//!   behind it without turning them. The equations are derived in these angles and summed back at the end ([`Runs`]).
 //! - All vectors of a run, or of a body that coasts on a planar joint, are written in the axes of the body before it.
 //!   Any other body is written in its own axes, in which its mass distribution is constant.
 
@@ -181,7 +181,8 @@ impl Runs {
         (0..self.before.len()).filter(move |&next| self.before[next] == Some(k))
     }
 
-    /// Forces along the unknowns from forces along the absolute angles: each is the sum over this body and those behind it.
+    /// Forces along the unknowns from forces along the absolute angles: each is the sum over this body and those behind
+    /// it.
     pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
         let mut summed = vec![None; along.len()];
         (0..along.len())
@@ -208,9 +209,9 @@ impl Runs {
         sum
     }
 
-    /// Transforms a matrix from the absolute angles to the unknowns, both stored by columns: each entry is the sum of all entries
-    /// from its row and its column onwards. If the matrix is `symmetric`, only entries whose column is not nearer to the ground
-    /// than the row, according to `outward`, are used.
+    /// Transforms a matrix from the absolute angles to the unknowns, both stored by columns: each entry is the sum of
+    /// all entries from its row and its column onwards. If the matrix is `symmetric`, only entries whose column is not
+    /// nearer to the ground than the row, according to `outward`, are used.
     pub(crate) fn matrix(
         &self,
         g: &mut Graph,

@@ -15,8 +15,8 @@ pub(crate) struct Values<'a> {
     constants: Vec<ExprId>,
 }
 
-/// State-dependent quantities that a value may refer to. The resolver has checked that a value refers only to quantities that are
-/// available at its place, so the default is never reached.
+/// State-dependent quantities that a value may refer to. The resolver has checked that a value refers only to
+/// quantities that are available at its place, so the default is never reached.
 pub(crate) trait State {
     /// A leaf of a value: a coordinate, a rate, a point, a length, a reaction or an energy.
     fn leaf(&self, leaf: &Expr) -> ExprId {
@@ -83,8 +83,8 @@ impl<'a> Values<'a> {
         self.shared(g, value, state, &mut FxHashMap::default())
     }
 
-    /// Translates an expression. Repeated parts, such as the components of a cross product, are translated once: `known` holds
-    /// them by address.
+    /// Translates an expression. Repeated parts, such as the components of a cross product, are translated once:
+    /// `known` holds them by address.
     fn shared(
         &self,
         g: &mut Graph,

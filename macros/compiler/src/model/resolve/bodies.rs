@@ -37,8 +37,9 @@ impl Resolver<'_> {
         bodies
     }
 
-    /// Requires inertias to be physically possible. Only bodies welded together need a possible inertia, not every single link:
-    /// robot files are full of links that carry nothing but a frame. Nothing is reported as long as the welds are unknown.
+    /// Requires inertias to be physically possible. Only bodies welded together need a possible inertia, not every
+    /// single link: robot files are full of links that carry nothing but a frame. Nothing is reported as long as the
+    /// welds are unknown.
     pub(super) fn require_inertias(&mut self, joints: &[Joint]) {
         let may_weld = |joint: &&ast::Joint| {
             Kind::find(&joint.kind.to_string()).is_none_or(|kind| kind.motions.is_empty())

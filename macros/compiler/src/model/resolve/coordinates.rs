@@ -1,4 +1,5 @@
-//! The coordinates of a declaration. They are collected before anything is resolved, so that everything can refer to them.
+//! The coordinates of a declaration. They are collected before anything is resolved, so that everything can refer to
+//! them.
 
 use proc_macro2::Ident;
 

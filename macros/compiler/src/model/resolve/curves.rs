@@ -87,7 +87,8 @@ impl Resolver<'_> {
         })
     }
 
-    /// The value of a curve. An argument that does not depend on the motion must lie between the first and the last point.
+    /// The value of a curve. An argument that does not depend on the motion must lie between the first and the last
+    /// point.
     pub(super) fn curve_at(
         &mut self,
         index: usize,

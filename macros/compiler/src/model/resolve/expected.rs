@@ -1,5 +1,5 @@
-//! The quantity expected at a place in a declaration, in the words of that place: a stiffness about an axis is a moment by
-//! dimension, but nobody calls it one.
+//! The quantity expected at a place in a declaration, in the words of that place: a stiffness about an axis is a moment
+//! by dimension, but nobody calls it one.
 
 use super::bare::bare_number;
 use super::typed::Quantity;
@@ -58,7 +58,8 @@ impl Expected {
         }
     }
 
-    /// Whether a quantity fits. A number without a unit does not fit where degrees are declared: it would count as radians.
+    /// Whether a quantity fits. A number without a unit does not fit where degrees are declared: it would count as
+    /// radians.
     pub(super) fn admits(&self, found: Quantity, value: &Value) -> bool {
         let is_number = matches!(self.unit.as_str(), "" | "1" | "rad");
         found.fits(self.dimension)

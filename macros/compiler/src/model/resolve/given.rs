@@ -1,5 +1,5 @@
-//! Values and tolerances given on their own, outside a declaration: for example an operating point on a command line or in a
-//! file, in the units and words of the language.
+//! Values and tolerances given on their own, outside a declaration: for example an operating point on a command line or
+//! in a file, in the units and words of the language.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -54,8 +54,9 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
     })
 }
 
-/// The tolerance of a quantity with this unit that is written as `text`: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the
-/// sign `+/-` of a half-width, or `one of [1.9, 2.1] mm`. Limits are SI, or fractions of the value, which is `nominal`, SI.
+/// The tolerance of a quantity with this unit that is written as `text`: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with
+/// or without the sign `+/-` of a half-width, or `one of [1.9, 2.1] mm`. Limits are SI, or fractions of the value,
+/// which is `nominal`, SI.
 ///
 /// ```
 /// use eigentol_compiler::model::resolve::given;

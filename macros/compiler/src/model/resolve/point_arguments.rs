@@ -27,8 +27,8 @@ impl Resolver<'_> {
             .is_some_and(|frame| frame != "ground")
     }
 
-    /// Two arguments that must be points of different bodies, because nothing ever changes between two points of one body.
-    /// `whole` names both in messages, and `reason` says what does not change.
+    /// Two arguments that must be points of different bodies, because nothing ever changes between two points of one
+    /// body. `whole` names both in messages, and `reason` says what does not change.
     pub(super) fn point_pair(
         &mut self,
         arguments: &Arguments,

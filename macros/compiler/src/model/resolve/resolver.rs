@@ -90,7 +90,8 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Whether some coordinate is free or coasting. Anything that could not be understood gets the benefit of the doubt.
+    /// Whether some coordinate is free or coasting. Anything that could not be understood gets the benefit of the
+    /// doubt.
     pub(super) fn can_move(&self) -> bool {
         let moves =
             |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;

@@ -96,7 +96,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// Rejects a name after a number that is both a unit and a declared number if the dimension cannot distinguish them.
+    /// Rejects a name after a number that is both a unit and a declared number if the dimension cannot distinguish
+    /// them.
     pub(super) fn refuse_unclear_units(&mut self) {
         for (number, unit, place) in std::mem::take(&mut self.units) {
             for index in 1..unit.factors.len() {

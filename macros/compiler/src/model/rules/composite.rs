@@ -32,8 +32,8 @@ pub(crate) struct GivenInertia {
     pub(crate) extent: Extent,
 }
 
-/// The problem with the holes of a body, as the end of a sentence. Unknown values, and masses and inertias that are reported
-/// separately, are not attributed to the holes.
+/// The problem with the holes of a body, as the end of a sentence. Unknown values, and masses and inertias that are
+/// reported separately, are not attributed to the holes.
 pub(super) fn holes(parts: &[Part], at: &Values) -> Option<String> {
     let [mut solid, mut holes] = [Moments::default(), Moments::default()];
     for part in parts {
@@ -106,7 +106,8 @@ pub(super) fn impossible(welded: &Welded, at: &Values) -> Option<Violation> {
     })
 }
 
-/// Whether a second moment about the centre of mass is positive semidefinite, up to rounding errors of entries of size `scale`.
+/// Whether a second moment about the centre of mass is positive semidefinite, up to rounding errors of entries of size
+/// `scale`.
 fn is_body(second: &Matrix, scale: f64) -> bool {
     principal(second).0[0] >= -1e-9 * scale.max(f64::MIN_POSITIVE)
 }

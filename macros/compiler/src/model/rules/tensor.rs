@@ -71,8 +71,8 @@ pub(super) fn inertia(second: &Matrix) -> Matrix {
     matrix(|i, j| trace * identity(i, j) - second[i][j])
 }
 
-/// Whether principal moments, in ascending order, belong to a body. Mass is nowhere negative, so each is at most the sum of the
-/// other two, and then none is negative. Rounding may leave a flat body slightly short.
+/// Whether principal moments, in ascending order, belong to a body. Mass is nowhere negative, so each is at most the
+/// sum of the other two, and then none is negative. Rounding may leave a flat body slightly short.
 fn belongs_to_a_body([a, b, c]: Vector) -> bool {
     a + b - c >= -2e-9 * (a + b + c).abs() && a + b + c >= 0.0
 }

@@ -1,5 +1,5 @@
-//! Units: `rad/s`, `kg*m^2`, `N/(m*s)`, `1/s`. After a number the unit takes precedence: it continues as long as unit names
-//! follow.
+//! Units: `rad/s`, `kg*m^2`, `N/(m*s)`, `1/s`. After a number the unit takes precedence: it continues as long as unit
+//! names follow.
 
 use proc_macro2::{Delimiter, Span};
 
@@ -69,7 +69,8 @@ pub(super) fn after_number(tokens: &mut Tokens, suffix: &str) -> Parsed<Option<U
     Ok(Some(unit))
 }
 
-/// Rejects a unit next to a unit, where a multiplication sign is missing. After a drive, the name of a coordinate may follow.
+/// Rejects a unit next to a unit, where a multiplication sign is missing. After a drive, the name of a coordinate may
+/// follow.
 fn ends(tokens: &Tokens, unit: &Unit) -> Parsed<()> {
     let mut ahead = *tokens;
     let Some(name) = ahead.ident() else {
@@ -93,7 +94,8 @@ fn unit(factors: Vec<UnitFactor>, start: Span, tokens: &Tokens) -> Unit {
     }
 }
 
-/// Whether a unit starts here: a word that follows a number is its unit, known or not, unless the grammar continues with it.
+/// Whether a unit starts here: a word that follows a number is its unit, known or not, unless the grammar continues
+/// with it.
 fn starts(tokens: &Tokens) -> bool {
     tokens.peek_ident().is_some_and(|ident| {
         let word = ident.to_string();

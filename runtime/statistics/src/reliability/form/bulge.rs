@@ -1,5 +1,5 @@
-//! Bulges that push the limit away from known design points (Der Kiureghian and Dakessian 1998, *Multiple design points in first
-//! and second-order reliability*, Structural Safety 20, equations 12 to 16).
+//! Bulges that push the limit away from known design points (Der Kiureghian and Dakessian 1998, *Multiple design points
+//! in first and second-order reliability*, Structural Safety 20, equations 12 to 16).
 
 use super::design_point::DesignPoint;
 use crate::reliability::limit_state::LimitValue;

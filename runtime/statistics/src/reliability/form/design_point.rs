@@ -13,8 +13,8 @@ use crate::reliability::vector::{add_scaled, dot, norm, scaled, unit};
 pub struct Residuals {
     /// `|g| / |grad g| / max(1, |z|)`: first-order distance from the limit.
     pub limit: f64,
-    /// `|z - beta n| / max(1, |z|)`, where `n` is the direction towards failure and `|beta| = |z|`: angle between the point
-    /// and the normal of the limit.
+    /// `|z - beta n| / max(1, |z|)`, where `n` is the direction towards failure and `|beta| = |z|`: angle between the
+    /// point and the normal of the limit.
     pub direction: f64,
 }
 
@@ -95,14 +95,16 @@ impl DesignPoint {
         normal::ln_upper(self.beta)
     }
 
-    /// Importance factors: the fraction of the variance of the linearised limit state due to each variable. They sum to 1.
+    /// Importance factors: the fraction of the variance of the linearised limit state due to each variable. They sum to
+    /// 1.
     pub fn importance_factors(&self) -> Vec<f64> {
         self.direction.iter().map(|n| n * n).collect()
     }
 
-    /// Derivatives with respect to a parameter of the limit state, given the partial derivative `dg/dtheta` at the design point (in
-    /// the unit of the limit state per unit of the parameter): `d beta / d theta = (dg/dtheta) / |grad g|` (Ditlevsen and Madsen
-    /// 1996, *Structural Reliability Methods*, section 8.2).
+    /// Derivatives with respect to a parameter of the limit state, given the partial derivative `dg/dtheta` at the
+    /// design point (in the unit of the limit state per unit of the parameter):
+    /// `d beta / d theta = (dg/dtheta) / |grad g|` (Ditlevsen and Madsen 1996, *Structural Reliability Methods*,
+    /// section 8.2).
     pub fn sensitivity(&self, limit_by_parameter: f64) -> FormSensitivity {
         let beta = limit_by_parameter / self.gradient_norm;
         FormSensitivity {

@@ -60,8 +60,8 @@ pub fn form<L: LimitState>(limit: &L, settings: &FormSettings) -> Result<FormRes
     })
 }
 
-/// Finds the design points of several failure regions: those found by [`form`], then those found after placing bulges at the known
-/// ones (Der Kiureghian and Dakessian 1998), until no more are found.
+/// Finds the design points of several failure regions: those found by [`form`], then those found after placing bulges
+/// at the known ones (Der Kiureghian and Dakessian 1998), until no more are found.
 ///
 /// # Errors
 ///

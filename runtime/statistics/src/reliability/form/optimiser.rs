@@ -11,9 +11,9 @@ use crate::reliability::vector::norm;
 /// The library uses a 32-bit counter.
 const EVALUATIONS: usize = i32::MAX as usize;
 
-/// Minimises `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for sequential quadratic programming*) from
-/// a starting point, and returns the best point visited. Points without a value have an infinite objective; the line search then
-/// halves its step.
+/// Minimises `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for sequential quadratic
+/// programming*) from a starting point, and returns the best point visited. Points without a value have an infinite
+/// objective; the line search then halves its step.
 pub(super) fn minimise(search: &Search, start: Iterate) -> Iterate {
     let Some(slope) = start.slope() else {
         return start;

@@ -93,8 +93,8 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// Searches with the known design points pushed off the limit, from the origin and from the point opposite to the last one.
-    /// Returns whether another one was found.
+    /// Searches with the known design points pushed off the limit, from the origin and from the point opposite to the
+    /// last one. Returns whether another one was found.
     fn search_behind_bulges(&mut self) -> bool {
         self.search.bulges = self.found.iter().filter_map(Bulge::over).collect();
         let opposite = self.found.last().map(|last| scaled(-1.0, &last.point));

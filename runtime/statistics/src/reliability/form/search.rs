@@ -28,7 +28,8 @@ impl Search<'_> {
         Some(Iterate::new(z.to_vec(), limit, self.sign))
     }
 
-    /// The best point visited from a start, provided that the limit state has a value at the start or between it and the origin.
+    /// The best point visited from a start, provided that the limit state has a value at the start or between it and
+    /// the origin.
     pub(super) fn from(&self, start: &[f64]) -> Option<Iterate> {
         let mut start = start.to_vec();
         let mut at_start = self.at(&start);
@@ -52,8 +53,8 @@ impl Search<'_> {
             && norm(&iterate.point) <= self.settings.radius
     }
 
-    /// The improved Hasofer-Lind-Rackwitz-Fiessler iteration (Zhang and Der Kiureghian 1995, *Two improved algorithms for
-    /// reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit function
+    /// The improved Hasofer-Lind-Rackwitz-Fiessler iteration (Zhang and Der Kiureghian 1995, *Two improved algorithms
+    /// for reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit function
     /// `|z|^2 / 2 + c |g|` decreases. Returns the best point visited.
     fn iterate(&self, start: Iterate) -> Iterate {
         let mut best = start.clone();

@@ -12,15 +12,15 @@ pub struct FormSettings {
     pub iterations: usize,
     /// Maximum number of evaluations of the general optimiser from one start; zero disables it.
     pub optimiser_evaluations: usize,
-    /// Number of starts in random directions and their opposites, in addition to the one at the origin. Each costs about as much as
-    /// that.
+    /// Number of starts in random directions and their opposites, in addition to the one at the origin. Each costs
+    /// about as much as that.
     pub restarts: usize,
     /// Seed of the random directions.
     pub seed: u64,
     /// Maximum distance of design points from the origin, in standard deviations.
     pub radius: f64,
-    /// Design points whose mutual distance is below this fraction of their distance from the origin (or of 1, if that is larger)
-    /// belong to one failure region.
+    /// Design points whose mutual distance is below this fraction of their distance from the origin (or of 1, if that
+    /// is larger) belong to one failure region.
     pub separation: f64,
     /// Maximum number of failure regions.
     pub regions: usize,

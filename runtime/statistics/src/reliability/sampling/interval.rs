@@ -15,8 +15,8 @@ pub struct Interval {
     pub upper: f64,
 }
 
-/// The score interval (Wilson 1927, *Probable inference, the law of succession, and statistical inference*): covers the probability
-/// with approximately the given confidence.
+/// The score interval (Wilson 1927, *Probable inference, the law of succession, and statistical inference*): covers the
+/// probability with approximately the given confidence.
 ///
 /// # Errors
 ///
@@ -42,8 +42,8 @@ pub fn wilson(failures: u64, samples: u64, confidence: f64) -> Result<Interval, 
     Ok(Interval { lower, upper })
 }
 
-/// The exact interval (Clopper and Pearson 1934, *The use of confidence or fiducial limits*): covers the probability with at least
-/// the given confidence, even if nothing failed.
+/// The exact interval (Clopper and Pearson 1934, *The use of confidence or fiducial limits*): covers the probability
+/// with at least the given confidence, even if nothing failed.
 ///
 /// # Errors
 ///

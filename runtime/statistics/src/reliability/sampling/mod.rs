@@ -55,8 +55,8 @@ impl Default for SamplingSettings {
 /// Fewer failures say nothing about the coefficient of variation.
 const FAILURES: u64 = 10;
 
-/// Limit that keeps sums of squared weights finite. Only samples so far on the safe side of a distant design point that none of
-/// them will ever fail have larger weights.
+/// Limit that keeps sums of squared weights finite. Only samples so far on the safe side of a distant design point that
+/// none of them will ever fail have larger weights.
 const GREATEST_LN_WEIGHT: f64 = 300.0;
 
 /// A failure probability estimated from samples.
@@ -79,8 +79,8 @@ pub struct SampledProbability {
     pub without_value: u64,
     /// Probability that the deciding value is missing.
     pub probability_without_value: Estimate,
-    /// Derivatives of the failure probability with respect to the mean of each standard normal variable, from the score function
-    /// (Rubinstein 1986, *The score function approach for sensitivity analysis*): `E[1(failure) z_i]`.
+    /// Derivatives of the failure probability with respect to the mean of each standard normal variable, from the score
+    /// function (Rubinstein 1986, *The score function approach for sensitivity analysis*): `E[1(failure) z_i]`.
     pub by_mean: Vec<Estimate>,
     /// Derivatives with respect to the standard deviation of each variable: `E[1(failure) (z_i^2 - 1)]`.
     pub by_sigma: Vec<Estimate>,
@@ -100,7 +100,8 @@ impl<'a, L: LimitState> Sampler<'a, L> {
     ///
     /// # Errors
     ///
-    /// If there are no limit states, if their number of variables differs from that of the proposal, or if a setting is invalid.
+    /// If there are no limit states, if their number of variables differs from that of the proposal, or if a setting is
+    /// invalid.
     pub fn new(
         limits: &'a [L],
         failure: Failure,

@@ -54,8 +54,8 @@ impl Proposal {
     ///
     /// # Errors
     ///
-    /// If there are no centres, if they have different numbers of coordinates, or if a number is not finite or a weight is not
-    /// positive.
+    /// If there are no centres, if they have different numbers of coordinates, or if a number is not finite or a weight
+    /// is not positive.
     pub fn mixture(centres: Vec<Vec<f64>>, weights: Vec<f64>) -> Result<Self, Error> {
         let wrong = |setting, reason: &str| {
             Err(Error::Setting {
@@ -97,8 +97,8 @@ impl Proposal {
         self.centres[0].len()
     }
 
-    /// Logarithm of a typical density ratio: weights are computed relative to it, so that their squares neither overflow nor
-    /// underflow.
+    /// Logarithm of a typical density ratio: weights are computed relative to it, so that their squares neither
+    /// overflow nor underflow.
     pub(super) fn ln_scale(&self) -> f64 {
         let halves = self.centres.iter().map(|c| -0.5 * dot(c, c));
         halves.fold(f64::NEG_INFINITY, f64::max)

@@ -7,12 +7,13 @@ use crate::reliability::counted::Counted;
 use crate::reliability::form::DesignPoint;
 use crate::reliability::vector::{add_scaled, dot};
 
-/// Cube root of the rounding unit: the step of central differences for which rounding and truncation errors are balanced.
+/// Cube root of the rounding unit: the step of central differences for which rounding and truncation errors are
+/// balanced.
 const STEP: f64 = 6e-6;
 
-/// The principal curvatures in ascending order, one fewer than there are variables; positive if the limit bends away from a safe
-/// origin. They are the eigenvalues of `T^T H T / |grad g|`, where the columns of `T` are an orthonormal basis of the tangent
-/// plane.
+/// The principal curvatures in ascending order, one fewer than there are variables; positive if the limit bends away
+/// from a safe origin. They are the eigenvalues of `T^T H T / |grad g|`, where the columns of `T` are an orthonormal
+/// basis of the tangent plane.
 pub(super) fn principal_curvatures(limit: &Counted, at: &DesignPoint) -> Result<Vec<f64>, Error> {
     let tangents = tangent_basis(&at.direction);
     let products = match limit.hessian(&at.point)? {
@@ -61,8 +62,8 @@ fn differences(
     tangents.iter().map(along).collect()
 }
 
-/// Orthonormal vectors perpendicular to a unit vector: all but the first column of the Householder reflection that maps the first
-/// axis to it.
+/// Orthonormal vectors perpendicular to a unit vector: all but the first column of the Householder reflection that maps
+/// the first axis to it.
 fn tangent_basis(direction: &[f64]) -> Vec<Vec<f64>> {
     let mut reflector = direction.to_vec();
     reflector[0] += 1.0_f64.copysign(direction[0]);

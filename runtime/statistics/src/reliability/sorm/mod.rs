@@ -18,8 +18,8 @@ pub struct Sorm {
     evaluations: Evaluations,
 }
 
-/// Fits a paraboloid at a design point, from exact second derivatives if the limit state provides them, otherwise from central
-/// differences of its gradient in the tangent plane. The latter take two evaluations for each variable but one.
+/// Fits a paraboloid at a design point, from exact second derivatives if the limit state provides them, otherwise from
+/// central differences of its gradient in the tangent plane. The latter take two evaluations for each variable but one.
 ///
 /// # Errors
 ///
@@ -95,8 +95,8 @@ impl Sorm {
         })
     }
 
-    /// The exact probability of the paraboloid, by numerical integration (Tvedt 1990, *Distribution of quadratic forms in
-    /// normal space*, J. Eng. Mech. 116).
+    /// The exact probability of the paraboloid, by numerical integration (Tvedt 1990, *Distribution of quadratic forms
+    /// in normal space*, J. Eng. Mech. 116).
     ///
     /// # Errors
     ///

@@ -7,13 +7,13 @@ use num_complex::Complex64;
 /// Maximum number of intervals of the trapezoidal rule.
 const INTERVALS: usize = 1_000_000;
 
-/// `P(Z > beta + sum kappa_i Y_i^2 / 2)` for independent standard normal variables and positive `beta`, by inversion of the moment
-/// generating function (Tvedt 1990, *Distribution of quadratic forms in normal space*, J. Eng. Mech. 116):
+/// `P(Z > beta + sum kappa_i Y_i^2 / 2)` for independent standard normal variables and positive `beta`, by inversion of
+/// the moment generating function (Tvedt 1990, *Distribution of quadratic forms in normal space*, J. Eng. Mech. 116):
 ///
 /// `Q = beta - Z + sum kappa_i Y_i^2 / 2` has `E exp(s Q) = exp(beta s + s^2/2) prod (1 - s kappa_i)^(-1/2)`, and
-/// `P(Q < 0) = -1/(2 pi i) integral of E exp(s Q) / s` along a vertical line between the pole at 0 and the first branch point to
-/// the left of it. Through the saddle point the integrand does not oscillate where it is significant, and the trapezoidal rule
-/// converges exponentially. `None` if there is no room for the line.
+/// `P(Q < 0) = -1/(2 pi i) integral of E exp(s Q) / s` along a vertical line between the pole at 0 and the first branch
+/// point to the left of it. Through the saddle point the integrand does not oscillate where it is significant, and the
+/// trapezoidal rule converges exponentially. `None` if there is no room for the line.
 pub(super) fn probability_beyond(beta: f64, curvatures: &[f64]) -> Option<f64> {
     let branch = curvatures
         .iter()

@@ -11,9 +11,9 @@ const PANELS: usize = 16;
 /// Values this far below the maximum of a logarithm are negligible.
 const NEGLIGIBLE: f64 = 45.0;
 
-/// `P(X > h and Y > k)` for two standard normal variables with the given `correlation` in [-1, 1], with relative accuracy even far
-/// in the tail. It is the integral of `phi(x) Phi((r x - k) / sqrt(1 - r^2))` from `h` on, whose integrand is log-concave.
-/// Thresholds are in standard deviations.
+/// `P(X > h and Y > k)` for two standard normal variables with the given `correlation` in [-1, 1], with relative
+/// accuracy even far in the tail. It is the integral of `phi(x) Phi((r x - k) / sqrt(1 - r^2))` from `h` on, whose
+/// integrand is log-concave. Thresholds are in standard deviations.
 ///
 /// # Errors
 ///
@@ -156,8 +156,8 @@ mod tests {
         }
     }
 
-    /// The derivative of the probability with respect to the correlation is the bivariate density (Plackett 1954), integrated here
-    /// from zero correlation.
+    /// The derivative of the probability with respect to the correlation is the bivariate density (Plackett 1954),
+    /// integrated here from zero correlation.
     #[test]
     fn plackett() {
         for (h, k, r) in [(2.5, 1.5, 0.6), (4.0, 5.0, -0.4), (5.0, 5.0, 0.8_f64)] {

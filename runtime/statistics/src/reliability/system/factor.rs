@@ -12,8 +12,8 @@ pub(super) struct Factor {
     pub(super) rounding: f64,
 }
 
-/// Factorises such that each next variable is the one with the smallest conditional probability, given that the preceding ones take
-/// their conditional means (Gibson, Glasbey and Elston 1994; Genz and Bretz 2009, section 4.1.3).
+/// Factorises such that each next variable is the one with the smallest conditional probability, given that the
+/// preceding ones take their conditional means (Gibson, Glasbey and Elston 1994; Genz and Bretz 2009, section 4.1.3).
 pub(super) fn factorise(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result<Factor, Error> {
     check(bounds, correlation)?;
     let number = bounds.len();

@@ -45,7 +45,8 @@ impl FirstOrderSystem {
     ///
     /// # Errors
     ///
-    /// If there are no requirements, if an index is not finite, if lengths differ, or if the matrix is not a correlation matrix.
+    /// If there are no requirements, if an index is not finite, if lengths differ, or if the matrix is not a
+    /// correlation matrix.
     pub fn new(betas: Vec<f64>, correlation: Vec<Vec<f64>>) -> Result<Self, Error> {
         if let Some(wrong) = betas.iter().find(|beta| !beta.is_finite()) {
             return Err(Error::Setting {
@@ -91,8 +92,8 @@ impl FirstOrderSystem {
         )
     }
 
-    /// Bounds on the probability that at least one requirement fails (Ditlevsen 1979, *Narrow reliability bounds for structural
-    /// systems*, J. Struct. Mech. 7), from pairwise probabilities.
+    /// Bounds on the probability that at least one requirement fails (Ditlevsen 1979, *Narrow reliability bounds for
+    /// structural systems*, J. Struct. Mech. 7), from pairwise probabilities.
     pub fn series_bounds(&self) -> Interval {
         let (mut lower, mut upper) = (0.0, 0.0);
         for (i, (&beta, row)) in self.betas.iter().zip(&self.correlation).enumerate() {
@@ -109,8 +110,8 @@ impl FirstOrderSystem {
         }
     }
 
-    /// Probability that at least one requirement fails: that the first fails, or the second but not the first, and so on, so that
-    /// small probabilities keep their relative accuracy.
+    /// Probability that at least one requirement fails: that the first fails, or the second but not the first, and so
+    /// on, so that small probabilities keep their relative accuracy.
     ///
     /// # Errors
     ///

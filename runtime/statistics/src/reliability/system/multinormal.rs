@@ -40,9 +40,10 @@ impl QuadratureSettings {
     }
 }
 
-/// `P(a_i < X_i < b_i for all i)` for standard normal variables with the given correlation matrix, by separation of variables (Genz
-/// 1992, *Numerical computation of multivariate normal probabilities*), the most restrictive variable first (Gibson, Glasbey and
-/// Elston 1994), on a randomly shifted lattice (Cranley and Patterson 1976). The matrix may be singular.
+/// `P(a_i < X_i < b_i for all i)` for standard normal variables with the given correlation matrix, by separation of
+/// variables (Genz 1992, *Numerical computation of multivariate normal probabilities*), the most restrictive variable
+/// first (Gibson, Glasbey and Elston 1994), on a randomly shifted lattice (Cranley and Patterson 1976). The matrix may
+/// be singular.
 ///
 /// Bounds are in standard deviations and may be infinite.
 ///

@@ -16,7 +16,8 @@ fn key(deviation: f64) -> i32 {
     (deviation.abs().to_bits() >> SHIFT) as i32
 }
 
-/// Positions of the buckets. Place 0 contains the reference, place 1 is the first one above it, place -1 the first below.
+/// Positions of the buckets. Place 0 contains the reference, place 1 is the first one above it, place -1 the first
+/// below.
 #[derive(Clone, Copy)]
 pub(super) struct Places {
     /// The smallest key outside place 0.
@@ -53,8 +54,8 @@ impl Places {
 /// The counts of one octave of places.
 type Octave = Box<[u64; OCTAVE as usize]>;
 
-/// Counts by octaves of places, from the first nonempty one to the last. Empty octaves, such as most of those near the reference,
-/// take no memory.
+/// Counts by octaves of places, from the first nonempty one to the last. Empty octaves, such as most of those near the
+/// reference, take no memory.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

@@ -36,11 +36,11 @@ struct Bucket {
 }
 
 impl Sketch {
-    /// The quantile for the fraction `p`, between 0 and 1, as defined by R (type 7) and NumPy: linear interpolation between the
-    /// values with ranks next to `(count - 1) p`.
+    /// The quantile for the fraction `p`, between 0 and 1, as defined by R (type 7) and NumPy: linear interpolation
+    /// between the values with ranks next to `(count - 1) p`.
     ///
-    /// Apart from rounding, the error is at most `2^-8` of the deviation from the reference, or `2^-23` of the scale if that is
-    /// larger.
+    /// Apart from rounding, the error is at most `2^-8` of the deviation from the reference, or `2^-23` of the scale if
+    /// that is larger.
     ///
     /// # Errors
     ///
@@ -57,8 +57,9 @@ impl Sketch {
         })
     }
 
-    /// A confidence interval for the quantile of the distribution from which the values were drawn, with at least this confidence;
-    /// see [`crate::summary::Sorted::quantile_interval`]. The buckets widen it slightly. `None` if there are too few values.
+    /// A confidence interval for the quantile of the distribution from which the values were drawn, with at least this
+    /// confidence; see [`crate::summary::Sorted::quantile_interval`]. The buckets widen it slightly. `None` if there
+    /// are too few values.
     ///
     /// # Errors
     ///

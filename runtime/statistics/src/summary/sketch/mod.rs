@@ -16,12 +16,12 @@ use buckets::{Buckets, Places};
 /// The width of a bucket is at most `2^-8` of the deviation, down to `2^-24` of a scale: narrow near the reference,
 /// wide far away. Values that scatter by one scale about the reference are resolved to less than 0.004 of that scale.
 ///
-/// Counts are integers, so the result does not depend on the order of the values or of merging. Memory use is 2 KiB for each power
-/// of two with deviations, above or below the reference; about 50 KiB for a few thousand values scattered about the reference, and
-/// never more than 9 MiB.
+/// Counts are integers, so the result does not depend on the order of the values or of merging. Memory use is 2 KiB for
+/// each power of two with deviations, above or below the reference; about 50 KiB for a few thousand values scattered
+/// about the reference, and never more than 9 MiB.
 ///
-/// The buckets are those of HDR histograms and of DDSketch (Masson, Rim and Lee, 2019), with powers of two divided into equal
-/// parts.
+/// The buckets are those of HDR histograms and of DDSketch (Masson, Rim and Lee, 2019), with powers of two divided into
+/// equal parts.
 ///
 /// ```
 /// # fn main() -> Result<(), eigentol_statistics::Error> {

@@ -1,7 +1,8 @@
 //! Applied forces `Q` on the bodies: for each body a force and a moment about its centre of mass, in the ground frame;
 //! and forces along coordinates, which by definition do work on their own coordinate only.
 //!
-//! Velocities are time derivatives of positions: the whole mechanism is placed a second time, in dual numbers along the motion.
+//! Velocities are time derivatives of positions: the whole mechanism is placed a second time, in dual numbers along the
+//! motion.
 
 mod at_points;
 mod between_points;

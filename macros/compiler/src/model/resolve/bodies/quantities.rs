@@ -1,4 +1,5 @@
-//! The arguments of a shape as quantities: each must have the right dimension and a value that is possible for a real part.
+//! The arguments of a shape as quantities: each must have the right dimension and a value that is possible for a real
+//! part.
 
 use super::super::arguments::Arguments;
 use super::super::resolver::Resolver;

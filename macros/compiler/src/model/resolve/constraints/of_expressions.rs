@@ -78,7 +78,8 @@ impl Resolver<'_> {
         Some(ratio)
     }
 
-    /// Coordinates that run can be coupled with each other, and so can those at rest; two drives would contradict each other.
+    /// Coordinates that run can be coupled with each other, and so can those at rest; two drives would contradict each
+    /// other.
     fn coupled_motions(
         &mut self,
         arguments: &Arguments,
@@ -130,7 +131,8 @@ impl Resolver<'_> {
         self.zero(zero, quantity.dimension(), value)
     }
 
-    /// Rejects points in an equation with running coordinates: such an equation applies to rates, which points do not have.
+    /// Rejects points in an equation with running coordinates: such an equation applies to rates, which points do not
+    /// have.
     fn runs_without_points(&mut self, zero: &Expr, extent: Extent) -> Option<()> {
         let leaves = zero.leaves();
         let has_points = leaves.iter().any(|leaf| matches!(leaf, Expr::Position(..)));

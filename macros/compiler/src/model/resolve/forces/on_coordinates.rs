@@ -43,8 +43,8 @@ impl Resolver<'_> {
         })
     }
 
-    /// A free coordinate. A force on a driven coordinate changes no motion, because the drive supplies any force that it needs. A
-    /// spring on a coasting coordinate has no steady state.
+    /// A free coordinate. A force on a driven coordinate changes no motion, because the drive supplies any force that
+    /// it needs. A spring on a coasting coordinate has no steady state.
     pub(super) fn free_coordinate(
         &mut self,
         word: &str,

@@ -57,8 +57,8 @@ impl Resolver<'_> {
         })
     }
 
-    /// Requires a rate to be a useful result: in steady motion a free coordinate is at rest, and the speed of a driven one is
-    /// given.
+    /// Requires a rate to be a useful result: in steady motion a free coordinate is at rest, and the speed of a driven
+    /// one is given.
     fn rate_is_constant(
         &mut self,
         function: &Ident,
