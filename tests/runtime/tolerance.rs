@@ -405,7 +405,7 @@ fn every_result_prints() {
         "Campbell",
         "second order",
         "margin of frequency 1",
-        "What changes so small a probability is in the tables",
+        "The tables show what changes so small a probability",
         "No variable changes the probability",
     ] {
         assert!(text.contains(word), "{word} is missing from\n{text}");

@@ -63,7 +63,7 @@ pub enum Reason {
         expected: &'static str,
     },
     /// The type of a joint is unknown.
-    #[error("`{found}` is no type of a joint")]
+    #[error("`{found}` is not a type of joint")]
     JointType {
         /// The type as written.
         found: String,

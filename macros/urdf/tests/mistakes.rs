@@ -61,7 +61,7 @@ fn elements_and_attributes() {
         "8:1 the `joint` of `k` has no `child`",
         "8:17 there is no link `bas`",
         "8:37 `origin xyz` is `0 0`; three numbers is expected",
-        "9:1 `revolut` is no type of a joint",
+        "9:1 `revolut` is not a type of joint",
     ];
     assert_eq!(all, expected);
     let error = import(

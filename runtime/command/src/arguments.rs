@@ -18,7 +18,7 @@ use crate::verdict::Verdict;
 
 /// Natural frequencies of mechanisms in steady motion, and how tolerances move them.
 ///
-/// Exit codes: 0, 1 where the analysis says no (no equilibrium, unstable, requirements that cannot be met), 2 for a
+/// Exit codes: 0, 1 if the analysis says no (no equilibrium, unstable, requirements that cannot be met), 2 for a
 /// mistake on the command line, 3 for a file with a mistake or one that cannot be read or written, 130 after Ctrl-C or
 /// SIGTERM.
 #[derive(Debug, Parser)]
@@ -90,13 +90,13 @@ pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
             } else {
                 "--set"
             };
-            format!("a value stands behind its option: '{option} {given}'")
+            format!("put the value after its option: '{option} {given}'")
         }
         None if given.starts_with(|sign: char| sign.is_ascii_digit()) => {
             format!("a name and its value are one word: '--set NAME={given}'")
         }
         _ if is_near || !given.starts_with("--") => return error,
-        _ => "values of inputs and design variables are given as '--set NAME=VALUE'".to_owned(),
+        _ => "give the values of inputs and design variables as '--set NAME=VALUE'".to_owned(),
     };
     let hint = ContextValue::StyledStrs(vec![hint.into()]);
     error.insert(ContextKind::Suggested, hint);

@@ -26,7 +26,7 @@ pub(crate) enum Failure {
         text: String,
         mistakes: Vec<Mistake>,
     },
-    #[error("`{}` is no study file: {message}", .path.display())]
+    #[error("`{}` is not a valid study file: {message}", .path.display())]
     StudyFile { path: PathBuf, message: String },
     #[error("`{}` cannot be merged: {message}", .path.display())]
     Part { path: PathBuf, message: String },

@@ -15,7 +15,7 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
         let files = declarations(path);
         let names: Vec<String> = files.iter().map(|own| own.display().to_string()).collect();
         return Some(match &names[..] {
-            [] => "name a file, this is a folder".to_owned(),
+            [] => "name a file: this is a folder".to_owned(),
             names => format!("name a file in it: `{}`", names.join("`, `")),
         });
     }
@@ -23,7 +23,7 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
         return None;
     }
     if let Some(value) = path.to_str().filter(|own| own.contains('=')) {
-        return Some(format!("a value stands behind its option: `--set {value}`"));
+        return Some(format!("put the value after its option: `--set {value}`"));
     }
     // Compared without extensions, which would make any two names look alike.
     let files = files(path.parent()?);

@@ -22,10 +22,10 @@ pub(crate) struct Output {
     /// Numbers as a Parquet file, units in the names of columns; also for `--output FILE.parquet`
     #[arg(long)]
     parquet: bool,
-    /// Which result is written, of a question with several [default for JSON, CSV and Parquet: the one that answers it]
+    /// Which result to write, if there are several [default for JSON, CSV and Parquet: the one that answers it]
     #[arg(long, value_name = "NAME")]
     result: Option<String>,
-    /// Which table of the result is written as CSV or Parquet [default: the one that answers the question]
+    /// Which table of the result to write as CSV or Parquet [default: the one that answers the question]
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
     #[command(flatten)]
@@ -39,11 +39,17 @@ impl Output {
         if self.table.is_some() && !form.has_rows() {
             let help =
                 "add `--csv` or `--parquet`, or an `--output` that ends in `.csv` or `.parquet`";
-            return Err(Failure::usage("only CSV and Parquet have one table", help));
+            return Err(Failure::usage(
+                "a table is written only as CSV or Parquet",
+                help,
+            ));
         }
         if form == Form::Parquet && self.place.path().is_none() && io::stdout().is_terminal() {
             let help = "name a file: `--output FILE.parquet`";
-            return Err(Failure::usage("Parquet is nothing to read", help));
+            return Err(Failure::usage(
+                "Parquet is binary and not written to a terminal",
+                help,
+            ));
         }
         self.place.check()
     }

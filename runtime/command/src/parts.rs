@@ -69,10 +69,12 @@ pub(crate) fn add(
     all.merge(part).map_err(|error| {
         let message = match &error {
             Error::OtherRun { what, own, other } => {
-                format!("it is of another run: {what} is {other} there and {own} before it")
+                format!(
+                    "it belongs to another run: its {what} is {other}, that of the others {own}"
+                )
             }
             Error::SamplesOverlap { start, end } => {
-                format!("its samples {start} to below {end} are there already")
+                format!("its samples {start} to below {end} are already included")
             }
             error => error.to_string(),
         };

@@ -13,7 +13,7 @@ use crate::study_file::FrequencyUnit;
 /// Where a figure goes.
 #[derive(Args, Debug)]
 pub(crate) struct Picture {
-    /// Draw a figure of the answer into a file, `.svg` or `.png`; a file that exists is replaced
+    /// Draw the answer into a file, `.svg` or `.png`; an existing file is replaced
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
     #[command(flatten)]
@@ -23,7 +23,7 @@ pub(crate) struct Picture {
 /// How a figure calls things.
 #[derive(Args, Debug)]
 pub(crate) struct Wording {
-    /// What figures call the modes, the first one first: `bounce,pitch` [default: their numbers]
+    /// Names of the modes in figures, in order: `bounce,pitch` [default: their numbers]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     mode_names: Vec<String>,
     /// Unit of frequencies in figures [default: Hz along an input in rpm or Hz, otherwise rad/s]
@@ -61,7 +61,7 @@ impl Picture {
     /// files.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if self.figure.is_none() && self.wording.is_given() {
-            let message = "names of modes and a unit of frequencies are for a figure";
+            let message = "names of modes and a unit of frequencies only apply to a figure";
             return Err(Failure::usage(message, "ask for one: `--figure modes.svg`"));
         }
         if let Some(path) = &self.figure {

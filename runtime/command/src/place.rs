@@ -12,7 +12,7 @@ use crate::failure::Failure;
 /// Where an answer goes.
 #[derive(Args, Debug)]
 pub(crate) struct Place {
-    /// Write to a file instead of standard output; a file that exists is replaced when the answer is complete
+    /// Write to a file instead of standard output; an existing file is replaced once the answer is complete
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }

@@ -20,7 +20,7 @@ pub(crate) struct Point {
     /// File with the declaration, `-` for standard input; a study file may name it instead
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
-    /// Study file in TOML; what the command line says wins
+    /// Study file in TOML; the command line overrides it
     #[arg(long, value_name = "FILE")]
     study: Option<PathBuf>,
     /// Value of an input or a design variable: `speed=3000rpm`
@@ -35,7 +35,7 @@ pub(crate) struct Point {
     /// Where a dependent coordinate starts, free to move while a mechanism with loops is assembled
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     guess: Vec<(String, String)>,
-    /// How many standard deviations a half-width stands for [default: 3]
+    /// How many standard deviations make a half-width [default: 3]
     #[arg(long, value_name = "NUMBER")]
     sigma_level: Option<f64>,
 }
@@ -213,8 +213,8 @@ pub(crate) fn parameter(
     }
     let inputs = description.inputs.iter().map(|info| &info.name);
     if study.find_coordinate(name).is_ok() {
-        let message = format!("`{name}` is a coordinate, no input or design variable");
-        let help = "the analysis finds its value; where the search starts is said by `--start`";
+        let message = format!("`{name}` is a coordinate, not an input or design variable");
+        let help = "the analysis finds its value; `--start` says where the search begins";
         return Err(Failure::usage(message, help));
     }
     let known = inputs.chain(description.design.iter().map(|info| &info.name));
@@ -266,9 +266,9 @@ fn coordinate(
     match study.find_coordinate(name) {
         Ok(found) => Ok((found, all[found.index()].unit.clone())),
         Err(_) if parameter(study, name).is_ok() => {
-            let message = format!("`{name}` is no coordinate");
+            let message = format!("`{name}` is not a coordinate");
             let help =
-                format!("values of inputs and design variables are given by `--set {name}=...`");
+                format!("give the values of inputs and design variables by `--set {name}=...`");
             Err(Failure::usage(message, help))
         }
         Err(_) => {

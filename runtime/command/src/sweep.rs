@@ -55,7 +55,7 @@ pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Fai
         .split_once('=')
         .and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
     let Some((name, (low, high))) = parts else {
-        return Err(Failure::usage(format!("`{text}` is no range"), HELP));
+        return Err(Failure::usage(format!("`{text}` is not a range"), HELP));
     };
     let (input, unit) = input(study, name)?;
     let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
@@ -73,7 +73,10 @@ impl Points {
         let count = self.points.or(question.file.points).unwrap_or(POINTS);
         if count < 2 {
             let help = "a range has two ends: `--points 2` is the least";
-            return Err(Failure::usage(format!("{count} points are no sweep"), help));
+            return Err(Failure::usage(
+                format!("{count} points do not make a sweep"),
+                help,
+            ));
         }
         let step = (range.high - range.low) / (count - 1) as f64;
         let inner = (0..count - 1).map(|k| range.low + k as f64 * step);

@@ -26,7 +26,7 @@ impl Part {
         read.map_err(|error| {
             let message = match error.is_eof() {
                 true => "the partial result is cut off".to_owned(),
-                false => format!("this is no partial result: {error}"),
+                false => format!("this is not a partial result: {error}"),
             };
             new(py, Kind::InvalidValue, message)
         })

@@ -56,7 +56,7 @@ impl Choices<'_> {
         if let Some(wrong) = self.failure.iter().find(|p| !(**p > 0.0 && **p < 1.0)) {
             return refuse(
                 "failure",
-                format!("{wrong} is no probability inside (0, 1)"),
+                format!("{wrong} is not a probability inside (0, 1)"),
             );
         }
         let half_widths = self

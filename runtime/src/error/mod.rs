@@ -328,7 +328,7 @@ pub enum Error {
         method: Word,
     },
     /// Samples of different runs cannot be merged.
-    #[error("these samples are of another run: {what} is {own} here and {other} there")]
+    #[error("these samples belong to another run: {what} is {own} here and {other} there")]
     OtherRun {
         /// The fact that differs.
         what: String,

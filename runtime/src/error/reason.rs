@@ -30,7 +30,7 @@ reasons! {
         NoDescent = "no descent from the last state",
         Escape = "the coordinates escape to infinity",
         IterationLimit = "too many iterations",
-        Inaccurate = "the residual stays larger than rounding explains",
+        Inaccurate = "the residual stays larger than rounding can explain",
         Diverges = "Newton's method does not converge",
         NotIsolated = "the branch is not isolated",
         BendsAway = "the branch bends away",
@@ -63,13 +63,13 @@ reasons! {
 reasons! {
     /// Why a critical value, a crossing or an output has no derivative, first or second.
     NoDerivative {
-        Merge = "two frequencies merge there: the least damping moves the onset by a finite amount",
+        Merge = "two frequencies merge there: the slightest damping moves the onset by a finite amount",
         UnknownInput = "there is no such input",
         Touch = "the two sides touch without crossing",
         IndependentOfInput = "the stiffness does not depend on the input",
         Imperfection = "a design variable pushes along the critical mode and destroys the bifurcation",
         Cusp = "two limit points meet there",
-        Transcritical = "another branch goes on to both sides of it: second derivatives are known of limit points and pitchforks only",
+        Transcritical = "another branch continues on both sides of it: second derivatives are available only at limit points and pitchforks",
         NotSmooth = "it has a value there, but no derivative",
     }
 }

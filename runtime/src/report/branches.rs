@@ -37,7 +37,7 @@ impl fmt::Display for BranchEnd {
             Self::Closed => write!(f, "closed"),
             Self::Escape => write!(f, "infinity"),
             Self::Domain(error) => write!(f, "edge of the domain: {error}"),
-            Self::PointLimit => write!(f, "limit of the number of points"),
+            Self::PointLimit => write!(f, "limit on the number of points"),
             Self::Stopped => write!(f, "stopped"),
             Self::Lost(error) => write!(f, "lost: {error}"),
         }

@@ -33,7 +33,7 @@ impl fmt::Display for Stability {
                 1 => write!(f, "flutter (one growing oscillation)"),
                 _ => write!(f, "flutter ({growing} growing oscillations)"),
             },
-            Self::Undecided => write!(f, "not decided: its eigenvalues were not found"),
+            Self::Undecided => write!(f, "undecided: its eigenvalues were not found"),
         }
     }
 }
@@ -59,7 +59,7 @@ impl fmt::Display for Equilibrium {
         let d = &self.description;
         write!(f, "{}: equilibrium, ", title(d, &self.inputs))?;
         if self.constraints.singular {
-            write!(f, "stability not decided in a singular configuration")?;
+            write!(f, "stability undecided in a singular configuration")?;
         } else {
             write!(f, "{}", self.stability)?;
         }
@@ -69,7 +69,7 @@ impl fmt::Display for Equilibrium {
         match &self.pose {
             Some(pose) if pose.margin < NEAR_SINGULAR => writeln!(
                 f,
-                "  {} is near its singular pose (margin {:.1e}): its coordinates are badly conditioned",
+                "  {} is near its singular pose (margin {:.1e}): its coordinates are ill-conditioned",
                 pose.joint, pose.margin
             ),
             _ => Ok(()),
@@ -141,7 +141,7 @@ fn redundancy(
         let names: Vec<_> = dependent.map(|name| name.to_string()).collect();
         writeln!(
             f,
-            "  {} of {} constraints redundant ({}): of their reactions only combinations are determined",
+            "  {} of {} constraints redundant ({}): only combinations of their reactions are determined",
             state.redundant,
             names.len(),
             names.join(", ")

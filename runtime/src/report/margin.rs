@@ -90,7 +90,7 @@ impl fmt::Display for MarginTable<'_> {
         ]);
         write!(f, "{table}")?;
         let Some(slopes) = &margin.derivatives else {
-            return writeln!(f, "  Without derivatives: nothing varies at first order.");
+            return writeln!(f, "  No derivatives: nothing varies at first order.");
         };
         let all = slopes.by_design.iter().chain(&slopes.by_half_width);
         if all.copied().all(|slope| slope == 0.0) {
@@ -100,7 +100,7 @@ impl fmt::Display for MarginTable<'_> {
             );
         }
         if margin.first_order < CHANCE {
-            return writeln!(f, "  What changes so small a probability is in the tables.");
+            return writeln!(f, "  The tables show what changes so small a probability.");
         }
         let size = |k: usize| {
             let half_width = slopes.by_half_width[k];

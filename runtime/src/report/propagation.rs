@@ -153,7 +153,7 @@ impl fmt::Display for WorstCase {
                 let variables: Vec<&str> = variables.collect();
                 writeln!(
                     f,
-                    "  {name} rises and falls with {}: it may be worse inside of the box.",
+                    "  {name} rises and falls with {}: it may be worse inside the box.",
                     variables.join(", ")
                 )?;
             }
@@ -200,7 +200,7 @@ impl fmt::Display for Controlled {
         write!(f, "{table}")?;
         writeln!(
             f,
-            "  Worth: so many plain samples have the error of one of these."
+            "  Worth: how many plain samples give the same error as one of these."
         )
     }
 }

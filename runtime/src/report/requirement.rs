@@ -81,7 +81,7 @@ impl fmt::Display for Reliability {
         if let Some(system) = &self.system {
             writeln!(
                 f,
-                "  Any of these fails with probability {} to first order (bounds {} to {}).",
+                "  At least one of these fails with probability {} to first order (bounds {} to {}).",
                 chance(system.probability.value, 0.0),
                 chance(system.bounds.lower, 0.0),
                 chance(system.bounds.upper, 0.0)
@@ -177,7 +177,7 @@ impl fmt::Display for RareFailure {
         )?;
         writeln!(
             f,
-            "  Some requirement fails with probability {} +- {} ({} samples failed, {} cannot tell).",
+            "  At least one requirement fails with probability {} +- {} ({} samples failed, {} are undecided).",
             rough(found.probability.value),
             short(found.probability.standard_error),
             found.failures,

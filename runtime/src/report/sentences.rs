@@ -56,7 +56,7 @@ impl Summary {
     ///
     /// let sentences = Study::new(Pendulum).summary()?.sentences();
     /// assert_eq!(sentences[0].news, News::Good);
-    /// assert!(sentences[0].text.starts_with("Mode 1: nothing speaks against the first-order sigma"));
+    /// assert!(sentences[0].text.starts_with("Mode 1: nothing contradicts the first-order sigma"));
     /// # Ok::<(), eigentol::Error>(())
     /// ```
     #[must_use]
@@ -101,7 +101,7 @@ impl Summary {
                 Advice::FirstOrder => (
                     News::Good,
                     format!(
-                        "nothing speaks against the first-order sigma{}.",
+                        "nothing contradicts the first-order sigma{}.",
                         confirmed(own().flat_map(|own| &own.checks))
                     ),
                 ),

@@ -255,10 +255,7 @@ pub(super) fn quantity_name(quantity: Quantity) -> &'static str {
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoFrequency => write!(
-                f,
-                "no oscillation, so no frequency that could have a sigma."
-            ),
+            Self::NoFrequency => write!(f, "no oscillation, so there is no frequency to spread."),
             Self::Clustered {
                 defective: true, ..
             } => write!(
@@ -277,7 +274,7 @@ impl fmt::Display for Doubt {
             ),
             Self::NearCritical { distance: 0.0 } => write!(
                 f,
-                "the stiffness is zero within rounding: this is a critical state. Sigma says nothing here."
+                "the stiffness is zero within rounding: this is a critical state. Sigma is meaningless here."
             ),
             Self::NearCritical { distance } if *distance < 0.0 => write!(
                 f,

@@ -36,7 +36,7 @@ pub enum Error {
     },
     /// The file was not written by this library.
     #[error(
-        "this is no document of eigentol: it has no `\"format\": \"eigentol\"` with a version and a kind"
+        "this is not a document of eigentol: it has no `\"format\": \"eigentol\"` with a version and a kind"
     )]
     Foreign,
     /// The document has another version.

@@ -55,14 +55,14 @@ fn far_from_everything_a_mode_is_trusted() {
         assert!(summary.trusted(), "{summary}");
         says(
             &summary.to_string(),
-            &["yes", "Mode 1: nothing speaks against"],
+            &["yes", "Mode 1: nothing contradicts"],
         );
     }
     let whirling = plate(3.0, 0.0, 0.0);
     assert!(whirling.trusted(), "{whirling}");
     says(
         &whirling.to_string(),
-        &["Modes 1 and 2: nothing speaks against"],
+        &["Modes 1 and 2: nothing contradicts"],
     );
 }
 

@@ -274,7 +274,7 @@ fn a_sampler_that_makes_no_sense_is_refused() {
         let refused = one.merge(other).unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "these samples are of another run: seed is 0 here and 1 there"
+            "these samples belong to another run: seed is 0 here and 1 there"
         );
     });
 }

@@ -16,7 +16,7 @@ use crate::study_file::{self, Choose, Require, Written};
 use crate::sweep::range;
 use crate::verdict::Verdict;
 
-/// The cheapest tolerances that meet requirements; a study file says what is required and what may be chosen
+/// The cheapest tolerances that meet requirements; a study file states the requirements and the choices
 #[derive(Args, Debug)]
 pub(crate) struct Allocate {
     #[command(flatten)]
@@ -113,16 +113,16 @@ fn all_used(own: &Require) -> Result<(), Failure> {
     let of_a_mode = own.mode.is_some() && elsewhere.iter().all(|text| text.is_none());
     let refuse = |message: &str, help: &str| Err(Failure::usage(message, help));
     if own.order.is_some() && own.resonance.is_none() {
-        let help = "`order` stands beside `resonance = \"speed=0..6000rpm\"`: its frequency is so many times the input";
-        return refuse("`order` is that of a resonance", help);
+        let help = "`order` goes with `resonance = \"speed=0..6000rpm\"`: the excitation frequency is this many times the input";
+        return refuse("`order` belongs to a resonance", help);
     }
     if own.quantity.is_some() && !of_a_mode {
-        let help = "`quantity` stands beside `mode = 1` alone, at the operating point";
-        return refuse("`quantity` is that of a mode", help);
+        let help = "`quantity` goes with `mode = 1` alone, at the operating point";
+        return refuse("`quantity` belongs to a mode", help);
     }
     if own.stable && limited {
         let help = "`stable = true` takes `failure` and nothing else";
-        return refuse("being stable has no limits", help);
+        return refuse("`stable` takes no limits", help);
     }
     Ok(())
 }
@@ -169,7 +169,7 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         _ => {}
     }
     Err(Failure::usage(
-        "a requirement is about one thing",
+        "a requirement states one thing",
         "it is `mode = 1`, `output = \"name\"`, `critical = \"speed=0..6000rpm\"`, `resonance` or `flutter` of a `mode` along such a \
          range, or `stable = true`",
     ))
@@ -253,7 +253,8 @@ fn place(
     found
         .map(|k| study.design_values().len() + k)
         .ok_or_else(|| {
-            let help = format!("give `{name}` any tolerance, which says how it is distributed");
+            let help =
+                format!("give `{name}` any tolerance: it says how the variable is distributed");
             Failure::usage(format!("`{name}` has no tolerance"), help)
         })
 }

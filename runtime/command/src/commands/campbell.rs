@@ -24,7 +24,7 @@ pub(crate) struct Campbell {
     sweep: Sweep,
     #[command(flatten)]
     points: Points,
-    /// Engine orders whose crossings are located: `1,2`; may be given several times [default: none]
+    /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
     #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
     orders: Vec<f64>,
     #[command(flatten)]

@@ -13,10 +13,11 @@ use crate::failure::{Failure, plural};
 use crate::place::print;
 use crate::verdict::Verdict;
 
-/// Check declarations: every mistake with its place, or what they declare and which design variables nothing refers to
+/// Check declarations: every mistake with its line and column, or what they declare and which design variables are
+/// unused
 #[derive(Args, Debug)]
 pub(crate) struct Check {
-    /// Files with a declaration each, `-` for standard input
+    /// Files with one declaration each, `-` for standard input
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
 }

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::place::print;
 use crate::verdict::Verdict;
 
-/// Print what a shell needs to complete this command: `eigentol completions bash > /etc/bash_completion.d/eigentol`
+/// Print the completion script of a shell: `eigentol completions bash > /etc/bash_completion.d/eigentol`
 #[derive(Args, Debug)]
 pub(crate) struct Completions {
     shell: Shell,

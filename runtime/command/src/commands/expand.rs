@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::place::Place;
 use crate::verdict::Verdict;
 
-/// Show what the compiler makes of a declaration: Rust, any stage before it, or what each kernel costs
+/// Show what the compiler makes of a declaration: Rust, any earlier stage, or the cost of each kernel
 #[derive(Args, Debug)]
 pub(crate) struct Expand {
     /// File with the declaration, `-` for standard input

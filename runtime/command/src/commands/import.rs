@@ -14,7 +14,7 @@ use crate::mistake::Mistake;
 use crate::place::Place;
 use crate::verdict::Verdict;
 
-/// Translate a robot in a URDF file to a declaration; what has no meaning in a mechanism is told as a note
+/// Translate a robot in a URDF file into a declaration; notes say what a mechanism cannot express
 #[derive(Args, Debug)]
 pub(crate) struct Import {
     /// URDF file, `-` for standard input

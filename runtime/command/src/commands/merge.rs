@@ -10,13 +10,13 @@ use crate::output::Output;
 use crate::parts;
 use crate::verdict::Verdict;
 
-/// Put partial results of one run of samples together: the same bits as one run, in whatever order
+/// Combine the partial results of one sampling run, in any order: the same bits as in a single run
 #[derive(Args, Debug)]
 pub(crate) struct Merge {
     /// Partial results that `sample --shard` or `sample --partial` wrote
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Write a partial result again, to be merged with others
+    /// Write another partial result, to be merged with more
     #[arg(long, conflicts_with_all = ["json", "csv", "parquet", "table"])]
     partial: bool,
     #[command(flatten)]

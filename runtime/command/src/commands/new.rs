@@ -14,10 +14,10 @@ const MANIFEST: &str = include_str!("../../starter/manifest.toml");
 const PROGRAM: &str = include_str!("../../starter/program.rs");
 const DECLARATION: &str = include_str!("../../starter/pendulum.mechanism");
 
-/// Begin a Rust project: a mechanism, a program that studies it, and a manifest
+/// Start a Rust project: a mechanism, a program that studies it, and a manifest
 #[derive(Args, Debug)]
 pub(crate) struct New {
-    /// Folder to create; its name becomes that of the package
+    /// Folder to create; the package takes its name
     folder: PathBuf,
     /// Folder of the crate `eigentol` to build against, instead of the published one
     #[arg(long, value_name = "FOLDER")]
@@ -28,7 +28,7 @@ impl New {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         let name = self.folder.file_name().and_then(|name| name.to_str());
         let name = name.filter(|name| is_package(name)).ok_or_else(|| {
-            let message = format!("`{}` is no name of a package", self.folder.display());
+            let message = format!("`{}` is not a valid package name", self.folder.display());
             let help = "a name has letters, digits, `-` and `_`, and starts with a letter";
             Failure::usage(message, help)
         })?;

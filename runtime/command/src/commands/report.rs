@@ -11,7 +11,7 @@ use crate::progress;
 use crate::sweep::{Points, Sweep};
 use crate::verdict::Verdict;
 
-/// All that can be said of a mechanism as one HTML file: the view in 3-D with modes in motion, charts, verdicts, tables
+/// Everything about a mechanism in one HTML file: a 3-D view with moving modes, charts, verdicts and tables
 #[derive(Args, Debug)]
 pub(crate) struct Report {
     #[command(flatten)]
@@ -20,7 +20,7 @@ pub(crate) struct Report {
     sweep: Sweep,
     #[command(flatten)]
     points: Points,
-    /// Engine orders whose crossings are located: `1,2`; may be given several times [default: none]
+    /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
     #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
     orders: Vec<f64>,
     /// Number of Monte Carlo samples [default: 3000]

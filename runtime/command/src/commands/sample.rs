@@ -18,8 +18,8 @@ use crate::point::{Point, whole};
 use crate::progress;
 use crate::verdict::Verdict;
 
-/// Samples of the design within its tolerances, each solved anew; all of them, or a part that `merge` puts together
-/// with others
+/// Monte Carlo: samples of the design within its tolerances, each solved again; all of them, or a part that `merge`
+/// combines with others
 #[derive(Args, Debug)]
 pub(crate) struct Sample {
     #[command(flatten)]
@@ -33,19 +33,20 @@ pub(crate) struct Sample {
     /// Which of the seed's independent sequences [default: 0]
     #[arg(long, value_name = "NUMBER")]
     stream: Option<u64>,
-    /// Threads; as many as the machine has unless set
+    /// Number of threads [default: as many as the machine has]
     #[arg(long, value_name = "COUNT")]
     threads: Option<usize>,
-    /// Keep every sample, for `--json` and partial results; `--table samples` writes them as they come without it
+    /// Keep every sample, for `--json` and partial results; not needed for `--table samples`, which writes them as they
+    /// come
     #[arg(long)]
     keep: bool,
-    /// Take one part of the samples, the third of 64, and write a partial result for `merge`
+    /// Take only one part of the samples, here the third of 64, and write a partial result for `merge`
     #[arg(long, value_name = "3/64", conflicts_with_all = ["json", "csv", "parquet", "table"])]
     shard: Option<Shard>,
     /// Write a partial result for `merge` or `--resume`, also after Ctrl-C
     #[arg(long, conflicts_with_all = ["json", "csv", "parquet", "table"])]
     partial: bool,
-    /// Go on with a partial result of this run
+    /// Continue from a partial result of this run
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
     #[command(flatten)]
@@ -111,7 +112,7 @@ impl Sample {
         let make = |all: &[(u64, Solution)]| numbered_samples_table(&whole, all);
         let Some(mut rows) = self.output.rows(("Monte Carlo", "samples"), make)? else {
             return Err(Failure::usage(
-                "samples are of the result `Monte Carlo`",
+                "samples belong to the result `Monte Carlo`",
                 "leave `--result` out",
             ));
         };

@@ -93,7 +93,7 @@ fn a_value_without_its_option_is_told_which() {
     );
     hinted(
         &["modes", PENDULUM, "--start", "omega=5rad/s"],
-        &["`omega` is no coordinate", "`--set omega=...`"],
+        &["`omega` is not a coordinate", "`--set omega=...`"],
     );
     hinted(
         &["modes", PENDULUM, "--set", "omega=1,5rad/s"],

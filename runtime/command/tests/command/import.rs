@@ -93,7 +93,7 @@ fn what_cannot_be_imported_is_drawn() {
     let run = run(&["import", &path]);
     assert_eq!((run.code, run.out.as_str()), (3, ""));
     for part in [
-        "error: `contnuous` is no type of a joint",
+        "error: `contnuous` is not a type of joint",
         "wrong.urdf:4:3",
         "did you mean `continuous`?",
         "has 1 mistake",

@@ -186,8 +186,8 @@ fn values_with_wrong_units() {
 #[test]
 fn sweeps_that_make_no_sense() {
     for (sweep, part) in [
-        ("omega", "`omega` is no range"),
-        ("omega=0-8rad/s", "is no range"),
+        ("omega", "`omega` is not a range"),
+        ("omega=0-8rad/s", "is not a range"),
         ("omega=0..8", "has no unit"),
         ("omega=0..8m", "this is a length"),
         ("omega=1rad/s..1rad/s", "ends must differ"),
@@ -204,7 +204,7 @@ fn sweeps_that_make_no_sense() {
         refused(
             &[&["campbell", PENDULUM], &sweep[..], &[points]].concat(),
             2,
-            &["no sweep"],
+            &["do not make a sweep"],
         );
     }
 }
@@ -217,14 +217,23 @@ fn study_files_with_mistakes() {
             "key",
             "mechanisn = \"a\"",
             3,
-            &["no study file", "unknown field `mechanisn`", "expected"][..],
+            &[
+                "not a valid study file",
+                "unknown field `mechanisn`",
+                "expected",
+            ][..],
         ),
-        ("toml", "[set\nomega = 1", 3, &["no study file", "line 1"]),
+        (
+            "toml",
+            "[set\nomega = 1",
+            3,
+            &["not a valid study file", "line 1"],
+        ),
         (
             "type",
             "samples = \"many\"",
             3,
-            &["no study file", "expected usize"],
+            &["not a valid study file", "expected usize"],
         ),
         ("none", "", 2, &["no mechanism is given"]),
         (
@@ -247,7 +256,7 @@ fn study_files_with_mistakes() {
     allocate(&with("mode = 1"), &["a requirement has limits"]);
     allocate(
         &with("at_least = \"1 Hz\""),
-        &["a requirement is about one thing"],
+        &["a requirement states one thing"],
     );
     for two in [
         "mode = 1\noutput = \"angle\"",
@@ -255,37 +264,37 @@ fn study_files_with_mistakes() {
         "resonance = \"omega=0..8\"\nflutter = \"omega=0..8\"\nmode = 1",
     ] {
         let text = with(&format!("{two}\nat_least = 1.0"));
-        allocate(&text, &["a requirement is about one thing"]);
+        allocate(&text, &["a requirement states one thing"]);
     }
     allocate(
         &with("mode = 1\nstable = true"),
-        &["a requirement is about one thing"],
+        &["a requirement states one thing"],
     );
     for (unused, message) in [
         (
             "mode = 1\norder = 2.0\nat_least = 1.0",
-            "`order` is that of a resonance",
+            "`order` belongs to a resonance",
         ),
         (
             "mode = 1\nflutter = \"omega=0..8\"\norder = 2.0\nat_least = 1.0",
-            "`order` is that of a resonance",
+            "`order` belongs to a resonance",
         ),
         (
             "output = \"angle\"\nquantity = \"growth\"\nat_least = 1.0",
-            "`quantity` is that of a mode",
+            "`quantity` belongs to a mode",
         ),
         (
             "mode = 1\nresonance = \"omega=0..8\"\nquantity = \"growth\"\nat_least = 1.0",
-            "`quantity` is that of a mode",
+            "`quantity` belongs to a mode",
         ),
         (
             "stable = true\nquantity = \"growth\"",
-            "`quantity` is that of a mode",
+            "`quantity` belongs to a mode",
         ),
-        ("stable = true\nat_most = 1.0", "being stable has no limits"),
+        ("stable = true\nat_most = 1.0", "`stable` takes no limits"),
         (
             "mode = 1\nstable = true\noutside = [1.0, 2.0]",
-            "being stable has no limits",
+            "`stable` takes no limits",
         ),
     ] {
         allocate(&with(unused), &[message]);
@@ -296,7 +305,7 @@ fn study_files_with_mistakes() {
     );
     allocate(
         &with("critical = \"omega\"\nat_least = 1.0"),
-        &["`omega` is no range"],
+        &["`omega` is not a range"],
     );
     allocate(&with("mode = 0\nat_least = \"1 Hz\""), &["counted from 1"]);
     allocate(

@@ -76,7 +76,7 @@ fn what_does_not_belong_together_is_refused() {
     let files = parts("refused", 2);
     let [one, two] = [files[0].as_str(), files[1].as_str()];
     let again =
-        format!("`{two}` cannot be merged: its samples 1000 to below 2000 are there already");
+        format!("`{two}` cannot be merged: its samples 1000 to below 2000 are already included");
     refused(&["merge", two, one, two], &[&again]);
 
     let folder = folder("other_runs");
@@ -91,7 +91,7 @@ fn what_does_not_belong_together_is_refused() {
     let seed = other("seed", &["--samples", "2000", "--seed", "8"]);
     refused(
         &["merge", one, &seed],
-        &[&seed, "another run: seed is 8 there and 7 before it"],
+        &[&seed, "another run: its seed is 8, that of the others 7"],
     );
     let total = other("total", &["--samples", "3000", "--seed", "7"]);
     refused(&["merge", one, &total], &[&total, "another run"]);
@@ -101,7 +101,10 @@ fn what_does_not_belong_together_is_refused() {
         &["design variable `l` is 1.1 there and 1 before it"],
     );
     let resumed = pendulum("sample", &[&SAMPLES[..], &["--resume", &seed]].concat());
-    refused(&resumed, &["another run: seed is 8 there and 7 before it"]);
+    refused(
+        &resumed,
+        &["another run: its seed is 8, that of the others 7"],
+    );
 }
 
 #[test]

@@ -64,7 +64,11 @@ fn names_that_no_package_can_have() {
     for name in ["1st", "a b", "..", "-x/..", "é"] {
         let run = run(&["new", "--", name]);
         assert_eq!(run.code, 2, "{name}");
-        assert!(run.err.contains("is no name of a package"), "{}", run.err);
+        assert!(
+            run.err.contains("is not a valid package name"),
+            "{}",
+            run.err
+        );
     }
     let run = run(&["new", "fine", "--path", "/missing/folder"]);
     assert_eq!(run.code, 3);

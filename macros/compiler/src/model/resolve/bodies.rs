@@ -121,7 +121,7 @@ impl Resolver<'_> {
         self.arguments(&massless.shape, signature);
         let word = &massless.shape.word;
         if body.terms.len() > 1 || massless.hole {
-            let message = "`massless` stands alone: it is no part of a sum";
+            let message = "`massless` stands alone: it cannot be part of a sum";
             self.diagnostics.error(word, message);
             return None;
         }

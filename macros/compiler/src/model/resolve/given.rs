@@ -121,7 +121,7 @@ fn resolved<T>(
         Some(found) => mistakes.into_result(found),
         None => {
             if mistakes.is_empty() {
-                mistakes.error(&ast.name, "this is no value");
+                mistakes.error(&ast.name, "this is not a value");
             }
             Err(mistakes)
         }

@@ -141,7 +141,7 @@ impl Resolver<'_> {
             return Some(1);
         }
         let message = format!(
-            "`{on}` is no side of this joint; it connects `{}` and `{}`",
+            "`{on}` is not a side of this joint; it connects `{}` and `{}`",
             joint.from, joint.to
         );
         self.diagnostics.error(on, message);

@@ -114,7 +114,7 @@ fn check(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result<(), Error> {
     {
         return Err(Error::Setting {
             setting: "bounds",
-            reason: format!("{} to {} is no interval", wrong.lower, wrong.upper),
+            reason: format!("{} to {} is not an interval", wrong.lower, wrong.upper),
         });
     }
     for (i, row) in correlation.iter().enumerate() {

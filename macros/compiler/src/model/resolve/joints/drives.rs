@@ -185,7 +185,7 @@ impl Resolver<'_> {
         let text = name.to_string();
         let place = names.iter().position(|other| *other == text);
         if place.is_none() && !names.is_empty() {
-            let message = format!("`{text}` is no coordinate of this joint");
+            let message = format!("`{text}` is not a coordinate of this joint");
             let help = match nearest(&text, names.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("it has {quoted}"),
