@@ -6,6 +6,8 @@ mod along;
 mod assembly;
 #[path = "loops/common.rs"]
 mod common;
+#[path = "loops/folded.rs"]
+mod folded;
 #[path = "loops/gear_train.rs"]
 mod gear_train;
 #[path = "loops/kernels.rs"]

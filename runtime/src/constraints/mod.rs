@@ -6,8 +6,9 @@ mod state;
 mod structure;
 mod tangent;
 
-pub(crate) use rows::{NEARLY, Rows};
+pub(crate) use rows::Rows;
 pub use state::ConstraintState;
+pub(crate) use state::curvature;
 pub(crate) use structure::Structure;
 pub(crate) use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, redundant_rows};
 

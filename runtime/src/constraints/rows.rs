@@ -11,9 +11,12 @@ use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest};
 /// about 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this are of no use as two.
 const DEPENDENT: f64 = 1e-10;
 /// The counterpart of [`DEPENDENT`] for rows that may become dependent nearby.
-pub(crate) const NEARLY: f64 = 1e-2;
+const NEARLY: f64 = 1e-2;
 /// A row smaller than the largest one by this factor is zero up to rounding.
 const VANISHING: f64 = 1e-13;
+/// Size of a row, relative to the largest one, below which it may vanish nearby: the counterpart of [`NEARLY`] for one
+/// row alone. Rows of other units than the largest are rarely this small.
+const FADING: f64 = 1e-5;
 /// Smallest share of a column in the balanced metric: fainter columns are not scaled up, so that their rounding cannot
 /// pass for independence.
 const FAINT: f64 = 1e-4;
@@ -178,20 +181,23 @@ impl Rows {
         normal
     }
 
-    /// The direction `x` of the row space in which the rows give the least support, and the combination of rows that
-    /// supports it.
+    /// Numbers of the basis vectors that the rows hardly support: the last one, if it nearly depends on the others, and
+    /// those of rows that nearly vanish.
+    pub(crate) fn hardly_supported(&self) -> impl Iterator<Item = usize> {
+        let faint = FADING * largest(&self.size);
+        (0..self.rank).filter(move |&i| {
+            let last = i + 1 == self.rank;
+            self.size[self.order[i]] <= faint || last && self.least <= NEARLY
+        })
+    }
+
+    /// Basis vector `i` as a direction `x` of the row space, and the combination of rows that supports it.
     ///
     /// The combination `w`, by row, has `sum_k w_k h_k` equal to the covector of `x`, so that `sum_k w_k h_k . x = 1`.
-    /// Both are zero if there are no rows.
-    pub(crate) fn weakest(&self) -> (Vector, Vector) {
-        match self.rank.checked_sub(1) {
-            Some(last) => {
-                let mut combination = Vector::from(&self.combination[last]);
-                divide_each(&mut combination, &self.size);
-                (self.normal(last), combination)
-            }
-            None => (Vector::zeros(self.scale.len()), Vector::zeros(self.count())),
-        }
+    pub(crate) fn support(&self, i: usize) -> (Vector, Vector) {
+        let mut combination = Vector::from(&self.combination[i]);
+        divide_each(&mut combination, &self.size);
+        (self.normal(i), combination)
     }
 
     /// Converts a vector to the units of the metric: its norm is then its length in the metric.

@@ -11,7 +11,7 @@
 use super::convergence::FLOOR;
 use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::{Lu, Vector, dot, greater, largest};
-use crate::constraints::{ConstraintState, NEARLY, Tangent, placed};
+use crate::constraints::{ConstraintState, Tangent, curvature, placed};
 use crate::kernels::Linear;
 
 /// Share of the distance from a singular configuration by which rounding may move an equilibrium. Beyond it, reactions
@@ -43,17 +43,25 @@ pub(crate) fn constraint_state(
     let tangent = Tangent::new(linear, structure);
     let place = (q, point.inputs, point.design);
     let mut found = ConstraintState::new(point.mechanism, place, &tangent);
-    if found.singular || tangent.all.least > NEARLY {
+    if found.singular || tangent.all.hardly_supported().next().is_none() {
         return Ok(found);
     }
-    let weakest = Weakest::new(point, q, &tangent);
-    if weakest.moved(linear, &noise(point, q, residual, linear)) <= KNOWN {
+    let noise = noise(point, q, residual, linear);
+    let weak = tangent.all.hardly_supported();
+    let weak = weak.map(|i| Weak::new(point, q, &tangent, i));
+    let Some(weakest) = { weak }.find(|weak| weak.moved(linear, &noise) > KNOWN) else {
         return Ok(found);
-    }
+    };
     found.singular = true;
+    let share =
+        |(k, place): (usize, usize)| (weakest.combination[place] * tangent.all.size[k]).abs();
+    let most = structure
+        .constraint_rows()
+        .enumerate()
+        .map(share)
+        .fold(0.0, greater);
     for (k, place) in structure.constraint_rows().enumerate() {
-        let share = (weakest.combination[place] * tangent.all.size[k]).abs() * tangent.all.least;
-        found.dependent[place] |= share > TAKES_PART;
+        found.dependent[place] |= share((k, place)) > TAKES_PART * most;
     }
     let force = weakest.force(point, q);
     if force == 0.0 {
@@ -90,8 +98,8 @@ pub(crate) fn unbalanced(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Failur
     })
 }
 
-/// The direction of motion in which the constraints give the least support.
-struct Weakest {
+/// A direction of motion in which the constraints give hardly any support.
+struct Weak {
     direction: Vector,
     /// Multipliers of the constraints that together support it: their force along it is one, across it zero.
     combination: Vector,
@@ -100,9 +108,10 @@ struct Weakest {
     approach: Vector,
 }
 
-impl Weakest {
-    fn new(point: &OperatingPoint<'_>, q: &[f64], tangent: &Tangent) -> Self {
-        let (direction, combination) = tangent.all.weakest();
+impl Weak {
+    /// The direction of basis vector `i` of all constraints.
+    fn new(point: &OperatingPoint<'_>, q: &[f64], tangent: &Tangent, i: usize) -> Self {
+        let (direction, combination) = tangent.all.support(i);
         let combination = placed(tangent.structure, &combination);
         // The support is `combination^T Khat direction`.
         let none = Vector::zeros(point.size());
@@ -154,20 +163,32 @@ impl Weakest {
 }
 
 /// Residual that cannot be distinguished from zero: the remaining residual, or the rounding of its terms.
+///
+/// A gap adds lengths that the coordinates may hardly change to first order, as those of bars in one line: to second
+/// order they do.
 fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linear) -> Vector {
     let parts = point.parts(q);
     let unknowns = &point.description.coordinates;
+    // A length that rotates is rounded as a whole.
+    let size = Vector::from_fn(q.len(), |j| match unknowns[j].unit.symbol == *"rad" {
+        true => greater(1.0, q[j].abs()),
+        false => q[j].abs(),
+    });
+    let place = (q, point.inputs, point.design);
     Vector::from_fn(q.len(), |i| {
-        let terms = (0..q.len()).fold(parts.inertia[i].abs() + parts.applied[i].abs(), |sum, j| {
-            let angle = unknowns[j].unit.symbol == *"rad";
-            // A length that rotates is rounded as a whole.
-            let size = if angle {
-                greater(1.0, q[j].abs())
-            } else {
-                q[j].abs()
-            };
-            sum + linear.stiffness[i][j].abs() * size
-        });
+        let mut terms = parts.inertia[i].abs() + parts.applied[i].abs();
+        terms += magnitude(&linear.stiffness[i], &size);
+        if point.structure.position_rows().contains(&i) {
+            let bent = curvature(point.mechanism, place, point.structure, i);
+            let by_row: Vector = bent.iter().map(|row| magnitude(row, &size)).collect();
+            terms += magnitude(&by_row, &size);
+        }
         greater(residual[i].abs(), FLOOR * terms)
     })
+}
+
+/// `sum_j |values_j| size_j`.
+fn magnitude(values: &[f64], size: &[f64]) -> f64 {
+    let pairs = values.iter().zip(size);
+    pairs.fold(0.0, |sum, (value, size)| sum + value.abs() * size)
 }

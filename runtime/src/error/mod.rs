@@ -110,8 +110,8 @@ pub enum Error {
     /// Constraints become dependent at exactly this configuration, so the linearisation does not determine how the
     /// mechanism can move.
     #[error(
-        "singular configuration: {} become dependent at exactly this configuration, so the linearised \
-         mechanism does not say how it can move",
+        "singular configuration: the mechanism is at a dead centre or where motions branch, and constraints are \
+         redundant only here ({}), so the linearised mechanism does not say how it can move",
         names(.constraints)
     )]
     SingularConfiguration {
@@ -121,8 +121,8 @@ pub enum Error {
     /// The search ended next to a singular configuration in which the forces do not balance. On the way there they seem
     /// to balance, through reactions that grow without bound.
     #[error(
-        "no equilibrium: {} become dependent at q = {coordinates:?}, where no finite reactions balance the forces: \
-         start farther away, on the side to which the mechanism is to move",
+        "no equilibrium: near q = {coordinates:?} constraints become redundant ({}), and no finite reactions balance \
+         the forces: start farther away, on the side to which the mechanism is to move",
         names(.constraints)
     )]
     UnboundedReactions {
