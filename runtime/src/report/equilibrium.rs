@@ -150,7 +150,7 @@ fn redundancy(
     if state.singular {
         writeln!(
             f,
-            "  singular configuration: constraints become dependent at exactly this configuration, so the linearised \
+            "  singular configuration: a dead centre, or where motions branch: constraints are redundant only here, so the linearised \
              mechanism does not say how it can move"
         )?;
     }

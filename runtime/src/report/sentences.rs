@@ -2,10 +2,13 @@
 
 use core::fmt;
 
-use super::numbers::rough;
+use super::numbers::{number, rough, short};
 use super::summary::{capital, named, quantity_name};
 use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampling, Summary};
-use crate::tolerance::Outcome;
+use crate::tolerance::{ModeTolerance, Outcome};
+
+/// Distance between mean and nominal frequency, in standard deviations, from which it is worth a sentence.
+const NOTICED: f64 = 0.1;
 
 /// A sentence of a [`Summary`].
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,6 +70,7 @@ impl Summary {
         let converges = |mode| self.second_order_sigma(mode).is_some();
         all.extend(checks.map(|(mode, check)| fact(measured(mode, check, converges(mode)))));
         all.extend(self.advice());
+        all.extend(self.displaced().into_iter().map(fact));
         all.extend(self.about_samples().into_iter().map(fact));
         all
     }
@@ -115,6 +119,27 @@ impl Summary {
             (!modes.is_empty()).then_some(Sentence { news, text })
         };
         all.into_iter().filter_map(sentence).collect()
+    }
+
+    /// Modes whose mean is not their nominal frequency: the mean of a variable is not its nominal value.
+    fn displaced(&self) -> Vec<String> {
+        let modes = self.first.modes.iter().enumerate();
+        let sentence = |(r, mode): (usize, &ModeTolerance)| {
+            let (nominal, own) = (mode.behaviour.frequency()?, mode.frequency()?);
+            let sigmas = (own.mean - nominal) / own.sigma;
+            let counts = self.cluster_of(r).is_none() && sigmas.abs() > NOTICED;
+            let side = if sigmas > 0.0 { "above" } else { "below" };
+            counts.then(|| {
+                format!(
+                    "Mode {}: the mean frequency is {} rad/s, {} sigma {side} the nominal one: the limits of a variable \
+                     are not centred on its nominal value.",
+                    r + 1,
+                    number(own.mean),
+                    short(sigmas.abs())
+                )
+            })
+        };
+        modes.filter_map(sentence).collect()
     }
 
     /// The outcomes of the samples, or why there are none.

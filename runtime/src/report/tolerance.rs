@@ -43,7 +43,7 @@ impl fmt::Display for OutputTolerances {
             let sigma = own.map(|own| scaled(spread_of(own)));
             let mut row = vec![
                 heading(&info.name, &info.unit),
-                optional(Some(scaled(*value))),
+                optional(Some(scaled(own.map_or(*value, |own| own.mean)))),
                 or_dash(sigma, rough),
                 or_dash(sigma.map(|sigma| sigma * self.sigma_level), rough),
             ];
@@ -168,9 +168,11 @@ impl FirstOrder {
             };
             let (frequency, damping) = (mode.frequency(), mode.damping_ratio());
             let sigma = frequency.as_ref().map(spread_of);
+            let alone = frequency.as_ref().filter(|_| !mode.clustered);
+            let mean = alone.map(|spread| spread.mean);
             let mut row = vec![
                 (r + 1).to_string(),
-                optional(mode.behaviour.frequency()),
+                optional(mean.or(mode.behaviour.frequency())),
                 own(sigma),
                 own(sigma.map(|sigma| sigma * self.sigma_level)),
             ];

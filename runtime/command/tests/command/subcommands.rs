@@ -108,6 +108,28 @@ fn tolerances_are_given_as_declarations_give_them() {
     assert!(wandering > of_declaration);
 }
 
+/// A mass of 1 kg on a spring of `100 +12 -3 N/m`: the middle of the limits, 104.5 N/m, is the mean, and
+/// `d omega / dk = 1 / (2 omega)`.
+#[test]
+fn unequal_limits_move_means_away_from_nominal_values() {
+    let text = "mechanism Block { design k = 100 N/m +12 -3 N/m; body block: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to block; force s: spring(on: x, stiffness: k); output stiff = k; }";
+    let path = file(&folder("unequal"), "block.mechanism", text);
+    let said = answer(&["tolerance", &path]);
+    for part in [
+        "Mode 1: the mean frequency is 10.2250 rad/s, 1.80 sigma above the nominal one",
+        "stiff [N/m]  104.500  2.500",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    let first = ["tolerance", &path, "--result", "first-order tolerances"];
+    assert!(answer(&first).contains("\n  1          10.2250         0.1250"));
+    let outputs = ["tolerance", &path, "--csv", "--result", "output tolerances"];
+    assert!(answer(&outputs).contains("stiff,N/m,104.5,"));
+    let report = answer(&["report", &path, "--samples", "100"]);
+    assert!(report.contains("\u{b1} 0.375 about a mean of 10.225"));
+}
+
 #[test]
 fn counts_may_have_a_power_of_ten() {
     let samples = |count: &str| answer(&pendulum("sample", &["--samples", count]));

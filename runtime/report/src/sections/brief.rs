@@ -119,8 +119,15 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
     let cause = greatest.map_or_else(String::new, |(share, info)| {
         format!(", mostly from {} ({:.0} %)", info.name, 100.0 * share)
     });
+    // The band lies about the mean, which unequal limits move away from the nominal frequency.
+    let nominal = first.modes[mode].behaviour.frequency();
+    let moved = nominal.is_some_and(|nominal| (spread.mean - nominal).abs() > 0.03 * spread.band);
+    let about = match moved {
+        true => format!(" about a mean of {}", number(scale * spread.mean)),
+        false => String::new(),
+    };
     format!(
-        " \u{b1} {} ({} sigma){cause}",
+        " \u{b1} {}{about} ({} sigma){cause}",
         digits(scale * spread.band, 3),
         first.sigma_level
     )

@@ -84,8 +84,9 @@ impl Tables for OutputTolerances {
         let names = outputs().map(|(info, _)| Some(info.name.to_string()));
         table.texts("output", names);
         table.texts("unit", outputs().map(|(info, _)| by(&info.unit)));
-        let values = d.outputs.iter().zip(&self.values);
-        let means = values.map(|(info, &value)| in_unit(value, &info.unit));
+        let means = outputs().zip(&self.values).map(|((info, own), &nominal)| {
+            in_unit(own.as_ref().map_or(nominal, |own| own.mean), &info.unit)
+        });
         table.numbers("mean", "", means);
         for (name, pick) in [
             ("sigma", (|own| own.sigma) as fn(&Spread) -> f64),
