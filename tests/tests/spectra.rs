@@ -13,5 +13,7 @@ mod following;
 mod real_roots;
 #[path = "spectra/rotors.rs"]
 mod rotors;
+#[path = "spectra/sleeping_top.rs"]
+mod sleeping_top;
 #[path = "spectra/tops.rs"]
 mod tops;

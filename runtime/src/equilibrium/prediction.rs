@@ -63,14 +63,15 @@ impl Path {
 }
 
 /// Whether the state found from a prediction is the predicted one: much closer to the prediction than to the last
-/// state.
+/// state, and within half a turn of it, since angles bring the same place back.
 pub(crate) fn confirmed(found: &[f64], predicted: &[f64], last: &[f64]) -> bool {
     let distance = |from: &[f64]| {
         let pairs = found.iter().zip(from);
         pairs.fold(0.0, |most, (a, b)| greater(most, (a - b).abs()))
     };
     let still = STILL * greater(1.0, largest(found));
-    distance(predicted) <= MISSED * distance(last) + still
+    let moved = distance(last);
+    distance(predicted) <= MISSED * moved + still && moved <= core::f64::consts::PI
 }
 
 #[cfg(test)]
@@ -130,5 +131,6 @@ mod tests {
         assert!(!confirmed(&[-1.0], &[1.0], &[0.9]));
         assert!(!confirmed(&[0.9], &[1.0], &[0.9]));
         assert!(confirmed(&[0.0], &[0.0], &[0.0]));
+        assert!(!confirmed(&[99.0], &[100.0], &[0.9]));
     }
 }

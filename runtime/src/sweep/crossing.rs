@@ -2,6 +2,7 @@
 //! critical speed of a rotor), or its oscillation stops decaying (onset of flutter). They are located by Newton's
 //! method with exact slopes.
 
+use super::merging;
 use super::points::SweepPoint;
 use super::range::Range;
 use super::track::{Following, Tracker};
@@ -237,6 +238,7 @@ pub(crate) fn between(
     let (Ok(solved), Ok(after_modes)) = (before.solved(), &after.modes) else {
         return;
     };
+    let known = found.len();
     for label in solved.1.modes.iter().map(|mode| mode.label) {
         let (Some(at_low), Some(at_high)) = (
             condition.excess(solved.1, label, tracker.actual(before.value)),
@@ -277,5 +279,8 @@ pub(crate) fn between(
                 modes,
             });
         }
+    }
+    if condition == Condition::FlutterOnset && found.len() == known {
+        found.extend(merging::onset(tracker, before, after));
     }
 }

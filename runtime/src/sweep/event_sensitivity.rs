@@ -29,13 +29,13 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
         let count = all.modes.len();
         return Err(Error::NoSuchMode { mode, count });
     };
-    if own.clustered {
-        return Err(Error::ClusteredMode { mode });
-    }
     if crossing.condition == Condition::FlutterOnset && there.condition > MERGED {
         return Err(Error::NoSensitivity {
             reason: NoDerivative::Merge,
         });
+    }
+    if own.clustered {
+        return Err(Error::ClusteredMode { mode });
     }
     let (quantity, other) = crossing.condition.sides();
     let Some(slopes) = own.of(quantity).filter(|_| there.frequency().is_some()) else {

@@ -6,6 +6,7 @@ mod crossing;
 mod driver;
 mod event_sensitivity;
 mod event_tolerance;
+mod merging;
 mod points;
 mod range;
 mod sensitivity_sweep;

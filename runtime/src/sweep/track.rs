@@ -126,7 +126,7 @@ impl<'a> Tracker<'a> {
     /// stability.
     fn equilibrium_into(
         &self,
-        value: f64,
+        (value, policy): (f64, Policy),
         from: &[f64],
         predicted: Option<&[f64]>,
         state: &mut Equilibrium,
@@ -135,12 +135,12 @@ impl<'a> Tracker<'a> {
         let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
         point.check_start(from)?;
         state.inputs.clone_from(&inputs);
-        let predicted = predicted.filter(|_| self.policy == Policy::Stable);
+        let predicted = predicted.filter(|_| policy == Policy::Stable);
         if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state))
         {
             return Ok((modes, true));
         }
-        solve_into(&point, from, self.policy, state)
+        solve_into(&point, from, policy, state)
             .map(|modes| (modes, false))
             .map_err(|failure| failure.explain(&point.description))
     }
@@ -157,11 +157,21 @@ impl<'a> Tracker<'a> {
     pub(crate) fn near(
         &self,
         value: f64,
+        known: (&Equilibrium, &Modes),
+    ) -> Result<(Equilibrium, Modes), Error> {
+        self.near_with(self.policy, value, known)
+    }
+
+    /// Like [`Self::near`], for the equilibrium that this policy chooses.
+    pub(super) fn near_with(
+        &self,
+        policy: Policy,
+        value: f64,
         (state, modes): (&Equilibrium, &Modes),
     ) -> Result<(Equilibrium, Modes), Error> {
         let (mut equilibrium, mut found) = self.blank();
         let from = &state.coordinates;
-        let (judged, _) = self.equilibrium_into(value, from, None, &mut equilibrium)?;
+        let (judged, _) = self.equilibrium_into((value, policy), from, None, &mut equilibrium)?;
         found.solve_at(&equilibrium, judged)?;
         let modes = found.continuing(modes, &equilibrium.linear, self.unused);
         Ok((equilibrium, modes))
@@ -285,8 +295,9 @@ impl<'a> Tracker<'a> {
         });
         point.value = value;
         let (state, found) = point.solved_mut().map_err(|error| error.clone())?;
+        let at = (value, self.policy);
         let (judged, confirmed) =
-            self.equilibrium_into(value, &self.from, predicted.as_deref(), state)?;
+            self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
         if let Err(error) = found.solve_at(state, judged) {
             self.from.clone_from(&state.coordinates);
             self.path.go(value, state.coordinates.iter().copied());

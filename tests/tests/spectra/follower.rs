@@ -1,6 +1,6 @@
 //! Ziegler's column: flutter under a follower load, with and without damping.
 
-use eigentol::{Behaviour, Error, Stability, Study};
+use eigentol::{Behaviour, Error, Stability, Study, error::NoDerivative};
 use eigentol_tests::machines::ZieglerColumn;
 
 use super::common::{close, design, event};
@@ -35,20 +35,27 @@ fn frequencies_that_merge_have_an_onset_without_derivative() {
     let study = column(0.0);
     let [_, l, k, _] = design(&study);
     let boundary = (3.5 - 2f64.sqrt()) * k / l;
-    let found = study
-        .flutter_onset_tolerances(ZieglerColumn::load, 0.0, 1.3 * boundary)
-        .expect("a search");
-    let [only] = &found[..] else {
-        panic!("{found:?}")
-    };
-    assert!((only.value - boundary).abs() < 1e-6 * boundary);
-    assert!(
-        matches!(
-            only.spread,
-            Err(Error::ClusteredMode { .. } | Error::NoSensitivity { .. })
-        ),
-        "{only:?}"
-    );
+    // However the values of the range lie beside the onset, and from either side.
+    for (low, high) in [
+        (0.0, 1.3),
+        (0.0, 1.44),
+        (0.9, 1.01),
+        (1.3, 0.2),
+        (0.999, 1.2),
+        (1.7, 0.0),
+    ] {
+        let found = study
+            .flutter_onset_tolerances(ZieglerColumn::load, low * boundary, high * boundary)
+            .expect("a search");
+        let [only] = &found[..] else {
+            panic!("{low} to {high}: {found:?}")
+        };
+        assert!((only.value - boundary).abs() < 1e-9 * boundary);
+        let merge = Error::NoSensitivity {
+            reason: NoDerivative::Merge,
+        };
+        assert_eq!(only.spread, Err(merge));
+    }
 }
 
 /// Small damping lowers the flutter load to `p = 41/28 + c^2 / (2 m l^2 k)` (Ziegler 1952).
