@@ -139,7 +139,8 @@ fn store_linears<V: Lanes, M: Mechanism>(
 /// A kernel of a compiled mechanism, as a task for a set of instructions.
 struct Call<'a, M, F> {
     mechanism: &'a M,
-    at: BatchPoint<'a>,
+    /// By reference: slices just written one word at a time are slow to copy.
+    at: &'a BatchPoint<'a>,
     kernel: F,
 }
 
@@ -278,7 +279,7 @@ fn run<M: Mechanism>(
 ) {
     let call = Call {
         mechanism,
-        at,
+        at: &at,
         kernel,
     };
     if const { pays::<M>() } && generated {
