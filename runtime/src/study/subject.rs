@@ -7,7 +7,7 @@ use super::{Solved, Study};
 use crate::kernels::{
     BatchKernels, CurvatureKernels, DeviatingInputs, DirectionalKernels, Kernels, SummaryKernels,
 };
-use crate::{Equilibrium, Error, Modes};
+use crate::{Equilibrium, Error, Input, Modes};
 
 /// A table of kernels and the settings to study it with.
 pub(super) struct Subject<'a, K: ?Sized> {
@@ -46,18 +46,15 @@ impl<M> Solved<'_, M> {
 }
 
 impl Settings {
-    /// The mechanism with deviating inputs and its settings; `None` if no input has a tolerance.
+    /// The mechanism with these inputs deviating, and its settings.
     fn deviating<'a, K: Kernels + ?Sized>(
         &self,
         kernels: &'a K,
-    ) -> Result<Option<(DeviatingInputs<'a, K>, Self)>, Error> {
-        let inputs = self.deviating_inputs();
-        if inputs.is_empty() {
-            return Ok(None);
-        }
-        let mechanism = DeviatingInputs::new(kernels, &inputs)?;
+        inputs: &[Input],
+    ) -> Result<(DeviatingInputs<'a, K>, Self), Error> {
+        let mechanism = DeviatingInputs::new(kernels, inputs)?;
         let settings = self.widened(mechanism.description(), mechanism.design(&self.design));
-        Ok(Some((mechanism, settings)))
+        Ok((mechanism, settings))
     }
 }
 
@@ -69,14 +66,16 @@ macro_rules! deviating {
                 &self,
                 question: impl FnOnce(&$subject<'_, dyn $table + '_>) -> Result<R, Error>,
             ) -> Result<R, Error> {
-                match self.settings.deviating(self.kernels)? {
-                    None => question(self),
-                    Some((mechanism, settings)) => question(&$subject {
-                        kernels: &mechanism,
-                        settings: &settings,
-                        $($state: &self.$state.with_deviations(&mechanism),)*
-                    }),
+                let inputs = self.settings.deviating_inputs();
+                if inputs.is_empty() {
+                    return question(self);
                 }
+                let (mechanism, settings) = self.settings.deviating(self.kernels, &inputs)?;
+                question(&$subject {
+                    kernels: &mechanism,
+                    settings: &settings,
+                    $($state: &self.$state.with_deviations(&mechanism),)*
+                })
             }
         }
     };
