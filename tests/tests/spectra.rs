@@ -13,6 +13,8 @@ mod following;
 mod real_roots;
 #[path = "spectra/rotors.rs"]
 mod rotors;
+#[path = "spectra/shaft_frame.rs"]
+mod shaft_frame;
 #[path = "spectra/sleeping_top.rs"]
 mod sleeping_top;
 #[path = "spectra/tops.rs"]

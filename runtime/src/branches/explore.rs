@@ -12,7 +12,7 @@ use super::{Branch, BranchEnd, BranchPoint, Branches};
 use crate::algebra::Vector;
 use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria, solve};
 use crate::kernels::DirectionalKernels;
-use crate::{Equilibrium, Error, Watch};
+use crate::{Equilibrium, Error, Stability, Watch};
 
 /// Fraction of the range by which a start at a singular state is moved.
 const NUDGE: f64 = 1e-6;
@@ -124,6 +124,35 @@ pub fn branches_each(
     Ok(curve.explore(states, each))
 }
 
+/// Share of the input by which points of a branch may differ and have the same value.
+const STANDS: f64 = 1e-9;
+
+/// Along a branch on which the input stands still, the mechanism rests anywhere: the eigenvalue of that direction is
+/// zero, and its sign is rounding.
+fn rest_where_the_input_stands(points: &mut [BranchPoint]) {
+    let values = || points.iter().map(|point| point.value);
+    let least = values().fold(f64::INFINITY, f64::min);
+    let most = values().fold(f64::NEG_INFINITY, f64::max);
+    if points.len() < 3 || most - least > STANDS * least.abs().max(most.abs()) {
+        return;
+    }
+    let negative = |point: &BranchPoint| match point.equilibrium.stability {
+        Stability::Stable | Stability::Neutral { .. } => Some(0),
+        Stability::Divergent { negative } => Some(negative),
+        _ => None,
+    };
+    let counts: Option<Vec<usize>> = points.iter().map(negative).collect();
+    let Some(negative) = counts.and_then(|counts| counts.into_iter().min()) else {
+        return;
+    };
+    for point in points {
+        point.equilibrium.stability = match negative {
+            0 => Stability::Neutral { zero: 1 },
+            _ => Stability::Divergent { negative },
+        };
+    }
+}
+
 impl Curve<'_> {
     /// The station at an equilibrium, or next to it if branches cross there.
     pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, Trouble> {
@@ -164,6 +193,7 @@ impl Curve<'_> {
             .collect();
         points.extend(start);
         points.extend(front.points);
+        rest_where_the_input_stands(&mut points);
         let mut special: Vec<_> = back.special.into_iter().rev().collect();
         special.extend(front.special);
         let mut junctions = back.junctions;
