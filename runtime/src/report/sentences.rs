@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::numbers::{number, rough, short};
 use super::summary::{capital, named, quantity_name};
-use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampling, Summary};
+use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampling, Summary, Trust};
 use crate::tolerance::{ModeTolerance, Outcome};
 
 /// Distance between mean and nominal frequency, in standard deviations, from which it is worth a sentence.
@@ -99,7 +99,11 @@ impl Summary {
         }
         let all = [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling];
         let sentence = |advice: Advice| {
-            let own = || self.trust.iter().filter(|own| own.advice == advice);
+            let oscillates = |own: &&Trust| !own.doubts.contains(&Doubt::NoFrequency);
+            let own = || {
+                let all = self.trust.iter().filter(oscillates);
+                all.filter(|own| own.advice == advice)
+            };
             let modes: Vec<usize> = own().map(|own| own.mode).collect();
             let (news, text) = match advice {
                 Advice::FirstOrder => (
@@ -237,7 +241,7 @@ fn name_of(outcome: Outcome) -> Option<&'static str> {
         Outcome::Undecided => "Stability not decided",
         Outcome::NoEquilibrium => "No equilibrium",
         Outcome::NotAssembled => "Loops do not close",
-        Outcome::Unphysical => "Bodies that cannot exist",
+        Outcome::Unphysical => "Impossible (no such body, or beyond the end of a curve)",
         Outcome::NoModes => "Modes not found",
     })
 }

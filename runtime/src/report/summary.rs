@@ -201,7 +201,7 @@ impl Summary {
                 row.push(or_dash(check.map(|check| check.sigma.value), rough));
             }
             row.push(own(sigma.map(|sigma| sigma * self.first.sigma_level)));
-            let moved = alone && sigma.is_none_or(|sigma| sigma != 0.0);
+            let moved = alone && sigma.is_some_and(|sigma| sigma != 0.0);
             let shares = moved.then(|| mostly(&self.description, mode.variance_shares()));
             row.push(shares.unwrap_or_else(|| "-".to_owned()));
             row.push(verdict(&trust.doubts));

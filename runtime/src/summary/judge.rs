@@ -167,7 +167,7 @@ impl<'a> Judge<'a> {
             doubts.push(Doubt::NearCritical { distance });
         }
         let distance = first.distance_to_instability;
-        if near(distance) {
+        if own.frequency().is_some() && near(distance) {
             doubts.push(Doubt::NearInstability { distance });
         }
         if let Some(distance) = self.distance_to_critical_damping(mode)

@@ -1,6 +1,6 @@
 //! Sensitivity of a critical speed or a resonance to the design: `du_c/db`.
 
-use super::crossing::{Condition, Crossing};
+use super::condition::{Condition, Crossing};
 use super::points::CriticalState;
 use crate::algebra::{Matrix, Values, Vector, all_finite, dot, largest, times};
 use crate::branches::{Bordered, SpecialKind};

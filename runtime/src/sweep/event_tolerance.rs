@@ -1,6 +1,6 @@
 //! First-order spread of the input values at which an event occurs: critical speeds and resonances.
 
-use super::crossing::{Condition, Crossing};
+use super::condition::{Condition, Crossing};
 use super::event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 use super::points::CriticalState;
 use crate::algebra::Vector;

@@ -4,7 +4,7 @@
 //! There the growth is a square root of the distance, and beyond it neither mode is one of those before. What changes is
 //! the number of growing oscillations; bisection follows it.
 
-use super::crossing::{Condition, Crossing};
+use super::condition::{Condition, Crossing};
 use super::points::SweepPoint;
 use super::track::Tracker;
 use crate::{Equilibrium, Mode, Modes, Policy, Stability};

@@ -1,6 +1,7 @@
 //! Studies along an input: equilibria and modes at successive values, and where they become critical, resonant or
 //! unstable.
 
+mod condition;
 mod critical;
 mod crossing;
 mod driver;
@@ -17,10 +18,11 @@ mod sensitivity_sweep;
 mod sweep;
 mod track;
 
+pub use condition::{Condition, Crossing, Line};
 pub(crate) use critical::Path;
 pub use critical::critical_state;
-pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
 pub(crate) use crossing::{between, first_crossing};
+pub use crossing::{crossings, flutter_onsets};
 pub(crate) use event_sensitivity::{Crossed, bordered};
 pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_tolerance};
