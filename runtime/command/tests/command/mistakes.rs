@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::program::{PENDULUM, Run, examples, file, folder, pendulum, run, run_with_input};
+use crate::program::{PENDULUM, Run, examples, file, folder, pendulum, run, run_with_input, swept};
 
 /// A run that fails with this exit code and message and prints no answer.
 #[track_caller]
@@ -342,4 +342,46 @@ fn colours_only_where_they_are_wanted() {
     let usage = |when: &str| run(&["mods", when]).err;
     assert!(usage("--color=always").contains("\u{1b}["));
     assert!(!usage("--color=never").contains('\u{1b}'));
+}
+
+/// Brackets in brackets overflow no stack, wherever they are written.
+#[test]
+fn brackets_are_nested_only_so_deep() {
+    let nested =
+        |depth: usize, value: &str| format!("{}{value}{}", "(".repeat(depth), ")".repeat(depth));
+    let folder = folder("nested");
+    let parts = [
+        "this expression is too large",
+        "name parts of it with `let`",
+    ];
+    for depth in [100, 10_000, 40_000, 60_000] {
+        let value = nested(depth, "1 m");
+        let text = format!("mechanism A {{\n    design l = {value};\n}}\n");
+        let path = file(&folder, "nested.mechanism", &text);
+        refused(&["check", &path], 3, &parts);
+        refused(
+            &["modes", PENDULUM, "--set", &format!("l={value}")],
+            2,
+            &parts,
+        );
+        let start = format!("theta={}", nested(depth, "1 rad"));
+        refused(&["modes", PENDULUM, "--start", &start], 2, &parts);
+        refused(
+            &["tolerance", PENDULUM, "--tol", &format!("l={value}")],
+            2,
+            &parts,
+        );
+        let study = file(&folder, "nested.toml", &format!("[set]\nl = \"{value}\"\n"));
+        refused(&["modes", PENDULUM, "--study", &study], 2, &parts);
+    }
+    let brackets = "[".repeat(60_000);
+    let run = run_with_input(
+        &["check", "-"],
+        &format!("// {brackets}\nmechanism A {{ }}"),
+    );
+    assert!(
+        !run.err.contains("too large") && run.code == 3,
+        "{}",
+        run.err
+    );
 }

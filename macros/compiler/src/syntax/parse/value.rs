@@ -4,14 +4,13 @@ use proc_macro2::{Delimiter, Literal};
 use syn::ext::IdentExt as _;
 
 use super::super::ast::{Binary, Operator, Value, ValueKind};
+use super::super::nesting::{self, DEEPEST};
 use super::super::tokens::{Parsed, Tokens};
 use super::unit;
 use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
-/// Maximum nesting depth: far more than anyone writes, and small enough for the stack of every later stage.
-const DEEPEST: u32 = 64;
 /// Maximum height of the resulting tree, to which a long sum adds one level per term.
 const HIGHEST: u16 = 256;
 
@@ -208,7 +207,5 @@ fn nested<'a, T>(
 }
 
 fn too_large<T>(at: Extent) -> Parsed<T> {
-    let diagnostic = Diagnostic::new(at, "this expression is too large")
-        .with_help("name parts of it with `let`");
-    Err(Box::new(diagnostic))
+    Err(Box::new(nesting::too_large(at)))
 }
