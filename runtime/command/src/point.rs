@@ -47,6 +47,8 @@ pub(crate) struct Question {
     /// The declaration.
     pub(crate) text: String,
 }
+    /// The names that the command line sets.
+    pub(crate) set: Vec<String>,
 
 fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -122,6 +124,7 @@ fn set(
             Parameter::Design(variable) => study.design(variable, value),
         });
     }
+            set: self.set.iter().map(|(name, _)| name.clone()).collect(),
     let (coordinate, unit) = coordinate(&study, name)?;
     let value = read(option, name, text, &unit)?;
     Ok(match option {

@@ -13,7 +13,7 @@ use crate::output::Output;
 use crate::point::{Point, Question, design, parameter, unknown, whole, written};
 use crate::progress;
 use crate::study_file::{self, Choose, Require, Written};
-use crate::sweep::range;
+use crate::sweep::{multiple, range};
 use crate::verdict::Verdict;
 
 /// The cheapest tolerances that meet requirements; a study file states the requirements and the choices
@@ -138,7 +138,7 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         let place = own.mode.and_then(|mode| mode.checked_sub(1));
         place.ok_or_else(|| Failure::usage("there is no such mode", help))
     };
-    let range = |text: &str| {
+    let along = |text: &str| {
         let found = range(study, text)?;
         Ok::<_, Failure>(Range::new(found.input.any(), found.low, found.high))
     };
@@ -146,7 +146,7 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         Ok(Response::Crossing {
             mode: mode()?,
             condition,
-            range: range(text)?,
+            range: along(text)?,
         })
     };
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {
@@ -160,10 +160,11 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         }
         (Some(name), None, None, None) if own.mode.is_none() => return output(study, name),
         (None, Some(text), None, None) if own.mode.is_none() => {
-            return Ok(Response::Critical(range(text)?));
+            return Ok(Response::Critical(along(text)?));
         }
         (None, None, Some(text), None) => {
-            return crossing(Condition::Line(Line::from(own.order.unwrap_or(1.0))), text);
+            let order = multiple(own.order.unwrap_or(1.0), &range(study, text)?, study)?;
+            return crossing(Condition::Line(Line::from(order)), text);
         }
         (None, None, None, Some(text)) => return crossing(Condition::FlutterOnset, text),
         _ => {}

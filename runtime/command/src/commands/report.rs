@@ -8,7 +8,7 @@ use crate::picture::Wording;
 use crate::place::Place;
 use crate::point::{Point, whole};
 use crate::progress;
-use crate::sweep::{Points, Sweep};
+use crate::sweep::{Orders, Points, Sweep};
 use crate::verdict::Verdict;
 
 /// Everything about a mechanism in one HTML file: a 3-D view with moving modes, charts, verdicts and tables
@@ -20,9 +20,8 @@ pub(crate) struct Report {
     sweep: Sweep,
     #[command(flatten)]
     points: Points,
-    /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
-    #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
-    orders: Vec<f64>,
+    #[command(flatten)]
+    orders: Orders,
     /// Number of Monte Carlo samples [default: 3000]
     #[arg(long, value_name = "COUNT", value_parser = whole)]
     samples: Option<usize>,
@@ -60,15 +59,11 @@ impl Report {
             .samples(self.samples.or(file.samples).unwrap_or(3000))
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
-        let given = file.orders.clone().unwrap_or_default();
-        let orders = match self.orders.is_empty() {
-            true => &given,
-            false => &self.orders,
-        };
+        let orders = self.orders.along(range.as_ref(), &question)?;
         let mut report = eigentol_report::Report::new(&study)
             .style(self.wording.style(&question))
             .declaration(question.text)
-            .orders(orders);
+            .orders(&orders);
         if let Some(title) = &self.title {
             report = report.title(title);
         }

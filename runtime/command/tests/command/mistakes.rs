@@ -385,3 +385,61 @@ fn brackets_are_nested_only_so_deep() {
         run.err
     );
 }
+
+#[test]
+fn orders_that_cross_no_mode() {
+    let folder = folder("orders");
+    let speeds = ["--sweep", "omega=4..8rad/s", "--points", "2"];
+    fn along<'a>(speeds: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+        [&["campbell", PENDULUM], speeds, more].concat()
+    }
+    let wrong = ["nan", "inf", "1e400", "0", "-0", "-1", "1,-2"];
+    for order in wrong {
+        let given = ["--order", order];
+        refused(
+            &along(&speeds, &given),
+            2,
+            &["crosses no mode", "`--order 1"],
+        );
+        let report = folder.join("report.html").display().to_string();
+        let report = ["report", PENDULUM, "-o", &report];
+        let given = [&report[..], &speeds, &given].concat();
+        refused(&given, 2, &["crosses no mode"]);
+        assert!(!folder.join("report.html").exists());
+    }
+    for order in ["nan", "inf", "0", "-1.5"] {
+        let study = file(&folder, "orders.toml", &format!("orders = [1, {order}]"));
+        refused(
+            &along(&speeds, &["--study", &study]),
+            2,
+            &["crosses no mode"],
+        );
+        let allocation = format!(
+            "[[require]]\nmode = 1\nresonance = \"omega=4..8rad/s\"\norder = {order}\nat_least = 1.0\nfailure = 0.1\n\
+             [[choose]]\nnominal = \"l\"\nleast = \"1 m\"\nmost = \"2 m\"\n"
+        );
+        let study = file(&folder, "allocation.toml", &allocation);
+        let parts = ["crosses no mode"];
+        refused(&["allocate", PENDULUM, "--study", &study], 2, &parts);
+    }
+    let pushed = "mechanism A { input push: N; body block: point(mass: 1 kg); joint x: prismatic(x) from ground to block;
+        force s: spring(on: x, stiffness: 9 N/m); force f: generalized(on: x, value: push); }";
+    let pushed = file(&folder, "pushed.mechanism", pushed);
+    let campbell = ["campbell", &pushed, "--sweep", "push=0..1N"];
+    let parts = ["a multiple of a speed of rotation or a frequency, and `push` is in N"];
+    refused(&[&campbell[..], &["--order", "1"]].concat(), 2, &parts);
+    let report = ["report", PENDULUM, "-o", "none.html", "--order", "1"];
+    refused(&report, 2, &["no input to sweep is given for `--order`"]);
+}
+
+#[test]
+fn a_sweep_sets_its_input_alone() {
+    for question in ["campbell", "sweep", "branches"] {
+        let along = pendulum(question, &["--sweep", "omega=4..8rad/s"]);
+        refused(
+            &along,
+            2,
+            &["the sweep sets `omega`", "leave one of them out"],
+        );
+    }
+}
