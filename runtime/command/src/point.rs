@@ -1,6 +1,7 @@
 //! The operating point and tolerances of a command, from the declaration, then the study file, then the command line.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::Args;
 use eigentol::{
@@ -36,7 +37,7 @@ pub(crate) struct Point {
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     guess: Vec<(String, String)>,
     /// How many standard deviations make a half-width [default: 3]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     sigma_level: Option<f64>,
 }
 
@@ -46,9 +47,9 @@ pub(crate) struct Question {
     pub(crate) file: StudyFile,
     /// The declaration.
     pub(crate) text: String,
-}
     /// The names that the command line sets.
     pub(crate) set: Vec<String>,
+}
 
 fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -68,6 +69,23 @@ pub(crate) fn whole(text: &str) -> Result<usize, String> {
         .ok_or_else(|| "write a whole number: `10000` or `1e4`".to_owned())
 }
 
+/// Parses a number such as a seed, of which every digit counts.
+pub(crate) fn exact<N: FromStr>(text: &str) -> Result<N, String> {
+    text.parse()
+        .map_err(|_| "write a whole number that is not negative: `7`".to_owned())
+}
+
+/// The number of samples of the command line or else the study file.
+pub(crate) fn samples(own: Option<usize>, file: &StudyFile) -> Result<usize, Failure> {
+    match own.or(file.samples).unwrap_or(3000) {
+        0 => {
+            let help = "take at least 1: `--samples 3000`";
+            Err(Failure::usage("0 samples have no result", help))
+        }
+        count => Ok(count),
+    }
+}
+
 impl Point {
     /// Reads the files and applies all settings.
     pub(crate) fn question(&self) -> Result<Question, Failure> {
@@ -82,7 +100,7 @@ impl Point {
         let declaration = Declaration::read(path)?;
         let mut study = Study::new(declaration.mechanism()?);
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
-            study = study.sigma_level(level);
+            study = study.sigma_level(positive_level(level)?);
         }
         for (option, given, own) in [
             ("set", &file.set, &self.set),
@@ -106,8 +124,18 @@ impl Point {
             study,
             file,
             text: declaration.text,
+            set: self.set.iter().map(|(name, _)| name.clone()).collect(),
         })
     }
+}
+
+fn positive_level(level: f64) -> Result<f64, Failure> {
+    if level > 0.0 && level.is_finite() {
+        return Ok(level);
+    }
+    let message = format!("the sigma level is {level}, but it must be positive and finite");
+    let help = "it is the number of standard deviations in a half-width: `--sigma-level 3`";
+    Err(Failure::usage(message, help))
 }
 
 /// Sets a value.
@@ -124,7 +152,6 @@ fn set(
             Parameter::Design(variable) => study.design(variable, value),
         });
     }
-            set: self.set.iter().map(|(name, _)| name.clone()).collect(),
     let (coordinate, unit) = coordinate(&study, name)?;
     let value = read(option, name, text, &unit)?;
     Ok(match option {

@@ -10,7 +10,7 @@ use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::point::{Point, Question, design, parameter, unknown, whole, written};
+use crate::point::{Point, Question, design, parameter, samples, unknown, whole, written};
 use crate::progress;
 use crate::study_file::{self, Choose, Require, Written};
 use crate::sweep::{multiple, range};
@@ -22,7 +22,7 @@ pub(crate) struct Allocate {
     #[command(flatten)]
     point: Point,
     /// Samples that check the result [default: 3000]
-    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     #[command(flatten)]
     output: Output,
@@ -40,7 +40,7 @@ impl Allocate {
         }
         let bar = progress::bar("choices and samples", None);
         let study = progress::watched(study, &bar)
-            .samples(self.samples.or(file.samples).unwrap_or(3000))
+            .samples(samples(self.samples, &file)?)
             .seed(file.seed.unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = file.require.iter().map(|own| requirement(&study, own));

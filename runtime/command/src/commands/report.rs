@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::picture::Wording;
 use crate::place::Place;
-use crate::point::{Point, whole};
+use crate::point::{Point, exact, samples, whole};
 use crate::progress;
 use crate::sweep::{Orders, Points, Sweep};
 use crate::verdict::Verdict;
@@ -23,10 +23,10 @@ pub(crate) struct Report {
     #[command(flatten)]
     orders: Orders,
     /// Number of Monte Carlo samples [default: 3000]
-    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = exact::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Heading of the report [default: the name of the mechanism]
     #[arg(long, value_name = "TEXT")]
@@ -56,7 +56,7 @@ impl Report {
         let file = &question.file;
         let bar = progress::bar("samples, values and points", None);
         let study = progress::watched(question.study.clone(), &bar)
-            .samples(self.samples.or(file.samples).unwrap_or(3000))
+            .samples(samples(self.samples, file)?)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let orders = self.orders.along(range.as_ref(), &question)?;

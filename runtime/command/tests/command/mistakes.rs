@@ -443,3 +443,45 @@ fn a_sweep_sets_its_input_alone() {
         );
     }
 }
+
+#[test]
+fn counts_and_levels_that_make_no_sense() {
+    for level in ["0", "-1", "nan", "inf"] {
+        for question in ["modes", "sensitivities", "tolerance", "sample"] {
+            let given = pendulum(question, &["--sigma-level", level]);
+            refused(&given, 2, &["sigma level", "positive and finite"]);
+        }
+    }
+    let folder = folder("levels");
+    let study = file(&folder, "level.toml", "sigma_level = 0");
+    refused(
+        &pendulum("modes", &["--study", &study]),
+        2,
+        &["sigma level"],
+    );
+    let study = file(&folder, "samples.toml", "samples = 0");
+    let report = folder.join("report.html").display().to_string();
+    for more in [["--samples", "0"], ["--study", &study]] {
+        refused(&pendulum("sample", &more), 2, &["at least 1"]);
+        let place = ["-o", &report];
+        refused(
+            &pendulum("report", &[&place[..], &more].concat()),
+            2,
+            &["at least 1"],
+        );
+    }
+    let choose = "[[require]]\nstable = true\nfailure = 0.1\n[[choose]]\nnominal = \"l\"\nleast = \"1 m\"\nmost = \"2 m\"\n";
+    let study = file(&folder, "choose.toml", choose);
+    let none = ["--study", &study, "--samples", "0"];
+    refused(&pendulum("allocate", &none), 2, &["at least 1"]);
+    for (option, part) in [
+        ("--samples", "write a whole number: `10000` or `1e4`"),
+        ("--seed", "write a whole number that is not negative: `7`"),
+        ("--stream", "write a whole number that is not negative"),
+        ("--threads", "write a whole number that is not negative"),
+    ] {
+        refused(&pendulum("sample", &[option, "-5"]), 2, &[part]);
+    }
+    let points = ["--sweep", "omega=4..8rad/s", "--points", "-5"];
+    refused(&swept("campbell", &points), 2, &["write a whole number"]);
+}
