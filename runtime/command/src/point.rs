@@ -8,8 +8,9 @@ use eigentol::{
     Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role,
     Study, Text, ToleranceInfo, Unit,
 };
+use eigentol_compiler::Compilation;
 use eigentol_compiler::base::nearest::nearest;
-use eigentol_interpreter::{Interpreted, tolerance, value};
+use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value};
 
 use crate::declaration::Declaration;
 use crate::failure::Failure;
@@ -98,7 +99,8 @@ impl Point {
             return Err(Failure::usage("no mechanism is given", help));
         };
         let declaration = Declaration::read(path)?;
-        let mut study = Study::new(declaration.mechanism()?);
+        let compilation = declaration.compiled()?;
+        let mut study = Study::new(Interpreted::new(&compilation));
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
             study = study.sigma_level(positive_level(level)?);
         }
@@ -117,7 +119,7 @@ impl Point {
         let given = file.tolerance.iter();
         let own = self.tol.iter().map(|(name, text)| (name, text));
         for (name, text) in given.chain(own) {
-            study = tolerate(study, name, text)?;
+            study = tolerate(study, &compilation, name, text)?;
         }
         study = correlate(study, &file.correlation)?;
         Ok(Question {
@@ -168,21 +170,28 @@ fn read(option: &str, name: &str, text: &str, unit: &Unit) -> Result<f64, Failur
 /// Sets a tolerance.
 fn tolerate(
     study: Study<Interpreted>,
+    of: &Compilation,
     name: &str,
     text: &str,
 ) -> Result<Study<Interpreted>, Failure> {
     let (parameter, unit) = parameter(&study, name)?;
     let refused = |mistakes| Failure::value(format!("tolerance {name}={text}"), &mistakes);
-    let value = match parameter {
-        Parameter::Input(input) => study.input_values()[input.index()],
-        Parameter::Design(variable) => study.design_values()[variable.index()],
+    let (value, found) = match parameter {
+        Parameter::Input(input) => {
+            let value = study.input_values()[input.index()];
+            (value, tolerance(text, &unit, value))
+        }
+        Parameter::Design(variable) => {
+            let (k, design) = (variable.index(), study.design_values());
+            (design[k], design_tolerance(of, text, k, design))
+        }
     };
     let ToleranceInfo {
         lower,
         upper,
         relative,
         law,
-    } = tolerance(text, &unit, value).map_err(refused)?;
+    } = found.map_err(refused)?;
     let study = if !relative {
         study.limits(parameter, lower, upper)
     } else if lower == -upper {

@@ -485,3 +485,42 @@ fn counts_and_levels_that_make_no_sense() {
     let points = ["--sweep", "omega=4..8rad/s", "--points", "-5"];
     refused(&swept("campbell", &points), 2, &["write a whole number"]);
 }
+
+/// A tolerance on the command line or in a study file is checked like a declared one, with the same words.
+#[test]
+fn tolerances_whose_ends_are_impossible() {
+    let folder = folder("impossible");
+    let words = [
+        "within the tolerance of `l`, the length of `bar` is -2 m; it must be positive",
+        "narrow the tolerance, or change the nominal value",
+    ];
+    let declared = fs::read_to_string(examples().join(PENDULUM)).unwrap();
+    let start = declared.find("design l").unwrap();
+    let end = start + declared[start..].find(';').unwrap();
+    let wide = format!(
+        "{}design l = 1 m +/- 300%{}",
+        &declared[..start],
+        &declared[end..]
+    );
+    refused(&["check", &file(&folder, "wide", &wide)], 3, &words);
+    for given in ["300%", "3 m", "+1 -3 m uniform", "one of [-2, 1] m"] {
+        let option = format!("l={given}");
+        refused(&pendulum("tolerance", &["--tol", &option]), 2, &words);
+        let study = file(&folder, "study", &format!("[tolerance]\nl = \"{given}\"\n"));
+        refused(&pendulum("modes", &["--study", &study]), 2, &words);
+    }
+    // About the value that is set, not the declared one.
+    let shorter = ["--tol", "l=0.7m", "--set", "l=0.5m"];
+    refused(
+        &pendulum("modes", &shorter),
+        2,
+        &["the length of `bar` is -0.2 m"],
+    );
+    let wider = ["--tol", "l=1.5m", "--set", "l=2m"];
+    assert_eq!(run(&pendulum("modes", &wider)).code, 0);
+    let zero = "mechanism A { design x0 = 0 m; design k = 9 N/m; body b: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to b; force s: spring(on: x, stiffness: k, rest: x0); }";
+    let zero = file(&folder, "zero", zero);
+    let parts = ["a percentage of a nominal value of zero is zero"];
+    refused(&["tolerance", &zero, "--tol", "x0=1%"], 2, &parts);
+}

@@ -406,5 +406,8 @@ fn orders_are_counted_once() {
     let forwards = "speed=2000..4000rpm";
     assert_eq!(along(forwards, "1,1,1.0"), along(forwards, "1"));
     let backwards = along("speed=-4000..-2000rpm", "-1");
-    assert!(backwards.contains("frequency 1 is -1 times speed"), "{backwards}");
+    assert!(
+        backwards.contains("frequency 1 is -1 times speed"),
+        "{backwards}"
+    );
 }
