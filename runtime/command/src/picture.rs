@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use eigentol_figures::{Figure, Form, Style};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, plural};
+use crate::output::Output;
 use crate::place::Target;
 use crate::point::Question;
 use crate::study_file::FrequencyUnit;
@@ -59,7 +60,7 @@ impl Picture {
 
     /// Rejects, before any long computation, wording options without a figure, unknown file formats and unwritable
     /// files.
-    pub(crate) fn check(&self) -> Result<(), Failure> {
+    pub(crate) fn check(&self, output: &Output) -> Result<(), Failure> {
         if self.figure.is_none() && self.wording.is_given() {
             let message = "names of modes and a unit of frequencies only apply to a figure";
             return Err(Failure::usage(message, "ask for one: `--figure modes.svg`"));
@@ -85,6 +86,11 @@ impl Picture {
         if let Some(path) = &self.figure {
             let file = figure()?.file(Form::of(path)?)?;
             let written = Target::of(path).write(&file);
+            if output.is_written_to(path) {
+                let message = format!("`{}` cannot hold the answer and its figure", path.display());
+                let help = "give `--output` and `--figure` files of their own";
+                return Err(Failure::usage(message, help));
+            }
             written.map_err(|source| Failure::write(path, source))?;
         }
         Ok(())

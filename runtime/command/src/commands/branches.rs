@@ -29,7 +29,7 @@ pub(crate) struct Branches {
 impl Branches {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let bar = progress::bar("points of branches", None);

@@ -35,7 +35,7 @@ pub(crate) struct Campbell {
 impl Campbell {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let values = self.points.values(&range, &question)?;

@@ -23,7 +23,7 @@ pub(crate) struct Modes {
 impl Modes {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let question = self.point.question()?;
         let solved = question.study.solve()?;
         let mut answer = self.output.answer();

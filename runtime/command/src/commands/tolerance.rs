@@ -25,7 +25,7 @@ pub(crate) struct Tolerance {
 impl Tolerance {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let bar = progress::bar("samples", None);
         question.study = progress::watched(question.study, &bar);

@@ -524,3 +524,35 @@ fn tolerances_whose_ends_are_impossible() {
     let parts = ["a percentage of a nominal value of zero is zero"];
     refused(&["tolerance", &zero, "--tol", "x0=1%"], 2, &parts);
 }
+
+/// A figure and an answer do not share a file, and a text is no picture.
+#[test]
+fn answers_and_figures_that_overwrite_each_other() {
+    let folder = folder("overwritten");
+    let place = |name: &str| folder.join(name).display().to_string();
+    let (one, other) = (place("a.svg"), place("./a.svg"));
+    for figure in [&one, &other] {
+        let both = ["--json", "-o", &one, "--figure", figure];
+        refused(
+            &pendulum("modes", &both),
+            2,
+            &["the answer and its figure", "files of their own"],
+        );
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("a.svg", folder.join("link.json")).unwrap();
+        let both = ["-o", &place("link.json"), "--figure", &one];
+        refused(&pendulum("modes", &both), 2, &["the answer and its figure"]);
+    }
+    for name in ["answer.svg", "answer.png"] {
+        let file = place(name);
+        refused(
+            &pendulum("modes", &["-o", &file]),
+            2,
+            &["is a picture", "`--figure FILE`"],
+        );
+        assert!(!folder.join(name).exists());
+    }
+    assert!(!folder.join("a.svg").exists());
+}
