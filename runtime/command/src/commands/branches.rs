@@ -49,7 +49,7 @@ impl Branches {
         })?;
         written?;
         bar.finish_and_clear();
-        let style = self.picture.style(&question);
+        let style = self.picture.plain_style(&question);
         self.picture.draw(|| figures::branches(&found, &style))?;
         match rows {
             Some(rows) => rows.finish()?,

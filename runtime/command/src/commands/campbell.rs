@@ -69,7 +69,8 @@ impl Campbell {
         bar.finish_and_clear();
         let mut found = found;
         found.points = points;
-        let style = self.picture.style(&question);
+        let modes = found.labels().last().map_or(0, |last| last + 1);
+        let style = self.picture.style(&question, modes)?;
         self.picture.draw(|| figures::campbell(&found, &style))?;
         match rows {
             Some(rows) => rows.finish()?,

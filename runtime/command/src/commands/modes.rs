@@ -29,7 +29,7 @@ impl Modes {
         let mut answer = self.output.answer();
         answer.add(&solved.modes)?;
         answer.add(&solved.equilibrium)?;
-        let style = self.picture.style(&question);
+        let style = self.picture.style(&question, solved.modes.modes.len())?;
         self.picture.draw(|| mode_shapes(&solved.modes, &style))?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))

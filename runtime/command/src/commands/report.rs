@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::picture::Wording;
 use crate::place::Place;
-use crate::point::{Point, exact, samples, whole};
+use crate::point::{Point, Question, exact, samples, whole};
 use crate::progress;
 use crate::sweep::{Orders, Points, Sweep};
 use crate::verdict::Verdict;
@@ -53,6 +53,7 @@ impl Report {
             Some(range) => self.points.values(range, &question)?,
             None => Vec::new(),
         };
+        self.check_names(&question, range.is_some())?;
         let file = &question.file;
         let bar = progress::bar("samples, values and points", None);
         let study = progress::watched(question.study.clone(), &bar)
@@ -80,5 +81,20 @@ impl Report {
         // An equilibrium or modes that the report lacks count here as the answer "no".
         let solved = study.solve()?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+    }
+
+    /// Refuses more names than there can be modes: of those along an input only the greatest number is known before.
+    fn check_names(&self, question: &Question, is_swept: bool) -> Result<(), Failure> {
+        let most = match is_swept {
+            true => 2 * question.study.description().coordinates.len(),
+            false => 0,
+        };
+        // The report says why there are no modes.
+        match question.study.solve() {
+            Ok(solved) => self
+                .wording
+                .check(question, most.max(solved.modes.modes.len())),
+            Err(_) => Ok(()),
+        }
     }
 }

@@ -45,7 +45,7 @@ impl Tolerance {
         if !study.description().outputs.is_empty() {
             answer.add(&solved.output_tolerances()?)?;
         }
-        let style = self.picture.style(&question);
+        let style = self.picture.style(&question, solved.modes.modes.len())?;
         self.picture.draw(|| shares_of_all(&first, &style))?;
         self.output.write(&answer)?;
         if stopped {

@@ -556,3 +556,53 @@ fn answers_and_figures_that_overwrite_each_other() {
     }
     assert!(!folder.join("a.svg").exists());
 }
+
+/// More names than modes are a mistake; modes without a name keep their number.
+#[test]
+fn names_of_modes_that_do_not_exist() {
+    let folder = folder("mode_names");
+    let figure = folder.join("modes.svg");
+    let place = figure.display().to_string();
+    let with = ["--figure", &place, "--mode-names"];
+    let parts = [
+        "2 names of modes are given, and there is 1 mode",
+        "leave out `pitch`",
+    ];
+    let two = [&with[..], &["swing,pitch"]].concat();
+    refused(&pendulum("modes", &two), 2, &parts);
+    refused(&pendulum("tolerance", &two), 2, &parts);
+    let speeds = ["--sweep", "omega=4..8rad/s", "--points", "3"];
+    refused(&swept("campbell", &[&two[..], &speeds].concat()), 2, &parts);
+    let study = file(&folder, "names.toml", "mode_names = [\"swing\", \"pitch\"]");
+    refused(
+        &pendulum("modes", &["--figure", &place, "--study", &study]),
+        2,
+        &parts,
+    );
+    assert!(!figure.exists());
+    // The names in a study file are for the questions that draw modes.
+    assert_eq!(run(&pendulum("modes", &["--study", &study])).code, 0);
+    let html = folder.join("report.html").display().to_string();
+    let report = [
+        "-o",
+        &html,
+        "--samples",
+        "10",
+        "--mode-names",
+        "swing,pitch",
+    ];
+    refused(&pendulum("report", &report), 2, &parts);
+    let rotor = [
+        "modes",
+        "jeffcott_rotor.mechanism",
+        "--set",
+        "speed=1000rpm",
+    ];
+    let fewer = [&rotor[..], &with, &["first,second"]].concat();
+    assert_eq!(run(&fewer).code, 0);
+    let drawn = fs::read_to_string(&figure).unwrap();
+    assert!(
+        drawn.contains("second") && drawn.contains("mode 3"),
+        "{drawn}"
+    );
+}
