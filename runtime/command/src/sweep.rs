@@ -77,6 +77,15 @@ pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Fai
         return Err(Failure::usage(format!("`{text}` is not a range"), HELP));
     };
     let (input, unit) = input(study, name)?;
+    for (end, what, instead) in [
+        (low, "start", format!("0..{high}")),
+        (high, "end", format!("{low}..6000rpm")),
+    ] {
+        if end.trim().is_empty() {
+            let message = format!("the range `{text}` has no {what}");
+            return Err(Failure::usage(message, format!("write `{name}={instead}`")));
+        }
+    }
     let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
     let end = |text: &str| value(text, &unit, &format!("`{name}`")).map_err(refused);
     Ok(Range {

@@ -191,6 +191,8 @@ fn sweeps_that_make_no_sense() {
         ("omega=0..8", "has no unit"),
         ("omega=0..8m", "this is a length"),
         ("omega=1rad/s..1rad/s", "ends must differ"),
+        ("omega=..8rad/s", "write `omega=0..8rad/s`"),
+        ("omega=4rad/s..", "has no end"),
     ] {
         refused(&["branches", PENDULUM, "--sweep", sweep], 2, &[part]);
     }
@@ -605,4 +607,12 @@ fn names_of_modes_that_do_not_exist() {
         drawn.contains("second") && drawn.contains("mode 3"),
         "{drawn}"
     );
+}
+
+#[test]
+fn numbers_with_digits_on_one_side_of_the_point() {
+    for value in ["omega=5.rad/s", "omega=.5rad/s", "omega=-.5 rad/s"] {
+        let parts = ["write digits on both sides of the point: `5.0`, `0.5`"];
+        refused(&["modes", PENDULUM, "--set", value], 2, &parts);
+    }
 }

@@ -93,7 +93,10 @@ fn power(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
 
 fn component(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let mut value = primary(tokens, depth)?;
-    while tokens.sign('.').is_some() {
+    while let Some(point) = tokens.sign('.') {
+        if matches!(value.kind, ValueKind::Number(_, None)) {
+            return digits_missing(point);
+        }
         let Some(axis) = tokens.ident() else {
             return tokens.expected("a component: `x`, `y` or `z`");
         };
@@ -131,6 +134,12 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
         !KEYWORDS.contains(&word.as_str())
     });
     if !follows_value {
+        let mut ahead = *tokens;
+        if let Some(point) = ahead.sign('.')
+            && ahead.literal().is_some()
+        {
+            return digits_missing(point);
+        }
         return tokens.expected("a value");
     }
     let name = tokens.name("a value")?;
@@ -182,6 +191,13 @@ fn binary(operator: Operator, sign: Extent, left: Value, right: Value) -> Parsed
         right,
     };
     built(ValueKind::Binary(Box::new(binary)), extent)
+}
+
+/// A point with digits on one side only.
+fn digits_missing<T>(point: Extent) -> Parsed<T> {
+    let diagnostic = Diagnostic::new(point, "digits are missing beside this point")
+        .with_help("write digits on both sides of the point: `5.0`, `0.5`");
+    Err(Box::new(diagnostic))
 }
 
 /// The value, or an error if it makes the tree too high.
