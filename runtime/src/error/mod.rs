@@ -144,7 +144,7 @@ pub enum Error {
     /// The stiffness matrix is singular: the equilibrium is a critical state.
     #[error(
         "the stiffness matrix is singular at this equilibrium: its shift by design variables is not defined. At a \
-         critical state `critical_sensitivity` has the answer; a direction without stiffness needs a spring or a drive"
+         critical state only the critical value has derivatives; a direction without stiffness needs a spring or a drive"
     )]
     CriticalState,
     /// A redundant constraint agrees with the others only at these values of the variables.
@@ -223,8 +223,9 @@ pub enum Error {
     /// Modes have merged into one defective eigenvalue (a single mode with its conjugate), or are so close to it that
     /// rounding hides their coupling.
     #[error(
-        "merged into a defective eigenvalue: modes {modes:?} (counted from 0). It splits as the square root of any \
-         change and has no derivative; move the operating point or sample the whole problem"
+        "{} a defective eigenvalue. It splits as the square root of any change and has no derivative; move the operating \
+         point or sample the whole problem",
+        merged(.modes)
     )]
     Defective {
         /// Positions of the modes, from 0.
@@ -372,6 +373,29 @@ fn ranges(all: &[core::ops::Range<u64>]) -> String {
         .map(|range| format!("{} to below {}", range.start, range.end))
         .collect();
     each.join(", ")
+}
+
+/// The modes that have merged, counted from 1 as in all messages.
+fn merged(modes: &[usize]) -> String {
+    let numbers: Vec<String> = modes.iter().map(|mode| (mode + 1).to_string()).collect();
+    match &numbers[..] {
+        [one] => format!("mode {one} and its conjugate have merged into"),
+        all => format!("modes {} have merged into", all.join(", ")),
+    }
+}
+
+/// Why there is no probability, in the words of a requirement.
+fn unreliable(error: &eigentol_statistics::Error) -> String {
+    match error {
+        eigentol_statistics::Error::NoLimitValue { place, reason } => {
+            let place = match *place {
+                "at the origin" => "at the nominal design",
+                place => place,
+            };
+            format!("a requirement cannot be judged {place}: {reason}")
+        }
+        error => error.to_string(),
+    }
 }
 
 fn listed(others: &[(Text, f64)]) -> String {

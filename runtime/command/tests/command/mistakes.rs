@@ -616,3 +616,24 @@ fn numbers_with_digits_on_one_side_of_the_point() {
         refused(&["modes", PENDULUM, "--set", value], 2, &parts);
     }
 }
+
+/// Messages of the library name no function of Rust, and count modes from 1.
+#[test]
+fn a_defective_pair_in_plain_words() {
+    let folder = folder("defective");
+    let text = "mechanism Crit { design k = 400 N/m +/- 5%; design m = 4 kg; design c = 80 N*s/m +/- 5%; body b: point(mass: m);
+        joint x: prismatic(x) from ground to b; force s: spring(on: x, stiffness: k); force d: damper(on: x, damping: c); }";
+    let path = file(&folder, "crit.mechanism", text);
+    let run = run(&["sensitivities", &path]);
+    assert!(
+        run.out.contains("of a defective eigenvalue have none"),
+        "{}",
+        run.out
+    );
+    assert!(
+        !run.out.contains('_') && !run.err.contains('_'),
+        "{}{}",
+        run.out,
+        run.err
+    );
+}
