@@ -16,8 +16,32 @@ use crate::study_file::{self, Choose, Require, Written};
 use crate::sweep::{multiple, range};
 use crate::verdict::Verdict;
 
+/// The keys of a study file that this question needs.
+const KEYS: &str = r#"The study file:
+  [[require]]                    # once for each requirement
+  failure = 0.001                # greatest probability of violating it
+  at_least = "59 rad/s"          # and, or instead, at_most; or outside = ["4 Hz", "5 Hz"]
+                                 # of one of these:
+  mode = 1                       #   a mode, counted from 1; its quantity is "frequency", "natural_frequency",
+  quantity = "frequency"         #   "damping_ratio" or "growth"
+  output = "angle"               #   an output of the declaration
+  critical = "speed=0..6000rpm"  #   the speed at which the equilibrium loses its stiffness
+  resonance = "speed=0..6000rpm" #   with mode: the speed at which its frequency is order (1) times the speed
+  order = 1
+  flutter = "speed=0..6000rpm"   #   with mode: the speed at which it begins to grow
+  stable = true                  #   the equilibrium is stable; without limits
+
+  [[choose]]                     # once for each choice
+  tolerance = "k"                # a half-width T with its cost; or nominal = "k", without a cost
+  least = "0.4 N/mm"
+  most = "12 N/mm"
+  cost = { fixed = 0, factor = 1.0, power = 1 }   # fixed + factor / T^power, T in the declared unit
+
+Other keys: mechanism, set, start, guess, tolerance, correlation, sigma_level, samples, seed, stream"#;
+
 /// The cheapest tolerances that meet requirements; a study file states the requirements and the choices
 #[derive(Args, Debug)]
+#[command(after_long_help = KEYS)]
 pub(crate) struct Allocate {
     #[command(flatten)]
     point: Point,

@@ -11,7 +11,7 @@ use crate::point::Point;
 use crate::progress;
 use crate::verdict::Verdict;
 
-/// Spread of frequencies and outputs by tolerances, and how far it can be trusted
+/// Spread of frequencies and outputs by tolerances, and how far that of the frequencies can be trusted
 #[derive(Args, Debug)]
 pub(crate) struct Tolerance {
     #[command(flatten)]

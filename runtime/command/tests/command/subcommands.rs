@@ -411,3 +411,18 @@ fn orders_are_counted_once() {
         "{backwards}"
     );
 }
+
+#[test]
+fn help_about_study_files_lists_their_keys() {
+    let help = answer(&["help", "allocate"]);
+    for key in [
+        "[[require]]",
+        "failure =",
+        "damping_ratio",
+        "resonance =",
+        "[[choose]]",
+        "cost = {",
+    ] {
+        assert!(help.contains(key), "{key}");
+    }
+}
