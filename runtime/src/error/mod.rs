@@ -288,7 +288,7 @@ pub enum Error {
         known: Vec<Text>,
     },
     /// The probability cannot be computed from a design point.
-    #[error("{0}. Sampling needs no design point")]
+    #[error("{}. Sampling needs no design point", unreliable(.0))]
     NoReliability(Box<eigentol_statistics::Error>),
     /// No tolerances within their limits meet the requirements.
     #[error(
@@ -437,4 +437,28 @@ impl From<eigentol_statistics::Error> for Error {
 /// Rounds away the digits of a computed value that rounding errors affect.
 fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Error;
+
+    /// Messages count modes from 1 and name no function.
+    #[test]
+    fn sentences() {
+        let merged = |modes: &[usize]| Error::Defective {
+            modes: modes.to_vec(),
+        };
+        let start = |error: Error| error.to_string();
+        assert!(start(merged(&[0])).starts_with("mode 1 and its conjugate have merged into a"));
+        assert!(start(merged(&[0, 2])).starts_with("modes 1, 3 have merged into a defective"));
+        assert!(!start(Error::CriticalState).contains('`'));
+        let none = eigentol_statistics::Error::NoLimitValue {
+            place: "at the origin",
+            reason: "it has no equilibrium".to_owned(),
+        };
+        let expected = "a requirement cannot be judged at the nominal design: it has no equilibrium. Sampling needs no \
+                        design point";
+        assert_eq!(Error::from(none).to_string(), expected);
+    }
 }

@@ -637,3 +637,16 @@ fn a_defective_pair_in_plain_words() {
         run.err
     );
 }
+
+#[test]
+fn a_state_reads_well_in_a_sentence() {
+    let folder = folder("states");
+    let text = "mechanism Follower { input p: N; body a: rod(mass: 2 kg, length: 1 m, along: z); body b: rod(mass: 1 kg, length: 1 m, along: z);
+        joint x: revolute(y) from ground to a; joint y: revolute(y) from a to b at [0, 0, 1 m];
+        force s: spring(on: x, stiffness: 10 N*m/rad); force t: spring(on: y, stiffness: 10 N*m/rad);
+        force f: follower(at: end, force: [0 N, 0 N, -p]); point end: b at [0, 0, 1 m]; }";
+    let path = file(&folder, "follower.mechanism", text);
+    let run = run(&["modes", &path, "--set", "p=30N"]);
+    let flutter = "no: the equilibrium is unstable (flutter: one growing oscillation)\n";
+    assert_eq!((run.code, run.err.as_str()), (1, flutter));
+}
