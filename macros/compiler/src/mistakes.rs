@@ -9,6 +9,7 @@ use syn::{Attribute, Meta, Token};
 
 use crate::base::diagnostics::Diagnostics;
 use crate::pipeline::Compilation;
+use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, too_deep};
 
 /// One mistake in a declaration.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,8 +84,19 @@ impl std::error::Error for Mistakes {}
 /// ```
 ///
 /// # Errors
-/// If the text contains a sign that has no meaning in a declaration, or an unpaired bracket or quote.
+/// If the text contains a sign that has no meaning in a declaration, an unpaired bracket or quote, or brackets in
+/// brackets beyond any use.
 pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
+    if let Some((line, column)) = too_deep(text.trim_start_matches(BYTE_ORDER_MARK)) {
+        return Err(Mistakes(vec![Mistake {
+            line: line + 1,
+            column: column + 1,
+            end_line: line + 1,
+            end_column: column + 2,
+            message: TOO_LARGE.to_owned(),
+            help: Some(NAME_PARTS.to_owned()),
+        }]));
+    }
     text.parse().map_err(|error: LexError| {
         let span = error.span();
         let start = span.start();

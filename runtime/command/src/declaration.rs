@@ -6,7 +6,6 @@ use std::path::Path;
 
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::{Compilation, compile_text};
-use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
 use crate::mistake::Mistake;
@@ -37,11 +36,6 @@ impl Declaration {
     pub(crate) fn compiled(&self) -> Result<Compilation, Failure> {
         compile_text(&self.text, Limits::default())
             .map_err(|mistakes| self.refused(mistakes.iter().map(Mistake::from).collect()))
-    }
-
-    /// The declared mechanism.
-    pub(crate) fn mechanism(&self) -> Result<Interpreted, Failure> {
-        Ok(Interpreted::new(&self.compiled()?))
     }
 
     pub(crate) fn refused(&self, mistakes: Vec<Mistake>) -> Failure {

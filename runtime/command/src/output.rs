@@ -1,13 +1,14 @@
 //! The output format of an answer.
 
 use std::io::{self, IsTerminal as _};
+use std::path::Path;
 
 use clap::Args;
 use eigentol_tables::Table;
 
 use crate::answer::{Answer, Form};
 use crate::failure::Failure;
-use crate::place::Place;
+use crate::place::{Place, is_same};
 use crate::rows::Rows;
 
 /// Form and place of the answer.
@@ -36,6 +37,17 @@ impl Output {
     /// Rejects unwritable files and inconsistent options before any long computation.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         let form = self.form();
+        if let (Form::Text, Some(path)) = (form, self.place.path())
+            && eigentol_figures::Form::of(path).is_ok()
+        {
+            let message = format!(
+                "`{}` is a picture, and the answer is a text",
+                path.display()
+            );
+            let help =
+                "`modes`, `tolerance`, `campbell` and `branches` draw it with `--figure FILE`";
+            return Err(Failure::usage(message, help));
+        }
         if self.table.is_some() && !form.has_rows() {
             let help =
                 "add `--csv` or `--parquet`, or an `--output` that ends in `.csv` or `.parquet`";
@@ -52,6 +64,11 @@ impl Output {
             ));
         }
         self.place.check()
+    }
+
+    /// Whether the answer is written to this file.
+    pub(crate) fn is_written_to(&self, path: &Path) -> bool {
+        self.place.path().is_some_and(|own| is_same(own, path))
     }
 
     fn form(&self) -> Form {

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use eigentol_figures::{Figure, Form, Style};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, plural};
+use crate::output::Output;
 use crate::place::Target;
 use crate::point::Question;
 use crate::study_file::FrequencyUnit;
@@ -23,7 +24,7 @@ pub(crate) struct Picture {
 /// How a figure calls things.
 #[derive(Args, Debug)]
 pub(crate) struct Wording {
-    /// Names of the modes in figures, in order: `bounce,pitch` [default: their numbers]
+    /// Names of the modes in figures, in order: `bounce,pitch`; modes without one keep their number
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     mode_names: Vec<String>,
     /// Unit of frequencies in figures [default: Hz along an input in rpm or Hz, otherwise rad/s]
@@ -36,12 +37,31 @@ impl Wording {
         !self.mode_names.is_empty() || self.frequency_unit.is_some()
     }
 
-    /// Mode names and units from the study file, overridden by the command line.
-    pub(crate) fn style(&self, question: &Question) -> Style {
-        let names = match self.mode_names.is_empty() {
+    fn names<'a>(&'a self, question: &'a Question) -> &'a [String] {
+        match self.mode_names.is_empty() {
             true => &question.file.mode_names,
             false => &self.mode_names,
+        }
+    }
+
+    /// Refuses more names than there are modes. Fewer are enough: modes without a name keep their number.
+    pub(crate) fn check(&self, question: &Question, modes: usize) -> Result<(), Failure> {
+        let names = self.names(question);
+        if names.len() <= modes {
+            return Ok(());
+        }
+        let (given, are) = (names.len(), plural(modes, "is 1 mode", "are"));
+        let message = match modes {
+            1 => format!("{given} names of modes are given, and there {are}"),
+            _ => format!("{given} names of modes are given, and there {are} {modes} modes"),
         };
+        let unknown = names[modes..].join("`, `");
+        Err(Failure::usage(message, format!("leave out `{unknown}`")))
+    }
+
+    /// Mode names and units from the study file, overridden by the command line.
+    pub(crate) fn style(&self, question: &Question) -> Style {
+        let names = self.names(question);
         let style = Style::default().name_modes(names.iter().map(|name| name.trim()));
         match self.frequency_unit.or(question.file.frequency_unit) {
             None => style,
@@ -59,22 +79,35 @@ impl Picture {
 
     /// Rejects, before any long computation, wording options without a figure, unknown file formats and unwritable
     /// files.
-    pub(crate) fn check(&self) -> Result<(), Failure> {
+    pub(crate) fn check(&self, output: &Output) -> Result<(), Failure> {
         if self.figure.is_none() && self.wording.is_given() {
             let message = "names of modes and a unit of frequencies only apply to a figure";
             return Err(Failure::usage(message, "ask for one: `--figure modes.svg`"));
         }
         if let Some(path) = &self.figure {
             Form::of(path)?;
+            if output.is_written_to(path) {
+                let message = format!("`{}` cannot hold the answer and its figure", path.display());
+                let help = "give `--output` and `--figure` files of their own";
+                return Err(Failure::usage(message, help));
+            }
             let writable = Target::of(path).check();
             writable.map_err(|source| Failure::write(path, source))?;
         }
         Ok(())
     }
 
-    /// The style of the figure.
-    pub(crate) fn style(&self, question: &Question) -> Style {
+    /// The style of a figure without modes.
+    pub(crate) fn plain_style(&self, question: &Question) -> Style {
         self.wording.style(question).design_of(&question.study)
+    }
+
+    /// The style of a figure of so many modes.
+    pub(crate) fn style(&self, question: &Question, modes: usize) -> Result<Style, Failure> {
+        if self.is_wanted() {
+            self.wording.check(question, modes)?;
+        }
+        Ok(self.plain_style(question))
     }
 
     /// Draws the figure, if one is requested.

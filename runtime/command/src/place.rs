@@ -111,17 +111,48 @@ impl Drop for Unfinished {
     }
 }
 
-/// A file to write.
-pub(crate) enum Target<'a> {
-    /// Written next to its destination and moved into place, so that a failure keeps the existing file.
-    File { path: &'a Path, beside: PathBuf },
-    /// A device or a pipe.
-    Device(&'a Path),
+/// Most symbolic links that are followed, as on Linux.
+const LINKS: usize = 40;
+
+/// The path to which a symbolic link leads, also if nothing exists there yet.
+fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    for _ in 0..LINKS {
+        let Ok(next) = fs::read_link(&path) else {
+            break;
+        };
+        // An absolute path replaces the folder.
+        path = path.parent().unwrap_or(Path::new("")).join(next);
+    }
+    path
 }
 
-impl<'a> Target<'a> {
-    pub(crate) fn of(path: &'a Path) -> Self {
-        let device = fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir());
+/// Whether two paths lead to the same file, as far as links and existing folders tell.
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    let whole = |path: &Path| {
+        let path = followed(path);
+        let folder = match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => fs::canonicalize(folder),
+            _ => fs::canonicalize("."),
+        };
+        let name = path.file_name().unwrap_or_default();
+        folder.map_or(path.clone(), |folder| folder.join(name))
+    };
+    whole(one) == whole(other)
+}
+
+/// A file to write.
+pub(crate) enum Target {
+    /// Written next to its destination and moved into place, so that a failure keeps the existing file.
+    File { path: PathBuf, beside: PathBuf },
+    /// A device or a pipe, opened only once: the reader of a pipe sees its end when it is closed.
+    Device(PathBuf),
+}
+
+impl Target {
+    pub(crate) fn of(path: &Path) -> Self {
+        let path = followed(path);
+        let device = fs::metadata(&path).is_ok_and(|data| !data.is_file() && !data.is_dir());
         if device {
             return Self::Device(path);
         }
@@ -133,7 +164,7 @@ impl<'a> Target<'a> {
 
     pub(crate) fn check(&self) -> io::Result<()> {
         match self {
-            Self::Device(path) => OpenOptions::new().write(true).open(path).map(|_| ()),
+            Self::Device(_) => Ok(()),
             Self::File { path, beside } => {
                 if path.is_dir() {
                     return Err(io::ErrorKind::IsADirectory.into());
@@ -153,7 +184,7 @@ impl<'a> Target<'a> {
             }
             Self::File { path, beside } => {
                 let file = File::create(beside)?;
-                let moves = (beside.clone(), path.to_path_buf());
+                let moves = (beside.clone(), path.clone());
                 (Unfinished(Some(moves)), Box::new(file))
             }
         })

@@ -1,14 +1,16 @@
 //! The operating point and tolerances of a command, from the declaration, then the study file, then the command line.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::Args;
 use eigentol::{
     Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role,
     Study, Text, ToleranceInfo, Unit,
 };
+use eigentol_compiler::Compilation;
 use eigentol_compiler::base::nearest::nearest;
-use eigentol_interpreter::{Interpreted, tolerance, value};
+use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value};
 
 use crate::declaration::Declaration;
 use crate::failure::Failure;
@@ -36,7 +38,7 @@ pub(crate) struct Point {
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     guess: Vec<(String, String)>,
     /// How many standard deviations make a half-width [default: 3]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     sigma_level: Option<f64>,
 }
 
@@ -46,6 +48,8 @@ pub(crate) struct Question {
     pub(crate) file: StudyFile,
     /// The declaration.
     pub(crate) text: String,
+    /// The names that the command line sets.
+    pub(crate) set: Vec<String>,
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {
@@ -66,6 +70,23 @@ pub(crate) fn whole(text: &str) -> Result<usize, String> {
         .ok_or_else(|| "write a whole number: `10000` or `1e4`".to_owned())
 }
 
+/// Parses a number such as a seed, of which every digit counts.
+pub(crate) fn exact<N: FromStr>(text: &str) -> Result<N, String> {
+    text.parse()
+        .map_err(|_| "write a whole number that is not negative: `7`".to_owned())
+}
+
+/// The number of samples of the command line or else the study file.
+pub(crate) fn samples(own: Option<usize>, file: &StudyFile) -> Result<usize, Failure> {
+    match own.or(file.samples).unwrap_or(3000) {
+        0 => {
+            let help = "take at least 1: `--samples 3000`";
+            Err(Failure::usage("0 samples have no result", help))
+        }
+        count => Ok(count),
+    }
+}
+
 impl Point {
     /// Reads the files and applies all settings.
     pub(crate) fn question(&self) -> Result<Question, Failure> {
@@ -78,9 +99,10 @@ impl Point {
             return Err(Failure::usage("no mechanism is given", help));
         };
         let declaration = Declaration::read(path)?;
-        let mut study = Study::new(declaration.mechanism()?);
+        let compilation = declaration.compiled()?;
+        let mut study = Study::new(Interpreted::new(&compilation));
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
-            study = study.sigma_level(level);
+            study = study.sigma_level(positive_level(level)?);
         }
         for (option, given, own) in [
             ("set", &file.set, &self.set),
@@ -97,15 +119,25 @@ impl Point {
         let given = file.tolerance.iter();
         let own = self.tol.iter().map(|(name, text)| (name, text));
         for (name, text) in given.chain(own) {
-            study = tolerate(study, name, text)?;
+            study = tolerate(study, &compilation, name, text)?;
         }
         study = correlate(study, &file.correlation)?;
         Ok(Question {
             study,
             file,
             text: declaration.text,
+            set: self.set.iter().map(|(name, _)| name.clone()).collect(),
         })
     }
+}
+
+fn positive_level(level: f64) -> Result<f64, Failure> {
+    if level > 0.0 && level.is_finite() {
+        return Ok(level);
+    }
+    let message = format!("the sigma level is {level}, but it must be positive and finite");
+    let help = "it is the number of standard deviations in a half-width: `--sigma-level 3`";
+    Err(Failure::usage(message, help))
 }
 
 /// Sets a value.
@@ -138,21 +170,28 @@ fn read(option: &str, name: &str, text: &str, unit: &Unit) -> Result<f64, Failur
 /// Sets a tolerance.
 fn tolerate(
     study: Study<Interpreted>,
+    of: &Compilation,
     name: &str,
     text: &str,
 ) -> Result<Study<Interpreted>, Failure> {
     let (parameter, unit) = parameter(&study, name)?;
     let refused = |mistakes| Failure::value(format!("tolerance {name}={text}"), &mistakes);
-    let value = match parameter {
-        Parameter::Input(input) => study.input_values()[input.index()],
-        Parameter::Design(variable) => study.design_values()[variable.index()],
+    let (value, found) = match parameter {
+        Parameter::Input(input) => {
+            let value = study.input_values()[input.index()];
+            (value, tolerance(text, &unit, value))
+        }
+        Parameter::Design(variable) => {
+            let (k, design) = (variable.index(), study.design_values());
+            (design[k], design_tolerance(of, text, k, design))
+        }
     };
     let ToleranceInfo {
         lower,
         upper,
         relative,
         law,
-    } = tolerance(text, &unit, value).map_err(refused)?;
+    } = found.map_err(refused)?;
     let study = if !relative {
         study.limits(parameter, lower, upper)
     } else if lower == -upper {

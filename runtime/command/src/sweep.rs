@@ -25,8 +25,21 @@ pub(crate) struct Sweep {
 #[derive(Args, Debug)]
 pub(crate) struct Points {
     /// Number of values, ends included [default: 51]
-    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     points: Option<usize>,
+}
+
+/// Which multiples of the input.
+#[derive(Args, Debug)]
+pub(crate) struct Orders {
+    /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
+    #[arg(
+        long = "order",
+        value_name = "NUMBERS",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    orders: Vec<f64>,
 }
 
 /// A range of an input, SI.
@@ -39,7 +52,13 @@ pub(crate) struct Range {
 impl Sweep {
     pub(crate) fn range(&self, question: &Question) -> Result<Range, Failure> {
         let found = self.range_if_any(question)?;
-        found.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
+        let found = found.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))?;
+        let name = &question.study.description().inputs[found.input.index()].name;
+        if question.set.iter().any(|set| **set == **name) {
+            let message = format!("`--set {name}=...` has no effect: the sweep sets `{name}`");
+            return Err(Failure::usage(message, "leave one of them out"));
+        }
+        Ok(found)
     }
 
     /// The range; `None` if neither the command line nor a study file gives one.
@@ -58,6 +77,15 @@ pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Fai
         return Err(Failure::usage(format!("`{text}` is not a range"), HELP));
     };
     let (input, unit) = input(study, name)?;
+    for (end, what, instead) in [
+        (low, "start", format!("0..{high}")),
+        (high, "end", format!("{low}..6000rpm")),
+    ] {
+        if end.trim().is_empty() {
+            let message = format!("the range `{text}` has no {what}");
+            return Err(Failure::usage(message, format!("write `{name}={instead}`")));
+        }
+    }
     let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
     let end = |text: &str| value(text, &unit, &format!("`{name}`")).map_err(refused);
     Ok(Range {
@@ -82,6 +110,69 @@ impl Points {
         let inner = (0..count - 1).map(|k| range.low + k as f64 * step);
         Ok(inner.chain([range.high]).collect())
     }
+}
+
+impl Orders {
+    /// The orders, without repetitions, from the command line or else the study file.
+    pub(crate) fn along(
+        &self,
+        range: Option<&Range>,
+        question: &Question,
+    ) -> Result<Vec<f64>, Failure> {
+        let Some(range) = range else {
+            return match self.orders.is_empty() {
+                true => Ok(Vec::new()),
+                false => Err(Failure::usage(
+                    "no input to sweep is given for `--order`",
+                    HELP,
+                )),
+            };
+        };
+        let file = question.file.orders.as_deref().unwrap_or_default();
+        let given = match self.orders.is_empty() {
+            true => file,
+            false => &self.orders,
+        };
+        let mut orders = Vec::new();
+        for &order in given {
+            let order = multiple(order, range, &question.study)?;
+            if !orders.contains(&order) {
+                orders.push(order);
+            }
+        }
+        Ok(orders)
+    }
+}
+
+/// Requires an order to be a multiple of the input with which a mode can oscillate somewhere in a range.
+pub(crate) fn multiple(
+    order: f64,
+    range: &Range,
+    study: &Study<Interpreted>,
+) -> Result<f64, Failure> {
+    let info = &study.description().inputs[range.input.index()];
+    let name = &info.name;
+    if value("1 rad/s", &info.unit, name).is_err() {
+        let message = format!(
+            "an engine order is a multiple of a speed of rotation or a frequency, and `{name}` is in {}",
+            match &*info.unit.symbol {
+                "" => "pure numbers",
+                symbol => symbol,
+            }
+        );
+        let help = "leave the order out, or sweep an input in rpm, rad/s or Hz";
+        return Err(Failure::usage(message, help));
+    }
+    let help = match order {
+        0.0 => "order 1 is once per revolution: `--order 1`",
+        order if !order.is_finite() => "give a finite number: `--order 1,2`",
+        order if order < 0.0 && range.low.min(range.high) >= 0.0 => {
+            "an excitation has a positive frequency: `--order 1`; a negative order is for a negative speed"
+        }
+        _ => return Ok(order),
+    };
+    let message = format!("order {order} crosses no mode");
+    Err(Failure::usage(message, help))
 }
 
 /// Lets the low end of a range take its unit from the high end.

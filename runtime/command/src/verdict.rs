@@ -21,7 +21,8 @@ impl Verdict {
     /// Whether the equilibrium is stable and no mode grows.
     pub(crate) fn of(equilibrium: &Equilibrium, modes: &Modes) -> Self {
         if !equilibrium.stability.holds() {
-            return Self::No(format!("the equilibrium is {}", equilibrium.stability));
+            let predicate = equilibrium.stability.predicate();
+            return Self::No(format!("the equilibrium is {predicate}"));
         }
         let growing = modes.modes.iter().find(|mode| mode.behaviour.grows());
         match growing {

@@ -2,7 +2,7 @@
 
 use eigentol::{ToleranceInfo, Unit};
 use eigentol_compiler::model::resolve::given;
-use eigentol_compiler::tokens;
+use eigentol_compiler::{Compilation, tokens};
 use proc_macro2::TokenStream;
 
 use crate::description;
@@ -46,6 +46,39 @@ pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
 /// The mistakes in the text; lines and columns refer to it.
 pub fn tolerance(text: &str, unit: &Unit, nominal: f64) -> Result<ToleranceInfo, Mistakes> {
     let found = given::tolerance(tokens(text)?, declared(unit)?, nominal)?;
+    Ok(description::tolerance(&found))
+}
+
+/// Parses the tolerance of a design variable like [`tolerance`], and checks it like a declared one: its ends must be
+/// possible where the design variables have these values (SI).
+///
+/// ```
+/// use eigentol_compiler::{compile_text, mechanics::Limits};
+/// use eigentol_interpreter::{Interpreted, design_tolerance};
+///
+/// let compilation = compile_text(
+///     "mechanism A { design l = 1 m; gravity 9.81 m/s^2 along -z; body bar: rod(mass: 1 kg, length: l, along: -z);
+///         joint t: revolute(y) from ground to bar; }",
+///     Limits::default(),
+/// )?;
+/// assert!(design_tolerance(&compilation, "3%", 0, &[1.0])?.relative);
+/// let error = design_tolerance(&compilation, "3 m", 0, &[1.0]).unwrap_err().to_string();
+/// assert!(error.contains("within the tolerance of `l`, the length of `bar` is -2 m; it must be positive"));
+/// # Ok::<(), eigentol_interpreter::Mistakes>(())
+/// ```
+///
+/// # Errors
+/// The mistakes in the text.
+///
+/// # Panics
+/// If the declaration has no such design variable, or another number of them.
+pub fn design_tolerance(
+    of: &Compilation,
+    text: &str,
+    variable: usize,
+    design: &[f64],
+) -> Result<ToleranceInfo, Mistakes> {
+    let found = given::design_tolerance(&of.ast, tokens(text)?, variable, design)?;
     Ok(description::tolerance(&found))
 }
 

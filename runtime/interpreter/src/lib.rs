@@ -10,6 +10,6 @@ mod registers;
 mod schedule;
 mod tape;
 
-pub use given::{tolerance, value};
+pub use given::{design_tolerance, tolerance, value};
 pub use mechanism::Interpreted;
 pub use mistakes::{Mistake, Mistakes, ReadError};

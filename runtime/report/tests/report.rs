@@ -293,7 +293,10 @@ fn an_unstable_equilibrium_is_said_and_shown() {
         .samples(64);
     let html = Report::new(&study).html().unwrap();
     let text = words(&html);
-    assert!(text.contains("The equilibrium is divergent"), "{text}");
+    assert!(
+        text.contains("The equilibrium is unstable in one direction (divergence)"),
+        "{text}"
+    );
     assert!(text.contains("Mode 1 does not oscillate"), "{text}");
     assert_eq!(data(&html, "scene").len(), 1);
 }

@@ -144,7 +144,7 @@ pub enum Error {
     /// The stiffness matrix is singular: the equilibrium is a critical state.
     #[error(
         "the stiffness matrix is singular at this equilibrium: its shift by design variables is not defined. At a \
-         critical state `critical_sensitivity` has the answer; a direction without stiffness needs a spring or a drive"
+         critical state only the critical value has derivatives; a direction without stiffness needs a spring or a drive"
     )]
     CriticalState,
     /// A redundant constraint agrees with the others only at these values of the variables.
@@ -223,8 +223,9 @@ pub enum Error {
     /// Modes have merged into one defective eigenvalue (a single mode with its conjugate), or are so close to it that
     /// rounding hides their coupling.
     #[error(
-        "merged into a defective eigenvalue: modes {modes:?} (counted from 0). It splits as the square root of any \
-         change and has no derivative; move the operating point or sample the whole problem"
+        "{} a defective eigenvalue. It splits as the square root of any change and has no derivative; move the operating \
+         point or sample the whole problem",
+        merged(.modes)
     )]
     Defective {
         /// Positions of the modes, from 0.
@@ -287,7 +288,7 @@ pub enum Error {
         known: Vec<Text>,
     },
     /// The probability cannot be computed from a design point.
-    #[error("{0}. Sampling needs no design point")]
+    #[error("{}. Sampling needs no design point", unreliable(.0))]
     NoReliability(Box<eigentol_statistics::Error>),
     /// No tolerances within their limits meet the requirements.
     #[error(
@@ -374,6 +375,29 @@ fn ranges(all: &[core::ops::Range<u64>]) -> String {
     each.join(", ")
 }
 
+/// The modes that have merged, counted from 1 as in all messages.
+fn merged(modes: &[usize]) -> String {
+    let numbers: Vec<String> = modes.iter().map(|mode| (mode + 1).to_string()).collect();
+    match &numbers[..] {
+        [one] => format!("mode {one} and its conjugate have merged into"),
+        all => format!("modes {} have merged into", all.join(", ")),
+    }
+}
+
+/// Why there is no probability, in the words of a requirement.
+fn unreliable(error: &eigentol_statistics::Error) -> String {
+    match error {
+        eigentol_statistics::Error::NoLimitValue { place, reason } => {
+            let place = match *place {
+                "at the origin" => "at the nominal design",
+                place => place,
+            };
+            format!("a requirement cannot be judged {place}: {reason}")
+        }
+        error => error.to_string(),
+    }
+}
+
 fn listed(others: &[(Text, f64)]) -> String {
     let each = others
         .iter()
@@ -413,4 +437,28 @@ impl From<eigentol_statistics::Error> for Error {
 /// Rounds away the digits of a computed value that rounding errors affect.
 fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Error;
+
+    /// Messages count modes from 1 and name no function.
+    #[test]
+    fn sentences() {
+        let merged = |modes: &[usize]| Error::Defective {
+            modes: modes.to_vec(),
+        };
+        let start = |error: Error| error.to_string();
+        assert!(start(merged(&[0])).starts_with("mode 1 and its conjugate have merged into a"));
+        assert!(start(merged(&[0, 2])).starts_with("modes 1, 3 have merged into a defective"));
+        assert!(!start(Error::CriticalState).contains('`'));
+        let none = eigentol_statistics::Error::NoLimitValue {
+            place: "at the origin",
+            reason: "it has no equilibrium".to_owned(),
+        };
+        let expected = "a requirement cannot be judged at the nominal design: it has no equilibrium. Sampling needs no \
+                        design point";
+        assert_eq!(Error::from(none).to_string(), expected);
+    }
 }

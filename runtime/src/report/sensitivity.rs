@@ -177,8 +177,8 @@ impl fmt::Display for Sensitivities {
             if mode.clustered {
                 writeln!(
                     f,
-                    "  Mode {} has nearly equal neighbours: a derivative of its own does not exist. `directional_derivatives` has \
-                     those of the cluster.",
+                    "  Mode {} has nearly equal neighbours: a derivative of its own does not exist. The modes of a cluster have \
+                     derivatives only together, along one direction of change; those of a defective eigenvalue have none.",
                     r + 1
                 )?;
             }

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::numbers::{number, rough, short};
 use super::summary::{capital, named, quantity_name};
+use crate::Stability;
 use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampling, Summary, Trust};
 use crate::tolerance::{ModeTolerance, Outcome};
 
@@ -37,6 +38,33 @@ pub enum News {
 impl fmt::Display for Sentence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
+    }
+}
+
+impl Stability {
+    /// The state after "the equilibrium is", in a sentence.
+    ///
+    /// ```
+    /// use eigentol::Stability;
+    ///
+    /// let state = Stability::Flutter { growing: 1 }.predicate();
+    /// assert_eq!(state, "unstable (flutter: one growing oscillation)");
+    /// ```
+    #[must_use]
+    pub fn predicate(self) -> String {
+        match self {
+            Self::Flutter { growing: 1 } => {
+                "unstable (flutter: one growing oscillation)".to_owned()
+            }
+            Self::Flutter { growing } => {
+                format!("unstable (flutter: {growing} growing oscillations)")
+            }
+            Self::Divergent { negative: 1 } => "unstable in one direction (divergence)".to_owned(),
+            Self::Divergent { negative } => {
+                format!("unstable in {negative} directions (divergence)")
+            }
+            other => other.to_string(),
+        }
     }
 }
 
@@ -151,8 +179,8 @@ impl Summary {
         match &self.sampling {
             Sampling::NotNeeded => Vec::new(),
             Sampling::TooDear { operations, budget } => vec![format!(
-                "Not checked by samples: they would cost {operations:.1e} operations of {budget:.1e}. The verdicts rest on distances \
-                 and second order."
+                "Not checked by samples: sampling needs about {operations:.1e} operations; the limit is {budget:.1e}. The verdicts \
+                 rest on distances and second order."
             )],
             Sampling::Done(sampled) => {
                 let checks = || self.trust.iter().flat_map(|own| &own.checks);

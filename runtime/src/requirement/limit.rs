@@ -6,6 +6,7 @@ use eigentol_statistics::reliability::{LimitState, LimitValue};
 
 use super::deviations::Deviations;
 use crate::response::{Realisation, Response, Responses, Workspace};
+use crate::tolerance::Outcome;
 
 /// The values at which a response fails, in its SI unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,12 +111,22 @@ impl<'a> LimitAt<'a> {
 
     fn value_of(&self, found: &Realisation) -> Result<f64, String> {
         let value = found.values.get(self.place).copied().flatten();
-        value.ok_or_else(|| {
-            format!(
-                "the design has no such response (outcome {:?})",
-                found.outcome
-            )
-        })
+        value.ok_or_else(|| missing(found.outcome).to_owned())
+    }
+}
+
+/// Why a response has no value at a design with this outcome.
+fn missing(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Stable => {
+            "its equilibrium is stable, but the mode does not oscillate, or nothing happens in the range"
+        }
+        Outcome::Divergent | Outcome::Flutter => "its equilibrium is unstable",
+        Outcome::Undecided => "the stability of its equilibrium is not decided",
+        Outcome::NoEquilibrium => "it has no equilibrium",
+        Outcome::NotAssembled => "its loops do not close",
+        Outcome::Unphysical => "it has bodies that cannot exist",
+        Outcome::NoModes => "its modes were not found",
     }
 }
 

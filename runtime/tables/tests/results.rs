@@ -175,3 +175,18 @@ fn second_derivatives_of_outputs_and_critical_values() {
     let speed = (1.5_f64 * 9.81).sqrt() * 60.0 / std::f64::consts::TAU;
     close(number(table, "speed", 0), 0.75e-6 * speed);
 }
+
+#[test]
+fn a_skewness_has_no_unit() {
+    let study = study().samples(50);
+    let solved = study.solve().expect("a state");
+    let table = &tables(&solved.monte_carlo().expect("samples"))[0];
+    for (name, unit) in [
+        ("sigma of frequency", "rad/s"),
+        ("greatest of frequency", "rad/s"),
+        ("skewness of frequency", ""),
+        ("skewness of damping ratio", ""),
+    ] {
+        assert_eq!(table.column(name).expect(name).unit, unit, "{name}");
+    }
+}

@@ -38,7 +38,10 @@ mod values;
 
 use self::resolver::Resolver;
 use self::scope::Scope;
-use super::mechanism::Mechanism;
+use super::expression::Vector;
+use super::mechanism::{
+    Body, Constraint, DesignVariable, Force, Input, Joint, Mechanism, Output, Point,
+};
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
 use crate::syntax::ast::{Ast, ItemKind, Unread};
@@ -63,24 +66,8 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
 
 /// Resolves and checks the correct parts of a declaration.
 pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
-    let mut diagnostics = Diagnostics::new();
-    let coordinates = coordinates::declared(ast);
-    let scope = Scope::new(ast, &coordinates, &mut diagnostics);
-    let mut resolver = Resolver::new(ast, coordinates, scope, diagnostics);
-    let inputs = resolver.inputs();
-    let mut design = resolver.design_variables();
-    resolver.curves();
-    resolver.named_constants();
-    let gravity = resolver.gravity();
-    let kernels_only = resolver.kernels_only();
-    let bodies = resolver.bodies();
-    let joints = resolver.joints();
-    resolver.require_inertias(&joints);
-    let points = resolver.points();
-    let mut forces = resolver.forces();
-    forces.extend(resolver.forces_of_every(&forces));
-    let constraints = resolver.constraints();
-    let outputs = resolver.outputs();
+    let mut resolver = resolver(ast);
+    let mut items = items(&mut resolver);
     resolver.refuse_unclear_units();
     attributes::check(ast, &mut resolver.diagnostics);
     presence::check(ast, resolver.can_move(), &mut resolver.diagnostics);
@@ -88,30 +75,30 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         &resolver.requirements,
         &resolver.constants,
         &resolver.design_points(),
-        inputs.len(),
+        items.inputs.len(),
         &mut resolver.diagnostics,
     );
-    for (variable, is_used) in design.iter_mut().zip(&resolver.used_design) {
+    for (variable, is_used) in items.design.iter_mut().zip(&resolver.used_design) {
         variable.is_used = *is_used;
     }
     let mechanism = Mechanism {
         name: ast.name.clone(),
         visibility: ast.visibility.clone(),
         attributes: ast.attributes.clone(),
-        inputs,
-        design,
+        inputs: items.inputs,
+        design: items.design,
         constants: resolver.constants,
         curves: resolver.curves.into_iter().flatten().collect(),
         curve_arguments: resolver.curve_arguments,
-        gravity,
-        kernels_only,
-        bodies,
-        joints,
+        gravity: items.gravity,
+        kernels_only: items.kernels_only,
+        bodies: items.bodies,
+        joints: items.joints,
         coordinates: resolver.declared_coordinates,
-        points,
-        forces,
-        constraints,
-        outputs,
+        points: items.points,
+        forces: items.forces,
+        constraints: items.constraints,
+        outputs: items.outputs,
     };
     let is_whole = ast.unread.is_empty();
     if resolver.diagnostics.is_empty() && is_whole && !is_complete(ast, &mechanism) {
@@ -126,6 +113,58 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         is_connected: !resolver.scope.is_ambiguous && is_connected(ast, &mechanism),
         mechanism,
         mistakes: resolver.diagnostics,
+    }
+}
+
+/// The items of a declaration, as far as they are right.
+struct Items {
+    inputs: Vec<Input>,
+    design: Vec<DesignVariable>,
+    gravity: Vector,
+    kernels_only: bool,
+    bodies: Vec<Body>,
+    joints: Vec<Joint>,
+    points: Vec<Point>,
+    forces: Vec<Force>,
+    constraints: Vec<Constraint>,
+    outputs: Vec<Output>,
+}
+
+/// A resolver that knows the names of a declaration.
+fn resolver(ast: &Ast) -> Resolver<'_> {
+    let mut diagnostics = Diagnostics::new();
+    let coordinates = coordinates::declared(ast);
+    let scope = Scope::new(ast, &coordinates, &mut diagnostics);
+    Resolver::new(ast, coordinates, scope, diagnostics)
+}
+
+/// Resolves every item; the mistakes and the requirements on values are left in the resolver.
+fn items(resolver: &mut Resolver<'_>) -> Items {
+    let inputs = resolver.inputs();
+    let design = resolver.design_variables();
+    resolver.curves();
+    resolver.named_constants();
+    let gravity = resolver.gravity();
+    let kernels_only = resolver.kernels_only();
+    let bodies = resolver.bodies();
+    let joints = resolver.joints();
+    resolver.require_inertias(&joints);
+    let points = resolver.points();
+    let mut forces = resolver.forces();
+    forces.extend(resolver.forces_of_every(&forces));
+    let constraints = resolver.constraints();
+    let outputs = resolver.outputs();
+    Items {
+        inputs,
+        design,
+        gravity,
+        kernels_only,
+        bodies,
+        joints,
+        points,
+        forces,
+        constraints,
+        outputs,
     }
 }
 

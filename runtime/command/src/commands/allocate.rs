@@ -10,19 +10,43 @@ use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::point::{Point, Question, design, parameter, unknown, whole, written};
+use crate::point::{Point, Question, design, parameter, samples, unknown, whole, written};
 use crate::progress;
 use crate::study_file::{self, Choose, Require, Written};
-use crate::sweep::range;
+use crate::sweep::{multiple, range};
 use crate::verdict::Verdict;
+
+/// The keys of a study file that this question needs.
+const KEYS: &str = r#"The study file:
+  [[require]]                    # once for each requirement
+  failure = 0.001                # greatest probability of violating it
+  at_least = "59 rad/s"          # and, or instead, at_most; or outside = ["4 Hz", "5 Hz"]
+                                 # of one of these:
+  mode = 1                       #   a mode, counted from 1; its quantity is "frequency", "natural_frequency",
+  quantity = "frequency"         #   "damping_ratio" or "growth"
+  output = "angle"               #   an output of the declaration
+  critical = "speed=0..6000rpm"  #   the speed at which the equilibrium loses its stiffness
+  resonance = "speed=0..6000rpm" #   with mode: the speed at which its frequency is order (1) times the speed
+  order = 1
+  flutter = "speed=0..6000rpm"   #   with mode: the speed at which it begins to grow
+  stable = true                  #   the equilibrium is stable; without limits
+
+  [[choose]]                     # once for each choice
+  tolerance = "k"                # a half-width T with its cost; or nominal = "k", without a cost
+  least = "0.4 N/mm"
+  most = "12 N/mm"
+  cost = { fixed = 0, factor = 1.0, power = 1 }   # fixed + factor / T^power, T in the declared unit
+
+Other keys: mechanism, set, start, guess, tolerance, correlation, sigma_level, samples, seed, stream"#;
 
 /// The cheapest tolerances that meet requirements; a study file states the requirements and the choices
 #[derive(Args, Debug)]
+#[command(after_long_help = KEYS)]
 pub(crate) struct Allocate {
     #[command(flatten)]
     point: Point,
     /// Samples that check the result [default: 3000]
-    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     #[command(flatten)]
     output: Output,
@@ -40,7 +64,7 @@ impl Allocate {
         }
         let bar = progress::bar("choices and samples", None);
         let study = progress::watched(study, &bar)
-            .samples(self.samples.or(file.samples).unwrap_or(3000))
+            .samples(samples(self.samples, &file)?)
             .seed(file.seed.unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = file.require.iter().map(|own| requirement(&study, own));
@@ -138,7 +162,7 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         let place = own.mode.and_then(|mode| mode.checked_sub(1));
         place.ok_or_else(|| Failure::usage("there is no such mode", help))
     };
-    let range = |text: &str| {
+    let along = |text: &str| {
         let found = range(study, text)?;
         Ok::<_, Failure>(Range::new(found.input.any(), found.low, found.high))
     };
@@ -146,7 +170,7 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         Ok(Response::Crossing {
             mode: mode()?,
             condition,
-            range: range(text)?,
+            range: along(text)?,
         })
     };
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {
@@ -160,10 +184,11 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         }
         (Some(name), None, None, None) if own.mode.is_none() => return output(study, name),
         (None, Some(text), None, None) if own.mode.is_none() => {
-            return Ok(Response::Critical(range(text)?));
+            return Ok(Response::Critical(along(text)?));
         }
         (None, None, Some(text), None) => {
-            return crossing(Condition::Line(Line::from(own.order.unwrap_or(1.0))), text);
+            let order = multiple(own.order.unwrap_or(1.0), &range(study, text)?, study)?;
+            return crossing(Condition::Line(Line::from(order)), text);
         }
         (None, None, None, Some(text)) => return crossing(Condition::FlutterOnset, text),
         _ => {}

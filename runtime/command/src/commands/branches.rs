@@ -29,7 +29,7 @@ pub(crate) struct Branches {
 impl Branches {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let bar = progress::bar("points of branches", None);
@@ -49,7 +49,7 @@ impl Branches {
         })?;
         written?;
         bar.finish_and_clear();
-        let style = self.picture.style(&question);
+        let style = self.picture.plain_style(&question);
         self.picture.draw(|| figures::branches(&found, &style))?;
         match rows {
             Some(rows) => rows.finish()?,

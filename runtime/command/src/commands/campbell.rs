@@ -12,7 +12,7 @@ use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::Point;
 use crate::progress;
-use crate::sweep::{Points, Sweep};
+use crate::sweep::{Orders, Points, Sweep};
 use crate::verdict::Verdict;
 
 /// Modes along an input with their spread, critical values, crossings of engine orders and onsets of flutter
@@ -24,9 +24,8 @@ pub(crate) struct Campbell {
     sweep: Sweep,
     #[command(flatten)]
     points: Points,
-    /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
-    #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
-    orders: Vec<f64>,
+    #[command(flatten)]
+    orders: Orders,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
@@ -36,16 +35,11 @@ pub(crate) struct Campbell {
 impl Campbell {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let values = self.points.values(&range, &question)?;
-        let given = question.file.orders.clone().unwrap_or_default();
-        let orders = if self.orders.is_empty() {
-            &given
-        } else {
-            &self.orders
-        };
+        let orders = self.orders.along(Some(&range), &question)?;
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);
         let study = &question.study;
@@ -57,7 +51,7 @@ impl Campbell {
         let keep = rows.is_none() || self.picture.is_wanted();
         let (mut points, mut done, mut solved) = (Vec::new(), 0, 0);
         let mut written = Ok(());
-        let found = study.campbell_each(input, &values, orders, |point| {
+        let found = study.campbell_each(input, &values, &orders, |point| {
             done += 1;
             solved += usize::from(point.modes.is_ok());
             if keep {
@@ -75,7 +69,8 @@ impl Campbell {
         bar.finish_and_clear();
         let mut found = found;
         found.points = points;
-        let style = self.picture.style(&question);
+        let modes = found.labels().last().map_or(0, |last| last + 1);
+        let style = self.picture.style(&question, modes)?;
         self.picture.draw(|| figures::campbell(&found, &style))?;
         match rows {
             Some(rows) => rows.finish()?,

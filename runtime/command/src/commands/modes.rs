@@ -23,13 +23,13 @@ pub(crate) struct Modes {
 impl Modes {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let question = self.point.question()?;
         let solved = question.study.solve()?;
         let mut answer = self.output.answer();
         answer.add(&solved.modes)?;
         answer.add(&solved.equilibrium)?;
-        let style = self.picture.style(&question);
+        let style = self.picture.style(&question, solved.modes.modes.len())?;
         self.picture.draw(|| mode_shapes(&solved.modes, &style))?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))

@@ -6,9 +6,9 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::picture::Wording;
 use crate::place::Place;
-use crate::point::{Point, whole};
+use crate::point::{Point, Question, exact, samples, whole};
 use crate::progress;
-use crate::sweep::{Points, Sweep};
+use crate::sweep::{Orders, Points, Sweep};
 use crate::verdict::Verdict;
 
 /// Everything about a mechanism in one HTML file: a 3-D view with moving modes, charts, verdicts and tables
@@ -20,14 +20,13 @@ pub(crate) struct Report {
     sweep: Sweep,
     #[command(flatten)]
     points: Points,
-    /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
-    #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
-    orders: Vec<f64>,
+    #[command(flatten)]
+    orders: Orders,
     /// Number of Monte Carlo samples [default: 3000]
-    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = exact::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Heading of the report [default: the name of the mechanism]
     #[arg(long, value_name = "TEXT")]
@@ -54,21 +53,18 @@ impl Report {
             Some(range) => self.points.values(range, &question)?,
             None => Vec::new(),
         };
+        self.check_names(&question, range.is_some())?;
         let file = &question.file;
         let bar = progress::bar("samples, values and points", None);
         let study = progress::watched(question.study.clone(), &bar)
-            .samples(self.samples.or(file.samples).unwrap_or(3000))
+            .samples(samples(self.samples, file)?)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
-        let given = file.orders.clone().unwrap_or_default();
-        let orders = match self.orders.is_empty() {
-            true => &given,
-            false => &self.orders,
-        };
+        let orders = self.orders.along(range.as_ref(), &question)?;
         let mut report = eigentol_report::Report::new(&study)
             .style(self.wording.style(&question))
             .declaration(question.text)
-            .orders(orders);
+            .orders(&orders);
         if let Some(title) = &self.title {
             report = report.title(title);
         }
@@ -85,5 +81,20 @@ impl Report {
         // An equilibrium or modes that the report lacks count here as the answer "no".
         let solved = study.solve()?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+    }
+
+    /// Refuses more names than there can be modes: of those along an input only the greatest number is known before.
+    fn check_names(&self, question: &Question, is_swept: bool) -> Result<(), Failure> {
+        let most = match is_swept {
+            true => 2 * question.study.description().coordinates.len(),
+            false => 0,
+        };
+        // The report says why there are no modes.
+        match question.study.solve() {
+            Ok(solved) => self
+                .wording
+                .check(question, most.max(solved.modes.modes.len())),
+            Err(_) => Ok(()),
+        }
     }
 }

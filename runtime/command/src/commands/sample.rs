@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Output;
 use crate::parts::{self, Shard};
-use crate::point::{Point, whole};
+use crate::point::{Point, exact, samples, whole};
 use crate::progress;
 use crate::verdict::Verdict;
 
@@ -25,16 +25,16 @@ pub(crate) struct Sample {
     #[command(flatten)]
     point: Point,
     /// Number of samples of the whole run [default: 3000]
-    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = exact::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Which of the seed's independent sequences [default: 0]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = exact::<u64>, allow_negative_numbers = true)]
     stream: Option<u64>,
     /// Number of threads [default: as many as the machine has]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = exact::<usize>, allow_negative_numbers = true)]
     threads: Option<usize>,
     /// Keep every sample, for `--json` and partial results; not needed for `--table samples`, which writes them as they
     /// come
@@ -58,7 +58,7 @@ impl Sample {
         self.output.check()?;
         let question = self.point.question()?;
         let file = &question.file;
-        let samples = self.samples.or(file.samples).unwrap_or(3000);
+        let samples = samples(self.samples, file)?;
         let shown = self.output.wants_table("samples");
         let study = question
             .study

@@ -11,7 +11,7 @@ use crate::point::Point;
 use crate::progress;
 use crate::verdict::Verdict;
 
-/// Spread of frequencies and outputs by tolerances, and how far it can be trusted
+/// Spread of frequencies and outputs by tolerances, and how far that of the frequencies can be trusted
 #[derive(Args, Debug)]
 pub(crate) struct Tolerance {
     #[command(flatten)]
@@ -25,7 +25,7 @@ pub(crate) struct Tolerance {
 impl Tolerance {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        self.picture.check()?;
+        self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let bar = progress::bar("samples", None);
         question.study = progress::watched(question.study, &bar);
@@ -45,7 +45,7 @@ impl Tolerance {
         if !study.description().outputs.is_empty() {
             answer.add(&solved.output_tolerances()?)?;
         }
-        let style = self.picture.style(&question);
+        let style = self.picture.style(&question, solved.modes.modes.len())?;
         self.picture.draw(|| shares_of_all(&first, &style))?;
         self.output.write(&answer)?;
         if stopped {

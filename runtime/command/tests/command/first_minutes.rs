@@ -239,12 +239,12 @@ fn beyond_the_ends_of_a_curve_in_the_unit_of_the_curve() {
     for (value, end, beyond) in [
         (
             "speed=500rpm",
-            "1000 rpm, where this curve begins",
+            "distance of the argument from the beginning of curve k at 1000 rpm (negative: before it) must be",
             "but is -500\n",
         ),
         (
             "speed=5000rpm",
-            "3000 rpm, where the curve k ends",
+            "distance of the argument from the end of curve k at 3000 rpm (negative: beyond it) must be",
             "but is -2000\n",
         ),
     ] {

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use eigentol_tables::csv;
 
-use crate::program::{PENDULUM, answer, command, examples, file, folder, pendulum, run};
+use crate::program::{PENDULUM, answer, command, examples, file, folder, pendulum, run, swept};
 
 /// Waits until a program has its own signal handlers; before that a signal would simply terminate it.
 pub(crate) fn listens(child: &Child) {
@@ -278,9 +278,9 @@ fn long_work_shows_how_far_it_is() {
             pendulum("sample", &["--samples", "20000", "-o", &file]),
             "samples",
         ),
-        (pendulum("campbell", &rows), "values"),
-        (pendulum("sweep", &rows), "values"),
-        (pendulum("branches", &speeds), "points of branches"),
+        (swept("campbell", &rows), "values"),
+        (swept("sweep", &rows), "values"),
+        (swept("branches", &speeds), "points of branches"),
         (
             pendulum("report", &["--samples", "20000", "-o", &file]),
             "samples, values",

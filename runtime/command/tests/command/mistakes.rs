@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::program::{PENDULUM, Run, examples, file, folder, pendulum, run, run_with_input};
+use crate::program::{PENDULUM, Run, examples, file, folder, pendulum, run, run_with_input, swept};
 
 /// A run that fails with this exit code and message and prints no answer.
 #[track_caller]
@@ -191,6 +191,8 @@ fn sweeps_that_make_no_sense() {
         ("omega=0..8", "has no unit"),
         ("omega=0..8m", "this is a length"),
         ("omega=1rad/s..1rad/s", "ends must differ"),
+        ("omega=..8rad/s", "write `omega=0..8rad/s`"),
+        ("omega=4rad/s..", "has no end"),
     ] {
         refused(&["branches", PENDULUM, "--sweep", sweep], 2, &[part]);
     }
@@ -342,4 +344,309 @@ fn colours_only_where_they_are_wanted() {
     let usage = |when: &str| run(&["mods", when]).err;
     assert!(usage("--color=always").contains("\u{1b}["));
     assert!(!usage("--color=never").contains('\u{1b}'));
+}
+
+/// Brackets in brackets overflow no stack, wherever they are written.
+#[test]
+fn brackets_are_nested_only_so_deep() {
+    let nested =
+        |depth: usize, value: &str| format!("{}{value}{}", "(".repeat(depth), ")".repeat(depth));
+    let folder = folder("nested");
+    let parts = [
+        "this expression is too large",
+        "name parts of it with `let`",
+    ];
+    for depth in [100, 10_000, 40_000, 60_000] {
+        let value = nested(depth, "1 m");
+        let text = format!("mechanism A {{\n    design l = {value};\n}}\n");
+        let path = file(&folder, "nested.mechanism", &text);
+        refused(&["check", &path], 3, &parts);
+        refused(
+            &["modes", PENDULUM, "--set", &format!("l={value}")],
+            2,
+            &parts,
+        );
+        let start = format!("theta={}", nested(depth, "1 rad"));
+        refused(&["modes", PENDULUM, "--start", &start], 2, &parts);
+        refused(
+            &["tolerance", PENDULUM, "--tol", &format!("l={value}")],
+            2,
+            &parts,
+        );
+        let study = file(&folder, "nested.toml", &format!("[set]\nl = \"{value}\"\n"));
+        refused(&["modes", PENDULUM, "--study", &study], 2, &parts);
+    }
+    let brackets = "[".repeat(60_000);
+    let run = run_with_input(
+        &["check", "-"],
+        &format!("// {brackets}\nmechanism A {{ }}"),
+    );
+    assert!(
+        !run.err.contains("too large") && run.code == 3,
+        "{}",
+        run.err
+    );
+}
+
+#[test]
+fn orders_that_cross_no_mode() {
+    let folder = folder("orders");
+    let speeds = ["--sweep", "omega=4..8rad/s", "--points", "2"];
+    fn along<'a>(speeds: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+        [&["campbell", PENDULUM], speeds, more].concat()
+    }
+    let wrong = ["nan", "inf", "1e400", "0", "-0", "-1", "1,-2"];
+    for order in wrong {
+        let given = ["--order", order];
+        refused(
+            &along(&speeds, &given),
+            2,
+            &["crosses no mode", "`--order 1"],
+        );
+        let report = folder.join("report.html").display().to_string();
+        let report = ["report", PENDULUM, "-o", &report];
+        let given = [&report[..], &speeds, &given].concat();
+        refused(&given, 2, &["crosses no mode"]);
+        assert!(!folder.join("report.html").exists());
+    }
+    for order in ["nan", "inf", "0", "-1.5"] {
+        let study = file(&folder, "orders.toml", &format!("orders = [1, {order}]"));
+        refused(
+            &along(&speeds, &["--study", &study]),
+            2,
+            &["crosses no mode"],
+        );
+        let allocation = format!(
+            "[[require]]\nmode = 1\nresonance = \"omega=4..8rad/s\"\norder = {order}\nat_least = 1.0\nfailure = 0.1\n\
+             [[choose]]\nnominal = \"l\"\nleast = \"1 m\"\nmost = \"2 m\"\n"
+        );
+        let study = file(&folder, "allocation.toml", &allocation);
+        let parts = ["crosses no mode"];
+        refused(&["allocate", PENDULUM, "--study", &study], 2, &parts);
+    }
+    let pushed = "mechanism A { input push: N; body block: point(mass: 1 kg); joint x: prismatic(x) from ground to block;
+        force s: spring(on: x, stiffness: 9 N/m); force f: generalized(on: x, value: push); }";
+    let pushed = file(&folder, "pushed.mechanism", pushed);
+    let campbell = ["campbell", &pushed, "--sweep", "push=0..1N"];
+    let parts = ["a multiple of a speed of rotation or a frequency, and `push` is in N"];
+    refused(&[&campbell[..], &["--order", "1"]].concat(), 2, &parts);
+    let report = ["report", PENDULUM, "-o", "none.html", "--order", "1"];
+    refused(&report, 2, &["no input to sweep is given for `--order`"]);
+}
+
+#[test]
+fn a_sweep_sets_its_input_alone() {
+    for question in ["campbell", "sweep", "branches"] {
+        let along = pendulum(question, &["--sweep", "omega=4..8rad/s"]);
+        refused(
+            &along,
+            2,
+            &["the sweep sets `omega`", "leave one of them out"],
+        );
+    }
+}
+
+#[test]
+fn counts_and_levels_that_make_no_sense() {
+    for level in ["0", "-1", "nan", "inf"] {
+        for question in ["modes", "sensitivities", "tolerance", "sample"] {
+            let given = pendulum(question, &["--sigma-level", level]);
+            refused(&given, 2, &["sigma level", "positive and finite"]);
+        }
+    }
+    let folder = folder("levels");
+    let study = file(&folder, "level.toml", "sigma_level = 0");
+    refused(
+        &pendulum("modes", &["--study", &study]),
+        2,
+        &["sigma level"],
+    );
+    let study = file(&folder, "samples.toml", "samples = 0");
+    let report = folder.join("report.html").display().to_string();
+    for more in [["--samples", "0"], ["--study", &study]] {
+        refused(&pendulum("sample", &more), 2, &["at least 1"]);
+        let place = ["-o", &report];
+        refused(
+            &pendulum("report", &[&place[..], &more].concat()),
+            2,
+            &["at least 1"],
+        );
+    }
+    let choose = "[[require]]\nstable = true\nfailure = 0.1\n[[choose]]\nnominal = \"l\"\nleast = \"1 m\"\nmost = \"2 m\"\n";
+    let study = file(&folder, "choose.toml", choose);
+    let none = ["--study", &study, "--samples", "0"];
+    refused(&pendulum("allocate", &none), 2, &["at least 1"]);
+    for (option, part) in [
+        ("--samples", "write a whole number: `10000` or `1e4`"),
+        ("--seed", "write a whole number that is not negative: `7`"),
+        ("--stream", "write a whole number that is not negative"),
+        ("--threads", "write a whole number that is not negative"),
+    ] {
+        refused(&pendulum("sample", &[option, "-5"]), 2, &[part]);
+    }
+    let points = ["--sweep", "omega=4..8rad/s", "--points", "-5"];
+    refused(&swept("campbell", &points), 2, &["write a whole number"]);
+}
+
+/// A tolerance on the command line or in a study file is checked like a declared one, with the same words.
+#[test]
+fn tolerances_whose_ends_are_impossible() {
+    let folder = folder("impossible");
+    let words = [
+        "within the tolerance of `l`, the length of `bar` is -2 m; it must be positive",
+        "narrow the tolerance, or change the nominal value",
+    ];
+    let declared = fs::read_to_string(examples().join(PENDULUM)).unwrap();
+    let start = declared.find("design l").unwrap();
+    let end = start + declared[start..].find(';').unwrap();
+    let wide = format!(
+        "{}design l = 1 m +/- 300%{}",
+        &declared[..start],
+        &declared[end..]
+    );
+    refused(&["check", &file(&folder, "wide", &wide)], 3, &words);
+    for given in ["300%", "3 m", "+1 -3 m uniform", "one of [-2, 1] m"] {
+        let option = format!("l={given}");
+        refused(&pendulum("tolerance", &["--tol", &option]), 2, &words);
+        let study = file(&folder, "study", &format!("[tolerance]\nl = \"{given}\"\n"));
+        refused(&pendulum("modes", &["--study", &study]), 2, &words);
+    }
+    // About the value that is set, not the declared one.
+    let shorter = ["--tol", "l=0.7m", "--set", "l=0.5m"];
+    refused(
+        &pendulum("modes", &shorter),
+        2,
+        &["the length of `bar` is -0.2 m"],
+    );
+    let wider = ["--tol", "l=1.5m", "--set", "l=2m"];
+    assert_eq!(run(&pendulum("modes", &wider)).code, 0);
+    let zero = "mechanism A { design x0 = 0 m; design k = 9 N/m; body b: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to b; force s: spring(on: x, stiffness: k, rest: x0); }";
+    let zero = file(&folder, "zero", zero);
+    let parts = ["a percentage of a nominal value of zero is zero"];
+    refused(&["tolerance", &zero, "--tol", "x0=1%"], 2, &parts);
+}
+
+/// A figure and an answer do not share a file, and a text is no picture.
+#[test]
+fn answers_and_figures_that_overwrite_each_other() {
+    let folder = folder("overwritten");
+    let place = |name: &str| folder.join(name).display().to_string();
+    let (one, other) = (place("a.svg"), place("./a.svg"));
+    for figure in [&one, &other] {
+        let both = ["--json", "-o", &one, "--figure", figure];
+        refused(
+            &pendulum("modes", &both),
+            2,
+            &["the answer and its figure", "files of their own"],
+        );
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("a.svg", folder.join("link.json")).unwrap();
+        let both = ["-o", &place("link.json"), "--figure", &one];
+        refused(&pendulum("modes", &both), 2, &["the answer and its figure"]);
+    }
+    for name in ["answer.svg", "answer.png"] {
+        let file = place(name);
+        refused(
+            &pendulum("modes", &["-o", &file]),
+            2,
+            &["is a picture", "`--figure FILE`"],
+        );
+        assert!(!folder.join(name).exists());
+    }
+    assert!(!folder.join("a.svg").exists());
+}
+
+/// More names than modes are a mistake; modes without a name keep their number.
+#[test]
+fn names_of_modes_that_do_not_exist() {
+    let folder = folder("mode_names");
+    let figure = folder.join("modes.svg");
+    let place = figure.display().to_string();
+    let with = ["--figure", &place, "--mode-names"];
+    let parts = [
+        "2 names of modes are given, and there is 1 mode",
+        "leave out `pitch`",
+    ];
+    let two = [&with[..], &["swing,pitch"]].concat();
+    refused(&pendulum("modes", &two), 2, &parts);
+    refused(&pendulum("tolerance", &two), 2, &parts);
+    let speeds = ["--sweep", "omega=4..8rad/s", "--points", "3"];
+    refused(&swept("campbell", &[&two[..], &speeds].concat()), 2, &parts);
+    let study = file(&folder, "names.toml", "mode_names = [\"swing\", \"pitch\"]");
+    refused(
+        &pendulum("modes", &["--figure", &place, "--study", &study]),
+        2,
+        &parts,
+    );
+    assert!(!figure.exists());
+    // The names in a study file are for the questions that draw modes.
+    assert_eq!(run(&pendulum("modes", &["--study", &study])).code, 0);
+    let html = folder.join("report.html").display().to_string();
+    let report = [
+        "-o",
+        &html,
+        "--samples",
+        "10",
+        "--mode-names",
+        "swing,pitch",
+    ];
+    refused(&pendulum("report", &report), 2, &parts);
+    let rotor = [
+        "modes",
+        "jeffcott_rotor.mechanism",
+        "--set",
+        "speed=1000rpm",
+    ];
+    let fewer = [&rotor[..], &with, &["first,second"]].concat();
+    assert_eq!(run(&fewer).code, 0);
+    let drawn = fs::read_to_string(&figure).unwrap();
+    assert!(
+        drawn.contains("second") && drawn.contains("mode 3"),
+        "{drawn}"
+    );
+}
+
+#[test]
+fn numbers_with_digits_on_one_side_of_the_point() {
+    for value in ["omega=5.rad/s", "omega=.5rad/s", "omega=-.5 rad/s"] {
+        let parts = ["write digits on both sides of the point: `5.0`, `0.5`"];
+        refused(&["modes", PENDULUM, "--set", value], 2, &parts);
+    }
+}
+
+/// Messages of the library name no function of Rust, and count modes from 1.
+#[test]
+fn a_defective_pair_in_plain_words() {
+    let folder = folder("defective");
+    let text = "mechanism Crit { design k = 400 N/m +/- 5%; design m = 4 kg; design c = 80 N*s/m +/- 5%; body b: point(mass: m);
+        joint x: prismatic(x) from ground to b; force s: spring(on: x, stiffness: k); force d: damper(on: x, damping: c); }";
+    let path = file(&folder, "crit.mechanism", text);
+    let run = run(&["sensitivities", &path]);
+    assert!(
+        run.out.contains("of a defective eigenvalue have none"),
+        "{}",
+        run.out
+    );
+    assert!(
+        !run.out.contains('_') && !run.err.contains('_'),
+        "{}{}",
+        run.out,
+        run.err
+    );
+}
+
+#[test]
+fn a_state_reads_well_in_a_sentence() {
+    let folder = folder("states");
+    let text = "mechanism Follower { input p: N; body a: rod(mass: 2 kg, length: 1 m, along: z); body b: rod(mass: 1 kg, length: 1 m, along: z);
+        joint x: revolute(y) from ground to a; joint y: revolute(y) from a to b at [0, 0, 1 m];
+        force s: spring(on: x, stiffness: 10 N*m/rad); force t: spring(on: y, stiffness: 10 N*m/rad);
+        force f: follower(at: end, force: [0 N, 0 N, -p]); point end: b at [0, 0, 1 m]; }";
+    let path = file(&folder, "follower.mechanism", text);
+    let run = run(&["modes", &path, "--set", "p=30N"]);
+    let flutter = "no: the equilibrium is unstable (flutter: one growing oscillation)\n";
+    assert_eq!((run.code, run.err.as_str()), (1, flutter));
 }

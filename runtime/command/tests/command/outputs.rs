@@ -123,3 +123,34 @@ fn a_broken_pipe_is_no_failure() {
         );
     }
 }
+
+/// A pipe is opened once, so that its reader gets the answer and then its end; a link is followed.
+#[cfg(unix)]
+#[test]
+fn pipes_and_links_are_written_through() {
+    let folder = folder("through");
+    let expected = answer(&pendulum("modes", &[]));
+    let pipe = folder.join("pipe");
+    let made = std::process::Command::new("mkfifo")
+        .arg(&pipe)
+        .status()
+        .unwrap();
+    assert!(made.success());
+    let place = pipe.display().to_string();
+    let reader = std::thread::spawn(move || fs::read_to_string(pipe).unwrap());
+    assert_eq!(answer(&pendulum("modes", &["-o", &place])), "");
+    assert_eq!(reader.join().unwrap(), expected);
+
+    let (target, later) = (folder.join("target.txt"), folder.join("later.txt"));
+    fs::write(&target, "old").unwrap();
+    for (name, end) in [("link", &target), ("new_link", &later)] {
+        let link = folder.join(name);
+        std::os::unix::fs::symlink(end.file_name().unwrap(), &link).unwrap();
+        assert_eq!(
+            answer(&pendulum("modes", &["-o", &link.display().to_string()])),
+            ""
+        );
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(end).unwrap(), expected);
+    }
+}

@@ -98,7 +98,7 @@ fn what_does_not_belong_together_is_refused() {
     let length = other("length", &[&SAMPLES[..], &["--set", "l=1.1m"]].concat());
     refused(
         &["merge", one, &length],
-        &["design variable `l` is 1.1 there and 1 before it"],
+        &["its design variable `l` is 1.1, that of the others 1"],
     );
     let resumed = pendulum("sample", &[&SAMPLES[..], &["--resume", &seed]].concat());
     refused(

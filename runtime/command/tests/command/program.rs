@@ -89,6 +89,11 @@ pub(crate) const PENDULUM: &str = "rotating_pendulum.mechanism";
 /// An operating point at which the pendulum is swung out.
 pub(crate) const SPINNING: [&str; 4] = ["--set", "omega=5rad/s", "--start", "theta=60deg"];
 
+/// A question about the swung-out pendulum along its speed.
+pub(crate) fn swept<'a>(question: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&[question, PENDULUM], &SPINNING[2..], more].concat()
+}
+
 /// A question about the pendulum at that operating point.
 pub(crate) fn pendulum<'a>(question: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&[question, PENDULUM], &SPINNING[..], more].concat()

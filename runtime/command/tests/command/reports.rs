@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::program::{PENDULUM, file, folder, pendulum, run};
+use crate::program::{PENDULUM, answer, file, folder, pendulum, run};
 
 #[test]
 fn a_report_is_one_file_with_the_declaration_and_what_was_asked() {
@@ -68,7 +68,10 @@ fn an_unstable_equilibrium_is_reported_and_is_no() {
     let done = run(&["report", &own, "--output", path.to_str().unwrap()]);
     assert_eq!(done.code, 1, "{}", done.err);
     let html = fs::read_to_string(path).unwrap();
-    assert!(html.contains("The equilibrium is divergent") || html.contains("No equilibrium"));
+    assert!(
+        html.contains("The equilibrium is unstable in one direction (divergence)")
+            || html.contains("No equilibrium")
+    );
 }
 
 #[test]
@@ -88,4 +91,19 @@ fn mistakes_leave_no_file() {
         assert_eq!(done.code, code, "{more:?} {}", done.err);
     }
     assert!(fs::metadata(path).is_err());
+}
+
+#[test]
+fn a_rigid_motion_in_a_sentence() {
+    let folder = folder("rigid");
+    let text = "mechanism Two { body a: point(mass: 1 kg); body b: point(mass: 2 kg);
+        joint x: prismatic(x) from ground to a; joint y: prismatic(x) from ground to b;
+        force s: generalized(on: x, value: (9 N/m) * (y - x)); force t: generalized(on: y, value: (9 N/m) * (x - y)); }";
+    let path = file(&folder, "two.mechanism", text);
+    let place = folder.join("two.html");
+    answer(&["report", &path, "-o", &place.display().to_string()]);
+    let html = fs::read_to_string(place).unwrap();
+    assert!(
+        html.contains("does not oscillate: it is a rigid-body motion with no restoring force.")
+    );
 }

@@ -70,6 +70,27 @@ fn names_that_no_package_can_have() {
             run.err
         );
     }
+    for (name, why) in [
+        ("build", "cargo keeps this name"),
+        ("deps", "cargo keeps this name"),
+        ("fn", "a keyword of Rust"),
+        ("self", "a keyword of Rust"),
+        ("test", "a library has this name"),
+        ("eigentol", "a library has this name"),
+        ("con", "Windows keeps this name"),
+    ] {
+        let place = folder("reserved").join(name);
+        let run = run(&["new", &place.display().to_string()]);
+        assert_eq!(run.code, 2, "{name}");
+        for part in [
+            "is not a valid package name",
+            why,
+            &format!("`{name}-study`"),
+        ] {
+            assert!(run.err.contains(part), "{}", run.err);
+        }
+        assert!(!place.exists());
+    }
     let run = run(&["new", "fine", "--path", "/missing/folder"]);
     assert_eq!(run.code, 3);
     assert!(

@@ -9,7 +9,7 @@ use std::time::Duration;
 use eigentol_tables::{Table, Values, csv, json, parquet};
 
 use crate::interrupt::{interrupt, listens};
-use crate::program::{answer, command, folder, pendulum, run};
+use crate::program::{answer, command, folder, pendulum, run, swept};
 
 const ROTOR: &str = "jeffcott_rotor.mechanism";
 const SPEEDS: [&str; 4] = ["--sweep", "speed=2000..4000rpm", "--points", "20"];
@@ -172,7 +172,7 @@ impl Endless {
             "-o",
             &file,
         ];
-        let mut command = command(&pendulum("campbell", &sweep));
+        let mut command = command(&swept("campbell", &sweep));
         let child = command.stderr(Stdio::piped()).spawn().unwrap();
         listens(&child);
         let begun = Self { child, path };

@@ -417,3 +417,34 @@ fn every_subcommand_has_help_with_its_values() {
     }
     assert_eq!(run(&[]).code, 2);
 }
+
+/// The same order twice is one order, and a negative one is for a negative speed.
+#[test]
+fn orders_are_counted_once() {
+    let along = |speeds: &str, orders: &str| {
+        let sweep = ["--sweep", speeds, "--points", "3", "--order", orders];
+        answer(&[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat())
+    };
+    let forwards = "speed=2000..4000rpm";
+    assert_eq!(along(forwards, "1,1,1.0"), along(forwards, "1"));
+    let backwards = along("speed=-4000..-2000rpm", "-1");
+    assert!(
+        backwards.contains("frequency 1 is -1 times speed"),
+        "{backwards}"
+    );
+}
+
+#[test]
+fn help_about_study_files_lists_their_keys() {
+    let help = answer(&["help", "allocate"]);
+    for key in [
+        "[[require]]",
+        "failure =",
+        "damping_ratio",
+        "resonance =",
+        "[[choose]]",
+        "cost = {",
+    ] {
+        assert!(help.contains(key), "{key}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use eigentol::sweep::{Condition, Event, EventTolerance};
 use eigentol::tolerance::{FirstOrder, MonteCarlo, Outcome};
-use eigentol::{Campbell, Description, Modes};
+use eigentol::{Behaviour, Campbell, Description, Modes};
 use eigentol_figures::Style;
 
 use super::verdicts::NOTHING_VARIES;
@@ -58,7 +58,10 @@ fn equilibrium(content: &Content) -> Line {
             "The configuration is singular: stability is not decided.".to_owned(),
         ),
         Ok(state) => {
-            let text = sentence(&format!("the equilibrium is {}", state.stability));
+            let text = sentence(&format!(
+                "the equilibrium is {}",
+                state.stability.predicate()
+            ));
             (Some(state.stability.holds()), text)
         }
     }
@@ -84,7 +87,7 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
                         mode.behaviour
                     )
                 }
-                None => format!("{name} does not oscillate: it {}", mode.behaviour),
+                None => format!("{name} does not oscillate: it {}", moves(mode.behaviour)),
             };
             let news = mode.behaviour.grows().then_some(false);
             (news, sentence(&text))
@@ -98,6 +101,14 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
         ));
     }
     lines
+}
+
+/// What a mode without a frequency does, after "it".
+fn moves(behaviour: Behaviour) -> String {
+    match behaviour {
+        Behaviour::Neutral => "is a rigid-body motion with no restoring force".to_owned(),
+        other => other.to_string(),
+    }
 }
 
 /// ` +- 0.2 (3 sigma), mostly by l (97 %)`.

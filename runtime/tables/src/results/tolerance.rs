@@ -116,16 +116,17 @@ pub(super) fn statistics<'a>(
         .clone()
         .map(|own| own.map_or(0, |own| own.count as usize));
     table.whole(format!("samples of {name}"), count);
-    for (what, pick) in [
+    for (what, unit, pick) in [
         (
             "mean",
+            unit,
             (|own| Some(own.mean)) as fn(&Statistics) -> Option<f64>,
         ),
-        ("standard error", |own| own.standard_error),
-        ("sigma", |own| own.sigma),
-        ("skewness", |own| own.skewness),
-        ("least", |own| Some(own.min)),
-        ("greatest", |own| Some(own.max)),
+        ("standard error", unit, |own| own.standard_error),
+        ("sigma", unit, |own| own.sigma),
+        ("skewness", "", |own| own.skewness),
+        ("least", unit, |own| Some(own.min)),
+        ("greatest", unit, |own| Some(own.max)),
     ] {
         let values = all.clone().map(|own| own.and_then(pick));
         table.numbers(format!("{what} of {name}"), unit, values);

@@ -80,11 +80,15 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
         let name = curve.spline.name();
         let ends = [
             (
-                format!("argument of {name} less {first}, where this curve begins,"),
+                format!(
+                    "distance of the argument from the beginning of curve {name} at {first} (negative: before it)"
+                ),
                 g.sub(argument, low),
             ),
             (
-                format!("{last}, where the curve {name} ends, less its argument"),
+                format!(
+                    "distance of the argument from the end of curve {name} at {last} (negative: beyond it)"
+                ),
                 g.sub(high, argument),
             ),
         ];

@@ -7,8 +7,10 @@ use quote::quote;
 use super::expected::Expected;
 use super::resolver::Resolver;
 use super::scope::Scope;
+use super::{items, resolver};
 use crate::base::diagnostics::Diagnostics;
 use crate::model::mechanism::Tolerance;
+use crate::model::rules::physical;
 use crate::syntax::ast::{Ast, Item, ItemKind, Limits, Unit};
 use crate::syntax::parse::parse;
 use crate::syntax::print;
@@ -76,6 +78,65 @@ pub fn tolerance(
     unit: TokenStream,
     nominal: f64,
 ) -> Result<Tolerance, Diagnostics> {
+    read_tolerance(text, unit, nominal, false)
+}
+
+/// The tolerance that is written as `text`, for a design variable of a declaration without mistakes whose design
+/// variables have these values, SI. It is checked like a declared one: its ends must be possible.
+///
+/// ```
+/// use eigentol_compiler::model::resolve::given;
+/// use eigentol_compiler::syntax::parse::parse;
+///
+/// let text = "mechanism A { design l = 1 m; gravity 9.81 m/s^2 along -z;
+///     body bar: rod(mass: 1 kg, length: l, along: -z); joint t: revolute(y) from ground to bar; }";
+/// let ast = parse(text.parse().unwrap()).unwrap();
+/// let tolerance = |text: &str| given::design_tolerance(&ast, text.parse().unwrap(), 0, &[1.0]);
+/// assert_eq!(tolerance("3%").unwrap().upper, 0.03);
+/// let error = tolerance("300%").unwrap_err().to_string();
+/// assert!(error.contains("within the tolerance of `l`, the length of `bar` is -2 m"), "{error}");
+/// ```
+///
+/// # Errors
+/// The mistakes in the text.
+pub fn design_tolerance(
+    ast: &Ast,
+    text: TokenStream,
+    variable: usize,
+    design: &[f64],
+) -> Result<Tolerance, Diagnostics> {
+    let mut resolver = resolver(ast);
+    let items = items(&mut resolver);
+    let unit = match &*items.design[variable].unit.symbol {
+        "" => quote!(1),
+        symbol => symbol.parse().expect("a unit that was read before"),
+    };
+    let nominal = design[variable];
+    let found = read_tolerance(text, unit, nominal, true)?;
+    let scale = if found.relative { nominal.abs() } else { 1.0 };
+    let mut points = resolver.design_points();
+    for (point, value) in points.iter_mut().zip(design) {
+        point.nominal = *value;
+    }
+    points[variable].limits = [scale * found.lower, scale * found.upper];
+    points[variable].extent = Some((&ast.name).into());
+    physical::check_given(
+        &resolver.requirements,
+        &resolver.constants,
+        &points,
+        variable,
+        items.inputs.len(),
+        &mut resolver.diagnostics,
+    );
+    resolver.diagnostics.into_result(found)
+}
+
+fn read_tolerance(
+    text: TokenStream,
+    unit: TokenStream,
+    nominal: f64,
+    is_design: bool,
+) -> Result<Tolerance, Diagnostics> {
     let half_width = !text.to_string().starts_with(['+', '-', 'o']);
     let sign = half_width.then(|| quote!(+/-));
     let ast = parse(quote!(mechanism Given { input given: #unit #sign #text; }))?;
@@ -95,7 +156,13 @@ pub fn tolerance(
             Some(own) if matches!(own.limits, Limits::Values(_)) => {
                 resolver.design_tolerance(Some(own), Some((nominal, expected)))
             }
-            own => resolver.input_tolerance(own.as_ref(), Some(expected)),
+            own => {
+                if is_design {
+                    let nominal = Some((nominal, expected.clone()));
+                    resolver.design_tolerance(own.as_ref(), nominal)?;
+                }
+                resolver.input_tolerance(own.as_ref(), Some(expected))
+            }
         }
     })
 }

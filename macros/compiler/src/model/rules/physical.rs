@@ -73,12 +73,47 @@ pub(crate) fn check(
     diagnostics: &mut Diagnostics,
 ) {
     let unknown = vec![f64::NAN; inputs];
+    let (met, violated) = at_nominal(requirements, constants, design, &unknown);
+    for violation in violated {
+        let message = format!("{} {}", violation.what, violation.problem);
+        diagnostics.push(Diagnostic {
+            span: violation.extent,
+            message,
+            help: violation.help,
+        });
+    }
+    for index in 0..design.len() {
+        check_tolerance(&met, constants, design, index, &unknown, diagnostics);
+    }
+}
+
+/// Checks one tolerance, given outside the declaration. What is violated at the nominal design is not its fault.
+pub(crate) fn check_given(
+    requirements: &[Requirement],
+    constants: &[Constant],
+    design: &[DesignPoint],
+    index: usize,
+    inputs: usize,
+    diagnostics: &mut Diagnostics,
+) {
+    let unknown = vec![f64::NAN; inputs];
+    let (met, _) = at_nominal(requirements, constants, design, &unknown);
+    check_tolerance(&met, constants, design, index, &unknown, diagnostics);
+}
+
+/// The requirements that are met at the nominal design, and the violations of others.
+fn at_nominal<'a>(
+    requirements: &'a [Requirement],
+    constants: &[Constant],
+    design: &[DesignPoint],
+    inputs: &[f64],
+) -> (Vec<&'a Requirement>, Vec<Violation>) {
     let nominal: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
-    let values = Values::new(constants, &unknown, &nominal);
+    let values = Values::new(constants, inputs, &nominal);
     let on_inputs = Dependence::on_inputs(constants);
     // A constant without a value is reported once, not wherever it is used.
     let on_mistakes = Dependence::on_constants_without_value(&values);
-    let mut met = Vec::new();
+    let (mut met, mut violated) = (Vec::new(), Vec::new());
     for requirement in requirements {
         let depends = |expr: &Expr| on_inputs.of(expr) || on_mistakes.of(expr);
         if requirement.values.iter().any(depends) {
@@ -86,19 +121,10 @@ pub(crate) fn check(
         }
         match violation(requirement, &values) {
             None => met.push(requirement),
-            Some(violation) => {
-                let message = format!("{} {}", violation.what, violation.problem);
-                diagnostics.push(Diagnostic {
-                    span: violation.extent,
-                    message,
-                    help: violation.help,
-                });
-            }
+            Some(violation) => violated.push(violation),
         }
     }
-    for index in 0..design.len() {
-        check_tolerance(&met, constants, design, index, &unknown, diagnostics);
-    }
+    (met, violated)
 }
 
 /// Checks that both ends of a tolerance are physically possible, with all other variables at their nominal values;

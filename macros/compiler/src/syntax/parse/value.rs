@@ -4,14 +4,13 @@ use proc_macro2::{Delimiter, Literal};
 use syn::ext::IdentExt as _;
 
 use super::super::ast::{Binary, Operator, Value, ValueKind};
+use super::super::nesting::{self, DEEPEST};
 use super::super::tokens::{Parsed, Tokens};
 use super::unit;
 use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
-/// Maximum nesting depth: far more than anyone writes, and small enough for the stack of every later stage.
-const DEEPEST: u32 = 64;
 /// Maximum height of the resulting tree, to which a long sum adds one level per term.
 const HIGHEST: u16 = 256;
 
@@ -94,7 +93,10 @@ fn power(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
 
 fn component(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let mut value = primary(tokens, depth)?;
-    while tokens.sign('.').is_some() {
+    while let Some(point) = tokens.sign('.') {
+        if matches!(value.kind, ValueKind::Number(_, None)) {
+            return digits_missing(point);
+        }
         let Some(axis) = tokens.ident() else {
             return tokens.expected("a component: `x`, `y` or `z`");
         };
@@ -132,6 +134,12 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
         !KEYWORDS.contains(&word.as_str())
     });
     if !follows_value {
+        let mut ahead = *tokens;
+        if let Some(point) = ahead.sign('.')
+            && ahead.literal().is_some()
+        {
+            return digits_missing(point);
+        }
         return tokens.expected("a value");
     }
     let name = tokens.name("a value")?;
@@ -185,6 +193,13 @@ fn binary(operator: Operator, sign: Extent, left: Value, right: Value) -> Parsed
     built(ValueKind::Binary(Box::new(binary)), extent)
 }
 
+/// A point with digits on one side only.
+fn digits_missing<T>(point: Extent) -> Parsed<T> {
+    let diagnostic = Diagnostic::new(point, "digits are missing beside this point")
+        .with_help("write digits on both sides of the point: `5.0`, `0.5`");
+    Err(Box::new(diagnostic))
+}
+
 /// The value, or an error if it makes the tree too high.
 fn built(kind: ValueKind, extent: Extent) -> Parsed<Value> {
     let value = Value::new(kind, extent);
@@ -208,7 +223,5 @@ fn nested<'a, T>(
 }
 
 fn too_large<T>(at: Extent) -> Parsed<T> {
-    let diagnostic = Diagnostic::new(at, "this expression is too large")
-        .with_help("name parts of it with `let`");
-    Err(Box::new(diagnostic))
+    Err(Box::new(nesting::too_large(at)))
 }
