@@ -115,7 +115,7 @@ impl Failure {
         let first = mistakes.iter().next();
         let message = first.map_or("", |mistake| &mistake.message);
         Self::Value {
-            place: place.to_string(),
+            place: shortened(&place.to_string()),
             // In a declaration, the next item would follow here.
             message: message.replace("expected `;`, found", "unexpected"),
             help: first.and_then(|mistake| mistake.help.clone()),
@@ -134,6 +134,16 @@ impl Failure {
             path: path.to_owned(),
             source,
         }
+    }
+}
+
+/// Most characters of a value that are repeated in a message about it.
+const LONGEST: usize = 80;
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &text[..end]),
+        None => text.to_owned(),
     }
 }
 

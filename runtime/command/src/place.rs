@@ -127,6 +127,17 @@ fn followed(path: &Path) -> PathBuf {
     path
 }
 
+#[cfg(unix)]
+fn is_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    fs::metadata(path).is_ok_and(|data| data.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Path) -> bool {
+    false
+}
+
 /// Whether two paths lead to the same file, as far as links and existing folders tell.
 pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
     let whole = |path: &Path| {
@@ -145,7 +156,7 @@ pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
 pub(crate) enum Target {
     /// Written next to its destination and moved into place, so that a failure keeps the existing file.
     File { path: PathBuf, beside: PathBuf },
-    /// A device or a pipe, opened only once: the reader of a pipe sees its end when it is closed.
+    /// A device or a pipe.
     Device(PathBuf),
 }
 
@@ -164,7 +175,9 @@ impl Target {
 
     pub(crate) fn check(&self) -> io::Result<()> {
         match self {
-            Self::Device(_) => Ok(()),
+            // Its reader would take the first opening for the whole answer.
+            Self::Device(path) if is_pipe(path) => Ok(()),
+            Self::Device(path) => OpenOptions::new().write(true).open(path).map(|_| ()),
             Self::File { path, beside } => {
                 if path.is_dir() {
                     return Err(io::ErrorKind::IsADirectory.into());

@@ -51,14 +51,12 @@ fn passed_over(text: &str) -> Option<usize> {
     if text.starts_with("//") {
         return up_to(text.find('\n'));
     }
-    if text.starts_with("/*") {
-        return up_to(text[2..].find("*/").map(|at| at + 4));
+    if let Some(comment) = text.strip_prefix("/*") {
+        return up_to(comment.find("*/").map(|at| at + 4));
     }
-    if !text.starts_with('"') {
-        return None;
-    }
+    let string = text.strip_prefix('"')?;
     let mut is_escaped = false;
-    let end = text[1..].find(|sign| {
+    let end = string.find(|sign| {
         let ends = sign == '"' && !is_escaped;
         is_escaped = sign == '\\' && !is_escaped;
         ends

@@ -376,6 +376,13 @@ fn brackets_are_nested_only_so_deep() {
         let study = file(&folder, "nested.toml", &format!("[set]\nl = \"{value}\"\n"));
         refused(&["modes", PENDULUM, "--study", &study], 2, &parts);
     }
+    // The message does not repeat all of it.
+    let value = format!("l={}", nested(10_000, "1 m"));
+    let message = run(&["modes", PENDULUM, "--set", &value]).err;
+    assert!(
+        message.contains("set l=(((") && message.len() < 300,
+        "{message}"
+    );
     let brackets = "[".repeat(60_000);
     let run = run_with_input(
         &["check", "-"],
