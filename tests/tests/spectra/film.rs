@@ -126,7 +126,10 @@ fn a_curve_ends() {
     for speed in [BEGIN, END] {
         assert!(at(speed).is_ok());
     }
-    for (speed, words) in [(0.999 * BEGIN, "begins"), (1.001 * END, "ends")] {
+    for (speed, words) in [
+        (0.999 * BEGIN, "beginning of curve"),
+        (1.001 * END, "end of curve"),
+    ] {
         let Err(error @ Error::Unphysical { .. }) = at(speed) else {
             panic!("{speed}")
         };
