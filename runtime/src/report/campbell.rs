@@ -9,7 +9,7 @@ use super::table::{Table, cells, not_reached, undamped};
 use super::title::title_along;
 use super::tolerance::{spread_of, what_happens};
 use crate::campbell::{Campbell, CampbellMode};
-use crate::modes::Family;
+use crate::modes::{Family, Sense};
 use crate::tolerance::Spread;
 use crate::{Behaviour, InputInfo};
 
@@ -101,8 +101,7 @@ impl Campbell {
                 row.push(or_dash(own.map(sigma), rough));
                 row.push(least.map_or("-".to_owned(), |(value, _)| given_in(*value, &info.unit)));
             }
-            let whirl = last.whirl.or(first.whirl);
-            row.push(whirl.map_or("-".to_owned(), |whirl| whirl.sense().to_string()));
+            row.push(senses(&all));
             row.push(motions(&all));
             table.row(row);
         }
@@ -164,6 +163,24 @@ impl Campbell {
             )?;
         }
         Ok(())
+    }
+}
+
+/// The senses in which a mode whirls along the branch, in order; planar only if it never circles, as at rest all do.
+fn senses(branch: &[(f64, &CampbellMode)]) -> String {
+    let all = branch.iter().filter_map(|(_, mode)| mode.whirl);
+    let mut said: Vec<Sense> = Vec::new();
+    for sense in all.map(|whirl| whirl.sense()) {
+        match said.last() {
+            Some(last) if *last == sense || sense == Sense::Planar => {}
+            Some(Sense::Planar) => said = vec![sense],
+            _ => said.push(sense),
+        }
+    }
+    let words: Vec<String> = said.iter().map(Sense::to_string).collect();
+    match words.is_empty() {
+        true => "-".to_owned(),
+        false => words.join(", then "),
     }
 }
 

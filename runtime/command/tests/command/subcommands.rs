@@ -154,6 +154,14 @@ fn campbell() {
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
+    let weave = ["whipple_bicycle.mechanism", "--sweep", "v=2..8m/s"];
+    let text = answer(&[&["campbell"], &weave[..]].concat());
+    for part in [
+        "onset of flutter of mode 2 (forward)",
+        "forward, then backward  grows (flutter), then decays",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
 }
 
 /// Straight ahead the bicycle's coordinates are zero to within 1e-186: such noise must not be printed.
