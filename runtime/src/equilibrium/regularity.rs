@@ -20,7 +20,7 @@ const KNOWN: f64 = 1e-3;
 /// The force close to a singular configuration counts as zero up to this multiple of what the stiffness contributes
 /// over the distance.
 const BESIDE: f64 = 10.0;
-/// Share in the weakest combination of constraints above which a constraint takes part in it.
+/// Share of the largest part in a weak combination of constraints above which a constraint takes part in it.
 const TAKES_PART: f64 = 1e-3;
 
 /// The state of the constraints at a configuration that is at rest to rounding.
@@ -47,30 +47,26 @@ pub(crate) fn constraint_state(
         return Ok(found);
     }
     let noise = noise(point, q, residual, linear);
-    let weak = tangent.all.hardly_supported();
-    let weak = weak.map(|i| Weak::new(point, q, &tangent, i));
-    let Some(weakest) = { weak }.find(|weak| weak.moved(linear, &noise) > KNOWN) else {
+    let each = tangent.all.hardly_supported();
+    let mut each = each.map(|i| Weak::new(point, q, &tangent, i));
+    let Some(weak) = each.find(|weak| weak.moved(linear, &noise) > KNOWN) else {
         return Ok(found);
     };
     found.singular = true;
-    let share =
-        |(k, place): (usize, usize)| (weakest.combination[place] * tangent.all.size[k]).abs();
-    let most = structure
-        .constraint_rows()
-        .enumerate()
-        .map(share)
-        .fold(0.0, greater);
-    for (k, place) in structure.constraint_rows().enumerate() {
+    let rows = || structure.constraint_rows().enumerate();
+    let share = |(k, place): (usize, usize)| (weak.combination[place] * tangent.all.size[k]).abs();
+    let most = rows().map(share).fold(0.0, greater);
+    for (k, place) in rows() {
         found.dependent[place] |= share((k, place)) > TAKES_PART * most;
     }
-    let force = weakest.force(point, q);
+    let force = weak.force(point, q);
     if force == 0.0 {
         return Ok(found);
     }
-    let downhill = -force.signum() / largest(&weakest.direction);
+    let downhill = -force.signum() / largest(&weak.direction);
     Err(Failure::Unbalanced {
         coordinates: q.into(),
-        downhill: weakest.direction.map(|value| downhill * value).into(),
+        downhill: weak.direction.map(|value| downhill * value).into(),
         dependent: found.dependent,
     })
 }
