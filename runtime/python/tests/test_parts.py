@@ -40,7 +40,7 @@ def test_texts_that_are_cut_off_are_refused(sampled):
     text = sampled.samples_between(0, 100).to_json()
     with pytest.raises(eigentol.InvalidValue, match="cut off"):
         eigentol.PartialMonteCarlo.from_json(text[: len(text) // 2])
-    with pytest.raises(eigentol.InvalidValue, match="no partial result"):
+    with pytest.raises(eigentol.InvalidValue, match="not a partial result"):
         eigentol.PartialMonteCarlo.from_json('{"a": 1}')
 
 
