@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use eigentol_figures::{Figure, Form, Style};
 
-use crate::failure::{Failure, plural};
+use crate::failure::Failure;
 use crate::output::Output;
 use crate::place::Target;
 use crate::point::Question;
@@ -50,11 +50,14 @@ impl Wording {
         if names.len() <= modes {
             return Ok(());
         }
-        let (given, are) = (names.len(), plural(modes, "is 1 mode", "are"));
-        let message = match modes {
-            1 => format!("{given} names of modes are given, and there {are}"),
-            _ => format!("{given} names of modes are given, and there {are} {modes} modes"),
+        let there = match modes {
+            1 => "is 1 mode".to_owned(),
+            _ => format!("are {modes} modes"),
         };
+        let message = format!(
+            "{} names of modes are given, and there {there}",
+            names.len()
+        );
         let unknown = names[modes..].join("`, `");
         Err(Failure::usage(message, format!("leave out `{unknown}`")))
     }

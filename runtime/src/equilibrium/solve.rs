@@ -7,7 +7,6 @@ use super::operating_point::{Failure, OperatingPoint};
 use super::prediction::confirmed;
 use super::regularity::{constraint_state, unbalanced};
 use super::stability::Verdict;
-use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{Equilibrium, Policy, assembly, newton, newton_fast_path, search_space, stability};
 use crate::algebra::{Cholesky, Vector, add_scaled, add_to, dot};
 use crate::constraints::{Structure, Tangent, all_rows, placed};
@@ -150,37 +149,12 @@ fn from_afar(
             _ => nearest(point, start).map_err(|_| failure),
         })
         .and_then(|found| finish(point, found))
-        .map(|found| unwound(point, start, found))
         .map_err(|failure| match failure {
             Failure::NotFound {
                 ref coordinates, ..
             } if !structure.open() => unbalanced(point, coordinates).unwrap_or(failure),
             _ => failure,
         })
-}
-
-/// Takes back full turns that the search has made, if nothing counts them: the same place, near the start.
-fn unwound(point: &OperatingPoint<'_>, start: &[f64], found: Judged) -> Judged {
-    let there = &found.state.coordinates;
-    let turned = turned_towards(there, start, &point.description);
-    let far = |(a, b): (&f64, &f64)| (a - b).abs() > core::f64::consts::TAU;
-    let went_round = turned != *there && there.iter().zip(start).any(far);
-    if !went_round || !turns_do_not_count(point, there, &turned) {
-        return found;
-    }
-    let again = nearest(point, &turned).and_then(|again| finish(point, again));
-    match again {
-        Ok(again) if coincide(&again.state.coordinates, &turned, false, &point.description) => {
-            Judged {
-                state: Equilibrium {
-                    left_unstable_region: found.state.left_unstable_region,
-                    ..again.state
-                },
-                ..again
-            }
-        }
-        _ => found,
-    }
 }
 
 /// The minimum that the fast path finds from `place`.

@@ -125,7 +125,7 @@ fn missing(outcome: Outcome) -> &'static str {
         Outcome::Undecided => "the stability of its equilibrium is not decided",
         Outcome::NoEquilibrium => "it has no equilibrium",
         Outcome::NotAssembled => "its loops do not close",
-        Outcome::Unphysical => "it has bodies that cannot exist",
+        Outcome::Unphysical => "it has bodies that cannot exist, or lies beyond the end of a curve",
         Outcome::NoModes => "its modes were not found",
     }
 }
