@@ -130,6 +130,27 @@ fn unequal_limits_move_means_away_from_nominal_values() {
     assert!(report.contains("\u{b1} 0.375 about a mean of 10.225"));
 }
 
+/// A fan that runs up to its speed, and a slide that is pushed away: neither vibrates.
+#[test]
+fn what_does_not_oscillate_is_neither_sampled_nor_said_to_vibrate() {
+    let folder = folder("still");
+    let fan = "mechanism Fan { design drive = 20 N*m +/- 5%; design air = 0.002 N*m*s^2 +/- 10%;
+        body wheel: disk(mass: 5 kg, radius: 0.2 m, axis: z); joint x: revolute(z) from ground to wheel, coasting;
+        force moment: generalized(on: x, value: drive - 0.05 N*m*s * rate(x) - air * rate(x)^2); }";
+    let slide = "mechanism Slide { design push = 10 N/m +/- 5%; body block: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to block; force away: generalized(on: x, value: push * x);
+        force rub: damper(on: x, damping: 1 N*s/m); }";
+    for (name, text, code) in [("fan", fan, 0), ("slide", slide, 1)] {
+        let path = file(&folder, &format!("{name}.mechanism"), text);
+        let run = run(&["tolerance", &path]);
+        assert_eq!(run.code, code, "{}", run.err);
+        assert!(run.out.contains("no oscillation"), "{}", run.out);
+        for word in ["use Monte Carlo", "the vibration"] {
+            assert!(!run.out.contains(word), "{word}: {}", run.out);
+        }
+    }
+}
+
 #[test]
 fn counts_may_have_a_power_of_ten() {
     let samples = |count: &str| answer(&pendulum("sample", &["--samples", count]));
