@@ -3,6 +3,8 @@
 
 #[path = "hard_inputs/extremes.rs"]
 mod extremes;
+#[path = "hard_inputs/failure.rs"]
+mod failure;
 #[path = "hard_inputs/sampling.rs"]
 mod sampling;
 #[path = "hard_inputs/scales.rs"]

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 use crate::errors::{Kind, new, raise};
+use crate::settings::whole;
 use crate::spreads::MonteCarlo;
 use crate::study::Study;
 
@@ -33,9 +34,10 @@ impl Part {
     }
 
     /// Adds samples of the same run; those of another one, and samples that are here already, are refused.
-    fn merge(&mut self, py: Python<'_>, other: PyRef<'_, Self>) -> PyResult<()> {
-        let other = other.0.clone();
-        self.0.merge(other).map_err(|error| raise(py, error))
+    fn merge(slf: &Bound<'_, Self>, other: &Bound<'_, Self>) -> PyResult<()> {
+        let other = other.borrow().0.clone();
+        let merged = slf.borrow_mut().0.merge(other);
+        merged.map_err(|error| raise(slf.py(), error))
     }
 
     /// First sample and the one behind the last of each range that is done.
@@ -74,7 +76,13 @@ impl Part {
 impl Study {
     /// The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the
     /// whole run.
-    fn samples_between(&self, py: Python<'_>, start: u64, stop: u64) -> PyResult<Part> {
+    fn samples_between(
+        &self,
+        py: Python<'_>,
+        start: &Bound<'_, PyAny>,
+        stop: &Bound<'_, PyAny>,
+    ) -> PyResult<Part> {
+        let (start, stop) = (whole(start, "start")?, whole(stop, "stop")?);
         let found = self.ask_stoppably(py, |study| study.samples_between(start..stop));
         found.map(Part)
     }

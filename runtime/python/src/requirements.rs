@@ -203,4 +203,16 @@ impl RareFailure {
     fn standard_error(&self) -> f64 {
         self.0.failure.probability.standard_error
     }
+
+    /// Positions of the requirements of which some failure has no design point, such as `"stable"`.
+    #[getter]
+    fn without_design_point(&self) -> Vec<usize> {
+        self.0.without_design_point.clone()
+    }
+
+    /// Probability that failures of these may have without having been seen, at a confidence of 95 %.
+    #[getter]
+    fn unseen(&self) -> f64 {
+        self.0.unseen
+    }
 }

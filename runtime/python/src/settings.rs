@@ -10,9 +10,9 @@ use eigentol_interpreter::{Interpreted, tolerance};
 use numpy::{AllowTypeChange, PyArrayLike2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::{PyBool, PyDict, PyString};
 
-use crate::errors::raise;
+use crate::errors::{invalid, raise};
 use crate::names::did_you_mean;
 use crate::values::{List, number, numbers, refused, word, wrong_type};
 
@@ -32,8 +32,12 @@ const SETTINGS: [(&str, Set); 17] = [
     ("correlation", correlation),
     ("policy", policy),
     ("family", family),
-    ("samples", |study, given| {
-        Ok(study.samples(whole(given, "samples")?))
+    ("samples", |study, given| match whole(given, "samples")? {
+        0 => Err(invalid(
+            given.py(),
+            "`samples`: at least one is needed".to_owned(),
+        )),
+        samples => Ok(study.samples(samples)),
     }),
     ("seed", |study, given| Ok(study.seed(whole(given, "seed")?))),
     ("stream", |study, given| {
@@ -125,8 +129,15 @@ fn real(given: &Bound<'_, PyAny>, name: &str) -> PyResult<f64> {
         .map_err(|_| PyTypeError::new_err(format!("`{name}`: a number is needed")))
 }
 
-fn whole<'py, T: FromPyObjectOwned<'py>>(given: &Bound<'py, PyAny>, name: &str) -> PyResult<T> {
-    given.extract().map_err(|_| {
+pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(
+    given: &Bound<'py, PyAny>,
+    name: &str,
+) -> PyResult<T> {
+    let found = match given.is_instance_of::<PyBool>() {
+        true => None,
+        false => given.extract().ok(),
+    };
+    found.ok_or_else(|| {
         PyTypeError::new_err(format!(
             "`{name}`: a whole number that is not negative is needed"
         ))

@@ -367,6 +367,13 @@ impl ModeMargin {
         self.0.margin.first_order
     }
 
+    /// Positions of the other modes that tolerances mix with this one. If there are any, neither probability can be
+    /// relied on.
+    #[getter]
+    fn mixed_with(&self) -> Vec<usize> {
+        self.0.mixed_with.clone()
+    }
+
     /// The band, in the unit of the quantity (rad/s, 1/s).
     #[getter]
     fn band(&self) -> (f64, f64) {

@@ -2,10 +2,12 @@
 //! nominal values as fractions of the way between their limits.
 
 use eigentol_statistics::normal;
-use eigentol_statistics::reliability::form;
+use eigentol_statistics::reliability::{DesignPoint, failure_regions};
 
 use super::choices::Choices;
-use crate::requirement::{Deviations, FormSettings, Limit, LimitAt, Requirements, slopes_at};
+use crate::requirement::{
+    Deviations, FormSettings, Limit, LimitAt, Requirements, out_of_reach, slopes_at,
+};
 use crate::{Error, Vector};
 
 /// Cost and reliability at one choice.
@@ -52,15 +54,32 @@ pub(super) struct Problem<'a> {
     pub(super) limits: Vec<(usize, Limit)>,
     pub(super) nominal: Vector,
     pub(super) half_widths: Vector,
+    pub(super) search: Search,
 }
 
-/// Settings with a single search from the centre of the distribution, which suffices between successive optimiser
-/// steps.
-fn settings() -> FormSettings {
-    FormSettings {
-        restarts: 0,
-        tolerance: 1e-10,
-        ..FormSettings::default()
+/// How design points are searched at each choice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Search {
+    /// Once, from the centre of the distribution: enough where each limit has a single design point.
+    Single,
+    /// As for the reliability of a design: in all failure regions.
+    Thorough,
+}
+
+impl Search {
+    fn settings(self) -> FormSettings {
+        let single = FormSettings {
+            restarts: 0,
+            regions: 1,
+            ..FormSettings::default()
+        };
+        FormSettings {
+            tolerance: 1e-10,
+            ..match self {
+                Self::Single => single,
+                Self::Thorough => FormSettings::default(),
+            }
+        }
     }
 }
 
@@ -107,9 +126,9 @@ impl Problem<'_> {
                 .iter()
                 .filter(|(_, limit)| limit.requirement == requirement);
             let parts = own.map(|limit| self.limit(&deviations, &wide, limit));
-            let parts: Vec<(f64, Vec<f64>)> = parts.collect::<Result<_, _>>()?;
+            let parts: Vec<Vec<(f64, Vec<f64>)>> = parts.collect::<Result<_, _>>()?;
             if !parts.is_empty() {
-                let (beta, slopes) = joined(&parts, x.len());
+                let (beta, slopes) = joined(&parts.concat(), x.len());
                 reached.push(Reached {
                     requirement,
                     beta,
@@ -142,58 +161,49 @@ impl Problem<'_> {
         Ok((sum, slopes))
     }
 
-    /// Reliability index of a limit and its derivatives with respect to the choices.
+    /// Reliability index of each failure region of a limit, and its derivatives with respect to the choices.
     fn limit(
         &self,
         deviations: &Deviations<'_>,
         wide: &[f64],
         (place, limit): &(usize, Limit),
-    ) -> Result<(f64, Vec<f64>), Error> {
+    ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
         let limit = LimitAt::new(
             self.requirements.responses(),
             *place,
             limit.edge,
             deviations,
         );
-        let at = match form(&limit, &settings()) {
-            Ok(found) => found.design_point,
-            Err(error) if out_of_reach(&error) => return Ok((f64::INFINITY, Vec::new())),
+        let points = match failure_regions(&limit, &self.search.settings()) {
+            Ok(found) => found.design_points,
+            Err(error) if out_of_reach(&error) => return Ok(Vec::new()),
             Err(error) => return Err(error.into()),
         };
-        let slopes = slopes_at(&limit, deviations, &at)?;
-        let half_widths = self
-            .choices
-            .half_widths
-            .iter()
-            .map(|own| slopes.by_half_width[own.variable].beta * wide[own.variable]);
-        let nominals = self
-            .choices
-            .nominals
-            .iter()
-            .map(|own| slopes.by_nominal[own.variable].beta * (own.limits.1 - own.limits.0));
-        Ok((at.beta, half_widths.chain(nominals).collect()))
+        let part = |at: &DesignPoint| {
+            let slopes = slopes_at(&limit, deviations, at)?;
+            let half_widths = self
+                .choices
+                .half_widths
+                .iter()
+                .map(|own| slopes.by_half_width[own.variable].beta * wide[own.variable]);
+            let nominals =
+                self.choices.nominals.iter().map(|own| {
+                    slopes.by_nominal[own.variable].beta * (own.limits.1 - own.limits.0)
+                });
+            Ok((at.beta, half_widths.chain(nominals).collect()))
+        };
+        points.iter().map(part).collect()
     }
 }
 
-/// Whether the search found no failure, and no design without a value.
-fn out_of_reach(error: &eigentol_statistics::Error) -> bool {
-    match error {
-        eigentol_statistics::Error::NoDesignPoint { closest, .. } => {
-            closest.value > 0.0 && closest.evaluations.without_value == 0
-        }
-        _ => false,
-    }
-}
-
-/// Reliability index of the summed failure probabilities, `-Phi^-1(sum Phi(-beta_i))`.
+/// Reliability index of the summed failure probabilities, `-Phi^-1(sum Phi(-beta_i))`; infinite without any.
 fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
-    let finite: Vec<&(f64, Vec<f64>)> = parts.iter().filter(|(beta, _)| beta.is_finite()).collect();
-    match finite[..] {
+    match parts {
         [] => (f64::INFINITY, vec![0.0; size]),
         [(beta, slopes)] => (*beta, slopes.clone()),
         _ => {
-            let sum: f64 = finite.iter().map(|(beta, _)| normal::cdf(-beta)).sum();
-            let least = finite
+            let sum: f64 = parts.iter().map(|(beta, _)| normal::cdf(-beta)).sum();
+            let least = parts
                 .iter()
                 .map(|(beta, _)| *beta)
                 .fold(f64::INFINITY, f64::min);
@@ -205,7 +215,7 @@ fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
                 least
             };
             let mut slopes = vec![0.0; size];
-            for (own, by) in &finite {
+            for (own, by) in parts {
                 let weight = (0.5 * (beta - own) * (beta + own)).exp();
                 for (sum, slope) in slopes.iter_mut().zip(by) {
                     *sum += weight * slope;
@@ -223,11 +233,7 @@ mod tests {
     #[test]
     fn joined_indices_have_the_derivatives_of_differences() {
         let at = |t: f64| {
-            let parts = [
-                (2.0 + 0.3 * t, vec![0.3]),
-                (2.5 - t, vec![-1.0]),
-                (f64::INFINITY, Vec::new()),
-            ];
+            let parts = [(2.0 + 0.3 * t, vec![0.3]), (2.5 - t, vec![-1.0])];
             joined(&parts, 1)
         };
         let sum = normal::cdf(-2.0) + normal::cdf(-2.5);
@@ -235,7 +241,6 @@ mod tests {
         assert!((normal::cdf(-beta) / sum - 1.0).abs() < 1e-12);
         let difference = (at(1e-5).0 - at(-1e-5).0) / 2e-5;
         assert!((slopes[0] / difference - 1.0).abs() < 1e-7);
-        let unreachable = [(f64::INFINITY, Vec::new())];
-        assert_eq!(joined(&unreachable, 2), (f64::INFINITY, vec![0.0; 2]));
+        assert_eq!(joined(&[], 2), (f64::INFINITY, vec![0.0; 2]));
     }
 }

@@ -2,10 +2,11 @@
 
 use core::cell::RefCell;
 
+use eigentol_statistics::normal;
 use slsqp::{Func, StopTols, minimize};
 
 use super::choices::Choices;
-use super::problem::{Evaluated, Problem, Reached};
+use super::problem::{Evaluated, Problem, Reached, Search};
 use crate::requirement::{
     Chances, FormSettings, Reliability, Requirements, chances_of, check, reliability_of,
 };
@@ -55,8 +56,8 @@ pub struct Allocation {
 
 /// Finds the cheapest of the allowed tolerances, starting from those of `requirements`.
 ///
-/// Each requirement fails with at most the allowed probability to first order; if it has several limits, their
-/// probabilities are summed. A requirement without a limit
+/// Each requirement fails with at most the allowed probability to first order; if it has several limits or failure
+/// regions, their probabilities are summed. A requirement without a limit
 /// ([`Requirement::Stable`](crate::requirement::Requirement::Stable)) is checked by samples only.
 ///
 /// # Errors
@@ -76,7 +77,8 @@ pub fn allocate(
     let state = requirements.responses().nominal();
     let (nominal, half_widths) =
         choices.start(&state.design, deviations.tolerances().half_widths());
-    let problem = Problem {
+    let mut problem = Problem {
+        search: Search::Single,
         limits: requirements.limits(),
         requirements,
         choices,
@@ -84,10 +86,22 @@ pub fn allocate(
         half_widths,
     };
     let watch = sampling.watch();
-    let (x, best, before, evaluations) = search(&problem, watch)?;
-    let (nominal, half_widths) = problem.design(&x);
+    let reliability_at = |design: &(Vector, Vector)| {
+        let moved = deviations.moved(&design.0, &design.1);
+        reliability_of(requirements, &moved, &FormSettings::default())
+    };
+    let mut found = search(&problem, watch)?;
+    let mut reliability = reliability_at(&problem.design(&found.x))?;
+    let mut evaluations = found.evaluations;
+    if !watch.stopped() && !reaches(&reliability, &choices.failure) {
+        problem.search = Search::Thorough;
+        found = search(&problem, watch)?;
+        reliability = reliability_at(&problem.design(&found.x))?;
+        evaluations += found.evaluations;
+    }
+    let (nominal, half_widths) = problem.design(&found.x);
     let stopped = watch.stopped();
-    if let Some(worst) = best.worst().filter(|own| own.shortfall() > ENOUGH) {
+    if let Some(worst) = found.best.worst().filter(|own| own.shortfall() > ENOUGH) {
         if stopped {
             return Err(Error::Stopped);
         }
@@ -95,7 +109,7 @@ pub fn allocate(
             nominal: nominal.into(),
             half_widths: half_widths.into(),
             requirement: worst.requirement,
-            probability: eigentol_statistics::normal::cdf(-worst.beta),
+            probability: normal::cdf(-worst.beta),
             wanted: choices.failure[worst.requirement],
         });
     }
@@ -108,11 +122,11 @@ pub fn allocate(
         }
     }
     Ok(Allocation {
-        reliability: reliability_of(requirements, &moved, &FormSettings::default())?,
+        reliability,
         nominal,
         half_widths,
-        cost: best.cost,
-        cost_before: before,
+        cost: found.best.cost,
+        cost_before: found.cost_before,
         failure: choices.failure.clone(),
         chances,
         refuted,
@@ -123,11 +137,24 @@ pub fn allocate(
     })
 }
 
-/// Returns the best choice, its evaluation, the cost at the start, and the number of choices tried.
-fn search(
-    problem: &Problem<'_>,
-    watch: Watch<'_>,
-) -> Result<(Vec<f64>, Evaluated, f64, usize), Error> {
+/// Whether each requirement is as reliable as it must be, all failure regions taken together.
+fn reaches(reliability: &Reliability, failure: &[f64]) -> bool {
+    let enough = |(k, allowed): (usize, &f64)| {
+        let beta = reliability.beta_of(k);
+        beta.is_none_or(|beta| -normal::quantile(*allowed) - beta <= 2.0 * ENOUGH)
+    };
+    failure.iter().enumerate().all(enough)
+}
+
+/// The result of a search: the best choice, its evaluation, the cost at the start, and the number of choices tried.
+struct Found {
+    x: Vec<f64>,
+    best: Evaluated,
+    cost_before: f64,
+    evaluations: usize,
+}
+
+fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Found, Error> {
     let (start, bounds) = problem.start();
     let first = problem.evaluate(&start)?;
     let (before, scale) = (first.cost, first.cost.abs().max(f64::MIN_POSITIVE));
@@ -188,7 +215,12 @@ fn search(
     );
     let progress = progress.into_inner();
     let (x, best) = progress.best;
-    Ok((x, best, before, progress.tried))
+    Ok(Found {
+        x,
+        best,
+        cost_before: before,
+        evaluations: progress.tried,
+    })
 }
 
 /// The shortfall passed to the optimiser: finite even if nothing fails.

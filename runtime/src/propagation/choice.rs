@@ -119,8 +119,10 @@ pub fn propagate(
         );
     }
     let dear = format!(
-        "{} samples would cost {price} solutions each, more than the {} allowed",
-        effort.samples, effort.solutions
+        "{} samples would cost {} solutions, more than the {} allowed",
+        effort.samples,
+        effort.samples.saturating_mul(price),
+        effort.solutions
     );
     let levels = LEVELS
         .rev()

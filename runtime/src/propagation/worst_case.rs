@@ -49,9 +49,10 @@ pub struct MissingCorner {
 pub struct ResponseLimits {
     /// Value at the nominal design, SI.
     pub nominal: Option<f64>,
-    /// The minimum; `None` if no evaluated design has the response.
+    /// The minimum; `None` if no evaluated design has the response, or if the search for it ended at a corner that does
+    /// not.
     pub least: Option<Extreme>,
-    /// The maximum; `None` if no evaluated design has the response.
+    /// The maximum; `None` like the minimum.
     pub greatest: Option<Extreme>,
     /// The design variables whose slope changes sign between evaluated designs: the response is not monotonic, and may
     /// be worse inside the box than at its corners.
@@ -128,9 +129,9 @@ pub fn worst_case(responses: &Responses<'_>, tolerances: &Tolerances) -> Result<
         seen: BTreeMap::new(),
     };
     let count = responses.wanted().len();
+    let mut ends = Vec::new();
     for response in 0..count {
-        search.climb(response, 1)?;
-        search.climb(response, -1)?;
+        ends.push([search.climb(response, -1)?, search.climb(response, 1)?]);
         search.look_where_still(response)?;
     }
     if (0..count).any(|response| !search.turning(response).is_empty()) {
@@ -138,7 +139,9 @@ pub fn worst_case(responses: &Responses<'_>, tolerances: &Tolerances) -> Result<
     }
     Ok(WorstCase {
         wanted: responses.wanted().to_vec(),
-        responses: (0..count).map(|response| search.found(response)).collect(),
+        responses: (ends.iter().enumerate())
+            .map(|(response, ends)| search.found(response, ends))
+            .collect(),
         evaluations: search.seen.len(),
         limits: search.limits,
         inputs: at.inputs.clone(),
@@ -180,8 +183,9 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Follows the signs of the gradient up (1) or down (-1) until they agree with the corner or the corner is known.
-    fn climb(&mut self, response: usize, way: i8) -> Result<(), Error> {
+    /// Follows the signs of the gradient up (1) or down (-1) until they agree with the corner or the corner is known,
+    /// and returns the corner at which that ends.
+    fn climb(&mut self, response: usize, way: i8) -> Result<Corner, Error> {
         let mut corner = vec![0; self.limits.len()];
         let mut met = Vec::new();
         while !met.contains(&corner) {
@@ -192,7 +196,7 @@ impl Search<'_> {
             let next = signs.iter().map(|sign| way * sign).collect();
             met.push(core::mem::replace(&mut corner, next));
         }
-        Ok(())
+        Ok(corner)
     }
 
     /// Checks the ends of variables with zero slope at the nominal design: either they do not matter, or the response
@@ -260,13 +264,21 @@ impl Search<'_> {
             .collect()
     }
 
-    fn found(&self, response: usize) -> ResponseLimits {
+    /// The result, given the corners at which the searches for least and greatest ended. What lies between the
+    /// evaluated designs and a corner without a value is unknown.
+    fn found(&self, response: usize, ends: &[Corner; 2]) -> ResponseLimits {
         let value = |found: &Realisation| found.values[response];
         let missing = self.seen.iter().filter(|(_, found)| value(found).is_none());
+        let known = |corner: &Corner| self.seen.get(corner).and_then(value).is_some();
+        let elsewhere = missing.clone().any(|(corner, _)| !ends.contains(corner));
+        let extreme = |way: i8, end: &Corner| {
+            let known = known(end) && !elsewhere;
+            known.then(|| self.extreme(response, way)).flatten()
+        };
         ResponseLimits {
             nominal: self.seen.get(&vec![0; self.limits.len()]).and_then(value),
-            least: self.extreme(response, -1),
-            greatest: self.extreme(response, 1),
+            least: extreme(-1, &ends[0]),
+            greatest: extreme(1, &ends[1]),
             turning: self.turning(response),
             missing: missing
                 .map(|(corner, found)| MissingCorner {

@@ -77,8 +77,8 @@ impl fmt::Display for MarginTable<'_> {
             heading("sigma", unit),
             "to band [sigma]".to_owned(),
             "first order".to_owned(),
-            "corrected".to_owned(),
-            "error below".to_owned(),
+            "second order".to_owned(),
+            "integration error".to_owned(),
         ]);
         table.row(vec![
             in_unit(margin.value, unit),
@@ -90,7 +90,10 @@ impl fmt::Display for MarginTable<'_> {
         ]);
         write!(f, "{table}")?;
         let Some(slopes) = &margin.derivatives else {
-            return writeln!(f, "  No derivatives: nothing varies at first order.");
+            return writeln!(
+                f,
+                "  No derivatives: they exist only where variables are normal and something varies at first order."
+            );
         };
         let all = slopes.by_design.iter().chain(&slopes.by_half_width);
         if all.copied().all(|slope| slope == 0.0) {

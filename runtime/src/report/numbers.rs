@@ -71,6 +71,13 @@ pub(super) fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
+/// `1 sample`, `2 samples`.
+pub(super) fn counted(number: impl core::fmt::Display, one: &str) -> String {
+    let number = number.to_string();
+    let ending = if number == "1" { "" } else { "s" };
+    format!("{number} {one}{ending}")
+}
+
 /// Replaces a number that a member of a cluster of equal eigenvalues does not have.
 pub(super) const CLUSTER: &str = "cluster";
 

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::margin::chance;
-use super::numbers::{given_in, heading, in_unit, or_dash, rough, short, with_unit};
+use super::numbers::{counted, given_in, heading, in_unit, or_dash, rough, short, with_unit};
 use super::relevance::{BELOW, names, relevant};
 use super::table::{Table, cells};
 use super::title::title;
@@ -19,7 +19,7 @@ impl fmt::Display for Chances {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let samples = self.all.samples();
         let subject = title(&self.description, &self.inputs);
-        writeln!(f, "{subject}: requirements, {samples} samples")?;
+        writeln!(f, "{subject}: requirements, {}", counted(samples, "sample"))?;
         if samples < self.planned {
             writeln!(
                 f,
@@ -40,14 +40,16 @@ impl fmt::Display for Chances {
         }
         table.row(row("all".to_owned(), &self.all));
         write!(f, "{table}")?;
-        let stable = self.counts.stable;
-        if stable < samples {
+        if self.each.iter().any(|tally| tally.untold > 0) {
             writeln!(
                 f,
-                "  {} samples are not stable: {}",
-                samples - stable,
-                self.counts
+                "  Untold: the response does not exist; such a sample counts neither as met nor as failed."
             )?;
+        }
+        let stable = self.counts.stable;
+        if stable < samples {
+            let others = counted(samples - stable, "sample");
+            writeln!(f, "  Not stable: {others}: {}", self.counts)?;
         }
         Ok(())
     }
@@ -172,16 +174,29 @@ impl fmt::Display for RareFailure {
         let found = &self.failure;
         writeln!(
             f,
-            "{subject}: {} importance samples about {} design points",
-            found.samples, self.centres
+            "{subject}: {} importance samples about {}",
+            found.samples,
+            counted(self.centres, "design point")
         )?;
         writeln!(
             f,
-            "  At least one requirement fails with probability {} +- {} ({} samples failed, {} are undecided).",
+            "  At least one requirement fails with probability {} +- {} ({} failed, {} undecided).",
             rough(found.probability.value),
             short(found.probability.standard_error),
-            found.failures,
+            counted(found.failures, "sample"),
             found.without_value
+        )?;
+        if self.without_design_point.is_empty() {
+            return Ok(());
+        }
+        let numbers: Vec<String> = (self.without_design_point.iter())
+            .map(|k| (k + 1).to_string())
+            .collect();
+        writeln!(
+            f,
+            "  No design point for requirement {}: failures with a probability of up to {} may have gone unseen (95 %).",
+            numbers.join(", "),
+            rough(self.unseen)
         )
     }
 }

@@ -5,6 +5,7 @@ use core::fmt;
 use super::margin::MarginTable;
 use super::numbers::{heading, number, rough};
 use super::relevance::{CHANCE, unless_rounding};
+use super::summary::named;
 use super::table::{Table, cells};
 use super::title::title;
 use crate::second_order::{ModeMargin, SecondOrder};
@@ -64,6 +65,13 @@ impl fmt::Display for ModeMargin {
             description: &self.description,
         };
         write!(f, "{table}")?;
+        if !self.mixed_with.is_empty() {
+            writeln!(
+                f,
+                "  Tolerances mix this mode with {}: neither probability can be relied on; sample.",
+                named(&self.mixed_with)
+            )?;
+        }
         let told = self.by_input.as_ref();
         let Some(by_input) = told.filter(|_| self.margin.first_order >= CHANCE) else {
             return Ok(());

@@ -208,13 +208,15 @@ fn fact(text: String) -> Sentence {
 }
 
 /// The largest error of first order compared to the samples; empty without samples.
-fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
+fn confirmed<'a>(checks: impl Iterator<Item = &'a Check> + Clone) -> String {
     let errors = checks.filter_map(|check| Some((check.first_order_error?, check.count)));
+    let several = errors.clone().nth(1).is_some();
     let most = errors.max_by(|(a, _), (b, _)| a.value.abs().total_cmp(&b.value.abs()));
     match most {
         None => String::new(),
         Some((error, count)) => format!(
-            ", which is off by at most {:.1} % (+- {:.1}) over {count} samples",
+            ", which is off by {}{:.1} % (+- {:.1}) over {count} samples",
+            if several { "up to " } else { "" },
             100.0 * error.value.abs(),
             200.0 * error.standard_error
         ),

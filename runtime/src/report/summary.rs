@@ -272,6 +272,11 @@ impl fmt::Display for Doubt {
                 named(modes),
                 short(*distance)
             ),
+            Self::Unrepresentative { quantity } => write!(
+                f,
+                "sigma of the {} is due to values too rare to be among the samples: nothing confirms it.",
+                quantity_name(*quantity)
+            ),
             Self::NearCritical { distance: 0.0 } => write!(
                 f,
                 "the stiffness is zero within rounding: this is a critical state. Sigma is meaningless here."

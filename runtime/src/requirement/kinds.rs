@@ -72,11 +72,20 @@ impl Requirement {
     }
 
     /// Whether a design with this outcome and response meets it; `None` if the response needed to tell is missing.
+    ///
+    /// A design without a stable equilibrium has no modes and no outputs to speak of, and meets no requirement on them.
     #[must_use]
     pub fn met(&self, outcome: Outcome, response: Option<f64>) -> Option<bool> {
+        let Some(value) = response else {
+            return match self.response() {
+                None => Some(outcome == Outcome::Stable),
+                Some(Response::Mode { .. } | Response::Output(_)) if outcome.lost() => Some(false),
+                Some(_) => None,
+            };
+        };
         match *self {
-            Self::Within { low, high, .. } => response.map(|value| low <= value && value <= high),
-            Self::Outside { low, high, .. } => response.map(|value| value <= low || value >= high),
+            Self::Within { low, high, .. } => Some(low <= value && value <= high),
+            Self::Outside { low, high, .. } => Some(value <= low || value >= high),
             Self::Stable => Some(outcome == Outcome::Stable),
         }
     }

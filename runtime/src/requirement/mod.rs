@@ -31,4 +31,4 @@ pub(crate) use chances::chances_of;
 pub(crate) use design_point::slopes_at;
 pub(crate) use deviations::Deviations;
 pub(crate) use limit::LimitAt;
-pub(crate) use reliability::{check, reliability_of};
+pub(crate) use reliability::{check, out_of_reach, reliability_of};

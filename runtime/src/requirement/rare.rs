@@ -17,6 +17,10 @@ use crate::{Description, Error, Shared};
 /// Number of samples that one thread solves as a unit, and number of such units between checks of the result.
 const CHUNK: u64 = 64;
 const CHUNKS: u64 = 16;
+/// Share of the samples that are distributed like the designs, if failures may lie anywhere.
+const PLAIN: f64 = 0.5;
+/// Probability of seeing none of the failures that are said to be possible though unseen.
+const UNSEEN: f64 = 0.05;
 
 /// Probability of failing any requirement, by importance sampling.
 ///
@@ -31,6 +35,12 @@ pub struct RareFailure {
     pub counts: Counts,
     /// Number of design points about which samples were drawn.
     pub centres: usize,
+    /// Requirements of which some failure has no design point: [`Requirement::Stable`](super::Requirement::Stable), or
+    /// a limit of which the search failed. For their sake half of the samples are distributed like the designs.
+    pub without_design_point: Vec<usize>,
+    /// Probability that failures of these requirements may have without having been seen, at a confidence of 95 %:
+    /// three over the number of samples distributed like the designs. Zero if every requirement has its design points.
+    pub unseen: f64,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
@@ -40,7 +50,9 @@ pub struct RareFailure {
 impl Requirements<'_> {
     /// Probability of failing any requirement, from samples about the design points of `about`, on `threads` threads (0
     /// for all available); identical for any number of threads. The estimate is unbiased wherever failure lies, but its
-    /// error estimate cannot see a failure region far from all design points.
+    /// error estimate cannot see a failure region far from all design points. If a requirement has no design point,
+    /// sampling goes on until what its failures may hide ([`RareFailure::unseen`]) is within the target too, or until
+    /// the largest number of samples.
     ///
     /// # Errors
     /// [`Error::Setting`] if `about` has no design point, for zero samples or for an invalid target coefficient of
@@ -63,7 +75,12 @@ impl Requirements<'_> {
                 reason: "there is none to sample about: sample plainly".to_owned(),
             });
         }
+        let without_design_point = about.without_design_point();
         let proposal = Proposal::around(&centres)?;
+        let proposal = match without_design_point.is_empty() {
+            true => proposal,
+            false => proposal.defended(PLAIN)?,
+        };
         let state = self.responses().nominal();
         let size = (state.coordinates.len(), self.deviations().dimension());
         let whole = [self.whole()];
@@ -92,10 +109,20 @@ impl Requirements<'_> {
             }
             self.responses().go_on()?;
             first += number;
-            let estimate = sums.as_ref().map(|sums| all.estimate(sums));
-            if let Some(failure) = estimate.filter(|now| now.reached || first >= settings.samples) {
+            let unseen = match without_design_point.is_empty() {
+                true => 0.0,
+                false => -UNSEEN.ln() / (PLAIN * first as f64),
+            };
+            let Some(mut failure) = sums.as_ref().map(|sums| all.estimate(sums)) else {
+                continue;
+            };
+            let target = settings.coefficient_of_variation * failure.probability.value;
+            failure.reached &= unseen <= target;
+            if failure.reached || first >= settings.samples {
                 return Ok(RareFailure {
                     failure,
+                    without_design_point,
+                    unseen,
                     counts,
                     centres: centres.len(),
                     inputs: state.inputs.clone(),

@@ -7,7 +7,7 @@ use eigentol_statistics::reliability::{self, FormSettings, failure_regions};
 
 use super::design_point::DesignPoint;
 use super::deviations::Deviations;
-use super::limit::{Limit, LimitAt};
+use super::limit::{Edge, Limit, LimitAt};
 use super::requirements::Requirements;
 use crate::algebra::Vector;
 use crate::{Description, Error, Shared};
@@ -20,7 +20,7 @@ pub struct LimitReliability {
     /// The limit.
     pub limit: Limit,
     /// Its design points, most probable first, at least one; or the reason why there are none, for example because no
-    /// design within reach fails.
+    /// design within reach fails, or because the centre of the distribution lies inside a forbidden band.
     pub design_points: Result<Vec<DesignPoint>, Error>,
 }
 
@@ -36,6 +36,12 @@ impl LimitReliability {
         }
         let sum: f64 = points.iter().map(DesignPoint::probability).sum();
         Some(sum.min(1.0))
+    }
+
+    /// Whether there are no design points because no design within reach fails.
+    #[must_use]
+    pub fn out_of_reach(&self) -> bool {
+        matches!(&self.design_points, Err(Error::NoReliability(error)) if out_of_reach(error))
     }
 
     /// The reliability index of the most probable design point.
@@ -64,7 +70,7 @@ pub struct Reliability {
     /// Every limit that the requirements set.
     pub limits: Vec<LimitReliability>,
     /// Failure of any of the limits that have design points; `None` if none has, or if the centre of the distribution
-    /// fails at a forbidden band, which is not a plane.
+    /// fails between several.
     pub system: Option<SystemFailure>,
     /// Requirements without a limit: [`Requirement::Stable`](super::Requirement::Stable).
     pub left_out: Vec<usize>,
@@ -85,6 +91,17 @@ impl Reliability {
             .filter(|own| own.limit.requirement == requirement);
         let parts: Vec<f64> = own.filter_map(LimitReliability::probability).collect();
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
+    }
+
+    /// Requirements of which some failure has no design point although it may be within reach.
+    pub(super) fn without_design_point(&self) -> Vec<usize> {
+        let lacks = |own: &&LimitReliability| own.design_points.is_err() && !own.out_of_reach();
+        let limits = self.limits.iter().filter(lacks);
+        let mut all = self.left_out.clone();
+        all.extend(limits.map(|own| own.limit.requirement));
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 
     /// Whether every requirement has a limit, every limit has a design point, and all design points are verified.
@@ -158,14 +175,33 @@ pub(crate) fn check(
     Ok(())
 }
 
+/// Whether a search found no failure, and no design without a value.
+pub(crate) fn out_of_reach(error: &eigentol_statistics::Error) -> bool {
+    match error {
+        eigentol_statistics::Error::NoDesignPoint { closest, .. } => {
+            closest.value > 0.0 && closest.evaluations.without_value == 0
+        }
+        _ => false,
+    }
+}
+
 fn design_points(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
     (place, limit): (usize, &Limit),
     settings: &FormSettings,
 ) -> Result<Vec<DesignPoint>, Error> {
-    let limit = LimitAt::new(requirements.responses(), place, limit.edge, deviations);
+    let edge = limit.edge;
+    let limit = LimitAt::new(requirements.responses(), place, edge, deviations);
     let regions = failure_regions(&limit, settings)?.design_points;
+    let inside = regions.first().is_some_and(|point| point.beta < 0.0);
+    if matches!(edge, Edge::Outside { .. }) && inside {
+        return Err(Error::Setting {
+            setting: "forbidden band",
+            reason: "the centre of the distribution lies inside, so that failure is no half-space: sample"
+                .to_owned(),
+        });
+    }
     let points = regions
         .into_iter()
         .map(|point| DesignPoint::new(&limit, deviations, point));

@@ -10,9 +10,9 @@ use crate::{Equilibrium, Error, Modes, Watch};
 
 /// Requirements on designs near a nominal one, all to be met at once.
 ///
-/// If a design lacks a response, it cannot tell whether it meets a requirement on it. It then counts as neither meeting
-/// nor failing, unless another requirement decides: add [`Requirement::Stable`] if a design without a stable
-/// equilibrium is a failure.
+/// A design without a stable equilibrium fails every requirement on its modes and outputs. If a design lacks a response
+/// for another reason (the mode does not oscillate, the range has no critical value, the design cannot exist), it
+/// counts as neither meeting nor failing a requirement on it, unless another requirement decides.
 pub struct Requirements<'a> {
     wanted: Vec<Requirement>,
     responses: Responses<'a>,

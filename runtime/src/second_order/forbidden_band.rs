@@ -6,6 +6,7 @@ use super::margin::{Margin, margin};
 use super::quadratic::Quadratic;
 use crate::algebra::{Vector, add_scaled};
 use crate::arguments::check_input;
+use crate::clusters::clusters;
 use crate::kernels::{CurvatureKernels, Kernels};
 use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
@@ -156,6 +157,9 @@ pub struct ModeMargin {
     /// Total derivatives of the first-order probability with respect to each input, per SI unit: the quantity, its
     /// standard deviation and a band around the input all move. `None` where [`Margin::derivatives`] is.
     pub by_input: Option<Vector>,
+    /// The other modes that tolerances mix with this one ([`clusters`]). If there are any, no series of this mode alone
+    /// describes it, and neither probability can be relied on.
+    pub mixed_with: Vec<usize>,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
@@ -203,8 +207,13 @@ pub fn mode_margin(
             derivatives.along(first.by_input[k], sigma, low, high)
         })
     });
+    let clusters = clusters(mechanism, at, modes, tolerances)?;
+    let own = clusters.iter().find(|own| own.modes.contains(&mode));
+    let mut mixed_with = own.map_or_else(Vec::new, |own| own.modes.clone());
+    mixed_with.retain(|other| *other != mode);
     Ok(ModeMargin {
         mode,
+        mixed_with,
         quantity,
         band,
         margin,

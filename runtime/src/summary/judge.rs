@@ -31,6 +31,8 @@ struct Findings {
     wrong: bool,
     /// Whether first order is right for all quantities.
     right: bool,
+    /// For each quantity of which the samples miss what matters.
+    unrepresentative: Vec<Doubt>,
     /// Set if too few samples have a value of some quantity.
     missing: Option<Doubt>,
     /// Whether the samples keep the modes in order, although distances put this mode in a cluster.
@@ -57,6 +59,7 @@ impl<'a> Judge<'a> {
             quantity,
             nominal: quantity.of(own).unwrap_or(0.0),
             size,
+            sigma: first.of(quantity).map_or(0.0, |spread| spread.sigma),
             slopes: first.of(quantity).map(|spread| spread.by_design),
             second: second.map(|second| &second_spread_of(second, quantity).model),
             doubtful: distance < DOUBTFUL_DISTANCE || self.cluster(mode).is_some(),
@@ -79,6 +82,7 @@ impl<'a> Judge<'a> {
                 doubts.push(Doubt::Inaccurate { quantity, error });
             }
         }
+        doubts.extend(said.unrepresentative);
         let unstable = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
         if !doubts.iter().any(unstable) {
             doubts.extend(said.missing);
@@ -117,6 +121,10 @@ impl<'a> Judge<'a> {
         for ((prediction, check), &count) in all.filter(|((one, _), _)| one.mode == mode) {
             let quantity = prediction.quantity;
             said.checks.extend(check);
+            if check.is_some_and(|check| !check.representative) {
+                said.unrepresentative
+                    .push(Doubt::Unrepresentative { quantity });
+            }
             if let Some(error) = check.and_then(|check| check.first_order_error) {
                 said.errors.push((quantity, error, finding(error)));
             }

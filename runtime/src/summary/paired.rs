@@ -3,6 +3,10 @@
 
 /// Number of groups of samples; the jackknife leaves out one at a time.
 const GROUPS: usize = 32;
+/// Samples represent a distribution if their standard deviation is that of the distribution within this fraction, or
+/// within so many standard errors.
+const REPRESENTATIVE: f64 = 0.2;
+const UNLIKELY: f64 = 5.0;
 
 /// Sums over numbers, as deviations from a fixed value.
 #[derive(Clone, Copy, Debug, Default)]
@@ -119,6 +123,16 @@ impl Paired {
     /// Ratio of the standard deviation of the second-order prediction to that of the values found.
     pub(super) fn second_ratio(&self) -> Option<Measured> {
         self.jackknife(|group| Some(group.second.sigma()? / group.found.sigma()?))
+    }
+
+    /// Whether the first-order predictions of the samples have about the standard deviation `sigma`, which they have in
+    /// the limit of many samples.
+    pub(super) fn represents(&self, sigma: f64) -> bool {
+        let found = self.jackknife(|group| group.first.sigma());
+        found.is_some_and(|found| {
+            let off = (found.value - sigma).abs();
+            off <= REPRESENTATIVE * sigma || off <= UNLIKELY * found.standard_error
+        })
     }
 
     fn total(&self) -> Group {

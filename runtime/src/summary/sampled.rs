@@ -44,6 +44,8 @@ pub(super) struct Prediction<'a> {
     pub(super) size: f64,
     /// Derivatives with respect to the design variables.
     pub(super) slopes: Option<Vector>,
+    /// The first-order standard deviation that follows from them.
+    pub(super) sigma: f64,
     pub(super) second: Option<&'a Quadratic>,
     /// Whether a critical state, critical damping or another mode is near, so that rare samples may matter.
     pub(super) doubtful: bool,
@@ -216,8 +218,12 @@ fn check(prediction: &Prediction<'_>, paired: &Paired) -> Option<Check> {
         value: ratio.value - 1.0,
         ..ratio
     };
+    let representative = prediction.slopes.is_none() || paired.represents(prediction.sigma);
     let (first, second) = (prediction.slopes.as_deref(), prediction.second);
+    let first = first.filter(|_| representative);
+    let second = second.filter(|_| representative);
     Some(Check {
+        representative,
         quantity: prediction.quantity,
         samples: paired.samples(),
         count,
@@ -229,10 +235,11 @@ fn check(prediction: &Prediction<'_>, paired: &Paired) -> Option<Check> {
 }
 
 fn decided(check: &Check) -> bool {
-    check.first_order_error.is_none_or(|error| {
-        let beyond = (error.value.abs() - LIMIT).abs();
-        beyond > CLEARLY * error.standard_error || error.standard_error < FINE
-    })
+    check.representative
+        && check.first_order_error.is_none_or(|error| {
+            let beyond = (error.value.abs() - LIMIT).abs();
+            beyond > CLEARLY * error.standard_error || error.standard_error < FINE
+        })
 }
 
 /// What samples say about first order.
@@ -279,6 +286,7 @@ mod tests {
                 sigma: measured(0.1, 0.002),
                 first_order_error,
                 second_order_error: None,
+                representative: true,
             })
         };
         assert!(decides(None));

@@ -71,6 +71,9 @@ pub struct Check {
     pub mean: f64,
     /// Standard deviation over the samples that have the quantity.
     pub sigma: Measured,
+    /// Whether the first-order predictions of the samples spread as first order says. If not, the samples miss rare
+    /// values to which the standard deviation is due, and the errors below are `None`.
+    pub representative: bool,
     /// Relative error of the first-order standard deviation with respect to the sampled one; negative if first order is
     /// too small. `None` if there is nothing to compare.
     pub first_order_error: Option<Measured>,
@@ -131,6 +134,12 @@ pub enum Doubt {
         quantity: Quantity,
         /// The error, as in [`Check::first_order_error`].
         error: Measured,
+    },
+    /// The standard deviation is due to values too rare to be among the samples, such as an outlier in a list of measured
+    /// values: nothing confirms first order.
+    Unrepresentative {
+        /// The quantity.
+        quantity: Quantity,
     },
     /// Fewer than half of the samples have the quantity, for a reason other than a nearby instability.
     Missing {

@@ -38,6 +38,14 @@ impl Outcome {
         Self::Unphysical,
         Self::NoModes,
     ];
+
+    /// Whether the design certainly has no stable equilibrium, or none was found.
+    pub(crate) fn lost(self) -> bool {
+        matches!(
+            self,
+            Self::Divergent | Self::Flutter | Self::NoEquilibrium | Self::NotAssembled
+        )
+    }
 }
 
 impl From<&Failure> for Outcome {

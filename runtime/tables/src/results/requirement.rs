@@ -139,6 +139,7 @@ impl Tables for RareFailure {
         table.whole("failures", [whole(found.failures)]);
         table.whole("without value", [whole(found.without_value)]);
         table.whole("design points", [self.centres]);
+        table.numbers("unseen", "", [self.unseen]);
         operating_point(&mut table, &self.description, &self.inputs, None);
         vec![table]
     }

@@ -26,6 +26,13 @@ pub struct FailureRegions {
 /// `1 + beta kappa < 0`).
 const NUDGE: f64 = 0.05;
 
+/// A coordinate that contributes less than this fraction to the distance of a design point is not reflected, and at most
+/// so many are.
+const REFLECTED: f64 = 0.3;
+const REFLECTIONS: usize = 6;
+/// A reflection is a start if its distance from the limit, relative to that from the origin, is smaller.
+const SYMMETRIC: f64 = 0.1;
+
 pub(super) fn by_restarts(
     limit: &Counted,
     settings: &FormSettings,
@@ -38,14 +45,21 @@ pub(super) fn by_restarts(
 pub(super) fn by_bulges(limit: &Counted, settings: &FormSettings) -> Result<FailureRegions, Error> {
     let mut regions = Regions::start(limit, settings)?;
     regions.restart();
-    while !regions.is_full() && regions.search_behind_bulges() {}
+    regions.search_reflections();
+    while !regions.is_full() && regions.search_behind_bulges() {
+        regions.search_reflections();
+    }
     regions.finish()
 }
 
 struct Regions<'a> {
     search: Search<'a>,
     random: NormalSamples,
+    /// Whether the limit state has no gradient at the origin.
+    stationary: bool,
     found: Vec<DesignPoint>,
+    /// Number of design points of which the reflections have been searched.
+    reflected: usize,
     /// The best of the points that are not design points.
     best: Iterate,
 }
@@ -60,7 +74,9 @@ impl<'a> Regions<'a> {
             .evaluate(&origin)
             .ok_or_else(|| limit.no_value("at the origin"))?;
         let sign = if at_origin.value > 0.0 { 1.0 } else { -1.0 };
+        let at_origin = Iterate::new(origin.clone(), at_origin, sign);
         let mut regions = Self {
+            stationary: at_origin.slope().is_none(),
             search: Search {
                 limit,
                 settings,
@@ -69,7 +85,8 @@ impl<'a> Regions<'a> {
             },
             random: NormalSamples::new(settings.seed, 0, 0, dimension),
             found: Vec::new(),
-            best: Iterate::new(origin.clone(), at_origin, sign),
+            reflected: 0,
+            best: at_origin,
         };
         regions.visit(&origin);
         Ok(regions)
@@ -82,7 +99,9 @@ impl<'a> Regions<'a> {
     /// Searches from random directions and their opposites, at the distance of the first design point.
     fn restart(&mut self) {
         let mut direction = Vec::new();
-        for restart in 0..self.search.settings.restarts {
+        // No direction leads away from a stationary origin.
+        let least = if self.stationary { 2 } else { 0 };
+        for restart in 0..self.search.settings.restarts.max(least) {
             direction = match restart % 2 {
                 0 => self.random_direction(),
                 _ => scaled(-1.0, &direction),
@@ -113,6 +132,31 @@ impl<'a> Regions<'a> {
             }
         }
         self.found.len() > before
+    }
+
+    /// Searches from the known design points with the signs of one or two coordinates changed, where the limit is near:
+    /// responses are often even in a variable, such as an eccentricity, or in two together, such as a product.
+    fn search_reflections(&mut self) {
+        while !self.is_full() && self.reflected < self.found.len() {
+            let point = self.found[self.reflected].point.clone();
+            self.reflected += 1;
+            let mut large: Vec<usize> = (0..point.len())
+                .filter(|&k| point[k].abs() > REFLECTED * norm(&point))
+                .collect();
+            large.sort_by(|&a, &b| point[b].abs().total_cmp(&point[a].abs()));
+            large.truncate(REFLECTIONS);
+            let pairs = (0..large.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
+            for (i, j) in pairs {
+                let mut start = point.clone();
+                start[large[i]] = -point[large[i]];
+                start[large[j]] = -point[large[j]];
+                let at_start = self.search.at(&start);
+                let slope = at_start.as_ref().and_then(Iterate::slope);
+                if slope.is_some_and(|slope| slope.residuals.limit < SYMMETRIC) {
+                    self.visit(&start);
+                }
+            }
+        }
     }
 
     /// Searches from a starting point, checks the result, and keeps it if it is new.

@@ -92,6 +92,26 @@ impl Proposal {
         })
     }
 
+    /// The same with the standard normal density itself as a component of this weight: it reaches failures far from all
+    /// centres (a defensive mixture; Hesterberg 1995, *Weighted average importance sampling and defensive mixture
+    /// distributions*).
+    ///
+    /// # Errors
+    ///
+    /// If the weight is not inside (0, 1).
+    pub fn defended(mut self, weight: f64) -> Result<Self, Error> {
+        if !(weight > 0.0 && weight < 1.0) {
+            return Err(Error::Setting {
+                setting: "weight",
+                reason: format!("{weight} is not inside (0, 1)"),
+            });
+        }
+        self.weights.iter_mut().for_each(|own| *own *= 1.0 - weight);
+        self.weights.push(weight);
+        self.centres.push(vec![0.0; self.dimension()]);
+        Ok(self)
+    }
+
     /// Number of variables.
     pub fn dimension(&self) -> usize {
         self.centres[0].len()
