@@ -5,7 +5,7 @@ use eigentol_interpreter::Interpreted;
 use pyo3::prelude::*;
 
 use crate::arrays::{Array1, vector};
-use crate::errors::raise;
+use crate::errors::{invalid, raise};
 use crate::mechanism::Mechanism;
 use crate::values::{List, numbers};
 
@@ -124,6 +124,11 @@ impl Motion {
         let (positions, speeds) = (self.count(Role::Position), self.count(Role::Speed));
         let q = List::Coordinates.read(py, of, coordinates)?;
         let velocity = List::Coordinates.read(py, of, rates)?;
+        if let Some(k) = (positions..velocity.len()).find(|&k| velocity[k] != 0.0) {
+            let name = &of.coordinates[k].name;
+            let message = format!("`{name}` has no rate here: give a speed among the coordinates");
+            return Err(invalid(py, message));
+        }
         let y = [&q[..positions], &velocity[..positions]];
         Ok(vector(
             py,

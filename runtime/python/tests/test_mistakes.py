@@ -69,6 +69,8 @@ def test_a_file_that_is_no_text(tmp_path):
         ({"family": "damped"}, eigentol.InvalidValue, "undamped, general"),
         ({"samples": -1}, TypeError, "not negative"),
         ({"samples": 1.5}, TypeError, "whole"),
+        ({"samples": True}, TypeError, "whole"),
+        ({"samples": 0}, eigentol.InvalidValue, "at least one"),
         ({"sigma_level": 0.0}, eigentol.InvalidValue, ""),
         ({"seed": 2**64}, TypeError, "whole"),
     ],

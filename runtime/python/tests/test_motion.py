@@ -63,3 +63,17 @@ def test_a_damper_takes_what_the_energy_loses():
     energy = np.array([kinetic(k) for k in range(len(a))]) + potential
     assert lost[-1] > 1.0
     np.testing.assert_allclose(energy + lost, energy[0], atol=1e-8)
+
+
+def test_a_speed_has_no_rate():
+    mechanism = eigentol.Mechanism.from_text(
+        """mechanism Coasting {
+            body r: rigid(mass: 1 kg, inertia: [0.01, 0.01, 0.01] kg*m^2);
+            joint s: revolute(z) from ground to r, coasting;
+            force drive: generalized(on: s, value: 1 N*m - 0.1 N*m*s/rad * rate(s));
+        }"""
+    )
+    motion = mechanism.motion()
+    assert motion.state({"s": 20.0}) == [20.0]
+    with pytest.raises(eigentol.InvalidValue, match="`s` has no rate"):
+        motion.state({}, {"s": 20.0})

@@ -33,6 +33,10 @@ def test_parts_of_other_runs_and_samples_that_are_there_are_refused(sampled, pen
     other = eigentol.Study(pendulum, inputs={"omega": 5.0}, start={"theta": 1.0}, samples=2000, seed=8)
     with pytest.raises(eigentol.Error, match="seed"):
         total.merge(other.samples_between(100, 200))
+    with pytest.raises(eigentol.Error, match="already"):
+        total.merge(total)
+    with pytest.raises(TypeError, match="`start`"):
+        sampled.samples_between(-1, 5)
     assert total.ranges == [(0, 100)]
 
 

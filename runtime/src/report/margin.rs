@@ -90,10 +90,11 @@ impl fmt::Display for MarginTable<'_> {
         ]);
         write!(f, "{table}")?;
         let Some(slopes) = &margin.derivatives else {
-            return writeln!(
-                f,
-                "  No derivatives: they exist only where variables are normal and something varies at first order."
-            );
+            let why = match margin.sigma {
+                0.0 => "nothing varies at first order",
+                _ => "they exist for normal variables, and within the range of a double",
+            };
+            return writeln!(f, "  No derivatives: {why}.");
         };
         let all = slopes.by_design.iter().chain(&slopes.by_half_width);
         if all.copied().all(|slope| slope == 0.0) {

@@ -20,7 +20,8 @@ pub struct LimitReliability {
     /// The limit.
     pub limit: Limit,
     /// Its design points, most probable first, at least one; or the reason why there are none, for example because no
-    /// design within reach fails, or because the centre of the distribution lies inside a forbidden band.
+    /// design within reach fails, or because the centre of the distribution lies inside a forbidden band that can be left on
+    /// both sides.
     pub design_points: Result<Vec<DesignPoint>, Error>,
 }
 
@@ -191,18 +192,24 @@ fn design_points(
     (place, limit): (usize, &Limit),
     settings: &FormSettings,
 ) -> Result<Vec<DesignPoint>, Error> {
-    let edge = limit.edge;
-    let limit = LimitAt::new(requirements.responses(), place, edge, deviations);
-    let regions = failure_regions(&limit, settings)?.design_points;
-    let inside = regions.first().is_some_and(|point| point.beta < 0.0);
-    if matches!(edge, Edge::Outside { .. }) && inside {
+    let at = |edge| LimitAt::new(requirements.responses(), place, edge, deviations);
+    let found = failure_regions(&at(limit.edge), settings)?.design_points;
+    let inside = found.first().is_some_and(|point| point.beta < 0.0);
+    if let Edge::Outside { low, high } = limit.edge
+        && inside
+        && [Edge::AtLeast(low), Edge::AtMost(high)]
+            .into_iter()
+            .all(|edge| failure_regions(&at(edge), settings).is_ok())
+    {
         return Err(Error::Setting {
             setting: "forbidden band",
-            reason: "the centre of the distribution lies inside, so that failure is no half-space: sample"
-                .to_owned(),
+            reason:
+                "the centre of the distribution lies inside, with designs on both sides: sample"
+                    .to_owned(),
         });
     }
-    let points = regions
+    let limit = at(limit.edge);
+    let points = found
         .into_iter()
         .map(|point| DesignPoint::new(&limit, deviations, point));
     points.collect()

@@ -96,6 +96,14 @@ fn meetings(
     enough: impl Fn(&[Crossing]) -> bool,
 ) -> Result<Vec<Crossing>, Error> {
     range.check(&mechanism.description())?;
+    if let Condition::Line(Line { ratio, offset }) = condition
+        && !(ratio.is_finite() && offset.is_finite())
+    {
+        return Err(Error::Setting {
+            setting: "line",
+            reason: format!("{ratio} times the input + {offset} rad/s is not finite"),
+        });
+    }
     let following = Following {
         family: match condition {
             Condition::FlutterOnset => Some(Family::General),
