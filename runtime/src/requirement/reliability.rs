@@ -20,8 +20,8 @@ pub struct LimitReliability {
     /// The limit.
     pub limit: Limit,
     /// Its design points, most probable first, at least one; or the reason why there are none, for example because no
-    /// design within reach fails, or because the centre of the distribution lies inside a forbidden band that can be left on
-    /// both sides.
+    /// design within reach fails, or because the centre of the distribution lies inside a forbidden band that can be
+    /// left on both sides.
     pub design_points: Result<Vec<DesignPoint>, Error>,
 }
 
