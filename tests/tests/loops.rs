@@ -20,3 +20,5 @@ mod spreads;
 mod study;
 #[path = "loops/toggles.rs"]
 mod toggles;
+#[path = "loops/unloaded.rs"]
+mod unloaded;

@@ -154,14 +154,72 @@ pub(crate) fn residual_is_small(
 /// The scale consists of the parts of the residual (inertia, applied forces) and of what a small motion of each
 /// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, a reaction
 /// that is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions
-/// open.
+/// open. A residual that is not small by this is compared with what the constraints pass on from other equations too:
+/// where links carry no load, all of their own forces are rounding.
 pub(crate) fn relative_residual(
     point: &OperatingPoint<'_>,
     q: &[f64],
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    relative_to(point, &point.parts(q), q, residual, stiffness)
+    let parts = point.parts(q);
+    let own = relative_to(point, &parts, q, residual, stiffness);
+    if own > TOLERANCE && point.motions() < q.len() {
+        let forces = [&parts.inertia[..], &parts.applied];
+        own.min(relative_to_passed_on(
+            point.motions(),
+            forces,
+            q,
+            residual,
+            stiffness,
+        ))
+    } else {
+        own
+    }
+}
+
+/// Like [`relative_residual`], where constraints pass on forces.
+///
+/// Forces of different equations are compared by their work over the small motion of their coordinate. A constraint
+/// passes on the work of each equation by the share of the coordinate in the gap that all small motions open.
+#[cold]
+fn relative_to_passed_on(
+    motions: usize,
+    forces: [&[f64]; 2],
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &Matrix,
+) -> f64 {
+    let n = q.len();
+    let small: Vector = q.iter().map(|q| small_motion(*q)).collect();
+    let reaction = largest_of(&q[motions..]);
+    let mut work = Vector::from_fn(motions, |i| {
+        let row = &stiffness[i];
+        small[i]
+            * scale(
+                force(i, motions, forces, q, reaction, row),
+                &small[..motions],
+                row,
+            )
+    });
+    let opened = |i: usize, j: usize| stiffness[i][j].abs() * small[i];
+    for _ in motions..n {
+        for j in motions..n {
+            let gap = (0..motions).fold(0.0, |sum, i| sum + opened(i, j));
+            let most = (0..motions).fold(0.0, |most, i| greater(most, opened(i, j) * work[i]));
+            for i in (0..motions).filter(|_| gap > 0.0) {
+                work[i] = greater(work[i], opened(i, j) / gap * (most / gap));
+            }
+        }
+    }
+    (0..n).fold(0.0, |most, i| {
+        let own = if i < motions {
+            ratio(residual[i] * small[i], work[i])
+        } else {
+            relative(residual[i], 0.0, &q[..motions], &stiffness[i])
+        };
+        greater(most, own)
+    })
 }
 
 /// Like [`relative_residual`], with the parts of the residual at `q` given.
@@ -199,15 +257,12 @@ pub(crate) fn relative_of(
     let mut most = 0.0;
     for i in 0..n {
         let row = &stiffness[i * n..(i + 1) * n];
-        let mut force = 0.0;
-        if i < motions {
-            force = greater(inertia[i].abs(), applied[i].abs());
-            for j in motions..n {
-                let size = greater(SMALL_MOTION * reaction, q[j].abs());
-                force = greater(force, row[j].abs() * size);
-            }
-        }
-        let scale = (0..motions).fold(force, |sum, j| sum + row[j].abs() * small[j]);
+        let force = if i < motions {
+            force(i, motions, [inertia, applied], q, reaction, row)
+        } else {
+            0.0
+        };
+        let scale = scale(force, &small[..motions], row);
         let own = if scale > 0.0 && scale < f64::INFINITY {
             residual[i].abs() / scale
         } else {
@@ -217,6 +272,30 @@ pub(crate) fn relative_of(
         most = greater(most, own);
     }
     most
+}
+
+/// The largest force in equation `i`: inertia, applied forces and reactions, the largest of which is `reaction`.
+#[inline(always)]
+fn force(
+    i: usize,
+    motions: usize,
+    [inertia, applied]: [&[f64]; 2],
+    q: &[f64],
+    reaction: f64,
+    row: &[f64],
+) -> f64 {
+    let mut force = greater(inertia[i].abs(), applied[i].abs());
+    for j in motions..q.len() {
+        let size = greater(SMALL_MOTION * reaction, q[j].abs());
+        force = greater(force, row[j].abs() * size);
+    }
+    force
+}
+
+/// The scale of an equation: `force` and what small motions restore.
+#[inline(always)]
+fn scale(force: f64, small: &[f64], row: &[f64]) -> f64 {
+    (0..small.len()).fold(force, |sum, j| sum + row[j].abs() * small[j])
 }
 
 /// The small motion of a coordinate: [`SMALL_MOTION`] plus a few rounding units.
