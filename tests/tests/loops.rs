@@ -14,6 +14,8 @@ mod gear_train;
 mod kernels;
 #[path = "loops/signs.rs"]
 mod signs;
+#[path = "loops/singular_start.rs"]
+mod singular_start;
 #[path = "loops/spreads.rs"]
 mod spreads;
 #[path = "loops/study.rs"]

@@ -6,7 +6,8 @@ use super::settings::Continuation;
 use crate::algebra::{Vector, all_finite};
 use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
-    ACCEPTED, Failure, OperatingPoint, Verdict, constraint_state, judge, relative_residual,
+    ACCEPTED, Failure, Judged, OperatingPoint, Policy, Verdict, constraint_state, judge,
+    relative_gap, relative_residual, solve,
 };
 use crate::error::NotFound;
 use crate::kernels::{DirectionalKernels, Linear};
@@ -67,6 +68,8 @@ const LAST_STEP: f64 = 1e-13;
 const ROUNDING: f64 = 1e-8;
 /// Newton's method does not converge if a step is larger than this fraction of the previous one.
 const CONTRACTION: f64 = 0.5;
+/// Shares of the range at which a regular state beside a singular one is sought.
+const NUDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 impl<'a> Curve<'a> {
     pub(crate) fn new(
@@ -104,12 +107,35 @@ impl<'a> Curve<'a> {
         OperatingPoint::unchecked(self.mechanism, inputs, self.design)
     }
 
-    /// The curve prepared for branches near a state.
+    /// The curve prepared for branches near a state. In a singular configuration more constraints look redundant than
+    /// around it: then those of the first regular state beside it count, or none.
     pub(crate) fn about(mut self, state: &Equilibrium) -> Self {
         if self.structure.constraints() > 1 {
-            self.dropped = redundant_rows(&state.linear.stiffness, self.structure);
+            let redundant =
+                |state: &Equilibrium| redundant_rows(&state.linear.stiffness, self.structure);
+            self.dropped = if state.constraints.singular {
+                let beside = NUDGES
+                    .iter()
+                    .filter_map(|&share| self.beside(state, share).ok());
+                let mut regular = beside.filter(|beside| !beside.state.constraints.singular);
+                regular
+                    .next()
+                    .map_or_else(Vec::new, |beside| redundant(&beside.state))
+            } else {
+                redundant(state)
+            };
         }
         self
+    }
+
+    /// The equilibrium beside a state at one end of the range, at a share of the way to the other end.
+    pub(crate) fn beside(&self, state: &Equilibrium, share: f64) -> Result<Judged, Failure> {
+        let (low, high) = (self.settings.low, self.settings.high);
+        let value = state.inputs[self.settings.input.index()];
+        let target = if value == low { high } else { low };
+        let inputs = self.inputs_at(value + share * (target - value));
+        let point = self.operating_point(&inputs);
+        solve(&point, &state.coordinates, Policy::Nearest)
     }
 
     pub(crate) fn inputs_at(&self, p: f64) -> Vector {
@@ -216,7 +242,8 @@ impl<'a> Curve<'a> {
         if relative.is_nan() || relative > ACCEPTED {
             relative = self
                 .with_input(&at.q, system)
-                .min(also.unwrap_or(f64::INFINITY));
+                .min(also.unwrap_or(f64::INFINITY))
+                .max(self.dropped_gap(&at.q, &residual, &linear));
         }
         if relative > ACCEPTED {
             return Err(Trouble::Refused(Failure::NotFound {
@@ -270,6 +297,15 @@ impl<'a> Curve<'a> {
             } else {
                 0.0
             })
+        })
+    }
+
+    /// Largest gap of the dropped constraints, which Newton's method does not close.
+    fn dropped_gap(&self, q: &[f64], residual: &[f64], linear: &Linear) -> f64 {
+        let motions = &q[..self.structure.motions()];
+        let dropped = (0..self.dropped.len()).filter(|&i| self.dropped[i]);
+        dropped.fold(0.0, |most: f64, i| {
+            most.max(relative_gap(residual[i], motions, &linear.stiffness[i]))
         })
     }
 

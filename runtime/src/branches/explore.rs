@@ -10,7 +10,7 @@ use super::special::{Junction, SpecialKind};
 use super::walk::{SAME, Walk};
 use super::{Branch, BranchEnd, BranchPoint, Branches};
 use crate::algebra::Vector;
-use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria, solve};
+use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error, Stability, Watch};
 
@@ -156,20 +156,11 @@ fn rest_where_the_input_stands(points: &mut [BranchPoint]) {
 impl Curve<'_> {
     /// The station at an equilibrium, or next to it if branches cross there.
     pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, Trouble> {
-        self.first_station(state.clone()).or_else(|trouble| {
-            let (low, high) = (self.settings.low, self.settings.high);
-            let value = state.inputs[self.settings.input.index()];
-            let target = if value == low { high } else { low };
-            let inputs = self.inputs_at(value + NUDGE * (target - value));
-            match solve(
-                &self.operating_point(&inputs),
-                &state.coordinates,
-                Policy::Nearest,
-            ) {
+        self.first_station(state.clone())
+            .or_else(|trouble| match self.beside(state, NUDGE) {
                 Ok(beside) => self.first_station(beside.state),
                 Err(_) => Err(trouble),
-            }
-        })
+            })
     }
 
     /// The branch through a station, followed in both directions, and its junctions.
