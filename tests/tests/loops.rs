@@ -12,6 +12,8 @@ mod folded;
 mod gear_train;
 #[path = "loops/kernels.rs"]
 mod kernels;
+#[path = "loops/redundant.rs"]
+mod redundant;
 #[path = "loops/signs.rs"]
 mod signs;
 #[path = "loops/singular_start.rs"]

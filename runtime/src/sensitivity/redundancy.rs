@@ -1,7 +1,8 @@
 //! Redundant constraints: whether they stay consistent when a variable changes.
 
-use crate::algebra::Matrix;
-use crate::constraints::{Structure, Tangent};
+use crate::algebra::{Matrix, Vector, dot, greater, largest};
+use crate::constraints::{Structure, Tangent, placed};
+use crate::equilibrium::SMALL_MOTION;
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error};
 
@@ -27,13 +28,18 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
     let tangent = Tangent::new(&at.linear, structure);
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    let scale = Scale::new(at, &tangent);
     for k in 0..tangent.redundant() {
         let n = tangent.null_left(k);
         if !at_rest(&n, at, structure) {
             continue;
         }
-        let input = broken(&n, &by_input).map(|(i, j)| (i, &description.inputs[j].name));
-        let design = || broken(&n, &by_design).map(|(i, j)| (i, &description.design[j].name));
+        let input = scale.broken(&n, &by_input, &at.inputs);
+        let input = input.map(|(i, j)| (i, &description.inputs[j].name));
+        let design = || {
+            let broken = scale.broken(&n, &by_design, &at.design);
+            broken.map(|(i, j)| (i, &description.design[j].name))
+        };
         if let Some((constraint, variable)) = input.or_else(design) {
             return Err(Error::ClosesHereOnly {
                 constraint: description.unknown_name(constraint),
@@ -47,27 +53,63 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
 /// Whether `n` also cancels the constraints at rest, where a constraint on velocities that repeats one on positions is
 /// void.
 fn at_rest(n: &[f64], at: &Equilibrium, structure: Structure) -> bool {
-    (0..structure.motions()).all(|j| {
-        let terms = structure
-            .constraint_rows()
-            .map(|i| n[i] * at.linear.stiffness[i][j]);
-        cancels(terms)
+    let stiffness = &at.linear.stiffness;
+    let motions = 0..structure.motions();
+    let rows = structure.constraint_rows();
+    // Each column in units of its largest share of a row: what is left of a row in a column is rounding of the row.
+    let sizes: Vector = rows
+        .clone()
+        .map(|i| largest(&stiffness[i][motions.clone()]))
+        .collect();
+    motions.clone().all(|j| {
+        let pairs = || rows.clone().zip(&sizes).filter(|(_, size)| **size > 0.0);
+        let share = pairs().fold(0.0, |most, (i, size)| {
+            greater(most, stiffness[i][j].abs() / size)
+        });
+        let (sum, size) = pairs().fold((0.0, 0.0), |(sum, all), (i, size)| {
+            (
+                sum + n[i] * stiffness[i][j],
+                all + n[i].abs() * size * share,
+            )
+        });
+        f64::abs(sum) <= ROUNDING * size
     })
 }
 
-fn cancels(terms: impl Iterator<Item = f64>) -> bool {
-    let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), term| {
-        (sum + term, size + f64::abs(term))
-    });
-    f64::abs(sum) <= ROUNDING * size
+/// What changes of gaps are compared with.
+struct Scale {
+    /// Inverse sizes of the constraints, at the positions of their rows: the most that a null vector holds of each.
+    weights: Vector,
+    /// What changes of all motions by their own size open.
+    opened: f64,
 }
 
-/// A variable that changes `n^T Phi`, and the constraint most affected.
-fn broken(n: &[f64], partials: &Matrix) -> Option<(usize, usize)> {
-    let rows = partials.row_count();
-    let rests = |j: usize| cancels((0..rows).map(|i| n[i] * partials[i][j]));
-    let j = (0..partials.column_count()).find(|&j| !rests(j))?;
-    let share = |i: usize| (n[i] * partials[i][j]).abs();
-    let most = (1..rows).fold(0, |most, i| if share(i) > share(most) { i } else { most });
-    Some((most, j))
+impl Scale {
+    fn new(at: &Equilibrium, tangent: &Tangent) -> Self {
+        let weights = placed(tangent.structure, &tangent.all.size.map(|size| 1.0 / size));
+        let motions = &at.coordinates[..tangent.structure.motions()];
+        let opened = tangent.structure.constraint_rows().fold(0.0, |sum, i| {
+            let pairs = motions.iter().zip(&at.linear.stiffness[i]);
+            pairs.fold(sum, |sum, (q, slope)| {
+                sum + weights[i] * slope.abs() * (SMALL_MOTION + q.abs())
+            })
+        });
+        Self { weights, opened }
+    }
+
+    /// A variable that changes `n^T Phi`, and the constraint most affected. A change of the variable by its own size
+    /// must open more than rounding.
+    fn broken(&self, n: &[f64], partials: &Matrix, values: &[f64]) -> Option<(usize, usize)> {
+        let broken = |j: usize| {
+            let column = partials.column(j);
+            let terms = dot(&self.weights, &column.map(f64::abs));
+            let own = self.opened / (SMALL_MOTION + values[j].abs());
+            dot(n, &column).abs() > ROUNDING * (terms + own)
+        };
+        let j = (0..partials.column_count()).find(|&j| broken(j))?;
+        let share = |i: usize| (n[i] * partials[i][j]).abs();
+        let rows = 1..partials.row_count();
+        let most = rows.fold(0, |most, i| if share(i) > share(most) { i } else { most });
+        Some((most, j))
+    }
 }
