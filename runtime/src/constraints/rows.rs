@@ -208,6 +208,16 @@ impl Rows {
             .collect()
     }
 
+    /// Whether these multiples of the rows as given cancel up to a share of them, in the metric.
+    pub(crate) fn cancel(&self, multiples: &[f64], share: f64) -> bool {
+        let scaled: Vector = multiples
+            .iter()
+            .zip(&self.size)
+            .map(|(n, size)| n * size)
+            .collect();
+        norm(&self.descent(&scaled)) / norm(&scaled) <= share
+    }
+
     /// Number of rows explained by the others.
     pub(crate) fn dependent(&self) -> usize {
         self.count() - self.rank

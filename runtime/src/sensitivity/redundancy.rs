@@ -1,7 +1,7 @@
 //! Redundant constraints: whether they stay consistent when a variable changes.
 
-use crate::algebra::{Matrix, Vector, dot, greater, largest};
-use crate::constraints::{Structure, Tangent, placed};
+use crate::algebra::{Matrix, Vector, dot};
+use crate::constraints::{Rows, Structure, Tangent, placed};
 use crate::equilibrium::SMALL_MOTION;
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error};
@@ -53,27 +53,11 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
 /// Whether `n` also cancels the constraints at rest, where a constraint on velocities that repeats one on positions is
 /// void.
 fn at_rest(n: &[f64], at: &Equilibrium, structure: Structure) -> bool {
-    let stiffness = &at.linear.stiffness;
-    let motions = 0..structure.motions();
-    let rows = structure.constraint_rows();
-    // Each column in units of its largest share of a row: what is left of a row in a column is rounding of the row.
-    let sizes: Vector = rows
-        .clone()
-        .map(|i| largest(&stiffness[i][motions.clone()]))
-        .collect();
-    motions.clone().all(|j| {
-        let pairs = || rows.clone().zip(&sizes).filter(|(_, size)| **size > 0.0);
-        let share = pairs().fold(0.0, |most, (i, size)| {
-            greater(most, stiffness[i][j].abs() / size)
-        });
-        let (sum, size) = pairs().fold((0.0, 0.0), |(sum, all), (i, size)| {
-            (
-                sum + n[i] * stiffness[i][j],
-                all + n[i].abs() * size * share,
-            )
-        });
-        f64::abs(sum) <= ROUNDING * size
-    })
+    let first = structure.motions();
+    let rows = Matrix::from_fn(structure.constraints(), first, |k, j| {
+        at.linear.stiffness[first + k][j]
+    });
+    Rows::balanced(rows).cancel(&n[structure.constraint_rows()], ROUNDING)
 }
 
 /// What changes of gaps are compared with.
