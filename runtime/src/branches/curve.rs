@@ -7,7 +7,7 @@ use crate::algebra::{Vector, all_finite};
 use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
     ACCEPTED, Failure, Judged, OperatingPoint, Policy, Verdict, constraint_state, judge,
-    relative_gap, relative_residual, solve,
+    relative_residual, solve,
 };
 use crate::error::NotFound;
 use crate::kernels::{DirectionalKernels, Linear};
@@ -242,8 +242,7 @@ impl<'a> Curve<'a> {
         if relative.is_nan() || relative > ACCEPTED {
             relative = self
                 .with_input(&at.q, system)
-                .min(also.unwrap_or(f64::INFINITY))
-                .max(self.dropped_gap(&at.q, &residual, &linear));
+                .min(also.unwrap_or(f64::INFINITY));
         }
         if relative > ACCEPTED {
             return Err(Trouble::Refused(Failure::NotFound {
@@ -297,15 +296,6 @@ impl<'a> Curve<'a> {
             } else {
                 0.0
             })
-        })
-    }
-
-    /// Largest gap of the dropped constraints, which Newton's method does not close.
-    fn dropped_gap(&self, q: &[f64], residual: &[f64], linear: &Linear) -> f64 {
-        let motions = &q[..self.structure.motions()];
-        let dropped = (0..self.dropped.len()).filter(|&i| self.dropped[i]);
-        dropped.fold(0.0, |most: f64, i| {
-            most.max(relative_gap(residual[i], motions, &linear.stiffness[i]))
         })
     }
 

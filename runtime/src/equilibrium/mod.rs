@@ -22,8 +22,7 @@ pub use assembly::{Assembly, AssemblyMode, assemble};
 pub use multistart::{Search, find_equilibria};
 
 pub(crate) use convergence::{
-    ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_gap,
-    relative_residual,
+    ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,
 };
 pub(crate) use operating_point::{Failure, OperatingPoint};
 pub(crate) use prediction::{MISSED, Passed, Path, STILL};
