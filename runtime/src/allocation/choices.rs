@@ -64,21 +64,27 @@ impl Choices<'_> {
             .iter()
             .map(|own| (own.variable, own.limits));
         distinct(requirements, half_widths.clone())?;
+        let design = &requirements.responses().nominal().description.design;
         for (variable, (low, high)) in half_widths {
+            let name = &design[variable].name;
             if low.is_nan() || low <= 0.0 {
-                return refuse("half-width", format!("{low} must be positive"));
+                let reason =
+                    format!("the lower limit of `{name}` must be positive, not {low} (SI)");
+                return refuse("half-width", reason);
             }
             if own[variable] == 0.0 {
                 let reason = format!(
-                    "design variable {variable} does not vary: give it any tolerance, which says how it is distributed"
+                    "`{name}` does not vary: give it any tolerance, which says how it is distributed"
                 );
                 return refuse("half-width", reason);
             }
-            in_order("half-width", (low, high))?;
+            in_order("half-width", name, (low, high))?;
         }
         let mut nominals = self.nominals.iter().map(|own| (own.variable, own.limits));
         distinct(requirements, nominals.clone())?;
-        nominals.try_for_each(|(_, limits)| in_order("nominal value", limits))
+        nominals.try_for_each(|(variable, limits)| {
+            in_order("nominal value", &design[variable].name, limits)
+        })
     }
 
     /// Start of the search: the current design and half-widths, clamped to the limits.
@@ -94,14 +100,13 @@ impl Choices<'_> {
     }
 }
 
-fn in_order(setting: &'static str, (low, high): (f64, f64)) -> Result<(), Error> {
+fn in_order(setting: &'static str, name: &str, (low, high): (f64, f64)) -> Result<(), Error> {
     if low < high && (high - low).is_finite() {
         return Ok(());
     }
-    refuse(
-        setting,
-        format!("limits {low} and {high} must be finite and in order"),
-    )
+    let reason =
+        format!("the limits of `{name}` must be finite and in order, not {low} and {high} (SI)");
+    refuse(setting, reason)
 }
 
 fn distinct(
@@ -121,10 +126,8 @@ fn distinct(
                 });
             }
             Some(true) => {
-                return refuse(
-                    "allocation",
-                    format!("design variable {variable} is named twice"),
-                );
+                let name = &state.description.design[variable].name;
+                return refuse("allocation", format!("`{name}` is chosen twice"));
             }
             Some(place) => *place = true,
         }

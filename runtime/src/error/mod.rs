@@ -204,7 +204,7 @@ pub enum Error {
         lambda: f64,
     },
     /// A mode was requested that does not exist.
-    #[error("there is no mode {}: there are {count}", .mode + 1)]
+    #[error("there is no mode {}: the mechanism has {count}", .mode + 1)]
     NoSuchMode {
         /// The position requested.
         mode: usize,
