@@ -1,60 +1,51 @@
 //! Loops whose links carry no load: their reactions, and all forces in some of the equations, are rounding.
 
 use eigentol::scalar::Instructions;
-use eigentol::{Stability, Study, mechanism};
+use eigentol::{Stability, Study};
+use eigentol_interpreter::Interpreted;
 
 use super::common::assert_close;
 
-mechanism! {
-    /// A slider-crank on a horizontal table. The moment turns the crank against its spring and nothing else.
-    mechanism Idle {
-        input moment: N*m;
-        design stiffness = 5 N*m/rad +/- 3%;
-        body crank: rod(mass: 1 kg, length: 0.1 m, along: x);
-        body rod: rod(mass: 1 kg, length: 0.3 m, along: x);
-        body piston: point(mass: 1 kg);
-        joint a: revolute(z) from ground to crank;
-        joint b: revolute(z) from crank to rod at [0.1 m, 0, 0];
-        joint x: prismatic(x) from ground to piston;
-        joint wrist: revolute(z) from rod to piston at [0.3 m, 0, 0], cut;
-        point shaft: crank;
-        force spring: spring(on: a, stiffness: stiffness);
-        force load: load(at: shaft, moment: [0, 0, moment]);
-    }
+/// A slider-crank on a horizontal table, with this behind each of its names.
+fn slider_crank(k: usize) -> String {
+    format!(
+        "body crank{k}: rod(mass: 1 kg, length: 0.1 m, along: x);
+        body rod{k}: rod(mass: 1 kg, length: 0.3 m, along: x);
+        body piston{k}: point(mass: 1 kg);
+        joint a{k}: revolute(z) from ground to crank{k};
+        joint b{k}: revolute(z) from crank{k} to rod{k} at [0.1 m, 0, 0];
+        joint x{k}: prismatic(x) from ground to piston{k};
+        joint wrist{k}: revolute(z) from rod{k} to piston{k} at [0.3 m, 0, 0], cut;"
+    )
 }
 
-mechanism! {
-    /// Two slider-cranks that have nothing to do with each other.
-    mechanism Two {
-        input moment: N*m;
-        design stiffness = 5 N*m/rad;
-        design light = 5e-9 N*m/rad;
-        body crank: rod(mass: 1 kg, length: 0.1 m, along: x);
-        body rod: rod(mass: 1 kg, length: 0.3 m, along: x);
-        body piston: point(mass: 1 kg);
-        body small_crank: rod(mass: 1 kg, length: 0.1 m, along: x);
-        body small_rod: rod(mass: 1 kg, length: 0.3 m, along: x);
-        body small_piston: point(mass: 1 kg);
-        joint a: revolute(z) from ground to crank;
-        joint b: revolute(z) from crank to rod at [0.1 m, 0, 0];
-        joint x: prismatic(x) from ground to piston;
-        joint wrist: revolute(z) from rod to piston at [0.3 m, 0, 0], cut;
-        joint c: revolute(z) from ground to small_crank;
-        joint d: revolute(z) from small_crank to small_rod at [0.1 m, 0, 0];
-        joint y: prismatic(x) from ground to small_piston;
-        joint pin: revolute(z) from small_rod to small_piston at [0.3 m, 0, 0], cut;
-        point shaft: crank;
-        force spring: spring(on: a, stiffness: stiffness);
-        force load: load(at: shaft, moment: [0, 0, moment]);
-        force soft: spring(on: c, stiffness: light, rest: 0.5);
-        force push: spring(on: y, stiffness: 3e-8 N/m, rest: 0.3 m);
-    }
+/// A moment turns the first crank against its spring and nothing else.
+fn turned(others: &str) -> Study<Interpreted> {
+    let text = format!(
+        "mechanism Turned {{
+            input moment: N*m;
+            design stiffness = 5 N*m/rad +/- 3%;
+            {}
+            point shaft: crank1;
+            force spring: spring(on: a1, stiffness: stiffness);
+            force load: load(at: shaft, moment: [0, 0, moment]);
+            {others}
+        }}",
+        slider_crank(1)
+    );
+    let study = Study::new(Interpreted::from_text(&text).expect("a declaration"));
+    start(study, "a1", 0.8)
 }
 
-fn idle(moment: f64) -> Study<Idle> {
-    Study::new(Idle)
-        .input(Idle::moment, moment)
-        .start(Idle::a, 0.8)
+fn start(study: Study<Interpreted>, name: &str, value: f64) -> Study<Interpreted> {
+    let coordinate = study.find_coordinate(name).expect("it is declared");
+    study.start(coordinate, value)
+}
+
+fn idle(moment: f64) -> Study<Interpreted> {
+    let study = turned("");
+    let input = study.find_input("moment").expect("it is declared");
+    study.input(input, moment)
 }
 
 /// `a = M / k`, the rest by the geometry of a triangle.
@@ -96,12 +87,14 @@ fn every_sample_of_an_unloaded_slider_crank_rests() {
 /// The forces of a loop that is a billion times stiffer are no measure for the other one.
 #[test]
 fn a_light_loop_is_solved_beside_a_heavy_one() {
+    let light = "force soft: spring(on: a2, stiffness: 5e-9 N*m/rad, rest: 0.5);
+        force push: spring(on: x2, stiffness: 3e-8 N/m, rest: 0.3 m);";
+    let study = start(turned(&(slider_crank(2) + light)), "a2", 1.2);
+    let moment = study.find_input("moment").expect("it is declared");
+    let heavy = study.find_design("stiffness").expect("it is declared");
     let alone = |stiffness: f64| {
-        let study = Study::new(Two)
-            .input(Two::moment, 0.2 * stiffness)
-            .design(Two::stiffness, stiffness)
-            .start(Two::a, 0.8)
-            .start(Two::c, 1.2);
+        let study = study.clone().input(moment, 0.2 * stiffness);
+        let study = study.design(heavy, stiffness);
         study.equilibrium().expect("an equilibrium").coordinates
     };
     let like = alone(5e-9);

@@ -55,8 +55,6 @@ pub(super) fn by_bulges(limit: &Counted, settings: &FormSettings) -> Result<Fail
 struct Regions<'a> {
     search: Search<'a>,
     random: NormalSamples,
-    /// Whether the limit state has no gradient at the origin.
-    stationary: bool,
     found: Vec<DesignPoint>,
     /// Number of design points of which the reflections have been searched.
     reflected: usize,
@@ -74,9 +72,7 @@ impl<'a> Regions<'a> {
             .evaluate(&origin)
             .ok_or_else(|| limit.no_value("at the origin"))?;
         let sign = if at_origin.value > 0.0 { 1.0 } else { -1.0 };
-        let at_origin = Iterate::new(origin.clone(), at_origin, sign);
         let mut regions = Self {
-            stationary: at_origin.slope().is_none(),
             search: Search {
                 limit,
                 settings,
@@ -86,7 +82,7 @@ impl<'a> Regions<'a> {
             random: NormalSamples::new(settings.seed, 0, 0, dimension),
             found: Vec::new(),
             reflected: 0,
-            best: at_origin,
+            best: Iterate::new(origin.clone(), at_origin, sign),
         };
         regions.visit(&origin);
         Ok(regions)
@@ -99,9 +95,7 @@ impl<'a> Regions<'a> {
     /// Searches from random directions and their opposites, at the distance of the first design point.
     fn restart(&mut self) {
         let mut direction = Vec::new();
-        // No direction leads away from a stationary origin.
-        let least = if self.stationary { 2 } else { 0 };
-        for restart in 0..self.search.settings.restarts.max(least) {
+        for restart in 0..self.search.settings.restarts {
             direction = match restart % 2 {
                 0 => self.random_direction(),
                 _ => scaled(-1.0, &direction),

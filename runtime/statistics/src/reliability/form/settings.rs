@@ -13,7 +13,7 @@ pub struct FormSettings {
     /// Maximum number of evaluations of the general optimiser from one start; zero disables it.
     pub optimiser_evaluations: usize,
     /// Number of starts in random directions and their opposites, in addition to the one at the origin. Each costs
-    /// about as much as that. There are at least two if the limit state has no gradient at the origin.
+    /// about as much as that.
     pub restarts: usize,
     /// Seed of the random directions.
     pub seed: u64,
