@@ -2,6 +2,8 @@
 
 #[path = "wheels/bicycle.rs"]
 mod bicycle;
+#[path = "wheels/coasting_critical.rs"]
+mod coasting_critical;
 #[path = "wheels/common.rs"]
 mod common;
 #[path = "wheels/events.rs"]

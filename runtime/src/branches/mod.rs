@@ -23,6 +23,7 @@ pub(crate) use curve::Curve;
 pub(crate) use curve_point::CurvePoint;
 pub use explore::{branch, branches, branches_each};
 pub use settings::Continuation;
+pub(crate) use special::critical_inertia;
 pub use special::{SpecialKind, SpecialPoint};
 
 use crate::algebra::Vector;

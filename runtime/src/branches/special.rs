@@ -3,12 +3,13 @@
 use super::curve::{Curve, Trouble};
 use super::curve_point::symmetric_to_rounding;
 use super::local_scaling::{CurvePosition, Frame};
-use crate::algebra::{Values, Vector, dot, form, largest, times};
-use crate::equilibrium::{Equilibrium, Stability};
+use crate::algebra::{Matrix, Values, Vector, dot, form, largest, times};
+use crate::constraints::Structure;
+use crate::equilibrium::{Equilibrium, Stability, judge_critical};
 use crate::error::NotFound;
 use crate::kernels::Linear;
-use crate::modes::free_pairs;
-use crate::{DampingKind, Input};
+use crate::modes::{free_pairs, inertia};
+use crate::{Complex, DampingKind, Input};
 
 /// The kind of a point at which `Khat` is singular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,9 +43,10 @@ pub struct SpecialPoint {
     pub value: f64,
     /// The equilibrium at the point; its critical mode counts as neutral.
     pub equilibrium: Equilibrium,
-    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of several if degenerate.
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of several if degenerate. With
+    /// speeds of coasting coordinates, `Mhat` includes their inertia, which otherwise is part of `Chat`.
     pub v: Vector,
-    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
+    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1` with the same `Mhat`; equal to `v` for a symmetric `Khat`.
     pub w: Vector,
 }
 
@@ -87,7 +89,7 @@ impl Curve<'_> {
             p: place.p.clamp(least, most),
         };
         let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
-        let (v, w) = normalised(&equilibrium.linear, self.structure.motions(), v, w)
+        let (v, w) = normalised(&equilibrium.linear, self.structure, v, w)
             .ok_or(Trouble::Missed(NotFound::DependentVectors))?;
         make_critical(&mut equilibrium, zero);
         Ok(SpecialPoint {
@@ -129,20 +131,29 @@ impl Curve<'_> {
     }
 }
 
-/// Scales the vectors so that `v^T M v = 1`, with the largest of the first `motions` components positive, and
-/// `w^T M v = 1`.
-fn normalised(linear: &Linear, motions: usize, v: &[f64], w: &[f64]) -> Option<(Vector, Vector)> {
-    let motion = &v[..motions];
-    let most = motion
-        .iter()
-        .fold(0.0, |most: f64, value| most.max(value.abs()));
+/// The inertia of motions along a critical vector: displacements, or speeds.
+pub(crate) fn critical_inertia(linear: &Linear, structure: Structure, v: &[f64]) -> Matrix {
+    let shape: Vec<_> = v.iter().copied().map(Complex::from).collect();
+    inertia(linear, structure, 1.0, core::iter::once(&*shape))
+}
+
+/// Scales the vectors so that `v^T M v = 1`, with the largest component of a motion positive, and `w^T M v = 1`.
+fn normalised(
+    linear: &Linear,
+    structure: Structure,
+    v: &[f64],
+    w: &[f64],
+) -> Option<(Vector, Vector)> {
+    let motion = &v[..structure.motions()];
+    let most = largest(motion);
     let lead = motion
         .iter()
         .copied()
         .find(|value| value.abs() >= most * (1.0 - 1e-9))?;
-    let length = form(v, &linear.mass, v).sqrt() * lead.signum();
+    let mass = critical_inertia(linear, structure, v);
+    let length = form(v, &mass, v).sqrt() * lead.signum();
     let v = v.map(|value| value / length);
-    let both = dot(w, &times(&linear.mass, &v));
+    let both = dot(w, &times(&mass, &v));
     let w = w.map(|value| value / both);
     let finite = v.iter().chain(&w).all(|value| value.is_finite());
     finite.then_some((v, w))
@@ -151,8 +162,13 @@ fn normalised(linear: &Linear, motions: usize, v: &[f64], w: &[f64]) -> Option<(
 /// Makes `zero` modes of an equilibrium critical, whatever sign rounding gives them.
 pub(crate) fn make_critical(at: &mut Equilibrium, zero: usize) {
     let (judged, description) = (at.stability, &at.description);
-    let flutters = matches!(judged, Stability::Flutter { .. });
-    if flutters || !symmetric_to_rounding(&at.linear, description) {
+    if !symmetric_to_rounding(&at.linear, description) {
+        if let Some(verdict) = judge_critical(&at.linear, description, zero) {
+            (at.stability, at.rounding) = (verdict.stability, verdict.rounding);
+        }
+        return;
+    }
+    if matches!(judged, Stability::Flutter { .. }) {
         return;
     }
     let Ok(pairs) = free_pairs(&at.linear, description) else {

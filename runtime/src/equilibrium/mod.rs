@@ -29,7 +29,7 @@ pub(crate) use prediction::{MISSED, Passed, Path, STILL};
 pub(crate) use regularity::constraint_state;
 pub(crate) use root::{Bracket, refine};
 pub(crate) use solve::{Judged, solve, solve_from_prediction, solve_into};
-pub(crate) use stability::{Verdict, judge};
+pub(crate) use stability::{Verdict, judge, judge_critical};
 pub(crate) use turns::{coincide, turned_towards, turns_do_not_count};
 
 pub use crate::constraints::ConstraintState;

@@ -5,7 +5,7 @@ use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element}
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::symmetric;
 use crate::kernels::{Kernels, Linear};
-use crate::modes::{Family, Modes, SYMMETRIC, free_pairs};
+use crate::modes::{Family, Modes, SYMMETRIC, change_to_zero, free_pairs, solve_modes};
 use crate::rounding::{self, CheckedState, Sign, of_form, sign};
 use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
 
@@ -189,6 +189,23 @@ fn by_eigenvalues(
         rounding: floor,
         modes: found.modes,
     }
+}
+
+/// Judges a critical state by its general eigenvalues, of which the `zero` smallest count as zero.
+pub(crate) fn judge_critical(
+    linear: &Linear,
+    description: &Shared<Description>,
+    zero: usize,
+) -> Option<Verdict> {
+    /// Both eigenvalues of a direction without stiffness are as far from zero as each other but for rounding.
+    const MARGIN: f64 = 4.0;
+    let mut modes = solve_modes(linear, Family::General, description, 0.0)
+        .ok()?
+        .modes;
+    modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+    let critical = modes.get(zero.checked_sub(1)?)?;
+    let floor = MARGIN * change_to_zero(linear, critical);
+    Some(by_eigenvalues((linear, &[]), description, (0, zero), floor))
 }
 
 /// Whether a matrix is skew-symmetric to rounding.

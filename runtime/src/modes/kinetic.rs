@@ -1,6 +1,5 @@
 //! Weights for shapes with speeds, from the kinetic energy.
 
-use super::Mode;
 use crate::algebra::{Matrix, Vector, largest_element, times_complex};
 use crate::constraints::Structure;
 use crate::kernels::Linear;
@@ -11,7 +10,7 @@ const MASSLESS: f64 = 1e-12;
 
 /// The weight matrix for shapes with displacements and speeds, which the largest `|s|` brings to one unit.
 ///
-/// Without masses every component weighs the same. `None` where `Mhat` already weighs everything that moves.
+/// `None` where `Mhat` already weighs everything that moves.
 pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matrix> {
     let structure = Structure::of(&to.description);
     if structure.holonomic() {
@@ -20,6 +19,23 @@ pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matri
     let all = || from.modes.iter().chain(&to.modes);
     let rate = all().fold(0.0, |most: f64, mode| most.max(mode.s.norm()));
     let rate = if rate > 0.0 { rate } else { 1.0 };
+    Some(inertia(
+        linear,
+        structure,
+        rate,
+        all().map(|mode| &*mode.shape),
+    ))
+}
+
+/// The inertia of displacements, times `rate`, and of speeds: `Mhat`, with the columns of the speeds from `Chat`.
+///
+/// Where one of the shapes moves no mass, every component weighs the same.
+pub(crate) fn inertia<'a>(
+    linear: &Linear,
+    structure: Structure,
+    rate: f64,
+    mut shapes: impl Iterator<Item = &'a [Complex]>,
+) -> Matrix {
     let (q, motions) = (structure.coordinates, structure.motions());
     let n = linear.mass.row_count();
     let weight = Matrix::from_fn(n, n, |i, j| {
@@ -33,10 +49,10 @@ pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matri
         }
     });
     let greatest = largest_element(&weight);
-    let moves_mass = |mode: &Mode| {
+    let moves_mass = |shape: &[Complex]| {
         let motion = Vector::from_fn(n, |i| {
             if i < motions {
-                mode.shape[i]
+                shape[i]
             } else {
                 Complex::default()
             }
@@ -44,14 +60,14 @@ pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matri
         let own = product(&motion, &times_complex(&weight, &motion)).re;
         own > MASSLESS * greatest * product(&motion, &motion).re
     };
-    if all().all(moves_mass) {
-        return Some(weight);
+    if shapes.all(moves_mass) {
+        return weight;
     }
-    Some(Matrix::from_fn(n, n, |i, j| match () {
+    Matrix::from_fn(n, n, |i, j| match () {
         () if i != j || i >= motions => 0.0,
         () if i < q => rate * rate,
         () => 1.0,
-    }))
+    })
 }
 
 /// `x^H y`.

@@ -19,6 +19,7 @@ pub(crate) use assurance::{
 };
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use constrained::{Normalisation, free_pairs};
+pub(crate) use kinetic::inertia;
 pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};
 pub use whirl::{Sense, Whirl, whirls};
@@ -448,9 +449,19 @@ fn damped(
 /// `d (|psi^T (2 s M + C) phi| + d) = floor`.
 #[cold]
 fn moved_by(linear: &Linear, root: &Root, floor: f64) -> f64 {
-    let slope = pencil_slope_times(linear, root.s, &root.right);
-    let slope = dot_complex(&root.left, &slope).norm();
+    let slope = slope(linear, root.s, (&root.left, &root.right));
     2.0 * floor / (slope + (slope * slope + 4.0 * floor).sqrt())
+}
+
+/// The change of the pencil, in the sense of [`moved_by`], that moves a mode to zero.
+pub(crate) fn change_to_zero(linear: &Linear, mode: &Mode) -> f64 {
+    let distance = mode.s.norm();
+    distance * (slope(linear, mode.s, (&mode.left, &mode.shape)) + distance)
+}
+
+/// `|psi^T (2 s M + C) phi|`.
+fn slope(linear: &Linear, s: Complex, (left, right): (&[Complex], &[Complex])) -> f64 {
+    dot_complex(left, &pencil_slope_times(linear, s, right)).norm()
 }
 
 /// Position of the component that fixes the phase of a vector: the largest one, with a margin that keeps the choice

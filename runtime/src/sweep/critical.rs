@@ -85,6 +85,8 @@ pub(crate) struct Path {
     stations: Vec<(f64, Vector, bool)>,
     /// The first and the last value.
     ends: Option<(f64, f64)>,
+    /// The first value beyond the last one, if no state was found there.
+    lost: Option<f64>,
     ascends: bool,
     descends: bool,
 }
@@ -95,6 +97,7 @@ impl Path {
             stable: following.policy == Policy::Stable,
             stations: Vec::new(),
             ends: None,
+            lost: None,
             ascends: true,
             descends: true,
         }
@@ -102,12 +105,14 @@ impl Path {
 
     /// Extends the path by a state, if there is one.
     pub(crate) fn add(&mut self, value: f64, state: &Result<Equilibrium, Error>, smooth: bool) {
-        let Ok(state) = state else {
-            return;
-        };
         if !self.stable {
             return;
         }
+        let Ok(state) = state else {
+            self.lost.get_or_insert(value);
+            return;
+        };
+        self.lost = None;
         match &mut self.ends {
             None => self.ends = Some((value, value)),
             Some((_, last)) => {
@@ -136,11 +141,19 @@ impl Path {
         input: Input,
     ) -> Vec<CriticalState> {
         let mut found = Vec::new();
-        let Some((first, last)) = self.ends.filter(|_| self.ascends || self.descends) else {
+        let Some((first, mut last)) = self.ends.filter(|_| self.ascends || self.descends) else {
             return found;
         };
+        let mut stations = self.stations.clone();
+        if let Some((_, state, _)) = stations.last()
+            && let Some(lost) = self.lost
+            && (self.ascends && lost > last || self.descends && lost < last)
+        {
+            stations.push((lost, state.clone(), false));
+            last = lost;
+        }
         let direction = last - first;
-        let mut rest = &self.stations[..];
+        let mut rest = &stations[..];
         while let [(low, start, _), after @ ..] = rest
             && found.len() < MOST_STATES
         {

@@ -3,7 +3,7 @@
 use super::condition::{Condition, Crossing};
 use super::points::CriticalState;
 use crate::algebra::{Matrix, Values, Vector, all_finite, dot, largest, times};
-use crate::branches::{Bordered, SpecialKind};
+use crate::branches::{Bordered, SpecialKind, critical_inertia};
 use crate::constraints::Structure;
 use crate::error::NoDerivative;
 use crate::kernels::{DirectionalKernels, Gradient, Kernels};
@@ -120,10 +120,14 @@ pub fn critical_sensitivity(
     }
 }
 
-/// Factorises `Khat` of a critical state, bordered by `Mhat v`.
+/// Factorises `Khat` of a critical state, bordered by `Mhat v`, with the inertia of speeds in `Mhat`.
 pub(crate) fn bordered(critical: &CriticalState) -> Result<Bordered, Error> {
     let linear = &critical.equilibrium.linear;
-    let border = times(&linear.mass, &critical.v);
+    let structure = Structure::of(&critical.equilibrium.description);
+    let border = times(
+        &critical_inertia(linear, structure, &critical.v),
+        &critical.v,
+    );
     Bordered::new(&linear.stiffness, [&border], [&border], [[0.0]])
         .ok_or(Error::ClusteredMode { mode: 0 })
 }

@@ -82,8 +82,9 @@ pub struct CriticalState {
     /// The equilibrium at the critical value, on the branch that is stable below it; its critical mode counts as
     /// neutral.
     pub equilibrium: Equilibrium,
-    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of several if degenerate.
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of several if degenerate. With
+    /// speeds of coasting coordinates, `Mhat` includes their inertia, which otherwise is part of `Chat`.
     pub v: Vector,
-    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
+    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1` with the same `Mhat`; equal to `v` for a symmetric `Khat`.
     pub w: Vector,
 }
