@@ -219,18 +219,16 @@ impl Gathered {
         };
         let mut quantiles = Vec::new();
         for probability in QUANTILES {
-            let alone = if one {
-                all.quantile_interval(probability, ONE_SIGMA)?
+            let error = if one {
+                let ends = all.quantile_interval(probability, ONE_SIGMA)?;
+                ends.map(|ends| 0.5 * (ends.upper - ends.lower))
             } else {
-                None
+                quantile_error(&all, &groups, probability)
             };
-            let alone = alone.map(|ends| 0.5 * (ends.upper - ends.lower));
             quantiles.push(Quantile {
                 probability,
                 value: all.quantile(probability)?.value,
-                error: errors(alone, &|own| {
-                    own.quantile(probability).ok().map(|own| own.value)
-                }),
+                error,
             });
         }
         let total = self.counts().total() as f64;
@@ -278,6 +276,24 @@ impl Gathered {
 
 /// Probability that a normal variable lies within one standard deviation.
 const ONE_SIGMA: f64 = 0.682_689_492_137_085_9;
+
+/// Standard error of a quantile of the samples of all randomisations.
+///
+/// The shares of samples below it scatter between randomisations. In the tails, where each randomisation has hardly a
+/// sample, their own quantiles would not.
+fn quantile_error(all: &Statistics, groups: &[Statistics], probability: f64) -> Option<f64> {
+    let found = all.quantile(probability).ok()?;
+    let share = scatter(groups, &|own| {
+        Some(own.sketch()?.cdf(found.value).ok()?.value)
+    })?;
+    // Definitions of a quantile differ by up to half a sample.
+    let share = share.hypot(0.5 / all.count as f64);
+    let [lower, upper] =
+        [-share, share].map(|change| all.quantile((probability + change).clamp(0.0, 1.0)).ok());
+    // In a bucket of the sketch any value is as likely as any other.
+    let bucket = found.error / 3.0_f64.sqrt();
+    Some((0.5 * (upper?.value - lower?.value)).hypot(bucket))
+}
 
 /// Standard error of the mean over independent randomisations.
 fn scatter(groups: &[Statistics], of: &dyn Fn(&Statistics) -> Option<f64>) -> Option<f64> {

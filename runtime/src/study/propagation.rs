@@ -211,11 +211,12 @@ impl SolvedSubject<'_, dyn SummaryKernels + '_> {
         })
     }
 
-    /// The effort that the settings allow.
+    /// The effort that the settings allow: at least one solution for each sample.
     fn effort(&self) -> Effort {
         let settings = self.settings;
-        Effort::default()
-            .samples(settings.samples as u64)
+        let effort = Effort::default().samples(settings.samples as u64);
+        effort
+            .solutions(effort.solutions.max(effort.samples))
             .seed(settings.seed)
             .stream(settings.stream)
             .threads(settings.threads)

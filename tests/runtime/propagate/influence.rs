@@ -1,6 +1,6 @@
 //! Sources of the scatter: exact for linear responses and products.
 
-use eigentol::propagation::{Effort, influence};
+use eigentol::propagation::{Effort, Method, Points, influence};
 
 use super::*;
 use crate::common::close;
@@ -141,4 +141,18 @@ fn inputs_with_tolerances() {
     );
     let shares = study.influence(&[FREQUENCY]).unwrap();
     assert_eq!(shares.responses[0].variables.len(), 1);
+}
+
+/// Asking for many samples allows as many solutions.
+#[test]
+fn many_samples() {
+    let study = bar().tolerance(Bar::l, 0.03).samples(131_072);
+    let all = study
+        .propagate(&[Response::Output(Bar::length.any())])
+        .unwrap();
+    assert_eq!(
+        (all.method, all.evaluations),
+        (Method::Sampled(Points::Sobol), 131_072)
+    );
+    assert_eq!(spread(&all, 0).quantiles.len(), 7);
 }

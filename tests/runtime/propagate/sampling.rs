@@ -63,7 +63,7 @@ fn stated_errors_are_those_of_many_runs() {
         let exact = Exact::new(&length);
         let tolerances = varied(length);
         for points in ALL {
-            let (mut squares, mut sums) = ([0.0; 2], [0.0; 2]);
+            let (mut squares, mut sums) = ([0.0; 7], [0.0; 7]);
             let seeds = 40;
             for seed in 0..seeds {
                 let sampler = Sampler::new(points).samples(1024).seed(seed).threads(1);
@@ -72,20 +72,24 @@ fn stated_errors_are_those_of_many_runs() {
                     samples.propagation().unwrap()
                 });
                 let found = spread(&all, 0);
-                let each = [
-                    (found.mean, exact.mean),
-                    (found.sigma.unwrap(), exact.sigma),
-                ];
-                for (k, (own, truth)) in each.into_iter().enumerate() {
-                    let z = (own.value - truth) / own.error.unwrap();
+                let moments = [found.mean, found.sigma.unwrap()];
+                let moments = moments.map(|own| (own.value, own.error));
+                let moments = moments.into_iter().zip([exact.mean, exact.sigma]);
+                // Those beyond two standard deviations have hardly a sample.
+                let quantiles = found.quantiles[1..6].iter();
+                let quantiles =
+                    quantiles.map(|own| ((own.value, own.error), exact.quantile(own.probability)));
+                for (k, ((value, error), truth)) in moments.chain(quantiles).enumerate() {
+                    let z = (value - truth) / error.unwrap();
                     squares[k] += z * z / seeds as f64;
                     sums[k] += z / seeds as f64;
                 }
             }
             // Student's t with seven degrees of freedom has a variance of 1.4.
             for (square, sum) in squares.into_iter().zip(sums) {
-                assert!((0.3..3.0).contains(&square), "{points:?} {squares:?}");
-                assert!(f64::abs(sum) < 0.8, "{points:?} {sums:?}");
+                assert!((0.2..3.0).contains(&square), "{points:?} {squares:?}");
+                // A quantile of few samples is biased towards the centre, by up to half a sample.
+                assert!(f64::abs(sum) < 1.0, "{points:?} {sums:?}");
             }
         }
     }
