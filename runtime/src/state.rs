@@ -143,7 +143,7 @@ pub enum Stability {
 
 impl Stability {
     /// Whether small disturbances stay small as far as the linearised mechanism tells; neutral directions count as
-    /// holding.
+    /// holding, although a motion along them may go on for ever.
     #[must_use]
     pub fn holds(self) -> bool {
         matches!(

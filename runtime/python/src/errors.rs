@@ -154,7 +154,9 @@ pub(crate) fn raise(py: Python<'_>, error: Error) -> PyErr {
         | Error::Setting { .. }
         | Error::UnknownHandle { .. } => Kind::InvalidValue,
         Error::UnknownName { .. } => Kind::UnknownName,
-        Error::NoEquilibrium { .. } | Error::UnboundedReactions { .. } => Kind::NoEquilibrium,
+        Error::NoEquilibrium { .. }
+        | Error::UnboundedReactions { .. }
+        | Error::BranchLost { .. } => Kind::NoEquilibrium,
         Error::NotAssembled { .. } => Kind::NotAssembled,
         Error::SingularMass { .. }
         | Error::NonsymmetricStiffness { .. }
@@ -178,6 +180,7 @@ pub(crate) fn raise(py: Python<'_>, error: Error) -> PyErr {
         }
         Error::NoEquilibrium { coordinates, .. }
         | Error::UnboundedReactions { coordinates, .. }
+        | Error::BranchLost { coordinates, .. }
         | Error::NotAssembled { coordinates, .. } => {
             with(py, raised(error.to_string()), |exception| {
                 exception.setattr("coordinates", coordinates.clone())

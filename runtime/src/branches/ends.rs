@@ -140,12 +140,16 @@ impl Curve<'_> {
                 BranchEnd::Domain(failure.explain(&self.description))
             }
             Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(&self.description)),
-            Trouble::Missed(reason) => BranchEnd::Lost(Error::NoEquilibrium {
-                reason,
-                iterations: self.settings.max_corrections,
-                coordinates: at.coordinates.to_vec(),
-                relative_residual: at.relative_residual,
-            }),
+            Trouble::Missed(reason) => {
+                let input = &self.description.inputs[self.settings.input.index()];
+                BranchEnd::Lost(Error::BranchLost {
+                    reason,
+                    input: input.name.clone(),
+                    value: at.inputs[self.settings.input.index()],
+                    unit: input.unit.clone(),
+                    coordinates: at.coordinates.to_vec(),
+                })
+            }
         }
     }
 }

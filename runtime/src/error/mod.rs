@@ -6,7 +6,7 @@ pub use reason::{NoDerivative, NotClosed, NotFound};
 
 use thiserror::Error as ThisError;
 
-use crate::Text;
+use crate::{Text, Unit};
 
 /// A constant of the program. Under this name, serde does not expect it in the data it reads.
 type Word = &'static str;
@@ -232,7 +232,11 @@ pub enum Error {
         modes: Vec<usize>,
     },
     /// No sign change was found in the range.
-    #[error("no {what} in the range {low} to {high} of input `{input}`")]
+    #[error(
+        "no {what} in the range {} to {} of input `{input}`",
+        six_digits(unit.from_si(*low)),
+        valued(*high, unit)
+    )]
     NotInRange {
         /// What was searched for: `critical value` or `crossing`.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
@@ -245,6 +249,27 @@ pub enum Error {
         /// Upper end, SI.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
+        /// Unit of the input.
+        unit: Unit,
+    },
+    /// A branch of equilibria cannot be followed any farther.
+    #[error(
+        "the branch cannot be followed beyond {} of input `{input}` ({reason}); last equilibrium q = {coordinates:?}",
+        valued(*value, unit)
+    )]
+    BranchLost {
+        /// Why it cannot.
+        reason: NotFound,
+        /// Name of the input.
+        input: Text,
+        /// Its value at the last equilibrium, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+        value: f64,
+        /// Unit of the input.
+        unit: Unit,
+        /// Coordinates of the last equilibrium.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+        coordinates: Vec<f64>,
     },
     /// A derivative of a critical value, a crossing or an output does not exist.
     #[error("the sensitivity does not exist: {reason}")]
@@ -437,6 +462,15 @@ impl From<eigentol_statistics::Error> for Error {
 /// Rounds away the digits of a computed value that rounding errors affect.
 fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// A value in SI with its declared unit.
+fn valued(value: f64, unit: &Unit) -> String {
+    let number = six_digits(unit.from_si(value)).to_string();
+    [number.as_str(), &unit.symbol]
+        .join(" ")
+        .trim_end()
+        .to_owned()
 }
 
 #[cfg(test)]

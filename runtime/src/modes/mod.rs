@@ -175,7 +175,8 @@ impl Modes {
         members
     }
 
-    /// Whether no small disturbance grows.
+    /// Whether no small disturbance grows exponentially. Neutral modes count as stable: nothing resists a motion along
+    /// them, which a disturbance may continue for ever.
     #[must_use]
     pub fn stable(&self) -> bool {
         !self.modes.iter().any(|mode| mode.behaviour.grows())

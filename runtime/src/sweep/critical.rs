@@ -7,7 +7,7 @@ use crate::algebra::Vector;
 use crate::branches::{BranchEnd, Continuation, Curve, CurvePoint, SpecialPoint};
 use crate::equilibrium::{Policy, equilibrium};
 use crate::kernels::DirectionalKernels;
-use crate::{Equilibrium, Error, Input, Text};
+use crate::{Equilibrium, Error, Input};
 
 /// Bounds on the largest step of the continuation, whatever number of steps is requested.
 const FINEST_STEP: f64 = 1e-4;
@@ -65,11 +65,16 @@ pub fn critical_state(
             w: special.w,
         }),
         (None, BranchEnd::Domain(error) | BranchEnd::Lost(error)) => Err(error),
-        (None, _) => Err(not_in_range(
-            "critical value",
-            &curve.description.inputs,
-            &range,
-        )),
+        (None, _) => {
+            let input = &curve.description.inputs[range.input.index()];
+            Err(Error::NotInRange {
+                what: "critical value",
+                input: input.name.clone(),
+                low: range.low,
+                high: range.high,
+                unit: input.unit.clone(),
+            })
+        }
     }
 }
 
@@ -180,16 +185,5 @@ impl Path {
             found.push(critical);
         }
         found
-    }
-}
-
-fn not_in_range(what: &'static str, inputs: &[crate::InputInfo], range: &Range) -> Error {
-    Error::NotInRange {
-        what,
-        input: inputs
-            .get(range.input.index())
-            .map_or(Text::Static("?"), |info| info.name.clone()),
-        low: range.low,
-        high: range.high,
     }
 }

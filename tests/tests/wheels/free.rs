@@ -38,6 +38,12 @@ fn a_disk_without_drag() {
         }
         assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
         assert_eq!(study.sensitivities().err(), Some(Error::CriticalState));
+        // A branch would be one of many: the heading is free.
+        let critical = study.critical_state(RollingDisk::spin, 20.0, 25.0);
+        assert!(
+            matches!(critical, Err(Error::BranchLost { value: 20.0, .. })),
+            "{critical:?}"
+        );
         // A torque would keep accelerating it.
         let turned = study.input(RollingDisk::torque, 0.1).equilibrium();
         assert!(

@@ -44,7 +44,7 @@ impl Branch {
         rows(py, self.0.description.coordinates.len(), all)
     }
 
-    /// Whether small disturbances stay small, at each point.
+    /// Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which counts as stable.
     #[getter]
     fn stable(&self) -> Vec<bool> {
         let all = self.0.points.iter();

@@ -74,7 +74,7 @@ impl Equilibrium {
         self.0.stability.to_string()
     }
 
-    /// Whether small disturbances stay small.
+    /// Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable.
     #[getter]
     fn stable(&self) -> bool {
         self.0.stability.holds()

@@ -102,7 +102,7 @@ impl Modes {
         self.each(|mode| mode.behaviour.to_string()).collect()
     }
 
-    /// Whether every small disturbance stays small.
+    /// Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable.
     #[getter]
     fn stable(&self) -> bool {
         self.0.stable()
