@@ -99,7 +99,7 @@ pub(crate) fn last_step(
     q: &[f64],
     (residual, stiffness): (&[f64], &Matrix),
     step: &[f64],
-    displacement: impl FnOnce(&[f64]) -> Vector,
+    displacement: impl FnOnce(&Vector) -> Vector,
 ) -> Option<Candidate> {
     let motions = point.motions();
     let end = Candidate::at(point, add_scaled(q, 1.0, step));

@@ -14,6 +14,7 @@ use crate::algebra::{
 };
 use crate::eigenproblem::symmetric;
 use crate::error::NotFound;
+use crate::kernels::Linear;
 use crate::rounding::{Sign, sign};
 
 const MAX_ITERATIONS: usize = 300;
@@ -62,6 +63,8 @@ where
 {
     let motions = point.motions();
     let mut base: Base<S> = S::base(point, &from.q)?;
+    let mut trial = Trial::blank(point.size());
+    let mut curved: Option<Curved> = None;
     let mut radius = from.radius;
     let mut departures = 0;
     let mut left_unstable_region = false;
@@ -71,7 +74,7 @@ where
     for iterations in from.iterations..MAX_ITERATIONS {
         let at = (&base.residual[..], &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
-        let stiffness = base.space.stiffness(&base.stiffness);
+        let stiffness = base.space.reduced(&base.stiffness);
         let convex = Cholesky::new(&stiffness).ok();
         if was_curved && convex.is_some() {
             let place = SearchState {
@@ -87,13 +90,13 @@ where
             }
         }
         was_curved = convex.is_none();
-        let (mut step, curved) = match &convex {
-            Some(factors) => (factors.solve(&slopes).map(|value| -value), None),
-            None => {
-                let curved = Curved::new(point, &base, &stiffness)?;
-                left_unstable_region |= curved.unstable;
-                (curved_step(&curved.pairs, &slopes), Some(curved))
-            }
+        let mut step = if let Some(factors) = &convex {
+            factors.solve(&slopes).map(|value| -value)
+        } else {
+            let curved = curved.get_or_insert_with(|| Curved::blank(point.size()));
+            curved.solve(point, &base, &stiffness)?;
+            left_unstable_region |= curved.unstable;
+            curved.step(&slopes)
         };
         let found = |end: Candidate, iterations| Found {
             left_unstable_region,
@@ -104,10 +107,11 @@ where
             residual: base.residual,
             measured: None,
         };
-        step = base.space.lift(&step);
+        step = base.space.lift(step);
         let progress = watch.judge(point, &base.q, at, Some(&step));
         if progress == Progress::Finished {
-            let Some(curved) = curved.filter(|curved| curved.unstable) else {
+            let curved = curved.as_ref().filter(|curved| curved.unstable);
+            let Some(curved) = curved.filter(|_| convex.is_none()) else {
                 return Ok(found(here(base), iterations));
             };
             departures += 1;
@@ -115,19 +119,19 @@ where
                 let reason = NotFound::OnlyUnstable;
                 return Err(failure(point, reason, &base.q, iterations));
             }
-            let shape = base.space.lift(&curved.pairs.shapes[0]);
-            let side = departure(&shape, &curved.mass, &base.q, start);
-            let Some(trial) = base.space.trial(point, &base.q, &side, 1.0) else {
+            let shape = base.space.lift(Vector::from(&curved.pairs.shapes[0]));
+            let side = departure(&shape, &curved.linear.mass, &base.q, start);
+            if !base.space.trial(point, &base.q, (&side, 1.0), &mut trial) {
                 return Err(outside(&base.q));
-            };
-            base = S::arrive(point, trial)?;
+            }
+            S::arrive(point, &mut trial, &mut base)?;
             watch = Watch::new(&base.q);
             continue;
         }
         if progress == Progress::LastStep
             && let Some(factors) = &convex
             && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
-                base.space.lift(&factors.solve(&base.space.slopes(rest)))
+                base.space.lift(factors.solve(&base.space.slopes(rest)))
             })
         {
             return Ok(found(end, iterations + 1));
@@ -137,7 +141,7 @@ where
         if limited {
             step = step.map(|value| value * radius / size);
         }
-        let Some(next) = search(point, &base, &step) else {
+        let Some(next) = search(point, &base, &step, &mut trial) else {
             let relative = relative_residual(point, &base.q, at.0, at.1);
             if relative <= TOLERANCE && convex.is_some() {
                 return Ok(found(here(base), iterations));
@@ -150,7 +154,7 @@ where
         } else if limited && next.predicted {
             radius *= GROWTH;
         }
-        base = S::arrive(point, next.trial)?;
+        S::arrive(point, &mut trial, &mut base)?;
         if largest_of(&base.q[..motions]) > escaped {
             let reason = NotFound::Escape;
             return Err(failure(point, reason, &base.q, iterations));
@@ -163,29 +167,53 @@ where
 /// The modes at a state where the potential is not convex.
 struct Curved {
     pairs: symmetric::Pairs,
-    mass: Matrix,
+    linear: Linear,
     /// The potential decreases along the first mode.
     unstable: bool,
 }
 
 impl Curved {
+    /// Modes to be overwritten.
+    fn blank(n: usize) -> Self {
+        Self {
+            pairs: symmetric::Pairs::default(),
+            linear: Linear::zeros(n),
+            unstable: false,
+        }
+    }
+
     #[cold]
-    fn new<S>(
+    fn solve<S>(
+        &mut self,
         point: &OperatingPoint<'_>,
         base: &Base<S>,
         stiffness: &Matrix,
-    ) -> Result<Self, Failure>
+    ) -> Result<(), Failure>
     where
         S: SearchSpace,
     {
-        let mass = point.linear(&base.q)?.mass;
-        let pairs = symmetric::solve(stiffness, &base.space.mass(&mass))?;
-        let unstable = sign(pairs.lambda[0], pairs.errors[0]) == Sign::Negative;
-        Ok(Self {
-            pairs,
-            mass,
-            unstable,
-        })
+        point.linear_into(&base.q, &mut self.linear)?;
+        let mass = base.space.reduced(&self.linear.mass);
+        symmetric::solve_into(stiffness, &mass, &mut self.pairs)?;
+        self.unstable = sign(self.pairs.lambda[0], self.pairs.errors[0]) == Sign::Negative;
+        Ok(())
+    }
+
+    /// A descent step along every mode scaled by the magnitude of its curvature, so that the step leaves unstable modes
+    /// instead of approaching the saddle.
+    fn step(&self, residual: &[f64]) -> Vector {
+        let pairs = &self.pairs;
+        let floor = 1e-8 * largest(&pairs.lambda);
+        let mut step = Vector::zeros(residual.len());
+        for r in 0..pairs.lambda.len() {
+            let slope = dot(&pairs.shapes[r], residual);
+            if slope != 0.0 {
+                let curvature = pairs.lambda[r].abs().max(floor).max(f64::MIN_POSITIVE);
+                let amount = (slope / curvature).clamp(-1e100, 1e100);
+                add_to(&mut step, -amount, &pairs.shapes[r]);
+            }
+        }
+        step
     }
 }
 
@@ -194,22 +222,6 @@ fn outside(q: &[f64]) -> Failure {
         what: "the residual",
         coordinates: q.into(),
     }
-}
-
-/// A descent step along every mode scaled by the magnitude of its curvature, so that the step leaves unstable modes
-/// instead of approaching the saddle.
-fn curved_step(pairs: &symmetric::Pairs, residual: &[f64]) -> Vector {
-    let floor = 1e-8 * largest(&pairs.lambda);
-    let mut step = Vector::zeros(residual.len());
-    for r in 0..pairs.lambda.len() {
-        let slope = dot(&pairs.shapes[r], residual);
-        if slope != 0.0 {
-            let curvature = pairs.lambda[r].abs().max(floor).max(f64::MIN_POSITIVE);
-            let amount = (slope / curvature).clamp(-1e100, 1e100);
-            add_to(&mut step, -amount, &pairs.shapes[r]);
-        }
-    }
-    step
 }
 
 /// A small step along the unstable mode, towards the user's start value if that indicates a side.
@@ -228,7 +240,6 @@ fn departure(shape: &[f64], mass: &Matrix, q: &[f64], start: &[f64]) -> Vector {
 }
 
 struct Next {
-    trial: Trial,
     /// Accepted fraction of the step.
     length: f64,
     /// The linear model predicted the slope at the end correctly.
@@ -262,8 +273,13 @@ impl LineModel {
     }
 }
 
-/// Line search based on the change of the potential.
-fn search<S>(point: &OperatingPoint<'_>, base: &Base<S>, step: &[f64]) -> Option<Next>
+/// Line search based on the change of the potential; writes the end of the accepted share to `trial`.
+fn search<S>(
+    point: &OperatingPoint<'_>,
+    base: &Base<S>,
+    step: &[f64],
+    trial: &mut Trial,
+) -> Option<Next>
 where
     S: SearchSpace,
 {
@@ -276,15 +292,14 @@ where
     }
     let mut length = 1.0;
     for _ in 0..60 {
-        let Some(trial) = base.space.trial(point, &base.q, step, length) else {
+        if !base.space.trial(point, &base.q, (step, length), trial) {
             length *= 0.25;
             continue;
-        };
+        }
         let slope = dot(step, &trial.residual);
         let curvature = form(&trial.direction, &trial.stiffness, &trial.direction);
         if way.falls(length, slope, curvature) {
             return Some(Next {
-                trial,
                 length,
                 predicted: way.predicts(length, slope),
             });

@@ -23,20 +23,21 @@ where
     let mut radius = FIRST_RADIUS;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
+    let mut trial = Trial::blank(point.size());
     for iterations in 0..MAX_ITERATIONS {
         let at = (&base.residual[..], &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
-        let stiffness = base.space.stiffness(&base.stiffness);
+        let stiffness = base.space.reduced(&base.stiffness);
         let factors = Lu::new(&stiffness);
         let displacement =
-            |lu: &Lu, slopes: &[f64]| base.space.lift(&lu.solve(slopes).map(|value| -value));
+            |lu: &Lu, slopes: &[f64]| base.space.lift(lu.solve(slopes).map(|value| -value));
         let newton = factors.as_ref().map(|lu| displacement(lu, &slopes));
         let progress = watch.judge(point, &base.q, at, newton.as_deref());
         if progress == Progress::Finished {
             return Ok(found(base, iterations));
         }
         let mut step =
-            newton.unwrap_or_else(|| base.space.lift(&damped_step(&slopes, &stiffness, &weight)));
+            newton.unwrap_or_else(|| base.space.lift(damped_step(&slopes, &stiffness, &weight)));
         if progress == Progress::LastStep
             && let Some(lu) = &factors
             && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
@@ -50,7 +51,7 @@ where
         if limited {
             step = step.map(|value| value * radius / size);
         }
-        let Some((next, length)) = search(point, &base, &slopes, &step, &weight) else {
+        let Some(length) = search(point, &base, &slopes, (&step, &weight), &mut trial) else {
             let relative = relative_residual(point, &base.q, at.0, at.1);
             if relative <= TOLERANCE {
                 return Ok(found(base, iterations));
@@ -63,7 +64,7 @@ where
         } else if limited {
             radius *= 2.0;
         }
-        base = S::arrive(point, next)?;
+        S::arrive(point, &mut trial, &mut base)?;
         if largest_of(&base.q[..motions]) > escaped {
             break;
         }
@@ -122,23 +123,24 @@ fn damped_step(residual: &[f64], stiffness: &Matrix, weight: &[f64]) -> Vector {
     }
 }
 
+/// Finds the share of a step that reduces the residual, and writes its end to `trial`.
 fn search<S>(
     point: &OperatingPoint<'_>,
     base: &Base<S>,
     slopes: &[f64],
-    step: &[f64],
-    weight: &[f64],
-) -> Option<(Trial, f64)>
+    (step, weight): (&[f64], &[f64]),
+    trial: &mut Trial,
+) -> Option<f64>
 where
     S: SearchSpace,
 {
     let before = merit(slopes, weight);
     let mut length = 1.0;
     for _ in 0..40 {
-        if let Some(trial) = base.space.trial(point, &base.q, step, length)
+        if base.space.trial(point, &base.q, (step, length), trial)
             && merit(&base.space.slopes(&trial.residual), weight) <= before * (1.0 - 1e-4 * length)
         {
-            return Some((trial, length));
+            return Some(length);
         }
         length *= 0.5;
     }

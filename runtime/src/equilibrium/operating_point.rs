@@ -125,17 +125,31 @@ impl<'a> OperatingPoint<'a> {
 
     /// Residual and stiffness with the gauge fixed; `None` if either is not finite.
     pub(crate) fn evaluate(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
-        let mut found = self.evaluate_plain(q);
-        if !self.structure.open()
-            && let Some((residual, stiffness)) = &mut found
-        {
+        let n = self.size();
+        let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
+        let finite = self.evaluate_into(q, &mut residual, &mut stiffness);
+        finite.then_some((residual, stiffness))
+    }
+
+    /// Like [`Self::evaluate`], overwriting a residual and a stiffness of this size; false if either is not finite.
+    pub(crate) fn evaluate_into(
+        &self,
+        q: &[f64],
+        residual: &mut Vector,
+        stiffness: &mut Matrix,
+    ) -> bool {
+        let entries = stiffness.as_flattened_mut();
+        let kernels = self.mechanism;
+        kernels.residual_and_stiffness_into(q, self.inputs, self.design, residual, entries);
+        let finite = all_finite(residual) && all_finite_matrix(stiffness);
+        if finite && !self.structure.open() {
             if self.dropped.contains(&true) {
                 self.drop_rows(residual, Some(stiffness));
             } else {
                 fix_gauge(stiffness, self.structure);
             }
         }
-        found
+        finite
     }
 
     /// The residual alone, which may not be finite.
@@ -181,12 +195,20 @@ impl<'a> OperatingPoint<'a> {
 
     /// The linearised mechanism with the gauge fixed.
     pub(crate) fn linear(&self, q: &[f64]) -> Result<Linear, Failure> {
-        let mut linear = self.mechanism.linear(q, self.inputs, self.design);
-        self.check(q, &linear)?;
+        let mut linear = Linear::zeros(self.size());
+        self.linear_into(q, &mut linear)?;
+        Ok(linear)
+    }
+
+    /// Like [`Self::linear`], overwriting matrices of this size.
+    pub(crate) fn linear_into(&self, q: &[f64], linear: &mut Linear) -> Result<(), Failure> {
+        self.mechanism
+            .linear_into(q, self.inputs, self.design, linear);
+        self.check(q, linear)?;
         if !self.structure.open() {
             fix_gauge(&mut linear.stiffness, self.structure);
         }
-        Ok(linear)
+        Ok(())
     }
 
     /// [`Self::parts`] and the linearised mechanism, either of which may not be finite, without fixing the gauge. For a

@@ -12,6 +12,9 @@
 //! `-mu . H n'' = mu . Phi_qq t t`.) The first formula holds without a potential too. Otherwise the solvers do the same
 //! as for an open mechanism.
 
+use core::mem::swap;
+use std::borrow::Cow;
+
 use super::convergence::{TOLERANCE, relative_gap};
 use super::operating_point::{Failure, OperatingPoint};
 use super::row_scaling::weights;
@@ -37,37 +40,50 @@ pub(super) struct Trial {
     pub(super) direction: Vector,
 }
 
+impl Trial {
+    /// A trial to be overwritten.
+    pub(super) fn blank(n: usize) -> Self {
+        Self {
+            q: Vector::zeros(n),
+            residual: Vector::zeros(n),
+            stiffness: Matrix::zeros(n, n),
+            direction: Vector::zeros(n),
+        }
+    }
+}
+
 /// The positions in the neighbourhood of a base.
 pub(super) trait SearchSpace: Sized {
     /// The base at a state that meets the constraints.
     fn base(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Base<Self>, Failure>;
 
-    /// The base at the end of a step.
-    fn arrive(point: &OperatingPoint<'_>, trial: Trial) -> Result<Base<Self>, Failure>;
+    /// Moves the base to the end of a step, whose contents are unspecified afterwards.
+    fn arrive(
+        point: &OperatingPoint<'_>,
+        trial: &mut Trial,
+        base: &mut Base<Self>,
+    ) -> Result<(), Failure>;
 
     /// Slopes of the potential along the free directions.
-    fn slopes(&self, residual: &[f64]) -> Vector;
+    fn slopes<'a>(&self, residual: &'a Vector) -> Cow<'a, Vector>;
 
-    /// Stiffness along the free directions.
-    fn stiffness(&self, stiffness: &Matrix) -> Matrix;
-
-    /// Masses along the free directions.
-    fn mass(&self, mass: &Matrix) -> Matrix;
+    /// A matrix of stiffnesses or masses along the free directions.
+    fn reduced<'a>(&self, matrix: &'a Matrix) -> Cow<'a, Matrix>;
 
     /// Weights that make the squares of the slopes comparable.
     fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure>;
 
     /// Displacement of all unknowns caused by a displacement along the free directions.
-    fn lift(&self, y: &[f64]) -> Vector;
+    fn lift(&self, y: Vector) -> Vector;
 
-    /// The state at a share `length` of `step`; `None` if there is none.
+    /// Writes the state at a share of a step; false if there is none.
     fn trial(
         &self,
         point: &OperatingPoint<'_>,
         q: &[f64],
-        step: &[f64],
-        length: f64,
-    ) -> Option<Trial>;
+        step_and_share: (&[f64], f64),
+        trial: &mut Trial,
+    ) -> bool;
 }
 
 /// All unknowns, with constraints treated as ordinary equations.
@@ -84,50 +100,44 @@ impl SearchSpace for Unconstrained {
         })
     }
 
-    fn arrive(_: &OperatingPoint<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
-        Ok(Base {
-            q: trial.q,
-            residual: trial.residual,
-            stiffness: trial.stiffness,
-            space: Self,
-        })
+    fn arrive(
+        _: &OperatingPoint<'_>,
+        trial: &mut Trial,
+        base: &mut Base<Self>,
+    ) -> Result<(), Failure> {
+        swap(&mut base.q, &mut trial.q);
+        swap(&mut base.residual, &mut trial.residual);
+        swap(&mut base.stiffness, &mut trial.stiffness);
+        Ok(())
     }
 
-    fn slopes(&self, residual: &[f64]) -> Vector {
-        residual.into()
+    fn slopes<'a>(&self, residual: &'a Vector) -> Cow<'a, Vector> {
+        Cow::Borrowed(residual)
     }
 
-    fn stiffness(&self, stiffness: &Matrix) -> Matrix {
-        stiffness.clone()
-    }
-
-    fn mass(&self, mass: &Matrix) -> Matrix {
-        mass.clone()
+    fn reduced<'a>(&self, matrix: &'a Matrix) -> Cow<'a, Matrix> {
+        Cow::Borrowed(matrix)
     }
 
     fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
         weights(point, q)
     }
 
-    fn lift(&self, y: &[f64]) -> Vector {
-        y.into()
+    fn lift(&self, y: Vector) -> Vector {
+        y
     }
 
     fn trial(
         &self,
         point: &OperatingPoint<'_>,
         q: &[f64],
-        step: &[f64],
-        length: f64,
-    ) -> Option<Trial> {
-        let q = add_scaled(q, length, step);
-        let (residual, stiffness) = point.evaluate(&q)?;
-        Some(Trial {
-            q,
-            residual,
-            stiffness,
-            direction: step.into(),
-        })
+        (step, length): (&[f64], f64),
+        trial: &mut Trial,
+    ) -> bool {
+        trial.q.copy_from_slice(q);
+        add_to(&mut trial.q, length, step);
+        trial.direction.copy_from_slice(step);
+        point.evaluate_into(&trial.q, &mut trial.residual, &mut trial.stiffness)
     }
 }
 
@@ -200,6 +210,40 @@ impl ConstraintManifold {
         }
         None
     }
+
+    /// The state at a share `length` of `step`.
+    fn along(
+        &self,
+        point: &OperatingPoint<'_>,
+        q: &[f64],
+        (step, length): (&[f64], f64),
+    ) -> Option<Trial> {
+        let scaled = self.tangent.normal.scaled(step);
+        let reach = length * dot(&scaled, &scaled).sqrt();
+        let from = add_scaled(q, length, step);
+        let (mut q, residual, stiffness) = self.back(point, &from, reach)?;
+        let crossed = self.crossed(&stiffness);
+        // Multipliers that balance the forces along the normals at the base.
+        let forces: Vector = self
+            .normals
+            .iter()
+            .map(|normal| dot(normal, &residual))
+            .collect();
+        let change = Lu::new(&crossed.transpose())?.solve(&forces);
+        for (i, change) in change.iter().enumerate() {
+            q[self.row(i)] -= change;
+        }
+        let (residual, stiffness) = point.evaluate_plain(&q)?;
+        let off = self.independent(&times(&stiffness, step));
+        let bend = Lu::new(&crossed)?.solve(&off);
+        let direction = add_scaled(step, -1.0, &self.along_normals(&bend));
+        all_finite_matrix(&stiffness).then_some(Trial {
+            q,
+            residual,
+            stiffness,
+            direction,
+        })
+    }
 }
 
 /// Largest gap of the constraints on positions, relative to what small motions open.
@@ -240,20 +284,21 @@ impl SearchSpace for ConstraintManifold {
         })
     }
 
-    fn arrive(point: &OperatingPoint<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
-        Self::base(point, &trial.q)
+    fn arrive(
+        point: &OperatingPoint<'_>,
+        trial: &mut Trial,
+        base: &mut Base<Self>,
+    ) -> Result<(), Failure> {
+        *base = Self::base(point, &trial.q)?;
+        Ok(())
     }
 
-    fn slopes(&self, residual: &[f64]) -> Vector {
-        self.tangent.project(residual)
+    fn slopes<'a>(&self, residual: &'a Vector) -> Cow<'a, Vector> {
+        Cow::Owned(self.tangent.project(residual))
     }
 
-    fn stiffness(&self, stiffness: &Matrix) -> Matrix {
-        self.tangent.reduce(stiffness)
-    }
-
-    fn mass(&self, mass: &Matrix) -> Matrix {
-        self.tangent.reduce(mass)
+    fn reduced<'a>(&self, matrix: &'a Matrix) -> Cow<'a, Matrix> {
+        Cow::Owned(self.tangent.reduce(matrix))
     }
 
     /// All ones: the basis is orthonormal in the mass metric.
@@ -261,41 +306,22 @@ impl SearchSpace for ConstraintManifold {
         Ok(Vector::filled(q.len(), 1.0))
     }
 
-    fn lift(&self, y: &[f64]) -> Vector {
-        self.tangent.lift(y)
+    fn lift(&self, y: Vector) -> Vector {
+        self.tangent.lift(&y)
     }
 
     fn trial(
         &self,
         point: &OperatingPoint<'_>,
         q: &[f64],
-        step: &[f64],
-        length: f64,
-    ) -> Option<Trial> {
-        let scaled = self.tangent.normal.scaled(step);
-        let reach = length * dot(&scaled, &scaled).sqrt();
-        let from = add_scaled(q, length, step);
-        let (mut q, residual, stiffness) = self.back(point, &from, reach)?;
-        let crossed = self.crossed(&stiffness);
-        // Multipliers that balance the forces along the normals at the base.
-        let forces: Vector = self
-            .normals
-            .iter()
-            .map(|normal| dot(normal, &residual))
-            .collect();
-        let change = Lu::new(&crossed.transpose())?.solve(&forces);
-        for (i, change) in change.iter().enumerate() {
-            q[self.row(i)] -= change;
+        (step, length): (&[f64], f64),
+        trial: &mut Trial,
+    ) -> bool {
+        let found = self.along(point, q, (step, length));
+        let exists = found.is_some();
+        if let Some(found) = found {
+            *trial = found;
         }
-        let (residual, stiffness) = point.evaluate_plain(&q)?;
-        let off = self.independent(&times(&stiffness, step));
-        let bend = Lu::new(&crossed)?.solve(&off);
-        let direction = add_scaled(step, -1.0, &self.along_normals(&bend));
-        all_finite_matrix(&stiffness).then_some(Trial {
-            q,
-            residual,
-            stiffness,
-            direction,
-        })
+        exists
     }
 }
