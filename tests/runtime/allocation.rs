@@ -198,6 +198,34 @@ fn limits_of_half_widths_hold() {
     close(found.half_widths[1], 0.5 * left.sqrt(), 1e-6);
 }
 
+/// A cost that falls where a tolerance gets tighter makes no sense.
+#[test]
+fn senseless_costs_are_refused() {
+    let wanted = [Requirement::at_most(gap(), 41e-3)];
+    let infinite = f64::INFINITY;
+    for (fixed, factor, power) in [
+        (f64::NAN, 1.0, 1.0),
+        (0.0, -1.0, 1.0),
+        (0.0, 0.0, 1.0),
+        (0.0, infinite, 1.0),
+        (0.0, 1.0, -1.0),
+        (0.0, 1.0, 0.0),
+        (0.0, 1.0, f64::NAN),
+    ] {
+        let mut choices = choices(1.0, (1e-6, 0.1), vec![1e-3]);
+        choices.half_widths[1].cost = Cost::reciprocal(fixed, factor, power);
+        let refused = stack().allocation(&wanted, &choices);
+        let expected = matches!(
+            refused,
+            Err(Error::Setting {
+                setting: "cost",
+                ..
+            })
+        );
+        assert!(expected, "{fixed} {factor} {power}: {refused:?}");
+    }
+}
+
 #[test]
 fn a_cost_of_ones_own() {
     let wanted = [Requirement::at_most(gap(), 41e-3)];

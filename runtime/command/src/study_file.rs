@@ -53,7 +53,10 @@ pub(crate) struct StudyFile {
 
 /// A value as written: text with its unit, or a number without one.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "a number, or a text with a unit such as \"3000 rpm\""
+)]
 pub(crate) enum Written {
     Text(String),
     Number(f64),
@@ -81,7 +84,7 @@ pub(crate) enum FrequencyUnit {
 
 /// A requirement: a mode quantity, an output, or the input value of an event must lie within limits or outside a band.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `[[require]]`")]
 pub(crate) struct Require {
     /// Counted from 1.
     pub(crate) mode: Option<usize>,
@@ -118,7 +121,7 @@ pub(crate) enum Quantity {
 
 /// A half-width or a nominal value that may be chosen between limits.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table `[[choose]]`")]
 pub(crate) struct Choose {
     /// The variable whose tolerance may be chosen.
     pub(crate) tolerance: Option<String>,
@@ -131,7 +134,10 @@ pub(crate) struct Choose {
 
 /// Cost `fixed + factor / T^power` of a half-width `T` in the declared unit.
 #[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table such as `{ factor = 2.0, power = 1.0, fixed = 0.5 }`"
+)]
 pub(crate) struct Cost {
     #[serde(default)]
     pub(crate) fixed: f64,

@@ -5,7 +5,7 @@ use eigentol_interpreter::{Mistakes, value};
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::{PyDict, PyInt, PyString};
 
 use crate::errors::{Kind, invalid, new, raise};
 use crate::names::did_you_mean;
@@ -19,9 +19,13 @@ pub(crate) fn number(given: &Bound<'_, PyAny>, unit: &Unit, name: &str) -> PyRes
             let text = text.to_cow()?;
             value(&text, unit, &what).map_err(|mistakes| refused(py, &text, &mistakes))?
         }
-        Err(_) => given
-            .extract::<f64>()
-            .map_err(|_| wrong_type(given, name))?,
+        Err(_) => given.extract::<f64>().map_err(|_| {
+            if given.is_instance_of::<PyInt>() {
+                invalid(py, format!("`{name}`: the number is too large"))
+            } else {
+                wrong_type(given, name)
+            }
+        })?,
     };
     if found.is_finite() {
         Ok(found)

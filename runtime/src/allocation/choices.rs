@@ -59,6 +59,9 @@ impl Choices<'_> {
                 format!("{wrong} is not a probability inside (0, 1)"),
             );
         }
+        if let Some(wrong) = self.half_widths.iter().find_map(|own| own.cost.mistake()) {
+            return refuse("cost", wrong);
+        }
         let half_widths = self
             .half_widths
             .iter()

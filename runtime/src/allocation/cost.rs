@@ -19,7 +19,7 @@ enum Law<'a> {
 }
 
 impl<'a> Cost<'a> {
-    /// `fixed + factor / T^power` of a half-width `T` in SI units.
+    /// `fixed + factor / T^power` of a half-width `T` in SI units: finite numbers, `factor` and `power` positive.
     #[must_use]
     pub fn reciprocal(fixed: f64, factor: f64, power: f64) -> Self {
         Self(Law::Reciprocal {
@@ -33,6 +33,32 @@ impl<'a> Cost<'a> {
     #[must_use]
     pub fn function(function: impl Fn(f64) -> (f64, f64) + 'a) -> Self {
         Self(Law::Function(Box::new(function)))
+    }
+
+    /// What is wrong with the numbers of a [`Cost::reciprocal`]: a cost must not fall where a tolerance gets tighter.
+    pub(super) fn mistake(&self) -> Option<String> {
+        let Law::Reciprocal {
+            fixed,
+            factor,
+            power,
+        } = self.0
+        else {
+            return None;
+        };
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        if !fixed.is_finite() {
+            Some(format!("the fixed cost {fixed} is not finite"))
+        } else if !positive(factor) {
+            Some(format!(
+                "the factor of a cost must be positive and finite, not {factor}"
+            ))
+        } else if !positive(power) {
+            Some(format!(
+                "the power of a cost must be positive and finite, not {power}"
+            ))
+        } else {
+            None
+        }
     }
 
     /// The cost of a half-width, SI, and its derivative.

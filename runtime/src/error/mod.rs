@@ -65,6 +65,18 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
     },
+    /// An output is NaN or infinite at an equilibrium.
+    #[error(
+        "output `{output}` has no finite value at q = {coordinates:?}: it divides by zero, or leaves the domain of a \
+         function"
+    )]
+    InfiniteOutput {
+        /// Name of the output.
+        output: Text,
+        /// The equilibrium.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+        coordinates: Vec<f64>,
+    },
     /// No equilibrium was found from the start value.
     #[error(
         "no equilibrium found after {iterations} iterations ({reason}); last state q = {coordinates:?}, \

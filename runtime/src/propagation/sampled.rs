@@ -203,6 +203,7 @@ impl Samples {
 /// [`Samples`] as read, before validation.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
+#[serde(expecting = "samples of responses")]
 struct Unchecked {
     format: Format,
     points: Points,

@@ -1,6 +1,6 @@
 //! Total derivatives of the declared outputs.
 
-use super::shift::{equilibrium_shift, outside_domain};
+use super::shift::equilibrium_shift;
 use crate::algebra::{Matrix, Vector, add_to, all_finite};
 use crate::kernels::Kernels;
 use crate::{Description, Equilibrium, Error, Shared};
@@ -26,7 +26,7 @@ pub struct OutputSensitivities {
 /// Values and total derivatives of the outputs, including the shift of the equilibrium.
 ///
 /// # Errors
-/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a value is not finite.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::InfiniteOutput`] if a value is not finite.
 pub fn output_sensitivities(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
@@ -41,8 +41,11 @@ pub fn output_sensitivities(
             add_to(&mut by_design[o], *rate, &shift.by_design[i]);
         }
     }
-    if !all_finite(&values) {
-        return Err(outside_domain(at));
+    if let Some(infinite) = values.iter().position(|value| !value.is_finite()) {
+        return Err(Error::InfiniteOutput {
+            output: at.description.outputs[infinite].name.clone(),
+            coordinates: at.coordinates.to_vec(),
+        });
     }
     Ok(OutputSensitivities {
         values,

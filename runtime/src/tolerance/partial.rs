@@ -162,6 +162,7 @@ impl PartialMonteCarlo {
 /// A [`PartialMonteCarlo`] as read, before validation.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
+#[serde(expecting = "a part of a Monte Carlo run")]
 struct Unchecked {
     format: Format,
     run: Run,

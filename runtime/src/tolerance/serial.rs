@@ -7,6 +7,7 @@ use crate::algebra::{Matrix, Vector};
 
 /// [`Tolerances`] as read, before validation.
 #[derive(serde::Deserialize)]
+#[serde(expecting = "tolerances")]
 pub(super) struct Unchecked {
     half_widths: Vector,
     sigma_level: f64,

@@ -42,12 +42,19 @@ impl Tolerance {
             answer.add_aside(&first)?;
             answer.add(&summary?)?;
         }
+        let mut without_outputs = None;
         if !study.description().outputs.is_empty() {
-            answer.add(&solved.output_tolerances()?)?;
+            match solved.output_tolerances() {
+                Ok(outputs) => answer.add(&outputs)?,
+                Err(error) => without_outputs = Some(error),
+            }
         }
         let style = self.picture.style(&question, solved.modes.modes.len())?;
         self.picture.draw(|| shares_of_all(&first, &style))?;
         self.output.write(&answer)?;
+        if let Some(error) = without_outputs {
+            return Err(error.into());
+        }
         if stopped {
             let reason = "before samples and second order could judge the first-order spread";
             return Ok(Verdict::Stopped(reason.to_owned()));

@@ -657,3 +657,20 @@ fn a_state_reads_well_in_a_sentence() {
     let flutter = "no: the equilibrium is unstable (flutter: one growing oscillation)\n";
     assert_eq!((run.code, run.err.as_str()), (1, flutter));
 }
+
+/// The frequencies are answered all the same.
+#[test]
+fn an_output_without_a_value_is_named() {
+    let text = "mechanism A { design l = 1 m +/- 3%; gravity 9.81 m/s^2 along -z;\n\
+                body bar: rod(mass: 3 kg, length: l, along: -z); joint t: revolute(y) from ground to bar;\n\
+                output fine = t; output inverse = 1 / t; }\n";
+    let Run { code, out, err } = run_with_input(&["tolerance", "-"], text);
+    assert_eq!(code, 1);
+    assert!(
+        out.contains("what tolerances do to the frequencies"),
+        "{out}"
+    );
+    let expected = "error: output `inverse` has no finite value at q = [0.0]: it divides by zero, or leaves the domain of a \
+                    function\n";
+    assert_eq!(err, expected);
+}

@@ -5,6 +5,7 @@ use crate::Distribution;
 
 /// [`Joint`] as read, before validation.
 #[derive(serde::Deserialize)]
+#[serde(expecting = "a joint distribution")]
 pub(super) struct Unchecked {
     variables: Vec<Distribution>,
     dependence: Option<Dependence>,

@@ -12,6 +12,7 @@ use serde::{Deserialize, Deserializer};
 
 /// A [`Partial`] as read, before validation.
 #[derive(serde::Deserialize)]
+#[serde(expecting = "statistics of samples")]
 struct Unchecked {
     plan: Plan,
     tree: Tree,

@@ -8,7 +8,7 @@ use super::expected::Expected;
 use super::resolver::Resolver;
 use super::scope::Scope;
 use super::{items, resolver};
-use crate::base::diagnostics::Diagnostics;
+use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::model::mechanism::Tolerance;
 use crate::model::rules::physical;
 use crate::syntax::ast::{Ast, Item, ItemKind, Limits, Unit};
@@ -28,12 +28,16 @@ use crate::syntax::print;
 ///
 /// let error = given::value(tokens("3 m"), tokens("rpm"), "`speed`").unwrap_err();
 /// assert!(error.to_string().contains("`speed` must be an angular speed (rpm), this is a length (m)"), "{error}");
+/// let error = given::value(tokens("nan rpm"), tokens("rpm"), "`speed`").unwrap_err();
+/// assert!(error.to_string().contains("`rpm` does not belong here"), "{error}");
+/// let error = given::value(tokens(""), tokens("rpm"), "`speed`").unwrap_err();
+/// assert!(error.to_string().contains("found nothing"), "{error}");
 /// ```
 ///
 /// # Errors
 /// The mistakes in the text.
 pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Diagnostics> {
-    let ast = parse(quote!(mechanism Given { input given: #unit; design value = #text; }))?;
+    let ast = read(quote!(mechanism Given { input given: #unit; design value = #text; }))?;
     let [of, given] = &ast.items[..] else {
         return not_one(&ast);
     };
@@ -139,7 +143,7 @@ fn read_tolerance(
 ) -> Result<Tolerance, Diagnostics> {
     let half_width = !text.to_string().starts_with(['+', '-', 'o']);
     let sign = half_width.then(|| quote!(+/-));
-    let ast = parse(quote!(mechanism Given { input given: #unit #sign #text; }))?;
+    let ast = read(quote!(mechanism Given { input given: #unit #sign #text; }))?;
     let [
         Item {
             kind: ItemKind::Input(input),
@@ -164,6 +168,24 @@ fn read_tolerance(
                 resolver.input_tolerance(own.as_ref(), Some(expected))
             }
         }
+    })
+}
+
+/// Parses a declaration around a text, whose mistakes are told without the semicolon behind it.
+fn read(declaration: TokenStream) -> Result<Ast, Diagnostics> {
+    parse(declaration).map_err(|mistakes| {
+        let mut own = Diagnostics::new();
+        for mistake in mistakes.iter() {
+            let message = match mistake.message.strip_prefix("expected `;`, found ") {
+                Some(found) => format!("{found} does not belong here"),
+                None => mistake.message.replace(", found `;`", ", found nothing"),
+            };
+            own.push(Diagnostic {
+                message,
+                ..mistake.clone()
+            });
+        }
+        own
     })
 }
 
