@@ -1,5 +1,6 @@
 //! The settings of a study: keyword arguments by name.
 
+use eigentol::kernels::Kernels;
 use eigentol::modes::Family;
 use eigentol::tolerance::Distribution;
 use eigentol::{
@@ -229,17 +230,49 @@ fn tolerances(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<S
             let text = text.to_cow()?;
             let read = tolerance(&text, &unit, value);
             let read = read.map_err(|mistakes| refused(py, &text, &mistakes))?;
+            let scale = if read.relative { value.abs() } else { 1.0 };
+            let ends = [read.lower, read.upper].map(|end| scale * end);
+            possible(py, &study, (name, parameter), ends)?;
             return Ok(tolerate(study, parameter, read, value));
         }
         if let Ok((lower, upper)) = given.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
             let (lower, upper) = (number(&lower, &unit, name)?, number(&upper, &unit, name)?);
+            possible(py, &study, (name, parameter), [lower, upper])?;
             return Ok(study.limits(parameter, lower, upper));
         }
         match given.extract::<f64>() {
-            Ok(_) => Ok(study.tolerance(parameter, number(given, &unit, name)?)),
+            Ok(_) => {
+                let wide = number(given, &unit, name)?;
+                possible(py, &study, (name, parameter), [-wide, wide])?;
+                Ok(study.tolerance(parameter, wide))
+            }
             Err(_) => Err(wrong_type(given, name)),
         }
     })
+}
+
+/// Refuses a tolerance at whose ends a body cannot exist, as a declaration does.
+fn possible(
+    py: Python<'_>,
+    study: &Study<Interpreted>,
+    (name, parameter): (&str, Parameter<Interpreted>),
+    ends: [f64; 2],
+) -> PyResult<()> {
+    let Parameter::Design(variable) = parameter else {
+        return Ok(());
+    };
+    for end in ends {
+        let mut design = study.design_values().to_vec();
+        design[variable.index()] += end;
+        let violation = study.mechanism().violation(study.input_values(), &design);
+        if let Some(violation) = violation {
+            let (quantity, requirement) = (violation.quantity, violation.requirement);
+            let message =
+                format!("within the tolerance of `{name}`, {quantity} would not be {requirement}");
+            return Err(invalid(py, message));
+        }
+    }
+    Ok(())
 }
 
 fn tolerate(
