@@ -9,7 +9,8 @@ use super::relevance::{BELOW, names, relevant, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title;
 use crate::propagation::{
-    Controlled, Estimated, Influence, Method, Points, Propagation, QUANTILES, WorstCase,
+    Controlled, Estimated, Influence, Method, Points, Propagation, QUANTILES, VariableInfluence,
+    WorstCase,
 };
 use crate::response::Response;
 use crate::{Description, Unit};
@@ -259,6 +260,15 @@ impl fmt::Display for Influence {
             if !left.is_empty() {
                 let names = names(&left, "variables");
                 writeln!(f, "  Left out, certainly {BELOW} of the variance: {names}")?;
+            }
+            let dependent =
+                |own: &VariableInfluence| own.first.is_none() && own.correlation.is_some();
+            if own.variables.iter().any(dependent) {
+                let why = "no share of the variance belongs to one of them alone";
+                writeln!(
+                    f,
+                    "  No Sobol' indices: the variables depend on each other, so {why}."
+                )?;
             }
             if own.missing > 0 {
                 writeln!(

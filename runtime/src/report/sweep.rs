@@ -66,7 +66,7 @@ impl fmt::Display for Sweep {
             table.row(row);
         }
         write!(f, "{table}")?;
-        if !still.is_empty() {
+        if !still.is_empty() && !self.points.is_empty() {
             let still: Vec<&str> = still.iter().map(|&i| &*d.coordinates[i].name).collect();
             writeln!(f, "  Zero all along: {}.", names(&still, "coordinates"))?;
         }

@@ -84,6 +84,11 @@ fn what_has_no_indices() {
         let all = influence(responses, &tolerances, effort).unwrap();
         let sum = &all.responses[0];
         assert!(
+            all.to_string()
+                .contains("No Sobol' indices: the variables depend"),
+            "{all}"
+        );
+        assert!(
             sum.variables
                 .iter()
                 .all(|own| own.first.is_none() && own.total.is_none())
