@@ -54,7 +54,8 @@ questions! {
     first_order -> FirstOrder;
     /// Spread of all modes to second order.
     second_order -> SecondOrder;
-    /// First order, second order, and for each mode whether its standard deviation can be trusted.
+    /// First order, second order, and for each mode whether its standard deviation can be trusted. The samples that
+    /// judge are always the same, whatever `samples` and `seed` of the study.
     summary -> Summary;
 }
 

@@ -141,7 +141,7 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Study::equilibrium_shift`].
+    /// As [`Study::equilibrium_shift`]; [`Error::InfiniteOutput`].
     pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
         let state = self.settings.regular(&self.mechanism)?;
         sensitivity::output_sensitivities(&self.mechanism, &state)

@@ -75,7 +75,7 @@ impl<'a, M: Kernels> Solved<'a, M> {
     /// ```
     ///
     /// # Errors
-    /// As [`Solved::equilibrium_shift`].
+    /// As [`Solved::equilibrium_shift`]; [`Error::InfiniteOutput`].
     pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
         sensitivity::output_sensitivities(&self.study.mechanism, &self.equilibrium)
     }
