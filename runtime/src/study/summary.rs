@@ -8,8 +8,8 @@ use crate::summary::{self, BUDGET, Summary};
 
 impl<M: SummaryKernels> Solved<'_, M> {
     /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
-    /// trusted ([`summary::summary`]). The samples that judge are always the same, whatever
-    /// [`Study::samples`] and [`Study::seed`].
+    /// trusted ([`summary::summary`]). The samples
+    /// that judge are always the same, whatever [`Study::samples`] and [`Study::seed`].
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -43,8 +43,8 @@ impl<M: SummaryKernels> Solved<'_, M> {
 
 impl<M: SummaryKernels> Study<M> {
     /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
-    /// trusted ([`summary`](crate::summary::summary)). The samples that judge are always the same, whatever
-    /// [`Study::samples`] and [`Study::seed`].
+    /// trusted ([`summary`](crate::summary::summary)). The samples
+    /// that judge are always the same, whatever [`Study::samples`] and [`Study::seed`].
     ///
     /// ```
     #[doc = include_str!("example.txt")]
