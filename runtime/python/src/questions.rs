@@ -314,7 +314,9 @@ impl Study {
     }
 
     /// The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its
-    /// stiffness, and how tolerances move it. Raises NotInRange where there is none.
+    /// stiffness, and how tolerances move it. Raises NotInRange where there is none. A tolerance of this input counts
+    /// with a derivative of -1, as the value that is set lies below the one that acts by the deviation; one in per cent
+    /// is that at the operating point.
     fn critical(
         &self,
         py: Python<'_>,

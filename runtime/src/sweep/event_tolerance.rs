@@ -30,6 +30,9 @@ pub enum Event {
 }
 
 /// The input value at which an event occurs, and its spread due to tolerances.
+///
+/// A tolerance of the varied input counts too, with a derivative of -1: the event occurs at a value of what acts, and
+/// the value that is set lies below it by the deviation. One in per cent is that at the operating point.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
