@@ -7,13 +7,14 @@
 
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble, plane};
-use super::curve_point::CurvePoint;
+use super::curve_point::{CurvePoint, symmetric_to_rounding};
 use super::fold::{LAST_STEP, ROUNDING, beside};
 use super::local_scaling::{CurvePosition, Frame};
 use super::special::{Junction, SpecialKind};
 use crate::algebra::{Vector, dot, form};
 use crate::equilibrium::ACCEPTED;
 use crate::error::NotFound;
+use crate::modes::{Behaviour, Family, solve_modes};
 
 const MAX_ITERATIONS: usize = 30;
 /// A direction whose input component is smaller than this is the critical vector's.
@@ -23,8 +24,10 @@ const STATIONARY: f64 = 1e-6;
 const CROSSING: f64 = 1e-13;
 /// Maximum number of bisections towards the sign change when looking for the critical vectors.
 const NEARER: usize = 12;
-/// Distance, in local units, at which the third order is probed.
-const PROBE: f64 = 1e-3;
+/// Distance along the critical vector, in local units, at which the arms of a pitchfork are probed.
+const PROBE: f64 = 4e-3;
+/// Newton steps to a point on an arm.
+const ON_THE_ARM: usize = 8;
 
 /// `mu` and its derivatives at a point.
 struct Reduced {
@@ -67,12 +70,17 @@ impl Curve<'_> {
         let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
         let stationary = |direction: &CurvePosition| direction.p.abs() <= STATIONARY;
         let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
+        let pitchfork = |crossed| -> Result<SpecialKind, Trouble> {
+            let known = (&borders, &reduced);
+            Ok(SpecialKind::Pitchfork {
+                supercritical: self.supercritical(frame, &local, known, [crossed, &v])?,
+            })
+        };
         let kind = match (stationary(&own), stationary(&other)) {
             (true, true) => return Err(not_simple()),
             (false, false) => SpecialKind::Transcritical,
-            _ => SpecialKind::Pitchfork {
-                supercritical: self.supercritical(frame, &local, &borders, &v)?,
-            },
+            (false, true) => pitchfork(&own)?,
+            (true, false) => pitchfork(&other)?,
         };
         let critical = frame.stretched(&v);
         // The branches pass each other at a distance of sqrt(mu / H).
@@ -241,43 +249,79 @@ impl Curve<'_> {
         })
     }
 
-    /// Sign of the third order along the critical vector, from differences of exact second orders.
+    /// Whether the arms along `v` lie where the branch along `crossed` has lost its stiffness. `None` if they leave in
+    /// the direction of neither, up to the second order of the input along them.
     fn supercritical(
         &self,
         frame: &Frame,
         at: &CurvePosition,
-        borders: &Borders,
-        v: &CurvePosition,
+        (borders, reduced): (&Borders, &Reduced),
+        [crossed, v]: [&CurvePosition; 2],
     ) -> Result<Option<bool>, Trouble> {
-        let place = frame.place(at);
-        let mass = self.linear(&place)?.mass;
-        let parts = borders.normals.each_ref().map(|normal| normal.dot(v));
-        let probe = |distance: f64| -> Result<(f64, f64), Trouble> {
-            let mut local = at.plus(distance, v);
-            let mut mu = 0.0;
-            for _ in 0..4 {
-                let reduced = self.reduced(frame, &local, mu, borders)?;
-                local = local.plus(1.0, &reduced.correction);
-                mu = reduced.mu;
-            }
-            let reduced = self.reduced(frame, &local, mu, borders)?;
-            let h = reduced.hessian;
-            let second = parts[0] * (h[0][0] * parts[0] + h[0][1] * parts[1])
-                + parts[1] * (h[1][0] * parts[0] + h[1][1] * parts[1]);
-            let side = form(&frame.weights(&reduced.w), &mass, &frame.stretched(v).q);
-            let size = h
-                .iter()
-                .flatten()
-                .fold(0.0, |most: f64, x| most.max(x.abs()));
-            Ok((-second * side.signum(), size))
+        let parts = |direction| {
+            let normals = borders.normals.each_ref();
+            normals.map(|normal| normal.dot(direction))
         };
-        let (Ok((up, size_up)), Ok((down, size_down))) = (probe(PROBE), probe(-PROBE)) else {
+        let (along, across) = (parts(crossed), parts(v));
+        let linear = self.linear(&frame.place(at))?;
+        // Whether stiffness falls where the input rises, as a sign.
+        let loses = if symmetric_to_rounding(&linear, &self.description) {
+            // With `mu = -w^T g`: the slope of `w^T Khat v` along the branch.
+            let slope = -product(&reduced.hessian, along, across);
+            let direction = frame.stretched(v).q;
+            let side = form(&frame.weights(&reduced.w), &linear.mass, &direction);
+            -slope * side.signum() * crossed.p.signum()
+        } else {
+            let up = PROBE * crossed.p.signum();
+            let growing = |share| self.growing(&frame.place(&at.plus(share, crossed)));
+            match (growing(up), growing(-up)) {
+                (Some(above), Some(below)) => above as f64 - below as f64,
+                _ => return Ok(None),
+            }
+        };
+        // Where the arm has the component `distance` along `v`, relative to the branch point.
+        let input = |distance: f64| -> Option<f64> {
+            let mut local = at.plus(distance, v);
+            for _ in 0..ON_THE_ARM {
+                let reduced = self.reduced(frame, &local, 0.0, borders).ok()?;
+                let [x, y] = &reduced.tangents;
+                let rate = reduced.gradient[0] * along[0] + reduced.gradient[1] * along[1];
+                let amount = -reduced.mu / rate;
+                local = local
+                    .plus(1.0, &reduced.correction)
+                    .plus(amount * along[0], x)
+                    .plus(amount * along[1], y);
+            }
+            local.finite().then_some(local.p - at.p)
+        };
+        let second =
+            |distance: f64| Some((input(distance)? + input(-distance)?) / distance.powi(2));
+        // The fourth order cancels.
+        let (Some(far), Some(near)) = (second(PROBE), second(0.5 * PROBE)) else {
             return Ok(None);
         };
-        let third = (up - down) / (2.0 * PROBE);
-        let known = third.abs() > 1e-6 * size_up.max(size_down);
-        Ok(known.then_some(third > 0.0))
+        let second = (4.0 * near - far) / 3.0;
+        let known = second.abs() > STATIONARY && loses != 0.0;
+        Ok(known.then_some(loses * second > 0.0))
     }
+
+    /// Number of real growing modes at a place next to a branch point.
+    fn growing(&self, place: &CurvePosition) -> Option<usize> {
+        let linear = self.linear(place).ok()?;
+        let modes = solve_modes(&linear, Family::General, &self.description, 0.0).ok()?;
+        let behaviours = modes.modes.iter().map(|mode| mode.behaviour);
+        Some(
+            behaviours
+                .filter(|own| matches!(own, Behaviour::Divergent(_)))
+                .count(),
+        )
+    }
+}
+
+/// `a^T H b`.
+fn product(hessian: &[[f64; 2]; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let rows = hessian.map(|row| row[0] * b[0] + row[1] * b[1]);
+    a[0] * rows[0] + a[1] * rows[1]
 }
 
 fn not_simple() -> Trouble {

@@ -21,7 +21,8 @@ pub enum SpecialKind {
     /// Crossed by a branch on which the input is stationary, whose two arms leave to the same side of the input.
     Pitchfork {
         /// Whether the arms lie where the critical mode of the branch they leave has lost its stiffness (supercritical,
-        /// a soft loss), or where it still has it (subcritical, a hard loss). `None` if the third order vanishes.
+        /// a soft loss), or where it still has it (subcritical, a hard loss). `None` if the input is constant along the
+        /// arms to second order.
         supercritical: Option<bool>,
     },
     /// Crossed by another branch that continues to both sides of the input.

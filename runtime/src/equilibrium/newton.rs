@@ -3,14 +3,19 @@
 
 use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
+use super::descent::DEPARTURE;
 use super::operating_point::{Failure, OperatingPoint};
 use super::search_space::{Base, SearchSpace, Trial};
-use crate::algebra::{Cholesky, Lu, Matrix, Vector, times};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, largest, times};
 use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 300;
 /// Largest change of a coordinate or speed in the first step, SI; grows while steps succeed.
 const FIRST_RADIUS: f64 = 1.0;
+/// Share of a diagonal element that is added to it where the stiffness is singular.
+const DAMPING: f64 = 1e-8;
+/// Enough to find the direction with the least stiffness where it has hardly any.
+const INVERSE_ITERATIONS: usize = 4;
 
 /// Solves `g = 0` from `start`, which lies in the space.
 pub(super) fn nearest<S>(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure>
@@ -36,8 +41,9 @@ where
         if progress == Progress::Finished {
             return Ok(found(base, iterations));
         }
-        let mut step =
-            newton.unwrap_or_else(|| base.space.lift(damped_step(&slopes, &stiffness, &weight)));
+        let damped = || base.space.lift(damped_step(&slopes, &stiffness, &weight));
+        let has_newton = newton.is_some();
+        let mut step = newton.unwrap_or_else(damped);
         if progress == Progress::LastStep
             && let Some(lu) = &factors
             && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
@@ -46,12 +52,15 @@ where
         {
             return Ok(Found::new(end, iterations + 1));
         }
-        let size = largest_of(&step[..motions]);
-        let limited = size > radius;
-        if limited {
-            step = step.map(|value| value * radius / size);
+        let mut limited = limit(&mut step, motions, radius);
+        let mut length = search(point, &base, &slopes, (&step, &weight), &mut trial);
+        if length.is_none() && has_newton {
+            // Next to a singular stiffness Newton's step is mostly along the direction without stiffness.
+            step = damped();
+            limited = limit(&mut step, motions, radius);
+            length = search(point, &base, &slopes, (&step, &weight), &mut trial);
         }
-        let Some(length) = search(point, &base, &slopes, (&step, &weight), &mut trial) else {
+        let Some(length) = length else {
             let relative = relative_residual(point, &base.q, at.0, at.1);
             if relative <= TOLERANCE {
                 return Ok(found(base, iterations));
@@ -76,6 +85,51 @@ where
         NotFound::IterationLimit
     };
     Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
+}
+
+/// Shortens a step whose motions are larger than `radius`; returns whether it was.
+fn limit(step: &mut Vector, motions: usize, radius: f64) -> bool {
+    let size = largest_of(&step[..motions]);
+    let limited = size > radius;
+    if limited {
+        step.iter_mut()
+            .for_each(|value| *value = *value * radius / size);
+    }
+    limited
+}
+
+/// The states on either side of `q` along the direction with the least stiffness, as far as the residual is smaller
+/// there: where a stiffness is singular, what looks like a minimum of the residual may not be one.
+#[cold]
+pub(super) fn beside<S>(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Vec<Vector>>
+where
+    S: SearchSpace,
+{
+    let base: Base<S> = S::base(point, q).ok()?;
+    let weight = S::weights(point, &base.q).ok()?;
+    let slopes = base.space.slopes(&base.residual);
+    let stiffness = base.space.reduced(&base.stiffness);
+    let factors = Cholesky::new(&normal_matrix(&stiffness, &weight)).ok()?;
+    let mut direction = Vector::from_fn(slopes.len(), |i| 1.0 + 0.1 * i as f64);
+    for _ in 0..INVERSE_ITERATIONS {
+        direction = factors.solve(&direction);
+        let size = largest(&direction);
+        direction.iter_mut().for_each(|value| *value /= size);
+    }
+    let direction = base.space.lift(direction);
+    let motions = &direction[..point.motions()];
+    let lead = (0..motions.len()).max_by(|&i, &j| motions[i].abs().total_cmp(&motions[j].abs()))?;
+    let share = DEPARTURE * (1.0 + base.q[lead].abs()) / direction[lead].abs();
+    let before = merit(&slopes, &weight);
+    let mut trial = Trial::blank(point.size());
+    let mut side = |share: f64| {
+        let exists = base
+            .space
+            .trial(point, &base.q, (&direction, share), &mut trial);
+        let falls = exists && merit(&base.space.slopes(&trial.residual), &weight) < before;
+        falls.then(|| trial.q.clone())
+    };
+    Some([side(share), side(-share)].into_iter().flatten().collect())
 }
 
 /// Converts a base to the result.
@@ -107,20 +161,28 @@ fn merit(residual: &[f64], weight: &[f64]) -> f64 {
 /// A damped least-squares step, used where `Khat` is singular.
 fn damped_step(residual: &[f64], stiffness: &Matrix, weight: &[f64]) -> Vector {
     let n = residual.len();
-    let weighted = Matrix::from_fn(n, n, |i, j| stiffness[i][j] * weight[i]);
-    let right = times(&weighted.transpose(), residual).map(|value| -value);
-    let columns = stiffness.transpose();
-    let mut normal = Matrix::from_fn(n, n, |i, j| {
-        (0..n).fold(0.0, |sum, k| sum + columns[i][k] * weighted[k][j])
-    });
-    let trace = (0..n).fold(0.0, |sum, i| sum + normal[i][i]);
-    for (i, row) in normal.iter_mut().enumerate() {
-        row[i] += 1e-8 * trace + f64::MIN_POSITIVE;
-    }
-    match Cholesky::new(&normal) {
+    let weighted = Vector::from_fn(n, |i| -weight[i] * residual[i]);
+    let right = times(&stiffness.transpose(), &weighted);
+    match Cholesky::new(&normal_matrix(stiffness, weight)) {
         Ok(factors) => factors.solve(&right),
         Err(_) => right,
     }
+}
+
+/// `Khat^T W Khat`, damped by a share of each diagonal element, so that unknowns of different units are damped alike.
+fn normal_matrix(stiffness: &Matrix, weight: &[f64]) -> Matrix {
+    let n = stiffness.row_count();
+    let columns = stiffness.transpose();
+    let mut normal = Matrix::from_fn(n, n, |i, j| {
+        (0..n).fold(0.0, |sum, k| {
+            sum + columns[i][k] * (columns[j][k] * weight[k])
+        })
+    });
+    let trace = (0..n).fold(0.0, |sum, i| sum + normal[i][i]);
+    for (i, row) in normal.iter_mut().enumerate() {
+        row[i] += DAMPING * row[i].max(DAMPING * trace) + f64::MIN_POSITIVE;
+    }
+    normal
 }
 
 /// Finds the share of a step that reduces the residual, and writes its end to `trial`.

@@ -75,7 +75,7 @@ fn solve_slowly(
     };
     let potential = point.description.symmetric_stiffness && structure.holonomic();
     if policy == Policy::Nearest || !potential {
-        return nearest(point, start).and_then(|found| finish(point, found));
+        return nearest_beside(point, start);
     }
     let mut found = from_afar(point, start, &descent::SearchState::first(start));
     for _ in 0..descent::MAX_DEPARTURES {
@@ -170,6 +170,39 @@ fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<F
         }),
         iterations: state.iterations,
         left_unstable_region: false,
+    })
+}
+
+/// Like [`nearest`], also where the search comes to rest at a state whose stiffness is singular, as from a critical state:
+/// it goes on from either side of it. Of two results, one that is stable is preferred.
+fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Judged, Failure> {
+    let search = |start: &[f64]| nearest(point, start).and_then(|found| finish(point, found));
+    search(start).or_else(|failure| {
+        let Failure::NotFound {
+            reason: NotFound::Minimum,
+            coordinates,
+            ..
+        } = &failure
+        else {
+            return Err(failure);
+        };
+        let structure = point.structure;
+        let sides = if structure.open() || !structure.holonomic() {
+            let independent = point.without_redundant(coordinates);
+            newton::beside::<search_space::Unconstrained>(&independent, coordinates)
+        } else {
+            newton::beside::<search_space::ConstraintManifold>(point, coordinates)
+        };
+        let sides = sides.unwrap_or_default().into_iter();
+        let found = sides.filter_map(|side| search(&side).ok());
+        let best = found.reduce(|first, second| {
+            if second.state.stability.holds() && !first.state.stability.holds() {
+                second
+            } else {
+                first
+            }
+        });
+        best.ok_or(failure)
     })
 }
 

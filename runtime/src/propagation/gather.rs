@@ -280,8 +280,12 @@ const ONE_SIGMA: f64 = 0.682_689_492_137_085_9;
 /// Standard error of a quantile of the samples of all randomisations.
 ///
 /// The shares of samples below it scatter between randomisations. In the tails, where each randomisation has hardly a
-/// sample, their own quantiles would not.
+/// sample, their own quantiles would not. `None` where not one sample is expected beyond it: the outermost sample then
+/// says little about the quantile.
 fn quantile_error(all: &Statistics, groups: &[Statistics], probability: f64) -> Option<f64> {
+    if all.count as f64 * probability.min(1.0 - probability) < 1.0 {
+        return None;
+    }
     let found = all.quantile(probability).ok()?;
     let share = scatter(groups, &|own| {
         Some(own.sketch()?.cdf(found.value).ok()?.value)

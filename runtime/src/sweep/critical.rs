@@ -7,7 +7,7 @@ use crate::algebra::Vector;
 use crate::branches::{BranchEnd, Continuation, Curve, CurvePoint, SpecialPoint};
 use crate::equilibrium::{Policy, equilibrium};
 use crate::kernels::DirectionalKernels;
-use crate::{Equilibrium, Error, Input};
+use crate::{Equilibrium, Error, Input, Stability};
 
 /// Bounds on the largest step of the continuation, whatever number of steps is requested.
 const FINEST_STEP: f64 = 1e-4;
@@ -46,7 +46,9 @@ pub fn critical_state(
     let end = match curve.begin(&state) {
         Ok(station) => {
             let stop = |special: &SpecialPoint, before: &CurvePoint| {
-                if before.stiff() {
+                // Two directions without stiffness leave the determinant of a non-symmetric one positive.
+                let diverges = matches!(before.equilibrium.stability, Stability::Divergent { .. });
+                if before.stiff() && !diverges {
                     found = Some(special.clone());
                 }
                 found.is_some()

@@ -1,7 +1,7 @@
 //! Critical values whose mode lies in the speeds of coasting coordinates.
 
 use eigentol::branches::{BranchEnd, SpecialKind};
-use eigentol::{Stability, Study, mechanism};
+use eigentol::{Error, Stability, Study, mechanism};
 
 mechanism! {
     /// An induction motor by Kloss's formula and a load torque.
@@ -121,11 +121,17 @@ fn divergence_speed_of_a_car() {
     let found = study
         .critical_state(Car::thrust, 200.0, 4000.0)
         .expect("critical");
-    assert!(
-        matches!(found.kind, SpecialKind::Pitchfork { .. }),
-        "{:?}",
-        found.kind
-    );
+    // Beyond it the car settles in a wide turn to either side.
+    let soft = SpecialKind::Pitchfork {
+        supercritical: Some(true),
+    };
+    assert_eq!(found.kind, soft);
+    let heavy = study
+        .clone()
+        .design(Car::drag, 1000.0)
+        .critical_state(Car::thrust, 5e3, 1e5)
+        .expect("critical");
+    assert_eq!(heavy.kind, soft);
     assert!(
         (found.value / force - 1.0).abs() < 1e-9,
         "{} {force}",
@@ -232,4 +238,211 @@ fn limit_point_in_position_and_speed() {
     let values = [0.2 * expected, 0.9 * expected, 1.1 * expected];
     let swept = study.sweep(Slinger::moment, &values).expect("sweep");
     assert_eq!(swept.critical.len(), 1);
+}
+
+mechanism! {
+    /// Two speeds: `u` settles at `input - slaved v^2`, and `v` grows as `(u - 5) v + cubic v^3`.
+    mechanism Speeds {
+        input thrust: N;
+        design slaved = 0 N*s^2/m^2;
+        design cubic = -1 N*s^3/m^3;
+        body a: point(mass: 1 kg);
+        body b: point(mass: 1 kg);
+        joint u: prismatic(x) from ground to a, coasting;
+        joint v: prismatic(y) from ground to b, coasting;
+        force drive: generalized(on: u, value: thrust - 1 N*s/m * rate(u) - slaved * rate(v)^2);
+        force grow: generalized(
+            on: v,
+            value: 1 N*s^2/m^2 * rate(u) * rate(v) - 5 N*s/m * rate(v) + cubic * rate(v)^3,
+        );
+    }
+}
+
+mechanism! {
+    /// The same with positions in place of the speeds.
+    mechanism Positions {
+        input thrust: N;
+        design slaved = 0 N/m^2;
+        design cubic = -1 N/m^3;
+        body a: point(mass: 1 kg);
+        body b: point(mass: 1 kg);
+        joint u: prismatic(x) from ground to a;
+        joint v: prismatic(y) from ground to b;
+        force damping_u: damper(on: u, damping: 3 N*s/m);
+        force damping_v: damper(on: v, damping: 3 N*s/m);
+        force drive: generalized(on: u, value: thrust - 1 N/m * u - slaved * v^2);
+        force grow: generalized(on: v, value: 1 N/m^2 * u * v - 5 N/m * v + cubic * v^3);
+    }
+}
+
+/// Arms at `thrust = 5 + (slaved - cubic) v^2`; the branch `v = 0` is unstable above 5.
+#[test]
+fn arms_of_a_pitchfork_are_on_the_soft_or_the_hard_side() {
+    for (slaved, cubic, expected) in [
+        (0.0, -1.0, Some(true)),
+        (0.0, 1.0, Some(false)),
+        (0.5, 1.0, Some(false)),
+        (2.0, 1.0, Some(true)),
+        (-1.5, -1.0, Some(false)),
+        (1.0, 1.0, None),
+    ] {
+        let speeds = Study::new(Speeds)
+            .design(Speeds::slaved, slaved)
+            .design(Speeds::cubic, cubic);
+        let positions = Study::new(Positions)
+            .design(Positions::slaved, slaved)
+            .design(Positions::cubic, cubic);
+        for found in [
+            speeds.critical_state(Speeds::thrust, 1.0, 8.0),
+            positions.critical_state(Positions::thrust, 1.0, 8.0),
+        ] {
+            let found = found.expect("critical");
+            let kind = SpecialKind::Pitchfork {
+                supercritical: expected,
+            };
+            assert_eq!(found.kind, kind, "{slaved} {cubic}");
+            assert!((found.value - 5.0).abs() < 1e-9);
+        }
+    }
+}
+
+mechanism! {
+    /// Two speeds that start to grow one after the other.
+    mechanism Twice {
+        input thrust: N*s/m;
+        body a: point(mass: 1 kg);
+        body b: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to a, coasting;
+        joint y: prismatic(y) from ground to b, coasting;
+        joint z: prismatic(z) from ground to c, coasting;
+        body c: point(mass: 1 kg);
+        force on_x: generalized(on: x, value: (thrust - 1 N*s/m) * rate(x) - 1 N*s^3/m^3 * rate(x)^3);
+        force on_y: generalized(on: y, value: (thrust - 1.5 N*s/m) * rate(y) - 1 N*s^3/m^3 * rate(y)^3);
+        force on_z: generalized(on: z, value: (thrust - 2 N*s/m) * rate(z) - 1 N*s^3/m^3 * rate(z)^3);
+    }
+}
+
+/// A branch that is already unstable has no critical value, whatever the sign of the determinant.
+#[test]
+fn only_the_loss_of_stability_is_critical() {
+    let study = Study::new(Twice);
+    let found = study
+        .critical_state(Twice::thrust, 0.3, 3.0)
+        .expect("critical");
+    assert!((found.value - 1.0).abs() < 1e-9, "{}", found.value);
+    for (low, high) in [(1.2, 3.0), (1.7, 3.0), (3.0, 1.2)] {
+        let none = study.critical_state(Twice::thrust, low, high);
+        assert!(
+            matches!(none, Err(Error::NotInRange { .. })),
+            "{low} {high}: {none:?}"
+        );
+    }
+    let swept = study
+        .sweep(Twice::thrust, &[0.3, 1.2, 1.7, 3.0])
+        .expect("sweep");
+    assert_eq!(swept.critical.len(), 1);
+}
+
+mechanism! {
+    /// A boat whose drag grows as the cube of its speed.
+    mechanism Boat {
+        input thrust: N;
+        body hull: point(mass: 1 kg);
+        joint run: prismatic(x) from ground to hull, coasting;
+        force drag: generalized(on: run, value: thrust - 1 N*s^3/m^3 * rate(run)^3);
+    }
+}
+
+/// At rest the drag has no slope: a search that comes by there goes on.
+#[test]
+fn a_search_passes_a_state_without_stiffness() {
+    for start in [-1.0, 0.0, 1.0, 5.0, -7.0] {
+        for thrust in [3.0, -2.0, 1e-3] {
+            let state = Study::new(Boat)
+                .input(Boat::thrust, thrust)
+                .start(Boat::run, start)
+                .equilibrium()
+                .unwrap_or_else(|error| panic!("{start} {thrust}: {error}"));
+            let speed = thrust.cbrt();
+            assert!(
+                (state.coordinates[0] - speed).abs() < 1e-9 * speed.abs(),
+                "{start} {thrust}"
+            );
+        }
+    }
+}
+
+/// A sweep goes on from a value exactly at a critical one.
+#[test]
+fn a_sweep_leaves_a_critical_value() {
+    let slinger = Study::new(Slinger).start(Slinger::r, 0.1);
+    let fold = slinger
+        .critical_state(Slinger::moment, 0.0, 1.0)
+        .expect("critical")
+        .value;
+    let car = Study::new(Car).start(Car::forward, 20.0);
+    let crossing = car
+        .critical_state(Car::thrust, 200.0, 4000.0)
+        .expect("critical")
+        .value;
+    let swept = [
+        slinger.sweep(Slinger::moment, &[0.5 * fold, fold, 0.9 * fold, 0.5 * fold]),
+        slinger.sweep(Slinger::moment, &[fold, 0.9 * fold, 0.5 * fold]),
+        car.sweep(Car::thrust, &[200.0, crossing, 2000.0]),
+        car.sweep(Car::thrust, &[crossing, 2000.0, 3000.0]),
+        car.sweep(Car::thrust, &[crossing, 500.0, 200.0]),
+    ];
+    for found in swept {
+        for point in &found.expect("sweep").points {
+            if let Err(error) = &point.equilibrium {
+                panic!("{}: {error}", point.value);
+            }
+        }
+    }
+}
+
+mechanism! {
+    /// A governor on a shaft that coasts under a constant moment: its arm leaves the axis by a pitchfork.
+    mechanism Governor {
+        input moment: N*m;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: rigid(mass: 1 kg, inertia: [0.01, 0.01, 0.01] kg*m^2);
+        body arm: point(mass: 1 kg, center: [0, 0, -0.3] m);
+        body link: massless;
+        body sleeve: point(mass: 0.5 kg);
+        joint spin: revolute(z) from ground to shaft, coasting;
+        joint a: revolute(-y) from shaft to arm;
+        joint g: revolute(-y) from arm to link at [0, 0, -0.3 m];
+        joint h: prismatic(z) from shaft to sleeve;
+        joint hinge: revolute(-y) from link to sleeve at [0, 0, -0.3 m], cut;
+        force slide: damper(on: h, damping: 20 N*s/m);
+        force swing: damper(on: a, damping: 0.1 N*m*s/rad);
+        force drive: generalized(on: spin, value: moment - 0.1 N*m*s/rad * rate(spin));
+    }
+}
+
+/// `w^2 l = g (1 + 2 ms / mb)`, `moment = 0.1 w`.
+#[test]
+fn a_sweep_leaves_the_pitchfork_of_a_loop() {
+    let study = Study::new(Governor)
+        .start(Governor::spin, 1.0)
+        .start(Governor::a, 0.0)
+        .guess(Governor::h, -0.6);
+    let critical = study
+        .critical_state(Governor::moment, 0.1, 3.0)
+        .expect("critical")
+        .value;
+    assert!((critical - 0.1 * (9.81 * 2.0 / 0.3_f64).sqrt()).abs() < 1e-9);
+    for values in [
+        [0.1, critical, 0.5],
+        [critical, 0.4, 0.1],
+        [critical, 1.0, 3.0],
+    ] {
+        let found = study.sweep(Governor::moment, &values).expect("sweep");
+        for point in &found.points {
+            if let Err(error) = &point.equilibrium {
+                panic!("{}: {error}", point.value);
+            }
+        }
+    }
 }

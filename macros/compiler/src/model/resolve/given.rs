@@ -29,7 +29,7 @@ use crate::syntax::print;
 /// let error = given::value(tokens("3 m"), tokens("rpm"), "`speed`").unwrap_err();
 /// assert!(error.to_string().contains("`speed` must be an angular speed (rpm), this is a length (m)"), "{error}");
 /// let error = given::value(tokens("nan rpm"), tokens("rpm"), "`speed`").unwrap_err();
-/// assert!(error.to_string().contains("`rpm` does not belong here"), "{error}");
+/// assert!(error.to_string().contains("unexpected `rpm`"), "{error}");
 /// let error = given::value(tokens(""), tokens("rpm"), "`speed`").unwrap_err();
 /// assert!(error.to_string().contains("found nothing"), "{error}");
 /// ```
@@ -177,7 +177,7 @@ fn read(declaration: TokenStream) -> Result<Ast, Diagnostics> {
         let mut own = Diagnostics::new();
         for mistake in mistakes.iter() {
             let message = match mistake.message.strip_prefix("expected `;`, found ") {
-                Some(found) => format!("{found} does not belong here"),
+                Some(found) => format!("unexpected {found}"),
                 None => mistake.message.replace(", found `;`", ", found nothing"),
             };
             own.push(Diagnostic {
