@@ -299,3 +299,21 @@ fn without_tolerances_nothing_is_spread() {
     assert_eq!((found.skewness, all.correlation(0, 0)), (None, None));
     close(found.mean.value, frequency(1.0), 1e-12);
 }
+
+/// Of a quantile beyond all samples nothing is known.
+#[test]
+fn quantiles_beyond_all_samples_have_no_error() {
+    let tolerances = varied(lengths()[0].clone());
+    for points in ALL {
+        let sampler = Sampler::new(points).samples(256);
+        let all = ask(&bar(), vec![FREQUENCY], |responses| {
+            let samples = sampled(responses, &tolerances, &sampler).unwrap();
+            samples.propagation().unwrap()
+        });
+        let quantiles = &spread(&all, 0).quantiles;
+        let known = quantiles.iter().map(|own| own.error.is_some());
+        // 0.35 samples beyond three standard deviations, 5.8 beyond two.
+        let expected = [false, true, true, true, true, true, false];
+        assert_eq!(known.collect::<Vec<_>>(), expected, "{points:?}");
+    }
+}
