@@ -35,7 +35,8 @@ const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 ///   measured: arrays of measured values by name, SI, which take the place of a tolerance.
 ///   sigma_level: standard deviations that a half-width stands for (3).
 ///   correlation: matrix of the design variables, and after them of the inputs that have a tolerance.
-///   policy: "stable" or "nearest".
+///   policy: "stable", or "nearest" for the equilibrium next to the start whatever its stability. With coasting joints, rolling
+///       wheels or forces without a potential, "stable" is the same as "nearest": look at `stability`.
 ///   family: "undamped" or "general"; unless given, modes neglect nothing.
 ///   samples (3000), seed (0), stream (0), threads (0: all), keep_samples (False), vectors (True): of sampling.
 ///   steps: in which a range is searched (200).

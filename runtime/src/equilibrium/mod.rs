@@ -46,8 +46,10 @@ pub enum Policy {
     /// A stable equilibrium, by descent in the amended potential.
     ///
     /// If descent finds none, the nearest equilibrium; its [`Stability`] then tells what it is. From a start without
-    /// positive stiffness, the nearest one is taken if gyroscopic forces hold it. Needs a symmetric `Khat`; otherwise
-    /// the same as `Nearest`.
+    /// positive stiffness, the nearest one is taken if gyroscopic forces hold it.
+    ///
+    /// Without a symmetric `Khat`, or with coasting coordinates or rolling wheels, there is no potential, and this is
+    /// the same as `Nearest`: an unstable equilibrium may be found although there are stable ones.
     #[default]
     Stable,
     /// The equilibrium that Newton's method reaches from the start value, whatever its stability.
