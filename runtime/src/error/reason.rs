@@ -32,7 +32,7 @@ reasons! {
         IterationLimit = "too many iterations",
         Inaccurate = "the residual stays larger than rounding can explain",
         Diverges = "Newton's method does not converge",
-        NotIsolated = "there are others right beside it, as where nothing resists a motion",
+        NotIsolated = "other equilibria lie right beside it, as where nothing resists a motion",
         BendsAway = "the branch bends away",
         BendsSharply = "the branch bends sharply",
         TurnsBack = "the end of the range is not straight ahead",

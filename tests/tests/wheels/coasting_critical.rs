@@ -446,3 +446,39 @@ fn a_sweep_leaves_the_pitchfork_of_a_loop() {
         }
     }
 }
+
+mechanism! {
+    /// Two masses that push each other unequally; the spring of one softens.
+    mechanism Unequal {
+        input thrust: N;
+        design there = 0.5 N/m;
+        design back = 0.3 N/m;
+        body a: point(mass: 1 kg);
+        body b: point(mass: 2 kg);
+        joint x: prismatic(x) from ground to a;
+        joint y: prismatic(y) from ground to b;
+        force on_x: generalized(on: x, value: thrust - 1 N/m * x + 1 N/m^2 * x^2 - back * y);
+        force on_y: generalized(on: y, value: there * x - 1 N/m * y);
+    }
+}
+
+/// `thrust = k x - x^2` with `k = 1 + there back` is greatest at `k / 2`. Two eigenvalues meet in zero there.
+#[test]
+fn limit_point_without_a_symmetric_stiffness() {
+    let study = Study::new(Unequal);
+    let found = study
+        .critical_state(Unequal::thrust, 0.0, 1.0)
+        .expect("critical");
+    let k = 1.0 + 0.5 * 0.3;
+    assert_eq!(found.kind, SpecialKind::Fold);
+    assert!((found.value - k * k / 4.0).abs() < 1e-12, "{}", found.value);
+    assert_eq!(found.equilibrium.stability, Stability::Neutral { zero: 1 });
+    let curvature = study
+        .critical_curvature(Unequal::thrust, 0.0, 1.0)
+        .expect("curvature");
+    for (slope, expected) in curvature.first.iter().zip([0.15 * k, 0.25 * k]) {
+        assert!((slope - expected).abs() < 1e-10, "{slope} {expected}");
+    }
+    let mixed = 0.5 * k + 0.5 * 0.5 * 0.3;
+    assert!((curvature.second[0][1] - mixed).abs() < 1e-6);
+}
