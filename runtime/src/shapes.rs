@@ -5,7 +5,8 @@
 //! `alpha (Q' phi) c^H` added to `Q`, which changes only the component of the solution along `phi`; that component
 //! follows from the normalisation: `c = Mhat phi`, or the unit vector of the component that is one (`Normalisation`).
 
-use crate::algebra::{Lu, Matrix, Values, Vector, dot_complex, largest_element, times_complex};
+use crate::algebra::{Lu, Matrix, Values, Vector, dot_complex, greater, largest, times_complex};
+use crate::constraints::Structure;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{
     CLUSTER_GAP, Family, Normalisation, clusters, lead, pencil_slope_times, pencil_times,
@@ -96,16 +97,23 @@ impl<'a> Shapes<'a> {
         }
         let family = modes.family;
         let linear = &at.linear;
+        let motions = Structure::of(&at.description).motions();
         let (size, leading) = Normalisation::of(&at.description);
         let normalised = (size, leading.right);
-        let right =
-            Side::new(linear, family, mode, &mode.shape, normalised).ok_or(clustered.clone())?;
+        let right = Side::new((linear, motions), family, mode, &mode.shape, normalised)
+            .ok_or(clustered.clone())?;
         let left = match family {
             Family::Undamped => None,
             Family::General => {
                 let normalised = (size, leading.left);
                 let transposed = transposed(linear);
-                let side = Side::new(&transposed, family, mode, mode.left(), normalised);
+                let side = Side::new(
+                    (&transposed, motions),
+                    family,
+                    mode,
+                    mode.left(),
+                    normalised,
+                );
                 Some(side.ok_or(clustered)?)
             }
         };
@@ -178,7 +186,7 @@ struct Side {
 
 impl Side {
     fn new(
-        linear: &Linear,
+        (linear, motions): (&Linear, usize),
         family: Family,
         mode: &Mode,
         shape: &[Complex],
@@ -210,9 +218,16 @@ impl Side {
                 .iter()
                 .fold(0.0, |most: f64, value| most.max(value.norm()))
         };
-        let scale = largest_element(&linear.stiffness)
-            + s.norm()
-                * (largest_element(&linear.damping) + s.norm() * largest_element(&linear.mass));
+        // The constraints are no stiffness.
+        let largest = |matrix: &Matrix| {
+            let moving = matrix
+                .iter()
+                .take(motions)
+                .map(|row| largest(&row[..motions]));
+            moving.fold(0.0, greater)
+        };
+        let scale = largest(&linear.stiffness)
+            + s.norm() * (largest(&linear.damping) + s.norm() * largest(&linear.mass));
         let added = if scale > 0.0 { scale } else { 1.0 } / (size(&slope) * size(&weighted));
         let deflated = Matrix::from_fn(n, n, |i, j| {
             pencil[i][j] + added * slope[i] * weighted[j].conj()

@@ -42,7 +42,9 @@ pub(crate) struct Lu<T = f64> {
 }
 
 impl<T: Field> Lu<T> {
-    /// Factors `matrix`; `None` if a pivot does not exceed the rounding of its own row.
+    /// Factors `matrix`; `None` if it is singular up to rounding: if nothing but the rounding of what has been
+    /// subtracted is left of the elements that could be a pivot. This depends neither on the units of rows nor on those
+    /// of columns.
     pub(crate) fn new(matrix: &Matrix<T>) -> Option<Self> {
         Self::of(matrix.clone())
     }
@@ -66,7 +68,6 @@ impl<T: Field> Lu<T> {
     /// Factors, in place, the matrix of size `n`; see [`for_size`]. Returns whether it is regular.
     #[inline(always)]
     fn factor(&mut self, n: usize) -> bool {
-        let threshold = 8.0 * n as f64 * f64::EPSILON;
         let factors = &mut self.factors.as_flattened_mut()[..n * n];
         let order = &mut self.order[..n];
         let mut size = Vector::zeros(n);
@@ -76,18 +77,9 @@ impl<T: Field> Lu<T> {
             size[i] = row.fold(0.0, |most: f64, value| most.max(value.size()));
         }
         for k in 0..n {
-            let mut best = k;
-            let mut most = -1.0;
-            for i in k..n {
-                let relative = factors[i * n + k].size() / size[i];
-                if relative > most {
-                    best = i;
-                    most = relative;
-                }
-            }
-            if most <= threshold || !most.is_finite() {
+            let Some(best) = pivot_row(n, k, factors, size) else {
                 return false;
-            }
+            };
             if best != k {
                 for j in 0..n {
                     factors.swap(k * n + j, best * n + j);
@@ -138,6 +130,36 @@ impl<T: Field> Lu<T> {
             x[i] = x[i] / factors[i * n + i];
         }
     }
+}
+
+/// The row with the largest element in column `k`, relative to its own size, that is not just the rounding of what has
+/// been subtracted; `None` if there is none.
+#[inline(always)]
+fn pivot_row<T: Field>(n: usize, k: usize, factors: &[T], size: &[f64]) -> Option<usize> {
+    let threshold = 8.0 * n as f64 * f64::EPSILON;
+    let known = |i: usize| {
+        let subtracted = (0..k).fold(0.0, |sum, m| {
+            sum + factors[i * n + m].size() * factors[m * n + k].size()
+        });
+        factors[i * n + k].size() > threshold * subtracted
+    };
+    let (mut best, mut most) = (k, 0.0);
+    for i in k..n {
+        let relative = factors[i * n + k].size() / size[i];
+        if relative > most {
+            (best, most) = (i, relative);
+        }
+    }
+    if most == 0.0 || most == f64::INFINITY {
+        return None;
+    }
+    if known(best) {
+        return Some(best);
+    }
+    (k..n).filter(|&i| known(i)).max_by(|&a, &b| {
+        let relative = |i: usize| factors[i * n + k].size() / size[i];
+        relative(a).total_cmp(&relative(b))
+    })
 }
 
 impl Lu<f64> {
@@ -194,6 +216,45 @@ mod tests {
         assert!(Lu::new(&Matrix::from([[1.0, 2.0], [2.0, 4.0]])).is_none());
         assert!(Lu::new(&Matrix::from([[0.0; 2]; 2])).is_none());
         assert!(Lu::new(&Matrix::from([[f64::NAN; 2]; 2])).is_none());
+    }
+
+    /// Two springs on coordinates that a constraint ties together.
+    fn tied(first: f64, second: f64) -> Matrix {
+        Matrix::from([[first, 0.0, 1.0], [0.0, second, 1.0], [1.0, 1.0, 0.0]])
+    }
+
+    #[test]
+    fn units_do_not_make_a_matrix_singular() {
+        for exponent in [-200, -60, 0, 60, 200] {
+            let unit = 2f64.powi(exponent);
+            let matrix = tied(unit, 3.0 * unit);
+            let Some(lu) = Lu::new(&matrix) else {
+                panic!("regular at {exponent}")
+            };
+            let x = [1.0, -1.0, unit];
+            let solution = lu.solve(&times(&matrix, &x));
+            for (found, expected) in solution.iter().zip(x) {
+                assert!((found / expected - 1.0).abs() < 1e-14, "{solution:?}");
+            }
+            // What is left of two springs that cancel is rounding, at any size.
+            assert!(Lu::new(&tied(unit, -unit)).is_none());
+            assert!(Lu::new(&tied(unit, -unit * (1.0 - 1e-15))).is_none());
+        }
+    }
+
+    #[test]
+    fn a_pivot_of_rounding_gives_way_to_a_small_one() {
+        // What is left at the second place of the second row is rounding, yet it is the larger share of its row.
+        let small = 2f64.powi(-80);
+        let matrix = Matrix::from([
+            [1.0, 1.0, 0.0],
+            [1.0, 1.0 + f64::EPSILON, 0.5 * f64::EPSILON],
+            [0.0, small, 2f64.powi(40)],
+        ]);
+        let Some(lu) = Lu::new(&matrix) else {
+            panic!("regular")
+        };
+        assert_eq!(&lu.order[..], [0, 2, 1]);
     }
 
     #[test]

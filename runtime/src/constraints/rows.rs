@@ -208,6 +208,18 @@ impl Rows {
             .collect()
     }
 
+    /// The unit in which the metric measures `x_j`.
+    pub(crate) fn scale(&self, j: usize) -> f64 {
+        self.scale[j]
+    }
+
+    /// Converts a covector to the units of the metric.
+    pub(crate) fn scaled_down(&self, force: &[f64]) -> Vector {
+        let mut force = Vector::from(force);
+        divide_each(&mut force, &self.scale);
+        force
+    }
+
     /// Whether these multiples of the rows as given cancel up to a share of them, in the metric.
     pub(crate) fn cancel(&self, multiples: &[f64], share: f64) -> bool {
         let scaled: Vector = multiples

@@ -12,7 +12,7 @@
 )]
 
 use super::{Rows, Structure};
-use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest, times};
+use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, greater, largest, times};
 use crate::kernels::Linear;
 
 /// The directions that constraints leave free at one state.
@@ -32,8 +32,11 @@ pub(crate) struct Tangent {
     pub(crate) all: Rows,
 }
 
-/// Smallest mass in the metric of the basis, relative to the largest: used for a massless coordinate.
+/// Mass of a massless coordinate in the metric of the basis, relative to the largest.
 const LIGHT: f64 = 1e-8;
+/// Masses up to this share of the largest count as none. Moments of inertia are far smaller than masses in a small
+/// mechanism: a micrometre makes them 1e-12 of these.
+const MASSLESS: f64 = 1e-20;
 
 impl Tangent {
     /// The free directions at a state with these matrices, before or after [`fix_gauge`].
@@ -153,15 +156,28 @@ pub(crate) fn placed(structure: Structure, by_constraint: &[f64]) -> Vector {
 }
 
 /// Fixes the multipliers that redundant constraints leave undetermined.
+///
+/// The gauge yields to multipliers as the largest stiffness yields to forces. If it yielded more, the rounding of its
+/// vectors would open gaps under large multipliers.
 pub(crate) fn fix_gauge(stiffness: &mut Matrix, structure: Structure) {
     let rows = all_rows(stiffness, structure);
+    if rows.dependent() == 0 {
+        return;
+    }
     let places = structure.constraint_rows();
-    let greatest = largest(&rows.size);
+    let stiffest = (0..places.start).fold(0.0, |most, i| {
+        let row = rows.scaled_down(&stiffness[i][..places.start]);
+        greater(most, largest(&row) / rows.scale(i))
+    });
+    let stiffest = match stiffest > 0.0 {
+        true => stiffest,
+        false => largest(&rows.size),
+    };
     for k in 0..rows.dependent() {
         let m = rows.null_left_scaled(k);
         for i in 0..rows.count() {
             for j in 0..rows.count() {
-                stiffness[places.start + i][places.start + j] -= m[i] * m[j] / greatest;
+                stiffness[places.start + i][places.start + j] -= m[i] * m[j] / stiffest;
             }
         }
     }
@@ -199,8 +215,8 @@ fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64
     }
 }
 
-/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a lower limit relative to the
-/// largest; one if there are none, and at reactions.
+/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a small one for what has none; one if
+/// there are none at all, and at reactions.
 pub(crate) fn inertias(linear: &Linear, structure: Structure) -> Vector {
     let mut mass = Vector::filled(structure.size(), 1.0_f64);
     for block in [0..structure.coordinates, structure.speed_range()] {
@@ -215,8 +231,11 @@ pub(crate) fn inertias(linear: &Linear, structure: Structure) -> Vector {
         };
         let greatest = block.clone().map(diagonal).fold(0.0, f64::max);
         for j in block {
-            if greatest > 0.0 {
-                mass[j] = diagonal(j).max(LIGHT * greatest);
+            let own = diagonal(j);
+            if own > MASSLESS * greatest {
+                mass[j] = own;
+            } else if greatest > 0.0 {
+                mass[j] = LIGHT * greatest;
             }
         }
     }

@@ -5,12 +5,13 @@ use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
 use super::descent::DEPARTURE;
 use super::operating_point::{Failure, OperatingPoint};
+use super::row_scaling::units;
 use super::search_space::{Base, SearchSpace, Trial};
-use crate::algebra::{Cholesky, Lu, Matrix, Vector, largest, times};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, greater, largest, times};
 use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 300;
-/// Largest change of a coordinate or speed in the first step, SI; grows while steps succeed.
+/// Largest change of a coordinate or speed in the first step, in [`units`]; grows while steps succeed.
 const FIRST_RADIUS: f64 = 1.0;
 /// Share of a diagonal element that is added to it where the stiffness is singular.
 const DAMPING: f64 = 1e-8;
@@ -25,6 +26,7 @@ where
     let motions = point.motions();
     let mut base: Base<S> = S::base(point, start)?;
     let weight = S::weights(point, &base.q)?;
+    let units = &units(point, &base.q)?;
     let mut radius = FIRST_RADIUS;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
@@ -52,13 +54,13 @@ where
         {
             return Ok(Found::new(end, iterations + 1));
         }
-        let mut limited = limit(&mut step, motions, radius);
-        let mut length = search(point, &base, &slopes, (&step, &weight), &mut trial);
+        let mut share = limit(&mut step, units, radius);
+        let mut length = search(point, &base, &slopes, (&step, share), &weight, &mut trial);
         if length.is_none() && has_newton {
             // Next to a singular stiffness Newton's step is mostly along the direction without stiffness.
             step = damped();
-            limited = limit(&mut step, motions, radius);
-            length = search(point, &base, &slopes, (&step, &weight), &mut trial);
+            share = limit(&mut step, units, radius);
+            length = search(point, &base, &slopes, (&step, share), &weight, &mut trial);
         }
         let Some(length) = length else {
             let relative = relative_residual(point, &base.q, at.0, at.1);
@@ -69,8 +71,8 @@ where
             return Err(failure(reason, &base.q, iterations, relative));
         };
         if length < 1.0 {
-            radius = radius.min(2.0 * length * largest_of(&step[..motions]));
-        } else if limited {
+            radius = radius.min(2.0 * length * size_in(units, &step));
+        } else if share < 1.0 {
             radius *= 2.0;
         }
         S::arrive(point, &mut trial, &mut base)?;
@@ -87,15 +89,21 @@ where
     Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
 }
 
-/// Shortens a step whose motions are larger than `radius`; returns whether it was.
-fn limit(step: &mut Vector, motions: usize, radius: f64) -> bool {
-    let size = largest_of(&step[..motions]);
-    let limited = size > radius;
-    if limited {
-        step.iter_mut()
-            .for_each(|value| *value = *value * radius / size);
+/// The largest motion of a step in these units.
+fn size_in(units: &[f64], step: &[f64]) -> f64 {
+    let motions = step.iter().zip(units);
+    motions.fold(0.0, |most, (step, unit)| greater(most, (step / unit).abs()))
+}
+
+/// Shortens a step whose motions are larger than `radius`; returns the share of it that is left.
+fn limit(step: &mut Vector, units: &[f64], radius: f64) -> f64 {
+    let size = size_in(units, step);
+    if size <= radius {
+        return 1.0;
     }
-    limited
+    step.iter_mut()
+        .for_each(|value| *value = *value * radius / size);
+    radius / size
 }
 
 /// The states on either side of `q` along the direction with the least stiffness, as far as the residual is smaller
@@ -185,12 +193,14 @@ fn normal_matrix(stiffness: &Matrix, weight: &[f64]) -> Matrix {
     normal
 }
 
-/// Finds the share of a step that reduces the residual, and writes its end to `trial`.
+/// Finds the length of a step, itself a share of a full one, that reduces the residual, and writes its end to `trial`.
+/// The reduction asked for is a small part of what the step promises.
 fn search<S>(
     point: &OperatingPoint<'_>,
     base: &Base<S>,
     slopes: &[f64],
-    (step, weight): (&[f64], &[f64]),
+    (step, share): (&[f64], f64),
+    weight: &[f64],
     trial: &mut Trial,
 ) -> Option<f64>
 where
@@ -200,7 +210,8 @@ where
     let mut length = 1.0;
     for _ in 0..40 {
         if base.space.trial(point, &base.q, (step, length), trial)
-            && merit(&base.space.slopes(&trial.residual), weight) <= before * (1.0 - 1e-4 * length)
+            && merit(&base.space.slopes(&trial.residual), weight)
+                <= before * (1.0 - 1e-4 * share * length)
         {
             return Some(length);
         }

@@ -161,15 +161,17 @@ impl Weak {
 /// Residual that cannot be distinguished from zero: the remaining residual, or the rounding of its terms.
 ///
 /// A gap adds lengths that the coordinates may hardly change to first order, as those of bars in one line: to second
-/// order they do.
+/// order they do. The length of a rod between two points is in no coordinate; it is the radius on which its end moves.
 fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linear) -> Vector {
     let parts = point.parts(q);
     let unknowns = &point.description.coordinates;
+    let turns = |j: usize| unknowns[j].unit.symbol == *"rad";
     // A length that rotates is rounded as a whole.
-    let size = Vector::from_fn(q.len(), |j| match unknowns[j].unit.symbol == *"rad" {
+    let size = Vector::from_fn(q.len(), |j| match turns(j) {
         true => greater(1.0, q[j].abs()),
         false => q[j].abs(),
     });
+    let slides = Vector::from_fn(q.len(), |j| if turns(j) { 0.0 } else { 1.0 });
     let place = (q, point.inputs, point.design);
     Vector::from_fn(q.len(), |i| {
         let mut terms = parts.inertia[i].abs() + parts.applied[i].abs();
@@ -178,6 +180,12 @@ fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linea
             let bent = curvature(point.mechanism, place, point.structure, i);
             let by_row: Vector = bent.iter().map(|row| magnitude(row, &size)).collect();
             terms += magnitude(&by_row, &size);
+            let slope = magnitude(&linear.stiffness[i], &slides);
+            let by_slides = bent.iter().map(|row| magnitude(row, &slides));
+            let bend = magnitude(&by_slides.collect::<Vector>(), &slides);
+            if bend > 0.0 {
+                terms += slope * slope / bend;
+            }
         }
         greater(residual[i].abs(), FLOOR * terms)
     })

@@ -1,14 +1,14 @@
-//! Weights that make the equations comparable when Newton's method runs on all unknowns.
+//! What makes equations and unknowns comparable when Newton's method runs on all unknowns.
 
 use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::Vector;
-use crate::constraints::inertias;
+use crate::constraints::{Structure, inertias};
+use crate::kernels::Linear;
 
 /// Inverse generalised masses, which make the squares of forces and moments comparable.
 ///
-/// The gap of a constraint counts as the force with which the largest stiffness of the mechanism would resist the
-/// motion that closes it. In mechanisms without any other stiffness, a reaction acts as the stiffness against a unit
-/// motion.
+/// The gap of a constraint counts as the force with which the mechanism would resist the motion that closes it, at its
+/// [`fastest`] rate: a spring for a position, a damper for a velocity.
 pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
     let structure = point.structure;
     let linear = &point.linear(q)?;
@@ -25,26 +25,27 @@ pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, F
     }
     let mass = inertias(linear, structure);
     let motions = structure.motions();
-    let stiffest = (0..motions).fold(0.0, |most: f64, i| {
-        let row = &linear.stiffness[i];
-        let reactions =
-            (motions..q.len()).fold(0.0, |most: f64, j| most.max((row[j] * q[j]).abs()));
-        most.max(row[i].abs().max(reactions) / mass[i])
-    });
-    let stiffest = if stiffest > 0.0 { stiffest } else { 1.0 };
+    let rate = match fastest(linear, structure, &mass, q) {
+        0.0 => 1.0,
+        rate => rate,
+    };
     for i in 0..motions {
         weight[i] = 1.0 / mass[i];
     }
     for i in structure.constraint_rows() {
         let row = &linear.stiffness[i];
-        let mobility = (0..motions).fold(0.0, |sum, j| sum + row[j] * row[j] / mass[j]);
-        if mobility > 0.0 {
-            weight[i] = stiffest * stiffest / mobility;
+        let mobility =
+            |of: core::ops::Range<usize>| of.fold(0.0, |sum, j| sum + row[j] * row[j] / mass[j]);
+        let by_speeds = mobility(structure.speed_range());
+        let by_coordinates = mobility(0..structure.coordinates);
+        weight[i] = if structure.velocity_rows().contains(&i) && by_speeds > 0.0 {
+            rate * rate / by_speeds
+        } else if by_coordinates > 0.0 {
+            rate.powi(4) / by_coordinates
         } else {
             // Nothing can close the gap from here; any weight will do as long as the gap is seen.
-            weight[i] =
-                stiffest * stiffest * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b));
-        }
+            rate.powi(4) * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b))
+        };
     }
     if weight.iter().all(|value| value.is_finite()) {
         Ok(weight)
@@ -54,4 +55,33 @@ pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, F
             coordinates: q.into(),
         })
     }
+}
+
+/// Units of coordinates and speeds in which the first step is limited: one SI unit of a coordinate, and for a speed the
+/// [`fastest`] rate.
+pub(super) fn units(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
+    let structure = point.structure;
+    let mut units = Vector::filled(structure.motions(), 1.0);
+    if structure.speeds > 0 {
+        let linear = &point.linear(q)?;
+        let rate = fastest(linear, structure, &inertias(linear, structure), q);
+        if rate > 0.0 && rate.is_finite() {
+            units[structure.speed_range()].fill(rate);
+        }
+    }
+    Ok(units)
+}
+
+/// The fastest rate of the mechanism, 1/s: of a coordinate on its stiffness, or of a speed against its damping. A
+/// reaction acts on a coordinate as a stiffness against a unit motion. Zero if nothing resists any motion.
+fn fastest(linear: &Linear, structure: Structure, mass: &[f64], q: &[f64]) -> f64 {
+    let elastic = (0..structure.coordinates).map(|i| {
+        let row = &linear.stiffness[i];
+        let reactions = structure.constraint_rows().map(|j| (row[j] * q[j]).abs());
+        (reactions.fold(row[i].abs(), f64::max) / mass[i]).sqrt()
+    });
+    let damped = structure
+        .speed_range()
+        .map(|i| linear.stiffness[i][i].abs() / mass[i]);
+    elastic.chain(damped).fold(0.0, f64::max)
 }

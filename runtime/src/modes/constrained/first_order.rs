@@ -37,7 +37,7 @@ impl System<'_> {
         }
         let mut x = lift(self.tangent, y);
         for (k, place) in self.tangent.structure.speed_range().enumerate() {
-            x[place] = nu[f + k];
+            x[place] = nu[f + k] * self.units[k];
         }
         x
     }
@@ -66,7 +66,7 @@ impl System<'_> {
         let im = self.velocity.multipliers(&force.map(|value| value.im));
         let mut psi = lift(self.tangent, &nu[..f]);
         for (k, place) in structure.speed_range().enumerate() {
-            psi[place] = nu[f + k];
+            psi[place] = nu[f + k] * self.units[k];
         }
         for (k, place) in structure.velocity_rows().enumerate() {
             psi[place] = Complex::new(re[k], im[k]);

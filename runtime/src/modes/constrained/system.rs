@@ -23,10 +23,13 @@ use crate::kernels::Linear;
 /// Share of a constraint on velocities below which it follows from the constraints on positions.
 const FOLLOWS: f64 = 1e-10;
 
-/// The reduced matrices. Vectors over velocities hold `ydot` in the first `freedom` places, then the speeds.
+/// The reduced matrices. Vectors over velocities hold `ydot` in the first `freedom` places, then the speeds in units in
+/// which their masses are of order one, as those of `ydot` are.
 pub(super) struct System<'a> {
     pub(super) linear: &'a Linear,
     pub(super) tangent: &'a Tangent,
+    /// The units of the speeds.
+    pub(super) units: Vector,
     /// All constraints on velocities, `[A_q P, A_v]`.
     pub(super) velocity: Rows,
     /// The columns of `Z`.
@@ -45,25 +48,27 @@ impl<'a> System<'a> {
         let structure = tangent.structure;
         let (f, speeds) = (tangent.freedom, structure.speed_range());
         let velocities = f + speeds.len();
+        let inertias = inertias(linear, structure);
+        let units: Vector = speeds.clone().map(|i| 1.0 / inertias[i].sqrt()).collect();
         // A row or column over coordinates and speeds, converted to velocities.
         let by_velocity = |coordinates: &[f64], of_speeds: &[f64]| {
             Vector::from_fn(velocities, |a| {
                 if a < f {
                     dot(&tangent.basis[a], coordinates)
                 } else {
-                    of_speeds[speeds.start + a - f]
+                    of_speeds[speeds.start + a - f] * units[a - f]
                 }
             })
         };
-        // Unit vectors of the velocities, over all unknowns.
-        let unit = |place: usize| {
-            Vector::from_fn(structure.size(), |i| if i == place { 1.0 } else { 0.0 })
+        // The velocities over all unknowns.
+        let unit = |(place, unit): (usize, &f64)| {
+            Vector::from_fn(structure.size(), |i| if i == place { *unit } else { 0.0 })
         };
         let directions: Vec<Vector> = tangent
             .basis
             .iter()
             .cloned()
-            .chain(speeds.clone().map(unit))
+            .chain(speeds.clone().zip(&units).map(unit))
             .collect();
         let product = |matrix: &Matrix, a: usize| {
             let image = times(matrix, &directions[a]);
@@ -87,7 +92,6 @@ impl<'a> System<'a> {
             }
         }
         let rows = structure.velocity_rows();
-        let inertias = inertias(linear, structure);
         let row = |place: usize| {
             let (c, b) = (&linear.damping[place], &linear.stiffness[place]);
             let row = by_velocity(c, b);
@@ -95,7 +99,7 @@ impl<'a> System<'a> {
             let part = |value: f64, i: usize| value * value / inertias[i];
             let of_speeds: f64 = speeds.clone().map(|i| part(b[i], i)).sum();
             let whole = of_speeds + (0..speeds.start).map(|i| part(c[i], i)).sum::<f64>();
-            let left = of_speeds + row[..f].iter().map(|x| x * x).sum::<f64>();
+            let left = row.iter().map(|x| x * x).sum::<f64>();
             if left > FOLLOWS * FOLLOWS * whole {
                 row
             } else {
@@ -128,6 +132,7 @@ impl<'a> System<'a> {
         Ok(Self {
             linear,
             tangent,
+            units,
             velocity,
             free,
             forced,

@@ -143,7 +143,15 @@ fn massless_motion(
                 };
                 pivot.is_negligible()
             };
-            null_vector(n, &with_constraints(n, mass, constraints), is_rounding)
+            let masses: Vec<f64> = (0..n)
+                .map(|k| &entries[k * n + k])
+                .map(|own| if own.is_negligible() { 0.0 } else { own.value })
+                .collect();
+            null_vector(
+                n,
+                &with_constraints(mass, constraints, &masses),
+                is_rounding,
+            )
         })
         .collect();
     let motions = motions.filter(|motions| !motions.is_empty())?;
@@ -157,15 +165,24 @@ fn massless_motion(
     Some(moving.map(|k| (k, share(k))).collect())
 }
 
-/// `M + m sum a a^T / |a|^2`, with `m` the largest diagonal entry of `M`.
-fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
+/// `M + sum a a^T / (a^T D^-1 a)` over the constraints, with `D` the diagonal of `M` where it is not zero, given as
+/// `masses`: each constraint counts as much as the masses it moves, whatever the units. One that moves no mass counts
+/// as the largest mass.
+fn with_constraints(mass: &[f64], constraints: &[f64], masses: &[f64]) -> Vec<f64> {
+    let n = masses.len();
     let mut sum = mass.to_vec();
-    let most = (0..n).fold(0.0_f64, |most, i| most.max(mass[i * n + i]));
+    let most = masses.iter().fold(0.0, |most: f64, own| most.max(*own));
     for a in constraints.chunks_exact(n.max(1)) {
         let square: f64 = a.iter().map(|x| x * x).sum();
+        let moved = a.iter().zip(masses).filter(|(_, mass)| **mass > 0.0);
+        let mobility: f64 = moved.map(|(x, mass)| x * x / mass).sum();
+        let weight = match mobility > 0.0 {
+            true => 1.0 / mobility,
+            false => most / square,
+        };
         if square > 0.0 {
             for (k, entry) in sum.iter_mut().enumerate() {
-                *entry += most * a[k / n] * a[k % n] / square;
+                *entry += weight * a[k / n] * a[k % n];
             }
         }
     }
