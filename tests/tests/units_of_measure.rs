@@ -4,7 +4,7 @@
 //! similar machine of another size, density and pace: a watch, a micromachine, a crane. Its results, divided by the
 //! same powers, are those of the original up to rounding. Whatever compares numbers of different units fails here.
 
-use eigentol::{Coordinate, Input, Policy, Study, Unit};
+use eigentol::{Coordinate, Error, Input, Policy, Solved, Study, Unit};
 use eigentol_interpreter::Interpreted;
 use eigentol_tests::rederived::{Operation, operating_points};
 use eigentol_tests::tables;
@@ -138,104 +138,136 @@ fn rescaled(tokens: TokenStream, scale: Scale, outer: f64) -> TokenStream {
     found.into_iter().collect()
 }
 
-/// The results of the similar machine in the units of the original: names with values that are rounded alike.
-fn results(
-    declaration: &str,
-    operation: &Operation,
+/// A similar machine in use.
+struct Similar {
+    study: Study<Interpreted>,
     scale: Scale,
-) -> Result<Vec<(String, Vec<f64>)>, String> {
-    let tokens = declaration.parse().expect("tokens");
-    let text = rescaled(tokens, scale, 1.0).to_string();
-    let machine = Interpreted::from_text(&text).map_err(|error| error.to_string())?;
-    let mut study = Study::new(machine).policy(operation.policy);
-    let description = study.description().clone();
-    let of = |unit: &Unit| factor_of(scale, unit);
-    for (k, (value, info)) in operation
-        .inputs
-        .iter()
-        .zip(description.inputs.iter())
-        .enumerate()
-    {
-        study = study.input(Input::new(k), value * of(&info.unit));
-    }
-    for (k, (value, info)) in operation
-        .start
-        .iter()
-        .zip(description.coordinates.iter())
-        .enumerate()
-    {
-        study = study.guess(Coordinate::new(k), value * of(&info.unit));
-    }
-    let words = |error: eigentol::Error| error.to_string();
-    let solved = study.solve().map_err(words)?;
-    let state = &solved.equilibrium;
-    let mut found = vec![(format!("{:?}", state.stability), vec![])];
-    let coordinates = state.coordinates.iter().zip(description.coordinates.iter());
-    for (value, info) in coordinates {
-        found.push((format!("at {}", info.name), vec![value / of(&info.unit)]));
-    }
-    let rate = factor(scale, [0, 0, 1]);
-    let design: Vec<f64> = description
-        .design
-        .iter()
-        .map(|info| of(&info.unit))
-        .collect();
-    let slopes = solved.sensitivities().map_err(words)?;
-    let spreads = solved.first_order().map_err(words)?;
-    let mut modes: Vec<_> = (0..solved.modes.modes.len()).collect();
-    // Modes of one frequency come in either order.
-    let key = |k: &usize| {
-        let s = solved.modes.modes[*k].s;
-        [s.im * rate, s.re * rate].map(|value| (value * 1e6).round())
-    };
-    modes.sort_by(|a, b| key(a).partial_cmp(&key(b)).expect("finite"));
-    for (position, mode) in modes.into_iter().enumerate() {
-        let (own, slope) = (&solved.modes.modes[mode], &slopes.modes[mode]);
-        found.push((
-            format!("mode {position}"),
-            vec![own.s.re * rate, own.s.im * rate],
-        ));
-        let by_design = slope.lambda.by_design.iter().zip(&design);
-        let by_design = by_design.map(|(slope, unit)| slope * rate * rate * unit);
-        found.push((format!("slopes of mode {position}"), by_design.collect()));
-        let sigma = spreads.modes[mode].lambda.sigma * rate * rate;
-        found.push((format!("spread of mode {position}"), vec![sigma]));
-        if slope.clustered {
-            continue;
+}
+
+/// Names with values that are rounded alike.
+type Results = Vec<(String, Vec<f64>)>;
+
+fn words(error: Error) -> String {
+    error.to_string()
+}
+
+impl Similar {
+    fn new(declaration: &str, operation: &Operation, scale: Scale) -> Result<Self, String> {
+        let tokens = declaration.parse().expect("tokens");
+        let text = rescaled(tokens, scale, 1.0).to_string();
+        let machine = Interpreted::from_text(&text).map_err(|error| error.to_string())?;
+        let mut study = Study::new(machine).policy(operation.policy);
+        let description = study.description().clone();
+        let inputs = operation.inputs.iter().zip(description.inputs.iter());
+        for (k, (value, info)) in inputs.enumerate() {
+            study = study.input(Input::new(k), value * factor_of(scale, &info.unit));
         }
-        let curvature = solved.mode_curvature(mode).map_err(words)?.lambda.by_design;
-        let entries = (0..design.len()).flat_map(|i| (0..design.len()).map(move |j| (i, j)));
-        let curvature = entries.map(|(i, j)| curvature[i][j] * rate * rate * design[i] * design[j]);
-        found.push((
-            format!("curvatures of mode {position}"),
-            curvature.collect(),
-        ));
-        solved.shape_sensitivity(mode).map_err(words)?;
-    }
-    let outputs = solved.outputs().map_err(words)?;
-    for (o, info) in description.outputs.iter().enumerate() {
-        let unit = of(&info.unit);
-        found.push((info.name.to_string(), vec![outputs.values[o] / unit]));
-        if let Some(slopes) = &outputs.by_design[o] {
-            let slopes = slopes.iter().zip(&design);
-            let slopes = slopes.map(|(slope, own)| slope * own / unit);
-            found.push((format!("slopes of {}", info.name), slopes.collect()));
+        let start = operation.start.iter().zip(description.coordinates.iter());
+        for (k, (value, info)) in start.enumerate() {
+            study = study.guess(Coordinate::new(k), value * factor_of(scale, &info.unit));
         }
+        Ok(Self { study, scale })
     }
-    if let Some((value, info)) = operation.inputs.first().zip(description.inputs.first()) {
-        let unit = of(&info.unit);
-        let values: Vec<f64> = (0..SWEPT)
-            .map(|k| value * unit * (1.0 + 0.01 * f64::from(k)))
-            .collect();
-        let sweep = study.sweep(Input::new(0), &values).map_err(words)?;
-        for (k, point) in sweep.points.iter().enumerate() {
+
+    fn unit(&self, unit: &Unit) -> f64 {
+        factor_of(self.scale, unit)
+    }
+
+    fn time(&self) -> f64 {
+        factor(self.scale, [0, 0, 1])
+    }
+
+    /// Equilibrium, modes, outputs and their derivatives, in the units of the original machine.
+    fn at_point(&self) -> Result<Results, String> {
+        let solved = self.study.solve().map_err(words)?;
+        let (state, description) = (&solved.equilibrium, self.study.description());
+        let mut found = vec![(format!("{:?}", state.stability), vec![])];
+        let coordinates = state.coordinates.iter().zip(description.coordinates.iter());
+        for (value, info) in coordinates {
+            found.push((
+                format!("at {}", info.name),
+                vec![value / self.unit(&info.unit)],
+            ));
+        }
+        let units = description.design.iter().map(|info| self.unit(&info.unit));
+        let units: Vec<f64> = units.collect();
+        found.extend(self.modes(&solved, &units)?);
+        let outputs = solved.outputs().map_err(words)?;
+        for (o, info) in description.outputs.iter().enumerate() {
+            let own = self.unit(&info.unit);
+            found.push((info.name.to_string(), vec![outputs.values[o] / own]));
+            if let Some(slopes) = &outputs.by_design[o] {
+                let slopes = slopes.iter().zip(&units);
+                let slopes = slopes.map(|(slope, unit)| slope * unit / own);
+                found.push((format!("slopes of {}", info.name), slopes.collect()));
+            }
+        }
+        Ok(found)
+    }
+
+    fn modes(&self, solved: &Solved<'_, Interpreted>, units: &[f64]) -> Result<Results, String> {
+        let (time, all) = (self.time(), &solved.modes.modes);
+        let square = time * time;
+        let slopes = solved.sensitivities().map_err(words)?;
+        let spreads = solved.first_order().map_err(words)?;
+        // Modes of one frequency come in either order.
+        let key = |k: &usize| {
+            let s = all[*k].s;
+            [s.im * time, s.re * time].map(|value| (value * 1e6).round())
+        };
+        let mut order: Vec<usize> = (0..all.len()).collect();
+        order.sort_by(|a, b| key(a).partial_cmp(&key(b)).expect("finite"));
+        let mut found = Results::new();
+        for (position, mode) in order.into_iter().enumerate() {
+            let (s, slope) = (all[mode].s, &slopes.modes[mode]);
+            found.push((format!("mode {position}"), vec![s.re * time, s.im * time]));
+            let by_design = slope.lambda.by_design.iter().zip(units);
+            let by_design = by_design.map(|(slope, unit)| slope * square * unit);
+            found.push((format!("slopes of mode {position}"), by_design.collect()));
+            let sigma = spreads.modes[mode].lambda.sigma * square;
+            found.push((format!("spread of mode {position}"), vec![sigma]));
+            if slope.clustered {
+                continue;
+            }
+            let curvature = solved.mode_curvature(mode).map_err(words)?;
+            let curvature = curvature.lambda.by_design;
+            let entries = (0..units.len()).flat_map(|i| (0..units.len()).map(move |j| (i, j)));
+            let curvature = entries.map(|(i, j)| curvature[i][j] * square * units[i] * units[j]);
+            found.push((
+                format!("curvatures of mode {position}"),
+                curvature.collect(),
+            ));
+            solved.shape_sensitivity(mode).map_err(words)?;
+        }
+        Ok(found)
+    }
+
+    /// Eigenvalues along the first input, if there is one.
+    fn along(&self, operation: &Operation) -> Result<Results, String> {
+        let inputs = &self.study.description().inputs;
+        let Some((value, info)) = operation.inputs.first().zip(inputs.first()) else {
+            return Ok(Results::new());
+        };
+        let value = value * self.unit(&info.unit);
+        let values = (0..SWEPT).map(|k| value * (1.0 + 0.01 * f64::from(k)));
+        let values: Vec<f64> = values.collect();
+        let sweep = self.study.sweep(Input::new(0), &values).map_err(words)?;
+        let each = sweep.points.iter().enumerate().map(|(k, point)| {
             let modes = point.modes.as_ref().map_err(|error| error.to_string())?;
-            let sizes = modes.modes.iter().map(|mode| mode.s.norm() * rate);
+            let sizes = modes.modes.iter().map(|mode| mode.s.norm() * self.time());
             let mut sizes: Vec<f64> = sizes.collect();
             sizes.sort_by(f64::total_cmp);
-            found.push((format!("sweep {k}"), sizes));
-        }
+            Ok((format!("sweep {k}"), sizes))
+        });
+        each.collect()
     }
+}
+
+/// The results of the similar machine in the units of the original.
+fn results(declaration: &str, operation: &Operation, scale: Scale) -> Result<Results, String> {
+    let machine = Similar::new(declaration, operation, scale)?;
+    let mut found = machine.at_point()?;
+    found.extend(machine.along(operation)?);
     Ok(found)
 }
 

@@ -20,6 +20,8 @@ const KNOWN: f64 = 1e-3;
 /// The force close to a singular configuration counts as zero up to this multiple of what the stiffness contributes
 /// over the distance.
 const BESIDE: f64 = 10.0;
+/// Curvature, 1/m, below which a path is straight and its curvature rounding.
+const STRAIGHT: f64 = 1e-6;
 /// Share of the largest part in a weak combination of constraints above which a constraint takes part in it.
 const TAKES_PART: f64 = 1e-3;
 
@@ -183,7 +185,7 @@ fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linea
             let slope = magnitude(&linear.stiffness[i], &slides);
             let by_slides = bent.iter().map(|row| magnitude(row, &slides));
             let bend = magnitude(&by_slides.collect::<Vector>(), &slides);
-            if bend > 0.0 {
+            if bend > STRAIGHT * slope {
                 terms += slope * slope / bend;
             }
         }

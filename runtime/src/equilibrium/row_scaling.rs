@@ -1,5 +1,7 @@
 //! What makes equations and unknowns comparable when Newton's method runs on all unknowns.
 
+use core::ops::Range;
+
 use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::Vector;
 use crate::constraints::{Structure, inertias};
@@ -34,8 +36,7 @@ pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, F
     }
     for i in structure.constraint_rows() {
         let row = &linear.stiffness[i];
-        let mobility =
-            |of: core::ops::Range<usize>| of.fold(0.0, |sum, j| sum + row[j] * row[j] / mass[j]);
+        let mobility = |of: Range<usize>| of.fold(0.0, |sum, j| sum + row[j] * row[j] / mass[j]);
         let by_speeds = mobility(structure.speed_range());
         let by_coordinates = mobility(0..structure.coordinates);
         weight[i] = if structure.velocity_rows().contains(&i) && by_speeds > 0.0 {
