@@ -178,6 +178,9 @@ pub(crate) fn raise(py: Python<'_>, error: Error) -> PyErr {
             let near = did_you_mean(name, known.iter().map(|own| &**own));
             raised(format!("{error}{near}"))
         }
+        Error::NoSuchMode { mode, count } => raised(format!(
+            "there is no mode {mode}: modes are counted from 0, and the mechanism has {count}"
+        )),
         Error::NoEquilibrium { coordinates, .. }
         | Error::UnboundedReactions { coordinates, .. }
         | Error::BranchLost { coordinates, .. }

@@ -132,6 +132,12 @@ def test_questions(study, question, kind):
     assert str(caught.value)
 
 
+@pytest.mark.parametrize("mode", [1, 7, 2**62])
+def test_a_missing_mode_has_the_number_that_was_given(study, mode):
+    with pytest.raises(eigentol.InvalidValue, match=f"no mode {mode}: modes are counted from 0"):
+        study.mode_curvature(mode)
+
+
 def test_no_equilibrium_says_where_it_ended():
     text = """mechanism Lift {
         body block: point(mass: 1 kg);
