@@ -12,7 +12,7 @@ mod operating_point;
 mod prediction;
 mod regularity;
 mod root;
-mod row_scaling;
+mod scaling;
 mod search_space;
 mod solve;
 mod stability;

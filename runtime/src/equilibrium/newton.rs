@@ -5,7 +5,7 @@ use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
 use super::descent::DEPARTURE;
 use super::operating_point::{Failure, OperatingPoint};
-use super::row_scaling::units;
+use super::scaling::units;
 use super::search_space::{Base, SearchSpace, Trial};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, greater, largest, times};
 use crate::error::NotFound;

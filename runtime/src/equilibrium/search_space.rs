@@ -17,7 +17,7 @@ use std::borrow::Cow;
 
 use super::convergence::{TOLERANCE, relative_gap};
 use super::operating_point::{Failure, OperatingPoint};
-use super::row_scaling::weights;
+use super::scaling::weights;
 use crate::algebra::{Lu, Matrix, Vector, add_scaled, add_to, all_finite_matrix, dot, times};
 use crate::constraints::Tangent;
 
