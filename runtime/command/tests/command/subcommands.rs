@@ -250,8 +250,9 @@ most = \"300 mm\"
 cost = { factor = 1.0 }
 ";
 
-fn study() -> (String, String) {
-    let folder = folder("study");
+/// A study file in a folder of its own.
+fn study(name: &str) -> (String, String) {
+    let folder = folder(name);
     let declaration = std::fs::read_to_string(crate::program::examples().join(PENDULUM)).unwrap();
     file(&folder, "pendulum.mechanism", &declaration);
     (
@@ -262,7 +263,7 @@ fn study() -> (String, String) {
 
 #[test]
 fn a_study_file_says_what_is_asked_again() {
-    let (study, _) = study();
+    let (study, _) = study("asked_again");
     assert_eq!(
         answer(&["modes", "--study", &study]),
         answer(&pendulum("modes", &[]))
@@ -338,7 +339,7 @@ fn samples_can_be_kept() {
 /// frequency above the limit with probability 0.999, so that the limit is 3.09 sigmas from the mean.
 #[test]
 fn allocation_finds_the_widest_tolerance() {
-    let (study, _) = study();
+    let (study, _) = study("allocated");
     let text = answer(&["allocate", "--study", &study, "--csv"]);
     let mut lines = text.lines();
     let heading = lines.next().unwrap().to_owned();
