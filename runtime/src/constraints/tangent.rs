@@ -32,11 +32,8 @@ pub(crate) struct Tangent {
     pub(crate) all: Rows,
 }
 
-/// Mass of a massless coordinate in the metric of the basis, relative to the largest.
+/// Smallest mass in the metric of the basis, relative to the largest: used for a massless coordinate.
 const LIGHT: f64 = 1e-8;
-/// Masses up to this share of the largest count as none. Moments of inertia are far smaller than masses in a small
-/// mechanism: a micrometre makes them 1e-12 of these.
-const MASSLESS: f64 = 1e-20;
 
 impl Tangent {
     /// The free directions at a state with these matrices, before or after [`fix_gauge`].
@@ -215,8 +212,8 @@ fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64
     }
 }
 
-/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a small one for what has none; one if
-/// there are none at all, and at reactions.
+/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a lower limit relative to the
+/// largest; one if there are none, and at reactions.
 pub(crate) fn inertias(linear: &Linear, structure: Structure) -> Vector {
     let mut mass = Vector::filled(structure.size(), 1.0_f64);
     for block in [0..structure.coordinates, structure.speed_range()] {
@@ -231,11 +228,8 @@ pub(crate) fn inertias(linear: &Linear, structure: Structure) -> Vector {
         };
         let greatest = block.clone().map(diagonal).fold(0.0, f64::max);
         for j in block {
-            let own = diagonal(j);
-            if own > MASSLESS * greatest {
-                mass[j] = own;
-            } else if greatest > 0.0 {
-                mass[j] = LIGHT * greatest;
+            if greatest > 0.0 {
+                mass[j] = diagonal(j).max(LIGHT * greatest);
             }
         }
     }
