@@ -19,6 +19,28 @@ mechanism! {
     }
 }
 
+mechanism! {
+    /// A rotor that hardly anything slows down.
+    mechanism Rotor {
+        input torque: N*m;
+        design drag = 1 N*m*s/rad;
+        body rotor: rigid(mass: 1 kg, inertia: [0.01, 0.01, 0.01] kg*m^2);
+        joint spin: revolute(z) from ground to rotor, coasting;
+        force drive: generalized(on: spin, value: torque - drag * rate(spin));
+    }
+}
+
+/// However small a share of the way the first steps go.
+#[test]
+fn a_speed_far_beyond_the_reach_of_a_step_is_found() {
+    for drag in [1.0, 1e-3, 1e-6, 1e-9] {
+        let study = Study::new(Rotor).input(Rotor::torque, 2.0);
+        let state = study.design(Rotor::drag, drag).equilibrium();
+        let speed = state.expect("an equilibrium").coordinates[0];
+        assert!((speed * drag / 2.0 - 1.0).abs() < 1e-12, "{drag}: {speed}");
+    }
+}
+
 /// The rotor pulls out at `load = pull_out`, where it lags by `slip`.
 #[test]
 fn pull_out_of_a_motor() {
