@@ -11,7 +11,7 @@ pub(crate) struct Bordered<const B: usize = 1> {
 }
 
 impl<const B: usize> Bordered<B> {
-    /// Factorises the matrix; `None` if a pivot does not exceed the rounding error of its own row. `columns[j]` is the
+    /// Factorises the matrix; `None` if it is singular up to rounding. `columns[j]` is the
     /// `j`-th added column, `rows[i]` the `i`-th added row.
     pub(crate) fn new(
         core: &Matrix,

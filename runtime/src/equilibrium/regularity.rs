@@ -173,7 +173,11 @@ fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linea
         true => greater(1.0, q[j].abs()),
         false => q[j].abs(),
     });
-    let slides = Vector::from_fn(q.len(), |j| if turns(j) { 0.0 } else { 1.0 });
+    let coordinates = 0..point.structure.coordinates;
+    let slides = Vector::from_fn(q.len(), |j| match coordinates.contains(&j) && !turns(j) {
+        true => 1.0,
+        false => 0.0,
+    });
     let place = (q, point.inputs, point.design);
     Vector::from_fn(q.len(), |i| {
         let mut terms = parts.inertia[i].abs() + parts.applied[i].abs();
