@@ -104,10 +104,12 @@ pub(crate) fn clear(pivots: &[f64], linear: &Linear) -> bool {
     let n = pivots.len();
     let stiffness = &linear.stiffness.as_flattened()[..n * n];
     let mass = &linear.mass.as_flattened()[..n * n];
-    let diagonal = (0..n).map(|i| i * n + i);
-    pivots.iter().zip(diagonal).fold(true, |clear, (pivot, i)| {
-        clear && *pivot > CANCELLED * stiffness[i] && *pivot > SLOW * mass[i]
-    })
+    let mut clear = true;
+    for i in 0..n {
+        let (stiffness, mass) = (stiffness[i * n + i], mass[i * n + i]);
+        clear &= pivots[i] > CANCELLED * stiffness && pivots[i] > SLOW * mass;
+    }
+    clear
 }
 
 /// Share of its element below which a pivot may be pure rounding.

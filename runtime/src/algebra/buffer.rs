@@ -133,7 +133,7 @@ impl<T: Copy + Default, const FEW: usize> Default for Buffer<T, FEW> {
 impl<T, const FEW: usize> Deref for Buffer<T, FEW> {
     type Target = [T];
 
-    #[inline]
+    #[inline(always)]
     fn deref(&self) -> &[T] {
         match self {
             Self::Few(count, few) => &few[..*count],
@@ -143,7 +143,7 @@ impl<T, const FEW: usize> Deref for Buffer<T, FEW> {
 }
 
 impl<T, const FEW: usize> DerefMut for Buffer<T, FEW> {
-    #[inline]
+    #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
         match self {
             Self::Few(count, few) => &mut few[..*count],

@@ -26,12 +26,12 @@ impl Cholesky {
     /// Factors `matrix`; `Err` names the first row whose pivot is not above rounding.
     #[inline]
     pub(crate) fn new(matrix: &Matrix) -> Result<Self, usize> {
-        let mut factors = Self::zeros(matrix.row_count());
+        let mut factors = Self::default();
         factors.factor(matrix)?;
         Ok(factors)
     }
 
-    /// Overwrites the factors with those of `matrix`, of the same size; `Err` as in [`Self::new`].
+    /// Overwrites the factors with those of `matrix`; `Err` as in [`Self::new`].
     #[inline]
     pub(crate) fn factor(&mut self, matrix: &Matrix) -> Result<(), usize> {
         for_size(
@@ -48,11 +48,10 @@ impl Cholesky {
         factor_rows(n, matrix.as_flattened(), lower, pivots)
     }
 
-    /// The entries of `L`, row by row, and the pivots.
+    /// Makes room for the entries of `L`, row by row, and for the pivots; the contents are unspecified.
     #[inline(always)]
     pub(crate) fn room(&mut self, n: usize) -> (&mut [f64], &mut [f64]) {
-        let lower = &mut self.lower.as_flattened_mut()[..n * n];
-        (lower, &mut self.pivots[..n])
+        (self.lower.make_room(n, n), self.pivots.make_room(n))
     }
 
     /// The diagonal of `D`.

@@ -5,6 +5,7 @@ use core::ops::{Index, IndexMut};
 use core::slice;
 
 use super::buffer::Buffer;
+use super::for_size;
 use super::vector::{Vector, dot, greater, largest, unless_finite};
 use crate::Complex;
 
@@ -133,13 +134,13 @@ impl<T> Matrix<T> {
     }
 
     /// The entries, row by row.
-    #[inline]
+    #[inline(always)]
     pub fn as_flattened(&self) -> &[T] {
         &self.entries
     }
 
     /// The entries, row by row.
-    #[inline]
+    #[inline(always)]
     pub fn as_flattened_mut(&mut self) -> &mut [T] {
         &mut self.entries
     }
@@ -163,14 +164,14 @@ impl<T> Matrix<T> {
 impl<T> Index<usize> for Matrix<T> {
     type Output = [T];
 
-    #[inline]
+    #[inline(always)]
     fn index(&self, i: usize) -> &[T] {
         &self.entries[i * self.columns..(i + 1) * self.columns]
     }
 }
 
 impl<T> IndexMut<usize> for Matrix<T> {
-    #[inline]
+    #[inline(always)]
     fn index_mut(&mut self, i: usize) -> &mut [T] {
         &mut self.entries[i * self.columns..(i + 1) * self.columns]
     }
@@ -220,12 +221,20 @@ pub(crate) fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
     matrix.iter().map(row).collect()
 }
 
-/// Bilinear form `x^T matrix y`.
-#[inline]
+/// Bilinear form `x^T matrix y` of vectors of one length; rows and columns of the matrix beyond it do not matter.
 pub(crate) fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
-    x.iter()
-        .zip(matrix.iter())
-        .fold(-0.0, |sum, (x, row)| sum + x * dot(row, y))
+    for_size(
+        x.len(),
+        #[inline(always)]
+        |n| {
+            let (x, y) = (&x[..n], &y[..n]);
+            let mut sum = -0.0;
+            for (i, x) in x.iter().enumerate() {
+                sum += x * dot(&matrix[i][..n], y);
+            }
+            sum
+        },
+    )
 }
 
 /// Largest absolute element.

@@ -89,14 +89,14 @@ impl<T: Copy + Default> Vector<T> {
 impl<T> Deref for Vector<T> {
     type Target = [T];
 
-    #[inline]
+    #[inline(always)]
     fn deref(&self) -> &[T] {
         &self.entries
     }
 }
 
 impl<T> DerefMut for Vector<T> {
-    #[inline]
+    #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
         &mut self.entries
     }
@@ -105,14 +105,14 @@ impl<T> DerefMut for Vector<T> {
 impl<T, I: SliceIndex<[T]>> Index<I> for Vector<T> {
     type Output = I::Output;
 
-    #[inline]
+    #[inline(always)]
     fn index(&self, index: I) -> &I::Output {
         &self.entries[index]
     }
 }
 
 impl<T, I: SliceIndex<[T]>> IndexMut<I> for Vector<T> {
-    #[inline]
+    #[inline(always)]
     fn index_mut(&mut self, index: I) -> &mut I::Output {
         &mut self.entries[index]
     }

@@ -1,6 +1,5 @@
 //! Advances to the next block: predicted, solved and checked, lane by lane.
 
-use super::algebra::Square;
 use super::block::{Block, Past};
 use super::continuity::Continuity;
 use super::newton::newton;
@@ -8,6 +7,7 @@ use super::room::Room;
 use super::slopes::{Slopes, slopes};
 use super::state::{Scratch, state};
 use crate::Input;
+use crate::algebra::Matrix;
 use crate::kernels::{BatchKernels, Kernels, Sizes};
 use crate::scalar::{Batch, Instructions, WIDTH};
 
@@ -52,7 +52,7 @@ impl<'a> Workspace<'a> {
         (kernels, instructions): (&dyn BatchKernels, Instructions),
         (input, values): (Input, &[f64]),
         past: &Past<'_>,
-        shapes: &Square<f64>,
+        shapes: &Matrix,
     ) -> usize {
         let Self {
             block,

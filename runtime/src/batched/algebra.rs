@@ -2,7 +2,7 @@
 //! failed.
 //!
 //! Sizes are arguments of functions that are inlined at the call site: for a caller with constant `n` the loops have
-//! constant length, see [`for_size`].
+//! constant length, see [`for_size!`].
 
 use crate::algebra::Matrix;
 use crate::scalar::{Batch, Lanes};
@@ -11,20 +11,31 @@ use crate::scalar::{Batch, Lanes};
 pub(crate) const LARGEST: usize = 8;
 
 /// One number for each unknown; entries from `n` on are meaningless.
-pub(crate) type Row<V, const N: usize = LARGEST> = [V; N];
+pub(crate) type Row<V, const N: usize> = [V; N];
 /// A matrix of size `n`.
-pub(crate) type Square<V, const N: usize = LARGEST> = [Row<V, N>; N];
+pub(crate) type Square<V, const N: usize> = [Row<V, N>; N];
 
-/// Calls `work` with the size, as a constant if it is small, so that `work` is compiled for it.
-#[inline(always)]
-pub(crate) fn for_size(n: usize, mut work: impl FnMut(usize)) {
-    match n {
-        1 => work(1),
-        2 => work(2),
-        3 => work(3),
-        n => work(n.min(LARGEST)),
-    }
+/// Compiles `$work` for each small number `$n` of unknowns, a constant there, with arrays of size `$N`; once for all
+/// larger ones.
+macro_rules! for_size {
+    ($count:expr, |$n:ident, $N:ident| $work:expr) => {
+        match $count {
+            1 => for_size!(@1, 1, $n, $N, $work),
+            2 => for_size!(@2, 2, $n, $N, $work),
+            3 => for_size!(@3, 3, $n, $N, $work),
+            count => {
+                const LARGEST: usize = $crate::batched::algebra::LARGEST;
+                for_size!(@LARGEST, count.min(LARGEST), $n, $N, $work)
+            }
+        }
+    };
+    (@$size:expr, $count:expr, $n:ident, $N:ident, $work:expr) => {{
+        const $N: usize = $size;
+        let $n = $count;
+        $work
+    }};
 }
+pub(crate) use for_size;
 
 /// Like [`for_size`], for at most `N` unknowns.
 #[inline(always)]

@@ -64,36 +64,32 @@ impl Task for Step<'_, '_> {
             resting,
         } = self;
         let (zero, one) = (V::constant(0.0), V::constant(1.0));
-        for_size(
-            block.coordinates.len(),
-            #[inline(always)]
-            |n| {
-                for at in (0..WIDTH).step_by(V::WIDTH) {
-                    let stiffness: Square<V> = load_matrix(n, scratch.stiffness, at);
-                    let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
-                    let step = solver.solve(n, &algebra::load(n, scratch.residual, at));
-                    // Lanes at rest do not move, so that none depends on the others.
-                    let rested = V::load(resting, at);
-                    let moving = rested.at_most(zero);
-                    let (mut last, mut near) = (one, positive);
-                    let coordinates = &mut block.coordinates[..n];
-                    for i in 0..n {
-                        let (q, step) = (V::load(&coordinates[i], at), step[i]);
-                        let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(SMALL_MOTION));
-                        last = keep(last, step.abs().at_most(scale));
-                        near = keep(near, step.abs().at_most(V::constant(RADIUS)));
-                        V::choose(moving, q - step, q).store(&mut coordinates[i], at);
-                    }
-                    let flag = V::load(&block.flags, at);
-                    let flag = keep(flag, one.at_most(V::choose(moving, near, one)));
-                    flag.store(&mut block.flags, at);
-                    let steps = V::load(&block.iterations, at) + V::choose(moving, one, zero);
-                    steps.store(&mut block.iterations, at);
-                    // Lanes that failed stop too.
-                    let done = V::choose(one.at_most(flag), last, one);
-                    V::choose(moving, done, rested).store(resting, at);
+        for_size!(block.coordinates.len(), |n, N| {
+            for at in (0..WIDTH).step_by(V::WIDTH) {
+                let stiffness: Square<V, N> = load_matrix(n, scratch.stiffness, at);
+                let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
+                let step = solver.solve(n, &algebra::load(n, scratch.residual, at));
+                // Lanes at rest do not move, so that none depends on the others.
+                let rested = V::load(resting, at);
+                let moving = rested.at_most(zero);
+                let (mut last, mut near) = (one, positive);
+                let coordinates = &mut block.coordinates[..n];
+                for i in 0..n {
+                    let (q, step) = (V::load(&coordinates[i], at), step[i]);
+                    let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(SMALL_MOTION));
+                    last = keep(last, step.abs().at_most(scale));
+                    near = keep(near, step.abs().at_most(V::constant(RADIUS)));
+                    V::choose(moving, q - step, q).store(&mut coordinates[i], at);
                 }
-            },
-        );
+                let flag = V::load(&block.flags, at);
+                let flag = keep(flag, one.at_most(V::choose(moving, near, one)));
+                flag.store(&mut block.flags, at);
+                let steps = V::load(&block.iterations, at) + V::choose(moving, one, zero);
+                steps.store(&mut block.iterations, at);
+                // Lanes that failed stop too.
+                let done = V::choose(one.at_most(flag), last, one);
+                V::choose(moving, done, rested).store(resting, at);
+            }
+        });
     }
 }

@@ -1,7 +1,7 @@
 //! Converts one lane of a block to a state, as if it had been solved alone.
 
-use super::algebra::for_size;
 use super::block::Block;
+use crate::algebra::for_size;
 use crate::kernels::Kernels;
 use crate::scalar::{Batch, WIDTH};
 use crate::{Equilibrium, Modes, Sensitivities, Stability};
@@ -42,9 +42,12 @@ impl Block<'_> {
             |n| {
                 for (r, mode) in modes.modes.iter_mut().enumerate() {
                     let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
-                    let shape = of(&self.shapes[r * n..][..n], lane);
                     let residual = self.mode_residuals[r].0[lane];
-                    mode.set_undamped(mode.label, lambda, shape, residual);
+                    let from = &self.shapes[r * n..][..n];
+                    let shape = &mut mode.make_undamped(mode.label, lambda, residual, n)[..n];
+                    for i in 0..n {
+                        shape[i] = from[i].0[lane].into();
+                    }
                 }
             },
         );
@@ -73,7 +76,13 @@ fn of(batches: &[Batch], lane: usize) -> impl ExactSizeIterator<Item = f64> + Cl
 fn read(count: usize, from: &[Batch], lane: usize, to: &mut [f64]) {
     let lane = lane % WIDTH;
     let (from, to) = (&from[..count], &mut to[..count]);
-    for k in 0..count {
-        to[k] = from[k].0[lane];
-    }
+    for_size(
+        count,
+        #[inline(always)]
+        |count| {
+            for k in 0..count {
+                to[k] = from[k].0[lane];
+            }
+        },
+    );
 }

@@ -2,7 +2,7 @@
 //! `a = phi^T (Khat - lambda Mhat) phi`, the counterpart of [`sensitivities`](crate::sensitivity::sensitivities) for
 //! one state.
 
-use super::algebra::{self, LARGEST, Row, Square, for_size, load_matrix};
+use super::algebra::{self, Row, Square, for_size, load_matrix};
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
 use super::room::Room;
@@ -117,61 +117,58 @@ impl Task for FromPartials<'_, '_> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { block, partials } = self;
-        for_size(
-            block.coordinates.len(),
-            #[inline(always)]
-            |n| {
-                for at in (0..WIDTH).step_by(V::WIDTH) {
-                    from_partials::<V>(n, partials, block, at);
-                }
-            },
-        );
+        for_size!(block.coordinates.len(), |n, N| {
+            for at in (0..WIDTH).step_by(V::WIDTH) {
+                from_partials::<V, N>(n, partials, block, at);
+            }
+        });
     }
 }
 
 #[inline(always)]
-fn from_partials<V: Lanes>(n: usize, partials: &Partials<'_>, block: &mut Block<'_>, at: usize) {
+fn from_partials<V: Lanes, const N: usize>(
+    n: usize,
+    partials: &Partials<'_>,
+    block: &mut Block<'_>,
+    at: usize,
+) {
     let Partials { matrices, residual } = partials;
-    let stiffness: Square<V> = load_matrix(n, block.linear.stiffness, at);
+    let stiffness: Square<V, N> = load_matrix(n, block.linear.stiffness, at);
     let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
-    let (inputs, design) = (block.inputs.len(), block.design.len());
-    let mut finite = Finite::new();
+    let lambda: Row<V, N> = algebra::load(n, block.lambda, at);
+    let phi: Square<V, N> = load_matrix(n, block.shapes, at);
+    let mut right = [[V::constant(0.0); N]; N];
+    for k in 0..n {
+        let change = Change::load(n, &matrices.by_coordinate, k, at);
+        for mode in 0..n {
+            right[mode][k] = change.rate(n, &phi[mode], lambda[mode]);
+        }
+    }
+    let mut w = [[V::constant(0.0); N]; N];
     for mode in 0..n {
-        let phi: Row<V> = algebra::load(n, &block.shapes[mode * n..], at);
-        let lambda = V::load(&block.lambda[mode], at);
-        let mut products = [[V::constant(0.0); LARGEST]; LARGEST];
-        for i in 0..n {
-            for j in 0..n {
-                products[i][j] = phi[i] * phi[j];
+        w[mode] = solver.solve(n, &right[mode]);
+    }
+    let mut finite = Finite::new();
+    for (changes, forces, to) in [
+        (&matrices.by_input, &residual[0], &mut *block.by_input),
+        (&matrices.by_design, &residual[1], &mut *block.by_design),
+    ] {
+        let count = to.len() / n;
+        let (forces, to) = (&forces[..n * count], &mut to[..n * count]);
+        for k in 0..count {
+            let change = Change::load(n, changes, k, at);
+            let mut force = [V::constant(0.0); N];
+            for i in 0..n {
+                force[i] = V::load(&forces[i * count + k], at);
             }
-        }
-        let form = (&products, lambda);
-        let mut right = [V::constant(0.0); LARGEST];
-        for k in 0..n {
-            right[k] = rate(n, &matrices.by_coordinate, k, form, at);
-        }
-        let w = solver.solve(n, &right);
-        for (count, changes, forces, to) in [
-            (
-                inputs,
-                &matrices.by_input,
-                &residual[0],
-                &mut *block.by_input,
-            ),
-            (
-                design,
-                &matrices.by_design,
-                &residual[1],
-                &mut *block.by_design,
-            ),
-        ] {
-            let to = &mut to[mode * count..][..count];
-            for k in 0..count {
-                let direct = rate(n, changes, k, form, at);
-                let shift = combined(n, &w, forces, (k, count), at);
-                let slope = direct - shift;
+            for mode in 0..n {
+                let mut shift = V::constant(-0.0);
+                for i in 0..n {
+                    shift = shift + w[mode][i] * force[i];
+                }
+                let slope = change.rate(n, &phi[mode], lambda[mode]) - shift;
                 finite.see(slope);
-                slope.store(&mut to[k], at);
+                slope.store(&mut to[mode * count + k], at);
             }
         }
     }
@@ -190,19 +187,15 @@ impl Task for Adjoint<'_, '_> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { block, gradients } = self;
-        for_size(
-            block.coordinates.len(),
-            #[inline(always)]
-            |n| {
-                for at in (0..WIDTH).step_by(V::WIDTH) {
-                    let stiffness: Square<V> = load_matrix(n, block.linear.stiffness, at);
-                    let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
-                    let right = algebra::load(n, gradients.direct.coordinates, at);
-                    let w = solver.solve(n, &right);
-                    algebra::store(n, &w, gradients.adjoint, at);
-                }
-            },
-        );
+        for_size!(block.coordinates.len(), |n, N| {
+            for at in (0..WIDTH).step_by(V::WIDTH) {
+                let stiffness: Square<V, N> = load_matrix(n, block.linear.stiffness, at);
+                let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
+                let right = algebra::load(n, gradients.direct.coordinates, at);
+                let w = solver.solve(n, &right);
+                algebra::store(n, &w, gradients.adjoint, at);
+            }
+        });
     }
 }
 
@@ -264,44 +257,44 @@ impl<V: Lanes> Finite<V> {
     }
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi` for change `k`, with symmetric matrices.
-#[inline(always)]
-fn rate<V: Lanes>(
-    n: usize,
-    changes: &BatchLinear<'_>,
-    k: usize,
-    (products, lambda): (&Square<V>, V),
-    at: usize,
-) -> V {
-    let stiffness = &changes.stiffness[k * n * n..][..n * n];
-    let mass = &changes.mass[k * n * n..][..n * n];
-    let (mut own, mut mixed) = (V::constant(-0.0), V::constant(-0.0));
-    for i in 0..n {
-        for j in 0..=i {
-            let stiffness = V::load(&stiffness[i * n + j], at);
-            let change = stiffness - lambda * V::load(&mass[i * n + j], at);
-            if i == j {
-                own = own + products[i][j] * change;
-            } else {
-                mixed = mixed + products[i][j] * change;
-            }
-        }
-    }
-    own + (mixed + mixed)
+/// The derivatives of the symmetric matrices with respect to one variable, on and below the diagonal.
+struct Change<V, const N: usize> {
+    stiffness: Square<V, N>,
+    mass: Square<V, N>,
 }
 
-/// `w^T partials` for column `k` of `count`.
-#[inline(always)]
-fn combined<V: Lanes>(
-    n: usize,
-    w: &Row<V>,
-    partials: &[Batch],
-    (k, count): (usize, usize),
-    at: usize,
-) -> V {
-    let mut sum = V::constant(-0.0);
-    for i in 0..n {
-        sum = sum + w[i] * V::load(&partials[i * count + k], at);
+impl<V: Lanes, const N: usize> Change<V, N> {
+    #[inline(always)]
+    fn load(n: usize, changes: &BatchLinear<'_>, k: usize, at: usize) -> Self {
+        let stiffness = &changes.stiffness[k * n * n..][..n * n];
+        let mass = &changes.mass[k * n * n..][..n * n];
+        let mut own = Self {
+            stiffness: [[V::constant(0.0); N]; N],
+            mass: [[V::constant(0.0); N]; N],
+        };
+        for i in 0..n {
+            for j in 0..=i {
+                own.stiffness[i][j] = V::load(&stiffness[i * n + j], at);
+                own.mass[i][j] = V::load(&mass[i * n + j], at);
+            }
+        }
+        own
     }
-    sum
+
+    /// `phi^T (dKhat - lambda dMhat) phi`.
+    #[inline(always)]
+    fn rate(&self, n: usize, phi: &Row<V, N>, lambda: V) -> V {
+        let (mut own, mut mixed) = (V::constant(-0.0), V::constant(-0.0));
+        for i in 0..n {
+            for j in 0..=i {
+                let change = self.stiffness[i][j] - lambda * self.mass[i][j];
+                if i == j {
+                    own = own + phi[i] * phi[j] * change;
+                } else {
+                    mixed = mixed + phi[i] * phi[j] * change;
+                }
+            }
+        }
+        own + (mixed + mixed)
+    }
 }

@@ -1,9 +1,10 @@
 //! The state at the equilibrium in every lane: the remaining residual, the linearised mechanism, and its modes.
 
-use super::algebra::{self, LARGEST, Row, Square, congruent, for_size, keep, load_matrix};
+use super::algebra::{self, Row, Square, congruent, for_size, keep, load_matrix, small};
 use super::block::{Block, POSITIVE};
 use super::closed::{self, Solver};
 use super::room::Room;
+use crate::algebra::Matrix;
 use crate::eigenproblem::INACCURATE;
 use crate::equilibrium::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
 use crate::kernels::{BatchKernels, BatchParts, BatchPoint};
@@ -45,7 +46,7 @@ pub(super) fn state<'m>(
     instructions: Instructions,
     block: &mut Block<'m>,
     scratch: &mut Scratch<'m>,
-    shapes: &Square<f64>,
+    shapes: &Matrix,
 ) {
     let parts = &mut scratch.parts;
     let point = BatchPoint {
@@ -62,7 +63,7 @@ pub(super) fn state<'m>(
 }
 
 struct State<'a, 'b> {
-    shapes: &'a Square<f64>,
+    shapes: &'a Matrix,
     parts: &'a BatchParts<'b>,
     block: &'a mut Block<'b>,
 }
@@ -78,54 +79,51 @@ impl Task for State<'_, '_> {
             block,
         } = self;
         let one = V::constant(1.0);
-        for_size(
-            block.coordinates.len(),
-            #[inline(always)]
-            |n| {
-                for at in (0..WIDTH).step_by(V::WIDTH) {
-                    let q: Row<V> = algebra::load(n, block.coordinates, at);
-                    let inertia = algebra::load(n, parts.inertia, at);
-                    let applied = algebra::load(n, parts.applied, at);
-                    let mass = load_matrix(n, block.linear.mass, at);
-                    let stiffness = load_matrix(n, block.linear.stiffness, at);
-                    let mut residual = inertia;
-                    for i in 0..n {
-                        residual[i] = residual[i] - applied[i];
-                    }
-                    let (relative, rest) =
-                        remainder(n, &q, [&inertia, &applied, &residual], &stiffness);
-                    let mut flag = keep(V::load(&block.flags, at), one.at_most(rest));
-                    flag = keep(flag, one.at_most(closed::definite(n, &mass, POSITIVE)));
-                    let (lambda, vectors, found) = modes(n, &mass, &stiffness, shapes);
-                    flag = keep(flag, one.at_most(found));
-                    algebra::store(n, &residual, block.residual, at);
-                    relative.store(&mut block.relative_residual, at);
-                    algebra::store(n, &lambda, block.lambda, at);
-                    for r in 0..n {
-                        let (most, error, accurate) =
-                            mode_residual(n, &mass, &stiffness, lambda[r], &vectors[r]);
-                        flag = keep(flag, one.at_most(accurate));
-                        most.store(&mut block.mode_residuals[r], at);
-                        error.store(&mut block.mode_errors[r], at);
-                        algebra::store(n, &vectors[r], &mut block.shapes[r * n..], at);
-                    }
-                    flag.store(&mut block.flags, at);
+        for_size!(block.coordinates.len(), |n, N| {
+            let shapes: &Square<f64, N> = &small(shapes);
+            for at in (0..WIDTH).step_by(V::WIDTH) {
+                let q: Row<V, N> = algebra::load(n, block.coordinates, at);
+                let inertia = algebra::load(n, parts.inertia, at);
+                let applied = algebra::load(n, parts.applied, at);
+                let mass = load_matrix(n, block.linear.mass, at);
+                let stiffness = load_matrix(n, block.linear.stiffness, at);
+                let mut residual = inertia;
+                for i in 0..n {
+                    residual[i] = residual[i] - applied[i];
                 }
-            },
-        );
+                let (relative, rest) =
+                    remainder(n, &q, [&inertia, &applied, &residual], &stiffness);
+                let mut flag = keep(V::load(&block.flags, at), one.at_most(rest));
+                flag = keep(flag, one.at_most(closed::definite(n, &mass, POSITIVE)));
+                let (lambda, vectors, found) = modes(n, &mass, &stiffness, shapes);
+                flag = keep(flag, one.at_most(found));
+                algebra::store(n, &residual, block.residual, at);
+                relative.store(&mut block.relative_residual, at);
+                algebra::store(n, &lambda, block.lambda, at);
+                for r in 0..n {
+                    let (most, error, accurate) =
+                        mode_residual(n, &mass, &stiffness, lambda[r], &vectors[r]);
+                    flag = keep(flag, one.at_most(accurate));
+                    most.store(&mut block.mode_residuals[r], at);
+                    error.store(&mut block.mode_errors[r], at);
+                    algebra::store(n, &vectors[r], &mut block.shapes[r * n..], at);
+                }
+                flag.store(&mut block.flags, at);
+            }
+        });
     }
 }
 
 /// Largest residual, relative to the forces of its equation and to what small motions restore there. The flag says that
 /// it and the resulting displacement are rounding, and that the stiffness is positive definite.
 #[inline(always)]
-fn remainder<V: Lanes>(
+fn remainder<V: Lanes, const N: usize>(
     n: usize,
-    q: &Row<V>,
-    [inertia, applied, residual]: [&Row<V>; 3],
-    stiffness: &Square<V>,
+    q: &Row<V, N>,
+    [inertia, applied, residual]: [&Row<V, N>; 3],
+    stiffness: &Square<V, N>,
 ) -> (V, V) {
-    let mut small = [V::constant(SMALL_MOTION); LARGEST];
+    let mut small = [V::constant(SMALL_MOTION); N];
     for i in 0..n {
         small[i] = small[i] + V::constant(ROUNDED) * q[i].abs();
     }
@@ -153,17 +151,17 @@ fn remainder<V: Lanes>(
 /// `lambda` and vectors, identified by the nearby ones; the flag says that each is recognised and clear of zero and of
 /// the others.
 #[inline(always)]
-fn modes<V: Lanes>(
+fn modes<V: Lanes, const N: usize>(
     n: usize,
-    mass: &Square<V>,
-    stiffness: &Square<V>,
-    shapes: &Square<f64>,
-) -> (Row<V>, Square<V>, V) {
+    mass: &Square<V, N>,
+    stiffness: &Square<V, N>,
+    shapes: &Square<f64, N>,
+) -> (Row<V, N>, Square<V, N>, V) {
     let mass = congruent(n, mass, shapes);
     let stiffness = congruent(n, stiffness, shapes);
     let (lambda, local, mut flag) = closed::eigenpairs(n, &stiffness, &mass);
     let zero = V::constant(0.0);
-    let mut vectors = [[zero; LARGEST]; LARGEST];
+    let mut vectors = [[zero; N]; N];
     let mut greatest = zero;
     for i in 0..n {
         let lambda = lambda[i];
@@ -194,7 +192,7 @@ fn modes<V: Lanes>(
 
 /// Makes the largest component positive; a margin keeps the choice stable when two are equal up to rounding.
 #[inline(always)]
-fn positive_lead<V: Lanes>(n: usize, vector: &mut Row<V>) {
+fn positive_lead<V: Lanes, const N: usize>(n: usize, vector: &mut Row<V, N>) {
     let mut lead = vector[0];
     for i in 1..n {
         let margin = lead.abs() * V::constant(1.0 + 1e-9);
@@ -209,12 +207,12 @@ fn positive_lead<V: Lanes>(n: usize, vector: &mut Row<V>) {
 /// Largest component of `Khat phi - lambda Mhat phi` relative to the largest sum of terms in a row, the error of
 /// `lambda`, and whether the first is too small for refinement to improve.
 #[inline(always)]
-fn mode_residual<V: Lanes>(
+fn mode_residual<V: Lanes, const N: usize>(
     n: usize,
-    mass: &Square<V>,
-    stiffness: &Square<V>,
+    mass: &Square<V, N>,
+    stiffness: &Square<V, N>,
     lambda: V,
-    vector: &Row<V>,
+    vector: &Row<V, N>,
 ) -> (V, V, V) {
     let zero = V::constant(0.0);
     let (mut most, mut size) = (zero, zero);

@@ -3,7 +3,7 @@
 use super::convergence::{TOLERANCE, is_rounding, relative_to, residual_is_small};
 use super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector, add_scaled, all_finite, largest};
-use crate::kernels::Linear;
+use crate::kernels::{Linear, RestParts};
 
 /// The result of a solver, before its stability is judged.
 pub(crate) struct Found {
@@ -85,7 +85,9 @@ impl Candidate {
             Some(measured) => measured.relative_residual <= tolerance,
             None => {
                 let (q, residual) = (&self.coordinates, &self.residual);
-                all_finite(residual) && residual_is_small(point, q, residual, stiffness, tolerance)
+                let mut parts = RestParts::zeros(q.len());
+                let at = (&residual[..], stiffness);
+                all_finite(residual) && residual_is_small(point, q, at, &mut parts, tolerance)
             }
         }
     }

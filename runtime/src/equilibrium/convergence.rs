@@ -6,7 +6,7 @@
 //! The gap of a constraint is measured by motions too, and a reaction relative to the largest one.
 
 use super::operating_point::OperatingPoint;
-use crate::algebra::{Matrix, Vector, greater, largest};
+use crate::algebra::{Matrix, Vector, for_size, greater, largest};
 use crate::kernels::RestParts;
 
 /// Relative residual that counts as solved once it no longer falls.
@@ -47,6 +47,8 @@ pub(crate) struct Watch {
     previous: f64,
     /// The state at which the residual last fell.
     fell_at: Vector,
+    /// A buffer.
+    parts: RestParts,
 }
 
 impl Watch {
@@ -54,6 +56,7 @@ impl Watch {
         Self {
             previous: f64::INFINITY,
             fell_at: start.into(),
+            parts: RestParts::zeros(start.len()),
         }
     }
 
@@ -74,9 +77,12 @@ impl Watch {
         }
         let motions = point.motions();
         let last = step.map_or(StepsLeft::More, |step| last(step, q, motions));
-        let solved = |tolerance| residual_is_small(point, q, residual, stiffness, tolerance);
+        let drifts = stalled && self.drifts(&q[..motions]);
+        let parts = &mut self.parts;
+        let mut solved =
+            |tolerance| residual_is_small(point, q, (residual, stiffness), parts, tolerance);
         if (last == StepsLeft::Reached && solved(ACCEPTED))
-            || (stalled && !self.drifts(&q[..motions]) && solved(TOLERANCE))
+            || (stalled && !drifts && solved(TOLERANCE))
         {
             Progress::Finished
         } else if last == StepsLeft::More {
@@ -135,18 +141,19 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
     })
 }
 
-/// Whether the relative residual is within `tolerance`; evaluates the forces only if the stiffness does not already
-/// show it.
+/// Whether the relative residual is within `tolerance`; evaluates the forces, into `parts`, only if the stiffness does
+/// not already show it.
 pub(crate) fn residual_is_small(
     point: &OperatingPoint<'_>,
     q: &[f64],
-    residual: &[f64],
-    stiffness: &Matrix,
+    at: (&[f64], &Matrix),
+    parts: &mut RestParts,
     tolerance: f64,
 ) -> bool {
+    let (residual, stiffness) = at;
     let motions = point.motions();
     (0..q.len()).all(|i| relative(residual[i], 0.0, &q[..motions], &stiffness[i]) <= tolerance)
-        || relative_residual(point, q, residual, stiffness) <= tolerance
+        || relative_residual_into(point, q, at, parts) <= tolerance
 }
 
 /// The largest residual, each relative to its own scale.
@@ -162,8 +169,19 @@ pub(crate) fn relative_residual(
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    let parts = point.parts(q);
-    let own = relative_to(point, &parts, q, residual, stiffness);
+    let mut parts = RestParts::zeros(q.len());
+    relative_residual_into(point, q, (residual, stiffness), &mut parts)
+}
+
+/// Like [`relative_residual`], with a buffer for the parts.
+fn relative_residual_into(
+    point: &OperatingPoint<'_>,
+    q: &[f64],
+    (residual, stiffness): (&[f64], &Matrix),
+    parts: &mut RestParts,
+) -> f64 {
+    point.parts_into(q, parts);
+    let own = relative_to(point, parts, q, residual, stiffness);
     if own > TOLERANCE && point.motions() < q.len() {
         let forces = [&parts.inertia[..], &parts.applied];
         own.min(relative_to_passed_on(
@@ -233,11 +251,18 @@ pub(crate) fn relative_to(
 ) -> f64 {
     let forces = [&parts.inertia[..], &parts.applied];
     let stiffness = stiffness.as_flattened();
-    relative_of((q.len(), point.motions()), forces, q, residual, stiffness)
+    if !point.structure.open() {
+        return relative_of((q.len(), point.motions()), forces, q, residual, stiffness);
+    }
+    for_size(
+        q.len(),
+        #[inline(always)]
+        |n| relative_of((n, n), forces, q, residual, stiffness),
+    )
 }
 
 /// The relative residual for `n` unknowns, the first `motions` of which are motions; `forces` are inertia and applied
-/// forces. See [`for_size`](crate::algebra::for_size).
+/// forces. See [`for_size`].
 #[inline(always)]
 pub(crate) fn relative_of(
     (n, motions): (usize, usize),

@@ -10,7 +10,7 @@ use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relati
 use super::operating_point::{Failure, OperatingPoint};
 use super::search_space::{Base, SearchSpace, Trial};
 use crate::algebra::{
-    Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, form, largest, times,
+    Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, for_size, form, largest, times,
 };
 use crate::eigenproblem::symmetric;
 use crate::error::NotFound;
@@ -65,6 +65,7 @@ where
     let mut base: Base<S> = S::base(point, &from.q)?;
     let mut trial = Trial::blank(point.size());
     let mut curved: Option<Curved> = None;
+    let mut factors = Cholesky::default();
     let mut radius = from.radius;
     let mut departures = 0;
     let mut left_unstable_region = false;
@@ -75,8 +76,8 @@ where
         let at = (&base.residual[..], &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.reduced(&base.stiffness);
-        let convex = Cholesky::new(&stiffness).ok();
-        if was_curved && convex.is_some() {
+        let convex = factors.factor(&stiffness).is_ok();
+        if was_curved && convex {
             let place = SearchState {
                 q: base.q.clone(),
                 radius,
@@ -89,8 +90,8 @@ where
                 });
             }
         }
-        was_curved = convex.is_none();
-        let mut step = if let Some(factors) = &convex {
+        was_curved = !convex;
+        let mut step = if convex {
             factors.solve(&slopes).map(|value| -value)
         } else {
             let curved = curved.get_or_insert_with(|| Curved::blank(point.size()));
@@ -111,7 +112,7 @@ where
         let progress = watch.judge(point, &base.q, at, Some(&step));
         if progress == Progress::Finished {
             let curved = curved.as_ref().filter(|curved| curved.unstable);
-            let Some(curved) = curved.filter(|_| convex.is_none()) else {
+            let Some(curved) = curved.filter(|_| !convex) else {
                 return Ok(found(here(base), iterations));
             };
             departures += 1;
@@ -129,7 +130,7 @@ where
             continue;
         }
         if progress == Progress::LastStep
-            && let Some(factors) = &convex
+            && convex
             && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
                 base.space.lift(factors.solve(&base.space.slopes(rest)))
             })
@@ -143,7 +144,7 @@ where
         }
         let Some(next) = search(point, &base, &step, &mut trial) else {
             let relative = relative_residual(point, &base.q, at.0, at.1);
-            if relative <= TOLERANCE && convex.is_some() {
+            if relative <= TOLERANCE && convex {
                 return Ok(found(here(base), iterations));
             }
             let reason = NotFound::NoDescent;
@@ -205,14 +206,23 @@ impl Curved {
         let pairs = &self.pairs;
         let floor = 1e-8 * largest(&pairs.lambda);
         let mut step = Vector::zeros(residual.len());
-        for r in 0..pairs.lambda.len() {
-            let slope = dot(&pairs.shapes[r], residual);
-            if slope != 0.0 {
-                let curvature = pairs.lambda[r].abs().max(floor).max(f64::MIN_POSITIVE);
-                let amount = (slope / curvature).clamp(-1e100, 1e100);
-                add_to(&mut step, -amount, &pairs.shapes[r]);
-            }
-        }
+        for_size(
+            residual.len(),
+            #[inline(always)]
+            |n| {
+                let (residual, step) = (&residual[..n], &mut step[..n]);
+                let shapes = pairs.shapes.as_flattened();
+                for r in 0..n {
+                    let shape = &shapes[r * n..][..n];
+                    let slope = dot(shape, residual);
+                    if slope != 0.0 {
+                        let curvature = pairs.lambda[r].abs().max(floor).max(f64::MIN_POSITIVE);
+                        let amount = (slope / curvature).clamp(-1e100, 1e100);
+                        add_to(step, -amount, shape);
+                    }
+                }
+            },
+        );
         step
     }
 }

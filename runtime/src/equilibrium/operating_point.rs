@@ -1,6 +1,6 @@
 //! One equilibrium problem: a mechanism with validated inputs and design variables, evaluated with checks.
 
-use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
+use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix, for_size};
 use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
@@ -141,7 +141,11 @@ impl<'a> OperatingPoint<'a> {
         let entries = stiffness.as_flattened_mut();
         let kernels = self.mechanism;
         kernels.residual_and_stiffness_into(q, self.inputs, self.design, residual, entries);
-        let finite = all_finite(residual) && all_finite_matrix(stiffness);
+        let finite = for_size(
+            q.len(),
+            #[inline(always)]
+            |n| all_finite(&residual[..n]) && all_finite(&stiffness.as_flattened()[..n * n]),
+        );
         if finite && !self.structure.open() {
             if self.dropped.contains(&true) {
                 self.drop_rows(residual, Some(stiffness));
@@ -164,6 +168,12 @@ impl<'a> OperatingPoint<'a> {
     /// Inertia and applied forces at rest, which may not be finite.
     pub(crate) fn parts(&self, q: &[f64]) -> RestParts {
         self.mechanism.residual_parts(q, self.inputs, self.design)
+    }
+
+    /// Like [`Self::parts`], overwriting parts of this size.
+    pub(crate) fn parts_into(&self, q: &[f64], parts: &mut RestParts) {
+        self.mechanism
+            .residual_parts_into(q, self.inputs, self.design, parts);
     }
 
     fn drop_rows(&self, residual: &mut [f64], mut stiffness: Option<&mut Matrix>) {
@@ -222,14 +232,25 @@ impl<'a> OperatingPoint<'a> {
     #[inline]
     pub(crate) fn check(&self, q: &[f64], linear: &Linear) -> Result<(), Failure> {
         let undamped = matches!(self.description.damping, DampingKind::Zero);
+        let finite = for_size(
+            q.len(),
+            #[inline(always)]
+            |n| {
+                let finite = |matrix: &Matrix| all_finite(&matrix.as_flattened()[..n * n]);
+                finite(&linear.mass)
+                    && (undamped || finite(&linear.damping))
+                    && finite(&linear.stiffness)
+            },
+        );
+        if finite {
+            return Ok(());
+        }
         let what = if !all_finite_matrix(&linear.mass) {
             "the mass matrix"
         } else if !undamped && !all_finite_matrix(&linear.damping) {
             "the damping matrix"
-        } else if !all_finite_matrix(&linear.stiffness) {
-            "the stiffness matrix"
         } else {
-            return Ok(());
+            "the stiffness matrix"
         };
         Err(Failure::OutsideDomain {
             what,

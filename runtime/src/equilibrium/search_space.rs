@@ -134,9 +134,12 @@ impl SearchSpace for Unconstrained {
         (step, length): (&[f64], f64),
         trial: &mut Trial,
     ) -> bool {
-        trial.q.copy_from_slice(q);
-        add_to(&mut trial.q, length, step);
-        trial.direction.copy_from_slice(step);
+        let n = q.len();
+        let (place, direction, step) = (&mut trial.q[..n], &mut trial.direction[..n], &step[..n]);
+        for i in 0..n {
+            place[i] = q[i] + length * step[i];
+            direction[i] = step[i];
+        }
         point.evaluate_into(&trial.q, &mut trial.residual, &mut trial.stiffness)
     }
 }

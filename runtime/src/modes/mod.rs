@@ -379,8 +379,11 @@ fn undamped(
     modes.resize_with(count, Mode::blank);
     for (r, mode) in modes.iter_mut().enumerate() {
         let (lambda, error) = (pairs.lambda[r], pairs.errors[r].max(floor));
-        let shape = pairs.shapes[r].iter().copied();
-        mode.set_undamped(r, (lambda, error), shape, pairs.residuals[r]);
+        let from = &pairs.shapes[r];
+        let shape = mode.make_undamped(r, (lambda, error), pairs.residuals[r], from.len());
+        for (to, from) in shape.iter_mut().zip(from) {
+            *to = Complex::from(*from);
+        }
     }
     Ok(())
 }

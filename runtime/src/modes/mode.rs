@@ -131,15 +131,16 @@ impl Mode {
         }
     }
 
-    /// Overwrites this mode with an undamped mode given by its eigenvalue and error, reusing the vectors.
-    #[inline]
-    pub(crate) fn set_undamped(
+    /// Overwrites this mode with an undamped mode given by its eigenvalue and error, reusing the vectors. Returns the
+    /// place into which the caller writes the shape, of `n` components.
+    #[inline(always)]
+    pub(crate) fn make_undamped(
         &mut self,
         label: usize,
         (lambda, error): (f64, f64),
-        shape: impl ExactSizeIterator<Item = f64>,
         residual: f64,
-    ) {
+        n: usize,
+    ) -> &mut [Complex] {
         let rate = lambda.abs().sqrt();
         (self.s, self.behaviour) = match sign(lambda, error) {
             Sign::Positive => (Complex::new(0.0, rate), Behaviour::Oscillating(rate)),
@@ -148,7 +149,6 @@ impl Mode {
         };
         self.lambda = lambda;
         self.left.make_room(0);
-        self.shape.assign(shape.map(Complex::from));
         self.residual = residual;
         // `sqrt(error)`, or `error / rate` if that is smaller.
         self.error = if rate * rate > error {
@@ -158,6 +158,7 @@ impl Mode {
         };
         self.condition = 1.0;
         self.label = label;
+        self.shape.make_room(n)
     }
 
     /// Real part of the shape, which is all of it for an undamped mode.
@@ -180,7 +181,8 @@ mod tests {
         };
         assert_eq!(general.left(), [i, two]);
         let mut undamped = general;
-        undamped.set_undamped(0, (4.0, 0.0), [1.0, 0.5].into_iter(), 0.0);
+        let shape = undamped.make_undamped(0, (4.0, 0.0), 0.0, 2);
+        shape.copy_from_slice(&[1.0, 0.5].map(Complex::from));
         assert_eq!(undamped.left(), [Complex::ONE, Complex::new(0.5, 0.0)]);
         assert_eq!(undamped.near().left, &undamped.shape[..]);
     }

@@ -3,7 +3,6 @@
 
 use super::points::SweepPoint;
 use crate::algebra::Vector;
-use crate::batched::algebra::{Square, small};
 use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels};
@@ -222,8 +221,7 @@ impl<'a> Tracker<'a> {
         };
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
-        let shapes: Square<f64> = small(&modes.real_shapes());
-        workspace.solve((kernels, vectors), values, &past, &shapes)
+        workspace.solve((kernels, vectors), values, &past, &modes.real_shapes())
     }
 
     /// Extends the path to the last of the first `number` states of a block, which already is the last point.
