@@ -1,9 +1,9 @@
 //! Candidate solutions: the last Newton step, and the acceptance tests of the state it reaches.
 
-use super::convergence::{TOLERANCE, is_rounding, relative_to, residual_is_small};
+use super::convergence::{TOLERANCE, is_rounding, relative_residual, relative_to};
 use super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector, add_scaled, all_finite, largest};
-use crate::kernels::{Linear, RestParts};
+use crate::kernels::Linear;
 
 /// The result of a solver, before its stability is judged.
 pub(crate) struct Found {
@@ -85,9 +85,8 @@ impl Candidate {
             Some(measured) => measured.relative_residual <= tolerance,
             None => {
                 let (q, residual) = (&self.coordinates, &self.residual);
-                let mut parts = RestParts::zeros(q.len());
-                let at = (&residual[..], stiffness);
-                all_finite(residual) && residual_is_small(point, q, at, &mut parts, tolerance)
+                all_finite(residual)
+                    && relative_residual(point, q, residual, stiffness) <= tolerance
             }
         }
     }

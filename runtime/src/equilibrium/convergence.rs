@@ -79,8 +79,8 @@ impl Watch {
         let last = step.map_or(StepsLeft::More, |step| last(step, q, motions));
         let drifts = stalled && self.drifts(&q[..motions]);
         let parts = &mut self.parts;
-        let mut solved =
-            |tolerance| residual_is_small(point, q, (residual, stiffness), parts, tolerance);
+        let at = (residual, stiffness);
+        let mut solved = |tolerance| relative_residual_into(point, q, at, parts) <= tolerance;
         if (last == StepsLeft::Reached && solved(ACCEPTED))
             || (stalled && !drifts && solved(TOLERANCE))
         {
@@ -139,21 +139,6 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
         let unit = if j < motions { 1.0 } else { reaction };
         step[j].abs() <= tolerance * (q[j].abs() + SMALL_MOTION * unit)
     })
-}
-
-/// Whether the relative residual is within `tolerance`; evaluates the forces, into `parts`, only if the stiffness does
-/// not already show it.
-pub(crate) fn residual_is_small(
-    point: &OperatingPoint<'_>,
-    q: &[f64],
-    at: (&[f64], &Matrix),
-    parts: &mut RestParts,
-    tolerance: f64,
-) -> bool {
-    let (residual, stiffness) = at;
-    let motions = point.motions();
-    (0..q.len()).all(|i| relative(residual[i], 0.0, &q[..motions], &stiffness[i]) <= tolerance)
-        || relative_residual_into(point, q, at, parts) <= tolerance
 }
 
 /// The largest residual, each relative to its own scale.

@@ -273,13 +273,18 @@ fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failur
     let constraints = constraint_state(point, &found.coordinates, &found.residual, &linear)?;
     let mut state = Equilibrium {
         coordinates: found.coordinates,
+        inputs: point.inputs.into(),
+        design: point.design.into(),
+        stability: Stability::Undecided,
+        rounding: 0.0,
         linear,
-        constraints,
         residual: found.residual,
         relative_residual: relative,
         iterations: found.iterations,
+        pose: None,
+        constraints,
         left_unstable_region: found.left_unstable_region,
-        ..point.blank_state()
+        description: point.description.clone(),
     };
     let modes = judge(point, &mut state)?;
     Ok(Judged { state, modes })
