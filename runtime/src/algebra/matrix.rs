@@ -223,6 +223,7 @@ pub(crate) fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
 
 /// Bilinear form `x^T matrix y` of vectors of one length; rows and columns of the matrix beyond it do not matter.
 pub(crate) fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
+    let (columns, entries) = (matrix.columns, matrix.as_flattened());
     for_size(
         x.len(),
         #[inline(always)]
@@ -230,7 +231,7 @@ pub(crate) fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
             let (x, y) = (&x[..n], &y[..n]);
             let mut sum = -0.0;
             for (i, x) in x.iter().enumerate() {
-                sum += x * dot(&matrix[i][..n], y);
+                sum += x * dot(&entries[i * columns..][..n], y);
             }
             sum
         },

@@ -37,7 +37,7 @@ macro_rules! for_size {
 }
 pub(crate) use for_size;
 
-/// Like [`for_size`], for at most `N` unknowns.
+/// Like [`for_size!`], for arrays of size `N`.
 #[inline(always)]
 pub(crate) fn for_size_up_to<const N: usize>(n: usize, mut work: impl FnMut(usize)) {
     match n {

@@ -203,20 +203,20 @@ impl Curved {
     /// A descent step along every mode scaled by the magnitude of its curvature, so that the step leaves unstable modes
     /// instead of approaching the saddle.
     fn step(&self, residual: &[f64]) -> Vector {
-        let pairs = &self.pairs;
-        let floor = 1e-8 * largest(&pairs.lambda);
         let mut step = Vector::zeros(residual.len());
         for_size(
             residual.len(),
             #[inline(always)]
             |n| {
                 let (residual, step) = (&residual[..n], &mut step[..n]);
-                let shapes = pairs.shapes.as_flattened();
+                let lambda = &self.pairs.lambda[..n];
+                let shapes = &self.pairs.shapes.as_flattened()[..n * n];
+                let floor = (1e-8 * largest(lambda)).max(f64::MIN_POSITIVE);
                 for r in 0..n {
                     let shape = &shapes[r * n..][..n];
                     let slope = dot(shape, residual);
                     if slope != 0.0 {
-                        let curvature = pairs.lambda[r].abs().max(floor).max(f64::MIN_POSITIVE);
+                        let curvature = lambda[r].abs().max(floor);
                         let amount = (slope / curvature).clamp(-1e100, 1e100);
                         add_to(step, -amount, shape);
                     }

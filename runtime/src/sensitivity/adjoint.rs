@@ -9,8 +9,7 @@ use super::pencil::{ComplexGradient, Form, form_gradient};
 use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, redundancy};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{
-    Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, entries_of,
-    residual_partials_zeros,
+    Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros,
 };
 use crate::modes::{Family, pencil_slope_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
@@ -251,19 +250,17 @@ fn total_rates(
     (w, residual): (&[f64], &Matrix),
     to: &mut [f64],
 ) {
-    let (count, each) = (to.len(), entries_of(n));
-    let (matrices, residual) = (
-        &matrices[..count * each],
-        &residual.as_flattened()[..n * count],
-    );
-    for k in 0..count {
-        let direct = rate(n, &matrices[k * each..][..each], phi, lambda, symmetric);
-        let mut shift = 0.0;
-        for i in 0..n {
-            shift += w[i] * residual[i * count + k];
-        }
-        to[k] = direct - shift;
+    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
+        let direct = rate(n, change, phi, lambda, symmetric);
+        *to = direct - column_times(n, w, residual, k);
     }
+}
+
+/// `w^T partials` in column `k`; `partials` has `n` rows.
+#[inline(always)]
+fn column_times(n: usize, w: &[f64], partials: &Matrix, k: usize) -> f64 {
+    let (columns, entries) = (partials.column_count(), partials.as_flattened());
+    (0..n).fold(0.0, |sum, i| sum + w[i] * entries[i * columns + k])
 }
 
 /// `sum = w^T partials`.
