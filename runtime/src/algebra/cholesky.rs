@@ -14,15 +14,6 @@ pub(crate) struct Cholesky {
 }
 
 impl Cholesky {
-    /// Empty factors for an `n` by `n` matrix.
-    #[inline]
-    pub(crate) fn zeros(n: usize) -> Self {
-        Self {
-            lower: Matrix::zeros(n, n),
-            pivots: Vector::zeros(n),
-        }
-    }
-
     /// Factors `matrix`; `Err` names the first row whose pivot is not above rounding.
     #[inline]
     pub(crate) fn new(matrix: &Matrix) -> Result<Self, usize> {

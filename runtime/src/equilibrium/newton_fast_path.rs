@@ -46,7 +46,7 @@ fn newton(
     };
     let most = place.iterations + MAX_ITERATIONS;
     let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
-    let mut factors = Cholesky::zeros(n);
+    let mut factors = Cholesky::default();
     let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
     let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
     let stiffness = &mut stiffness.as_flattened_mut()[..n * n];

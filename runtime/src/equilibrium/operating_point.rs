@@ -232,25 +232,21 @@ impl<'a> OperatingPoint<'a> {
     #[inline]
     pub(crate) fn check(&self, q: &[f64], linear: &Linear) -> Result<(), Failure> {
         let undamped = matches!(self.description.damping, DampingKind::Zero);
-        let finite = for_size(
-            q.len(),
-            #[inline(always)]
-            |n| {
-                let finite = |matrix: &Matrix| all_finite(&matrix.as_flattened()[..n * n]);
-                finite(&linear.mass)
-                    && (undamped || finite(&linear.damping))
-                    && finite(&linear.stiffness)
-            },
-        );
-        if finite {
-            return Ok(());
-        }
-        let what = if !all_finite_matrix(&linear.mass) {
+        let finite = |matrix: &Matrix| {
+            for_size(
+                q.len(),
+                #[inline(always)]
+                |n| all_finite(&matrix.as_flattened()[..n * n]),
+            )
+        };
+        let what = if !finite(&linear.mass) {
             "the mass matrix"
-        } else if !undamped && !all_finite_matrix(&linear.damping) {
+        } else if !undamped && !finite(&linear.damping) {
             "the damping matrix"
-        } else {
+        } else if !finite(&linear.stiffness) {
             "the stiffness matrix"
+        } else {
+            return Ok(());
         };
         Err(Failure::OutsideDomain {
             what,

@@ -46,7 +46,7 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
         linear.mass.row_count(),
         #[inline(always)]
         |n| {
-            let mut factors = Cholesky::zeros(n);
+            let mut factors = Cholesky::default();
             factors.factor_of(n, &linear.mass).is_ok()
                 && factors.factor_of(n, &linear.stiffness).is_ok()
                 && rounding::clear(&factors.pivots()[..n], linear)

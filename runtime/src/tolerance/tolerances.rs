@@ -289,10 +289,9 @@ impl Tolerances {
         if self.correlation.is_some() || slopes.len() != self.sigmas.len() {
             *contributions = self.contributions(&self.parts(slopes, 1.0));
         } else {
-            let count = slopes.len();
-            let (own, sigmas) = (contributions.make_room(count), &self.sigmas[..count]);
-            for k in 0..count {
-                own[k] = (slopes[k] * sigmas[k]) * (slopes[k] * sigmas[k]);
+            let places = contributions.make_room(slopes.len()).iter_mut();
+            for ((own, slope), sigma) in places.zip(slopes).zip(&self.sigmas) {
+                *own = (slope * sigma) * (slope * sigma);
             }
         }
         sum(contributions)
