@@ -100,6 +100,8 @@ pub mod equilibrium;
 #[cfg(feature = "std")]
 pub mod error;
 #[cfg(feature = "std")]
+mod free;
+#[cfg(feature = "std")]
 pub mod kernels;
 #[cfg(feature = "std")]
 pub mod modes;
@@ -160,6 +162,8 @@ pub use campbell::Campbell;
 pub use equilibrium::Policy;
 #[cfg(feature = "std")]
 pub use error::Error;
+#[cfg(feature = "std")]
+pub use free::FreeDirections;
 #[cfg(feature = "std")]
 pub use kernels::Kernels;
 #[cfg(feature = "std")]

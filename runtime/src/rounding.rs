@@ -59,7 +59,7 @@ pub(crate) struct CheckedState<'a> {
 }
 
 /// Change of an eigenvalue `lambda` of `Khat phi = lambda Mhat phi`, `phi^T Mhat phi = 1`, due to rounding of the data,
-/// including the shift of the equilibrium.
+/// including the shift of the equilibrium, whose place is held along free directions in `stiffness`.
 ///
 /// An element of `Khat` may be a small difference of large terms, as when weight and centrifugal forces cancel at a
 /// critical speed. Its own size then says nothing about its error, but its derivatives do.
@@ -68,14 +68,14 @@ pub(crate) struct CheckedState<'a> {
 pub(crate) fn of_data(
     mechanism: &dyn Kernels,
     at: &CheckedState<'_>,
-    linear: &Linear,
+    stiffness: &Matrix,
     (lambda, phi): (f64, &[f64]),
 ) -> f64 {
     let (q, u, b) = (at.coordinates, at.inputs, at.design);
     let mut slopes = mechanism.mode_gradient(q, u, b, phi, lambda);
     let mut rest = 0.0;
     let direct = terms(&slopes.coordinates, q);
-    if let Some(factors) = Lu::new(&linear.stiffness.transpose()) {
+    if let Some(factors) = Lu::new(&stiffness.transpose()) {
         let adjoint = factors.solve(&slopes.coordinates);
         let shift = mechanism.residual_gradient(q, u, b, &adjoint);
         for (slope, shift) in slopes.inputs.iter_mut().zip(shift.inputs) {

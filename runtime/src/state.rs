@@ -1,7 +1,10 @@
 //! An equilibrium: the state, the linearised mechanism there, and its stability.
 
-use crate::algebra::Vector;
+use std::borrow::Cow;
+
+use crate::algebra::{Matrix, Vector};
 use crate::constraints::ConstraintState;
+use crate::free::FreeDirections;
 use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::{Description, Error, PoseMargin, Shared, Text};
 
@@ -42,6 +45,8 @@ pub struct Equilibrium {
     pub pose: Option<PoseMargin<f64>>,
     /// What the constraints leave free there, and which ones are redundant.
     pub constraints: ConstraintState,
+    /// Directions along which nothing depends on where the mechanism stands.
+    pub free: FreeDirections,
     /// The solver passed through an unstable region: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
     /// The mechanism it belongs to.
@@ -65,6 +70,7 @@ impl Equilibrium {
             iterations: 0,
             pose: None,
             constraints: ConstraintState::open(n),
+            free: FreeDirections::default(),
             left_unstable_region: false,
             description: description.clone(),
         }
@@ -83,6 +89,11 @@ impl Equilibrium {
             description: of.description(),
             ..self.clone()
         }
+    }
+
+    /// `Khat` with the place held along free directions: the matrix of every equation for a change of the equilibrium.
+    pub(crate) fn held_stiffness(&self) -> Cow<'_, Matrix> {
+        self.free.held(&self.linear.stiffness)
     }
 
     /// Refuses a singular configuration, for which the linearised mechanism is meaningless.

@@ -41,9 +41,9 @@ const MECHANICS: [&str; 8] = [
 /// The types that the subfolders of `mechanics` share with other rooms.
 const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
-/// The rooms of the runtime, in order: each may import the earlier ones. The first seventeen are the core: contract,
+/// The rooms of the runtime, in order: each may import the earlier ones. The first eighteen are the core: contract,
 /// equilibrium, modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 32] = [
+const RUNTIME: [&str; 33] = [
     "setters",
     "algebra",
     "scalar",
@@ -53,6 +53,7 @@ const RUNTIME: [&str; 32] = [
     "watch",
     "kernels",
     "constraints",
+    "free",
     "rounding",
     "eigenproblem",
     "state",

@@ -110,6 +110,7 @@ pub(crate) fn description(compilation: &Compilation) -> Description {
         design: design.into(),
         outputs: outputs.into(),
         symmetric_stiffness: functions.properties.symmetric_stiffness,
+        free_directions: functions.undetermined.len(),
         damping: match functions.properties.damping {
             mechanics::Damping::Zero => DampingKind::Zero,
             mechanics::Damping::Gyroscopic => DampingKind::Gyroscopic,

@@ -250,6 +250,11 @@ pub(crate) fn all_finite_matrix(matrix: &Matrix) -> bool {
     values.fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
+/// Whether mirrored elements are equal to the last bit.
+pub(crate) fn is_symmetric(matrix: &Matrix) -> bool {
+    (0..matrix.row_count()).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]))
+}
+
 /// Largest difference of mirrored elements, relative to the largest element.
 pub(crate) fn asymmetry(matrix: &Matrix) -> f64 {
     let size = largest_element(matrix);

@@ -21,7 +21,7 @@ pub use vector::Vector;
 pub(crate) use cholesky::{Cholesky, factor_rows, solve_rows};
 pub(crate) use lu::Lu;
 pub(crate) use matrix::{
-    all_finite_matrix, asymmetry, form, largest_element, times, times_complex,
+    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, times, times_complex,
 };
 pub(crate) use vector::{
     Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,

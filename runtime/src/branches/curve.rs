@@ -10,6 +10,7 @@ use crate::equilibrium::{
     relative_residual, solve,
 };
 use crate::error::NotFound;
+use crate::free::FreeDirections;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::rounding;
 use crate::{Description, Equilibrium, Error, Shared, Watch};
@@ -273,6 +274,7 @@ impl<'a> Curve<'a> {
             stability: verdict.stability,
             rounding: verdict.rounding,
             constraints,
+            free: FreeDirections::of(&linear.stiffness, self.description.free_directions),
             linear,
             residual,
             relative_residual: relative,

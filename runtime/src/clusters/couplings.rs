@@ -114,7 +114,7 @@ pub fn modal_couplings(
     let by_design: Vec<_> = matrices.collect();
     let eigenvalue = |mode: &&Mode| match (modes.family, mode.behaviour) {
         // Zero up to rounding, whose sign must not count as growth.
-        (_, Behaviour::Neutral) => Complex::ZERO,
+        (_, Behaviour::Free | Behaviour::Neutral) => Complex::ZERO,
         (Family::Undamped, _) => mode.lambda.into(),
         (Family::General, _) => mode.s,
     };

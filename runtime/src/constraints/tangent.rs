@@ -12,7 +12,9 @@
 )]
 
 use super::{Rows, Structure};
-use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, greater, largest, times};
+use crate::algebra::{
+    Cholesky, Matrix, Vector, add_to, dot, greater, is_symmetric, largest, times,
+};
 use crate::kernels::Linear;
 
 /// The directions that constraints leave free at one state.
@@ -139,10 +141,6 @@ impl Tangent {
             stiffness: self.reduce(&linear.stiffness),
         }
     }
-}
-
-fn is_symmetric(matrix: &Matrix) -> bool {
-    (0..matrix.row_count()).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]))
 }
 
 /// Puts values by constraint, numbered from zero, at the positions of their rows; zero elsewhere.

@@ -5,6 +5,7 @@ use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
 use crate::error::{NotClosed, NotFound};
+use crate::free::fix_place;
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
 use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, Role, Shared};
@@ -85,6 +86,11 @@ impl<'a> OperatingPoint<'a> {
         self.description.coordinates.len()
     }
 
+    /// Number of free directions.
+    pub(crate) fn free(&self) -> usize {
+        self.description.free_directions
+    }
+
     /// Number of coordinates and speeds, which come first, before the reactions.
     pub(crate) fn motions(&self) -> usize {
         self.structure.motions()
@@ -123,7 +129,7 @@ impl<'a> OperatingPoint<'a> {
         check_finite("start value of coordinate", |k| &unknowns[k].name, start)
     }
 
-    /// Residual and stiffness with the gauge fixed; `None` if either is not finite.
+    /// Residual and stiffness with the gauge fixed and the place held along free directions; `None` if either is not finite.
     pub(crate) fn evaluate(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let n = self.size();
         let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
@@ -152,6 +158,9 @@ impl<'a> OperatingPoint<'a> {
             } else {
                 fix_gauge(stiffness, self.structure);
             }
+        }
+        if finite && self.free() > 0 {
+            fix_place(stiffness, self.free());
         }
         finite
     }

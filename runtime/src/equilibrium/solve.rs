@@ -11,6 +11,7 @@ use super::{Equilibrium, Policy, assembly, newton, newton_fast_path, search_spac
 use crate::algebra::{Cholesky, Vector, add_scaled, add_to, dot};
 use crate::constraints::{Structure, Tangent, all_rows, placed};
 use crate::error::NotFound;
+use crate::free::FreeDirections;
 use crate::kernels::Linear;
 use crate::rounding::CheckedState;
 use crate::{DampingKind, Mode, Stability};
@@ -56,7 +57,7 @@ pub(crate) fn solve_into(
 
 /// Whether stable states are minima of a potential in coordinates that no constraint restricts.
 fn has_open_potential(point: &OperatingPoint<'_>) -> bool {
-    point.description.symmetric_stiffness && point.structure.open()
+    point.description.symmetric_stiffness && point.structure.open() && point.free() == 0
 }
 
 /// Like [`solve`], for mechanisms with constraints or without a potential.
@@ -283,6 +284,7 @@ fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failur
         iterations: found.iterations,
         pose: None,
         constraints,
+        free: FreeDirections::default(),
         left_unstable_region: found.left_unstable_region,
         description: point.description.clone(),
     };
@@ -292,6 +294,7 @@ fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failur
 
 /// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
 fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<Vec<Mode>, Failure> {
+    state.free = FreeDirections::of(&state.linear.stiffness, point.free());
     let verdict = if state.constraints.singular {
         Verdict::undecided()
     } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {

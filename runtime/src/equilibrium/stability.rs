@@ -4,8 +4,9 @@ use super::operating_point::Failure;
 use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::symmetric;
+use crate::free::FreeDirections;
 use crate::kernels::{Kernels, Linear};
-use crate::modes::{Family, Modes, SYMMETRIC, change_to_zero, free_pairs, solve_modes};
+use crate::modes::{Family, Modes, SYMMETRIC, change_to_zero, deflated, free_pairs, solve_modes};
 use crate::rounding::{self, CheckedState, Sign, of_form, sign};
 use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
 
@@ -69,7 +70,9 @@ pub(crate) fn judge(
 ) -> Result<Verdict, Failure> {
     let description = &mechanism.description();
     let structure = Structure::of(description);
-    let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, linear, (lambda, phi));
+    let free = FreeDirections::of(&linear.stiffness, description.free_directions);
+    let held = free.held(&linear.stiffness);
+    let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, &held, (lambda, phi));
     let general = |unstable, floor| by_eigenvalues((linear, nearby), description, unstable, floor);
     if structure.open() {
         return judge_free(description, linear, linear, &doubt, &general);
@@ -102,6 +105,10 @@ fn judge_free(
     if let Err(row) = Cholesky::new(&linear.mass) {
         return Err(Failure::SingularMass(row));
     }
+    // Stability is that of the other motions.
+    let rest = deflated(linear, description.free_directions);
+    let free = linear.mass.row_count() - rest.as_ref().map_or(linear, |rest| rest).mass.row_count();
+    let linear = rest.as_ref().unwrap_or(linear);
     if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
         let negative =
             Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
@@ -111,16 +118,16 @@ fn judge_free(
             general((0, 0), 0.0)
         });
     }
-    let (mut negative, mut zero, mut floor) = (0, 0, 0.0_f64);
+    let (mut negative, mut zero, mut floor) = (0, free, 0.0_f64);
     if !clearly_definite(linear) {
         let pairs = free_pairs(whole, description)?;
-        for (&lambda, phi) in pairs.lambda.iter().zip(pairs.shapes.iter()) {
+        for (&lambda, phi) in pairs.lambda.iter().zip(pairs.shapes.iter()).skip(free) {
             if lambda.abs() < rounding::SLOW {
                 let moved = doubt(lambda, phi);
                 floor = floor.max(if moved.is_finite() { moved } else { 0.0 });
             }
         }
-        for (&lambda, &error) in pairs.lambda.iter().zip(&pairs.errors) {
+        for (&lambda, &error) in pairs.lambda.iter().zip(&pairs.errors).skip(free) {
             match sign(lambda, error.max(floor)) {
                 Sign::Negative => negative += 1,
                 Sign::Zero => zero += 1,
@@ -164,7 +171,7 @@ fn by_eigenvalues(
     };
     let divergent = count(|behaviour| matches!(behaviour, Behaviour::Divergent(_)));
     let growing = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));
-    let zero = count(|behaviour| matches!(behaviour, Behaviour::Neutral));
+    let zero = count(|behaviour| matches!(behaviour, Behaviour::Free | Behaviour::Neutral));
     let constant = count(|behaviour| matches!(behaviour, Behaviour::Oscillating(_)));
     let stability = if divergent > 0 {
         Stability::Divergent {

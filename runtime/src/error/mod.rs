@@ -170,6 +170,19 @@ pub enum Error {
         /// The input or design variable that breaks it.
         variable: Text,
     },
+    /// The loads along a motion that nothing resists balance only at these values of the variables.
+    #[error(
+        "nothing holds {}, and the loads along it balance at these values only: with another `{variable}` there is no \
+         equilibrium, so there are no derivatives. Hold it by a spring, let it run against a drag, or make one load a \
+         function of the other",
+        names(.coordinates)
+    )]
+    BalancesHereOnly {
+        /// The coordinates that move together.
+        coordinates: Vec<Text>,
+        /// The input or design variable that breaks the balance.
+        variable: Text,
+    },
     /// The stiffness matrix is not symmetric, so undamped symmetric modes do not exist.
     #[error(
         "the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): ask for general modes"

@@ -21,6 +21,9 @@ pub struct Description {
     pub outputs: List<OutputInfo>,
     /// `Khat` is symmetric for every design, input and position.
     pub symmetric_stiffness: bool,
+    /// Number of independent motions along which nothing depends on where the mechanism stands, for every design, input
+    /// and position: as many null vectors `Khat` has at every equilibrium.
+    pub free_directions: usize,
     /// The kind of `Chat`.
     pub damping: DampingKind,
     /// The generated functions and their costs.

@@ -9,7 +9,7 @@ use super::kinetic::{kinetic, product};
 use super::{Family, Mode};
 use crate::algebra::{Matrix, Vector, for_size, greater, times_complex};
 use crate::kernels::Linear;
-use crate::{Complex, Modes};
+use crate::{Behaviour, Complex, Modes};
 
 /// Largest share of the assurance that a difference of eigenvalues can remove: it decides between modes of equal shape.
 pub(crate) const EIGENVALUE_SHARE: f64 = 0.05;
@@ -205,7 +205,8 @@ pub(crate) fn merged(modes: &Modes, r: usize) -> bool {
     /// worse.
     const ILL_CONDITIONED: f64 = 1e5;
     let own = &modes.modes[r];
-    if modes.family == Family::Undamped || own.condition <= ILL_CONDITIONED {
+    let free = own.behaviour == Behaviour::Free;
+    if modes.family == Family::Undamped || free || own.condition <= ILL_CONDITIONED {
         return false;
     }
     let others = modes.modes.iter().enumerate().filter(|(j, _)| *j != r);
@@ -238,8 +239,12 @@ pub(crate) fn near(modes: &Modes, i: usize, j: usize, gap: f64) -> bool {
     near_each_other(modes.family, &modes.modes[i], &modes.modes[j], gap)
 }
 
+/// Modes of free directions are near no other: their eigenvalues are exactly zero, and nothing mixes them with others.
 #[inline(always)]
 fn near_each_other(family: Family, a: &Mode, b: &Mode, gap: f64) -> bool {
+    if a.behaviour == Behaviour::Free || b.behaviour == Behaviour::Free {
+        return false;
+    }
     match family {
         Family::Undamped => {
             (a.lambda - b.lambda).abs() <= gap * greater(a.lambda.abs(), b.lambda.abs())

@@ -9,6 +9,7 @@
 
 mod assurance;
 mod constrained;
+mod deflation;
 mod kinetic;
 mod mode;
 mod pencil;
@@ -19,6 +20,7 @@ pub(crate) use assurance::{
 };
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use constrained::{Normalisation, free_pairs};
+pub(crate) use deflation::deflated;
 pub(crate) use kinetic::inertia;
 pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};
@@ -385,6 +387,11 @@ fn undamped(
             *to = Complex::from(*from);
         }
     }
+    for mode in modes.iter_mut().take(description.free_directions) {
+        if mode.behaviour == Behaviour::Neutral {
+            mode.behaviour = Behaviour::Free;
+        }
+    }
     Ok(())
 }
 
@@ -396,17 +403,23 @@ fn damped(
     modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
-    let roots = if structure.open() {
+    let free = description.free_directions;
+    let roots = if structure.open() && free > 0 {
+        deflation::roots(linear, free, |rest| {
+            roots_near(Eigenproblem::Quadratic(rest), &[])
+        })
+    } else if structure.open() {
         let nearby: Vec<_> = nearby.iter().map(Mode::near).collect();
         roots_near(Eigenproblem::Quadratic(linear), &nearby)
     } else {
-        constrained::general_roots(linear, structure)
+        constrained::general_roots(linear, structure, free)
     };
     let roots = roots.map_err(ModesFailure::Pencil)?;
     // Without dissipation, a motion that stays bounded has imaginary eigenvalues.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;
     modes.clear();
+    let mut free_left = free;
     for (r, root) in roots.into_iter().enumerate() {
         let mut s = root.s;
         let error = if floor > 0.0 {
@@ -422,6 +435,10 @@ fn damped(
             s.re = 0.0;
         }
         let behaviour = match (zero, s.im > 0.0, s.re > 0.0) {
+            (true, ..) if free_left > 0 => {
+                free_left -= 1;
+                Behaviour::Free
+            }
             (true, ..) => Behaviour::Neutral,
             (_, true, _) if keeps_amplitude => Behaviour::Oscillating(s.im),
             (_, true, false) => Behaviour::Damped(s.im),

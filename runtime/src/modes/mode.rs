@@ -17,7 +17,9 @@ pub enum Behaviour {
     Flutter(f64),
     /// It decays without oscillation (overdamped); rate, 1/s.
     Decaying(f64),
-    /// Nothing resists it: its eigenvalue is zero within rounding.
+    /// Nothing depends on where the mechanism stands along it, whatever the design: its eigenvalue is exactly zero.
+    Free,
+    /// Nothing resists it here: its eigenvalue is zero within rounding.
     Neutral,
     /// It grows without oscillation (static instability); rate, 1/s.
     Divergent(f64),
@@ -35,7 +37,7 @@ impl Behaviour {
     pub fn frequency(self) -> Option<f64> {
         match self {
             Self::Oscillating(omega) | Self::Damped(omega) | Self::Flutter(omega) => Some(omega),
-            Self::Decaying(_) | Self::Neutral | Self::Divergent(_) => None,
+            Self::Decaying(_) | Self::Free | Self::Neutral | Self::Divergent(_) => None,
         }
     }
 }
@@ -111,7 +113,7 @@ impl Mode {
     pub fn damping_ratio(&self) -> Option<f64> {
         match self.behaviour {
             Behaviour::Oscillating(_) => Some(0.0),
-            Behaviour::Neutral => None,
+            Behaviour::Free | Behaviour::Neutral => None,
             _ => Some(-self.s.re / self.s.norm()),
         }
     }

@@ -193,7 +193,8 @@ fn motions(branch: &[(f64, &CampbellMode)]) -> String {
             Behaviour::Damped(_) => "decays",
             Behaviour::Flutter(_) => "grows (flutter)",
             Behaviour::Decaying(_) => "creeps back",
-            Behaviour::Neutral => "free",
+            Behaviour::Free => "free",
+            Behaviour::Neutral => "neutral",
             Behaviour::Divergent(_) => "diverges",
         };
         if said.last() != Some(&word) {

@@ -17,7 +17,8 @@ impl fmt::Display for Behaviour {
             Self::Damped(_) => write!(f, "decays"),
             Self::Flutter(_) => write!(f, "grows (flutter)"),
             Self::Decaying(rate) => write!(f, "creeps back, rate {} 1/s", rough(*rate)),
-            Self::Neutral => write!(f, "free"),
+            Self::Free => write!(f, "free"),
+            Self::Neutral => write!(f, "neutral"),
             Self::Divergent(rate) => write!(f, "diverges, rate {} 1/s", rough(*rate)),
         }
     }

@@ -18,7 +18,7 @@ impl<'a> Adjoint<'a> {
         mechanism: &'a dyn CurvatureKernels,
         at: &'a Equilibrium,
     ) -> Result<Self, Error> {
-        let factors = Lu::new(&at.linear.stiffness.transpose()).ok_or(Error::CriticalState)?;
+        let factors = Lu::new(&at.held_stiffness().transpose()).ok_or(Error::CriticalState)?;
         Ok(Self {
             mechanism,
             at,

@@ -13,7 +13,7 @@ use crate::sensitivity::{
     outside_domain,
 };
 use crate::shapes::Shapes;
-use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
+use crate::{Behaviour, Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// First and second total derivatives of one mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +38,22 @@ pub struct ModeCurvature {
 }
 
 impl ModeCurvature {
+    /// The derivatives of a free direction: its eigenvalue is zero for every input and design.
+    fn of_free(at: &Equilibrium, mode: usize) -> Self {
+        let (u, p) = (at.inputs.len(), at.design.len());
+        let mut first = ModeSensitivity::blank();
+        first.set_free(u, p);
+        Self {
+            mode,
+            s: Complex::ZERO,
+            first,
+            lambda: SecondDerivatives::zeros(u, p),
+            eigenvalue: Some(SecondDerivatives::zeros(u, p)),
+            asymmetry: 0.0,
+            description: at.description.clone(),
+        }
+    }
+
     /// Second derivatives of a quantity of the mode; `None` if it has no such quantity.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<SecondDerivatives<f64>> {
@@ -60,6 +76,9 @@ pub fn mode_curvature(
     mode: usize,
 ) -> Result<ModeCurvature, Error> {
     let position = mode;
+    if (modes.modes.get(position)).is_some_and(|mode| mode.behaviour == Behaviour::Free) {
+        return Ok(ModeCurvature::of_free(at, position));
+    }
     let shapes = Shapes::new(at, modes, position)?;
     let mode = &modes.modes[position];
     let gradient = AdjointGradient::new(mechanism, at, modes.family, mode)?;

@@ -22,6 +22,16 @@ pub struct SecondDerivatives<T> {
     pub by_design: Matrix<T>,
 }
 
+impl<T: Copy + Default> SecondDerivatives<T> {
+    pub(super) fn zeros(inputs: usize, design: usize) -> Self {
+        Self {
+            by_input: Matrix::zeros(inputs, inputs),
+            by_input_and_design: Matrix::zeros(inputs, design),
+            by_design: Matrix::zeros(design, design),
+        }
+    }
+}
+
 impl<T: Copy> SecondDerivatives<T> {
     /// Combines each element with the two first derivatives of its row and column.
     pub(super) fn combine<F: Copy, R: Copy + Default>(

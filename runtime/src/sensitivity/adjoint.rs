@@ -6,7 +6,9 @@
 
 use super::gradients::{Source, changes, of_general, rate};
 use super::pencil::{ComplexGradient, Form, form_gradient};
-use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, redundancy};
+use super::{
+    Method, ModeSensitivity, Sensitivities, assemble_into, check_state, place, redundancy,
+};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{
     Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros,
@@ -66,6 +68,7 @@ impl<'a> Adjoint<'a> {
         } = self;
         check_state(*mechanism, at)?;
         redundancy::check(*mechanism, at)?;
+        place::check(*mechanism, at)?;
         let factors = Factors::new(at)?;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let (matrices, residual) = match source {
@@ -220,7 +223,7 @@ enum Factors {
 
 impl Factors {
     fn new(at: &Equilibrium) -> Result<Self, Error> {
-        let stiffness = &at.linear.stiffness;
+        let stiffness = &*at.held_stiffness();
         if at.description.symmetric_stiffness
             && let Ok(factors) = Cholesky::new(stiffness)
         {

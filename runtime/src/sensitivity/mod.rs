@@ -9,6 +9,7 @@ mod gradients;
 mod mode;
 mod outputs;
 mod pencil;
+mod place;
 mod quantity;
 mod redundancy;
 mod shift;
@@ -36,7 +37,7 @@ use crate::algebra::Vector;
 use crate::arguments::check_count;
 use crate::kernels::Kernels;
 use crate::modes::{CLUSTER_GAP, Family, merged, near_another};
-use crate::{Description, Equilibrium, Error, Mode, Modes, Shared};
+use crate::{Behaviour, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// How derivatives were computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +115,9 @@ fn assemble_into(
         .resize_with(modes.modes.len(), ModeSensitivity::blank);
     let mut finite = true;
     for (position, (own, mode)) in found.modes.iter_mut().zip(&modes.modes).enumerate() {
-        if merged(modes, position) {
+        if mode.behaviour == Behaviour::Free {
+            own.set_free(at.inputs.len(), at.design.len());
+        } else if merged(modes, position) {
             own.set_merged(mode, at.inputs.len(), at.design.len());
         } else {
             set(own, mode);

@@ -198,6 +198,20 @@ impl ModeSensitivity {
         }
     }
 
+    /// Assigns the mode of a free direction, whose eigenvalue is zero for every input and design.
+    pub(crate) fn set_free(&mut self, inputs: usize, design: usize) {
+        let s = self.general.get_or_insert_with(Slopes::blank);
+        for slopes in s.make_room(inputs, design) {
+            slopes.fill(Complex::ZERO);
+        }
+        for slopes in self.lambda.make_room(inputs, design) {
+            slopes.fill(0.0);
+        }
+        self.clustered = false;
+        self.value = Complex::ZERO;
+        self.undamped = false;
+    }
+
     /// Assigns a general mode that has merged with another and has no derivatives.
     pub(crate) fn set_merged(&mut self, mode: &Mode, inputs: usize, design: usize) {
         for slopes in self.lambda.make_room(inputs, design) {

@@ -1,5 +1,6 @@
 //! Total derivatives of the declared outputs.
 
+use super::place;
 use super::shift::equilibrium_shift;
 use crate::algebra::{Matrix, Vector, add_to, all_finite};
 use crate::kernels::Kernels;
@@ -13,7 +14,7 @@ pub struct OutputSensitivities {
     /// Values.
     pub values: Vector,
     /// `by_input[o][j]`: derivative of output `o` with respect to input `j`; `None` if the output has a value but no
-    /// derivative, like the distance from an axis on that axis.
+    /// derivative, like the distance from an axis on that axis, or a place that nothing determines.
     pub by_input: Vec<Option<Vector>>,
     /// `by_design[o][j]`: derivative of output `o` with respect to design variable `j`; `None` as in `by_input`.
     pub by_design: Vec<Option<Vector>>,
@@ -47,18 +48,19 @@ pub fn output_sensitivities(
             coordinates: at.coordinates.to_vec(),
         });
     }
+    let rows = |slopes: &Matrix| {
+        let rows = slopes.iter().zip(by_coordinate.iter());
+        rows.map(|(row, rates)| {
+            let exists = all_finite(row) && !place::depends(at, rates);
+            exists.then(|| row.into())
+        })
+        .collect()
+    };
     Ok(OutputSensitivities {
         values,
-        by_input: finite_rows(&by_input),
-        by_design: finite_rows(&by_design),
+        by_input: rows(&by_input),
+        by_design: rows(&by_design),
         inputs: at.inputs.clone(),
         description: at.description.clone(),
     })
-}
-
-fn finite_rows(slopes: &Matrix) -> Vec<Option<Vector>> {
-    slopes
-        .iter()
-        .map(|row| all_finite(row).then(|| row.into()))
-        .collect()
 }

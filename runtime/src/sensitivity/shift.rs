@@ -1,7 +1,7 @@
 //! The shift of the equilibrium: `Khat dq* = -dg` for every input and design variable, with one factorisation.
 
 use super::pencil::Direction;
-use super::{check_state, redundancy};
+use super::{check_state, place, redundancy};
 use crate::algebra::{Lu, Matrix, Vector, all_finite_matrix};
 use crate::kernels::Kernels;
 use crate::{Description, Equilibrium, Error, Shared};
@@ -32,7 +32,8 @@ pub fn equilibrium_shift(
 ) -> Result<EquilibriumShift, Error> {
     check_state(mechanism, at)?;
     redundancy::check(mechanism, at)?;
-    let factors = Lu::new(&at.linear.stiffness).ok_or(Error::CriticalState)?;
+    place::check(mechanism, at)?;
+    let factors = Lu::new(&at.held_stiffness()).ok_or(Error::CriticalState)?;
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
     let shift = EquilibriumShift {

@@ -49,11 +49,11 @@ impl Way<'_> {
         })
     }
 
-    /// The sign of `det Khat`; `None` where it is singular.
+    /// The sign of `det Khat`, with the place held along free directions; `None` where it is singular.
     fn negative(&self, design: &[f64], q: &[f64]) -> Option<bool> {
         let (_, stiffness) = self
             .mechanism
             .residual_and_stiffness(q, &self.nominal.inputs, design);
-        Lu::new(&stiffness).map(|factors| factors.negative_determinant())
+        Lu::new(&self.nominal.free.held(&stiffness)).map(|factors| factors.negative_determinant())
     }
 }

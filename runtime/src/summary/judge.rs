@@ -155,6 +155,9 @@ impl<'a> Judge<'a> {
     /// Doubts from distances and the second-order model, given that samples found the mode wrong, right, or undecided.
     fn doubts(&self, mode: usize, own: &Mode, said: &Findings) -> Vec<Doubt> {
         let mut doubts = Vec::new();
+        if own.behaviour == Behaviour::Free {
+            return doubts;
+        }
         let near = |distance: f64| distance < TRUSTED_DISTANCE;
         if own.frequency().is_none() {
             doubts.push(Doubt::NoFrequency);

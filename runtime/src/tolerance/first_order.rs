@@ -220,6 +220,7 @@ fn undamped(
     found.behaviour = mode.behaviour;
     found.value = mode.s;
     found.distance_to_critical = match mode.behaviour {
+        Behaviour::Free => f64::INFINITY,
         Behaviour::Neutral => 0.0,
         _ => in_sigmas(found.lambda.mean, found.lambda.sigma),
     };
@@ -261,6 +262,7 @@ fn keeps_amplitude(mode: &Mode, growth: &Spread) -> bool {
 /// Distance of a general mode to `s = 0`: of `|s|^2` for an oscillation, of `s` otherwise.
 fn distance_to_zero(mode: &Mode, natural: Option<&Spread>, growth: Option<&Spread>) -> f64 {
     match (mode.behaviour, natural, growth) {
+        (Behaviour::Free, ..) => f64::INFINITY,
         (Behaviour::Neutral, ..) => 0.0,
         (_, Some(natural), _) => in_sigmas(0.5 * natural.mean, natural.sigma),
         (_, None, Some(growth)) => in_sigmas(-growth.mean, growth.sigma),
@@ -288,6 +290,9 @@ fn distances(
     tolerances: &Tolerances,
 ) -> [f64; 2] {
     let (a, b) = (&modes.modes[r], &modes.modes[other]);
+    if [a, b].iter().any(|mode| mode.behaviour == Behaviour::Free) {
+        return [f64::INFINITY; 2];
+    }
     let (da, db) = (&sensitivities.modes[r], &sensitivities.modes[other]);
     // Halved, because a difference may exceed the range of a double.
     let (gap, sigma) = match (modes.family, da.general(), db.general()) {

@@ -78,7 +78,7 @@ pub(crate) fn assert_modes(modes: &Modes) {
             Behaviour::Flutter(omega) => assert!(omega > 0.0 && mode.s.re > 0.0),
             Behaviour::Decaying(rate) => assert!(rate > 0.0 && mode.s.re == -rate),
             Behaviour::Divergent(rate) => assert!(rate > 0.0 && mode.lambda < 0.0),
-            Behaviour::Neutral => {}
+            Behaviour::Free | Behaviour::Neutral => {}
         }
     }
 }

@@ -106,7 +106,12 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
 /// What a mode without a frequency does, after "it".
 fn moves(behaviour: Behaviour) -> String {
     match behaviour {
-        Behaviour::Neutral => "is a rigid-body motion with no restoring force".to_owned(),
+        Behaviour::Free => {
+            "is a motion that nothing resists, wherever the mechanism stands".to_owned()
+        }
+        Behaviour::Neutral => {
+            "is not resisted here: its stiffness vanishes at this operating point".to_owned()
+        }
         other => other.to_string(),
     }
 }

@@ -8,11 +8,14 @@ use crate::algebra::Vector;
 use crate::constraints::Tangent;
 use crate::eigenproblem::{Eigenproblem, Root, Trouble, roots_of};
 use crate::kernels::Linear;
+use crate::modes::deflation;
 use crate::modes::pencil::pencil_transposed_times;
 
-pub(super) fn roots(linear: &Linear, tangent: &Tangent) -> Result<Vec<Root>, Trouble> {
+pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, Trouble> {
     let system = System::new(linear, tangent)?;
-    let reduced = roots_of(Eigenproblem::FirstOrder(&system.matrix()))?;
+    let reduced = deflation::first_order_roots(&system.matrix(), free, |matrix| {
+        roots_of(Eigenproblem::FirstOrder(matrix))
+    })?;
     let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Largest);
     for (i, own) in reduced.iter().enumerate() {
         let phi = system.motion(&own.right);

@@ -26,12 +26,18 @@ use crate::{Complex, Description};
 use measure::Measure;
 
 /// All roots of the bordered pencil with `Im s >= 0`.
-pub(super) fn general_roots(linear: &Linear, structure: Structure) -> Result<Vec<Root>, Trouble> {
+///
+/// Those of `free` directions come first.
+pub(super) fn general_roots(
+    linear: &Linear,
+    structure: Structure,
+    free: usize,
+) -> Result<Vec<Root>, Trouble> {
     let tangent = Tangent::new(linear, structure);
     if structure.holonomic() {
-        quadratic::roots(linear, &tangent)
+        quadratic::roots(linear, &tangent, free)
     } else {
-        first_order::roots(linear, &tangent)
+        first_order::roots(linear, &tangent, free)
     }
 }
 
@@ -116,6 +122,12 @@ impl Normalisation {
             (Self::Largest, leading)
         }
     }
+}
+
+/// Normalises a vector of an open mechanism: `x^H Mhat x = 1`, its largest component real and positive.
+pub(super) fn normalise_by_mass(x: &mut [Complex], mass: &Matrix) -> bool {
+    let all = x.len();
+    normalise(x, mass, Normalisation::Mass, all)
 }
 
 /// Normalises a vector; the first `leading` components fix the phase.

@@ -12,6 +12,7 @@ use crate::algebra::{Matrix, Vector, dot, largest, largest_element, times};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::{Pairs, Trouble, symmetric};
 use crate::kernels::Linear;
+use crate::modes::deflation;
 use crate::rounding::of_form;
 
 /// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that the constraints of `description` leave free.
@@ -34,7 +35,8 @@ pub(crate) fn free_pairs_into(
 ) -> Result<(), Trouble> {
     let structure = Structure::of(description);
     if structure.open() {
-        return symmetric::solve_into(&linear.stiffness, &linear.mass, pairs);
+        let free = description.free_directions;
+        return deflation::pairs(&linear.stiffness, &linear.mass, free, pairs);
     }
     if !structure.holonomic() {
         return Err(Trouble::Inaccurate {
@@ -42,23 +44,30 @@ pub(crate) fn free_pairs_into(
             residual: f64::INFINITY,
         });
     }
-    *pairs = reduced_pairs(linear, &Tangent::new(linear, structure))?;
+    let tangent = Tangent::new(linear, structure);
+    *pairs = reduced_pairs(linear, &tangent, description.free_directions)?;
     Ok(())
 }
 
-fn reduced_pairs(linear: &Linear, tangent: &Tangent) -> Result<Pairs, Trouble> {
+fn reduced_pairs(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Pairs, Trouble> {
     let mut mass = projected(&linear.mass, tangent);
     let mut stiffness = projected(&linear.stiffness, tangent);
     symmetrise(&mut mass);
     symmetrise(&mut stiffness);
-    let mut pairs =
-        symmetric::solve(&stiffness, &mass).map_err(|trouble| tangent_trouble(trouble, tangent))?;
+    let mut pairs = Pairs::default();
+    deflation::pairs(&stiffness, &mass, free, &mut pairs)
+        .map_err(|trouble| tangent_trouble(trouble, tangent))?;
     let reduced = pairs.shapes;
     pairs.shapes = Matrix::zeros(tangent.freedom, tangent.structure.size());
     for (r, y) in reduced.iter().enumerate() {
         let mut x = tangent.lift(y);
         symmetric::fix_sign(&mut x[..tangent.structure.motions()]);
         let lambda = &mut pairs.lambda[r];
+        if r < free && *lambda == 0.0 {
+            let shape = with_reactions(linear, tangent, 0.0, &x);
+            pairs.shapes[r].copy_from_slice(&shape);
+            continue;
+        }
         // The quotient does not depend on the reactions: constraint forces cancel in it.
         let complete = with_reactions(linear, tangent, *lambda, &x);
         let (numerator, rounding) = quotient(linear, *lambda, &complete);

@@ -4,15 +4,17 @@ use super::{Gathered, Normalisation, is_shared, lift, projected, with_reactions}
 use crate::constraints::Tangent;
 use crate::eigenproblem::{Root, Trouble, general};
 use crate::kernels::Linear;
+use crate::modes::deflation;
 use crate::modes::pencil::transposed;
 
-pub(super) fn roots(linear: &Linear, tangent: &Tangent) -> Result<Vec<Root>, Trouble> {
+pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, Trouble> {
     let reduced = Linear {
         mass: projected(&linear.mass, tangent),
         damping: projected(&linear.damping, tangent),
         stiffness: projected(&linear.stiffness, tangent),
     };
-    let reduced = general::solve(&reduced).map_err(|trouble| tangent_trouble(trouble, tangent))?;
+    let reduced = deflation::roots(&reduced, free, general::solve)
+        .map_err(|trouble| tangent_trouble(trouble, tangent))?;
     let transposed = transposed(linear);
     let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Mass);
     for (i, own) in reduced.iter().enumerate() {

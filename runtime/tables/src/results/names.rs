@@ -117,6 +117,7 @@ pub(super) fn behaviour(behaviour: Behaviour) -> Option<String> {
         Behaviour::Damped(_) => "damped",
         Behaviour::Flutter(_) => "flutter",
         Behaviour::Decaying(_) => "decaying",
+        Behaviour::Free => "free",
         Behaviour::Neutral => "neutral",
         Behaviour::Divergent(_) => "divergent",
     })

@@ -1,0 +1,512 @@
+//! Eigenproblems without the zeros of free directions.
+//!
+//! Along directions `Z` that nothing resists, with `W^T K = 0`, a pencil has zeros that no solver finds to better than
+//! the root of rounding, because most are double: such a motion drifts. They are taken out exactly. Where also
+//! `W^T C Z = 0`, the equations `W^T` divided by `s` give `W^T (s M + C) phi = 0`. With `phi = Y e + Z a` and
+//! `A = (W^T M Z)^-1` they determine `s a = -A W^T (s M + C) Y e`, and the other equations become a pencil of `e`,
+//!
+//! ```text
+//! M' = V^T (M - M Z A W^T M) Y
+//! C' = V^T (C - M Z A W^T C - C Z A W^T M) Y
+//! K' = V^T (K - C Z A W^T C) Y
+//! ```
+//!
+//! where `V` and `Y` complete `W` and `Z`. It has the other eigenvalues, and the symmetries of the first. A motion that
+//! is damped but not held (`W^T C Z` regular) has a single zero, which stays in the pencil.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+use num_complex::Complex64;
+
+use crate::algebra::{Lu, Matrix, Vector, add_to, dot, greater, is_symmetric, times};
+use crate::eigenproblem::{Pairs, Root, Trouble, symmetric};
+use crate::free::{FreeDirections, NullSpace};
+use crate::kernels::Linear;
+
+/// Share of its terms below which a damping of a free direction counts as zero.
+const UNDAMPED: f64 = 1e-10;
+/// What elimination may leave of a matrix along its zeros, relative to the terms in it.
+const REMAINDER: f64 = 1e-6;
+
+/// The pencil of a mechanism without the zeros of motions that drift.
+struct Deflated<'a> {
+    linear: &'a Linear,
+    /// `Z` and `W`.
+    right: Vec<Vector>,
+    left: Vec<Vector>,
+    /// `A`.
+    inverse: Matrix,
+    /// The coordinates and equations that `Y` and `V` select.
+    kept_right: Vec<usize>,
+    kept_left: Vec<usize>,
+}
+
+impl<'a> Deflated<'a> {
+    /// `None` if nothing is to be deflated.
+    fn new(linear: &'a Linear, count: usize) -> Option<Self> {
+        let free = FreeDirections::of(&linear.stiffness, count);
+        let (right, left) = undamped(&linear.damping, &free.motions, &free.balances);
+        if right.is_empty() {
+            return None;
+        }
+        let mass = product(&left, &linear.mass, &right);
+        let inverse = inverse(&mass)?;
+        let kept_right = others(&right);
+        let kept_left = match left == right {
+            true => kept_right.clone(),
+            false => others(&left),
+        };
+        Some(Self {
+            linear,
+            right,
+            left,
+            inverse,
+            kept_right,
+            kept_left,
+        })
+    }
+
+    fn pencil(&self) -> Linear {
+        let Linear {
+            mass,
+            damping,
+            stiffness,
+        } = self.linear;
+        let (m, c) = (self.images(mass), self.images(damping));
+        let block = |matrix: &Matrix, pairs: &[(&Images, &Images)]| {
+            let mut own = Matrix::from_fn(self.kept_left.len(), self.kept_right.len(), |i, j| {
+                let (i, j) = (self.kept_left[i], self.kept_right[j]);
+                pairs.iter().fold(matrix[i][j], |sum, (of_right, of_left)| {
+                    sum - self.coupling(of_right, of_left, i, j)
+                })
+            });
+            restore_symmetry(&mut own, matrix);
+            own
+        };
+        Linear {
+            mass: block(mass, &[(&m, &m)]),
+            damping: block(damping, &[(&m, &c), (&c, &m)]),
+            stiffness: block(stiffness, &[(&c, &c)]),
+        }
+    }
+
+    /// `matrix Z` and `W^T matrix`.
+    fn images(&self, matrix: &Matrix) -> Images {
+        Images {
+            right: self.right.iter().map(|z| times(matrix, z)).collect(),
+            left: self.left.iter().map(|w| times_left(w, matrix)).collect(),
+        }
+    }
+
+    /// Element `i`, `j` of `P Z A W^T Q`.
+    fn coupling(&self, p: &Images, q: &Images, i: usize, j: usize) -> f64 {
+        let mut sum = 0.0;
+        for (a, of_right) in p.right.iter().enumerate() {
+            for (b, of_left) in q.left.iter().enumerate() {
+                sum += of_right[i] * self.inverse[a][b] * of_left[j];
+            }
+        }
+        sum
+    }
+
+    /// `phi` of `e`.
+    fn right(&self, s: Complex64, e: &[Complex64]) -> Vector<Complex64> {
+        let mut phi = placed(self.linear.mass.column_count(), &self.kept_right, e);
+        let along: Vec<Complex64> = (self.left.iter())
+            .map(|w| {
+                let terms = times_left(w, &self.linear.mass);
+                let damping = times_left(w, &self.linear.damping);
+                product_with(&terms, &phi) + product_with(&damping, &phi) / s
+            })
+            .collect();
+        for (a, z) in self.right.iter().enumerate() {
+            let row = self.inverse[a].iter().zip(&along);
+            let amount: Complex64 = row.map(|(inverse, along)| along * inverse).sum();
+            for (phi, z) in phi.iter_mut().zip(z) {
+                *phi -= amount * z;
+            }
+        }
+        phi
+    }
+
+    /// `psi` of the left vector of the deflated pencil.
+    fn left(&self, s: Complex64, e: &[Complex64]) -> Vector<Complex64> {
+        let mut psi = placed(self.linear.mass.row_count(), &self.kept_left, e);
+        let along: Vec<Complex64> = (self.right.iter())
+            .map(|z| {
+                let terms = times(&self.linear.mass, z);
+                let damping = times(&self.linear.damping, z);
+                product_with(&terms, &psi) + product_with(&damping, &psi) / s
+            })
+            .collect();
+        for (b, w) in self.left.iter().enumerate() {
+            let column = along.iter().enumerate();
+            let amount: Complex64 = column.map(|(a, along)| along * self.inverse[a][b]).sum();
+            for (psi, w) in psi.iter_mut().zip(w) {
+                *psi -= amount * w;
+            }
+        }
+        psi
+    }
+}
+
+struct Images {
+    right: Vec<Vector>,
+    left: Vec<Vector>,
+}
+
+/// The pencil without the zeros of motions that drift; `None` if there are none.
+pub(crate) fn deflated(linear: &Linear, count: usize) -> Option<Linear> {
+    (count > 0)
+        .then(|| Deflated::new(linear, count))
+        .flatten()
+        .map(|own| own.pencil())
+}
+
+/// The roots of a pencil with `count` free directions, those of the motions that drift first; `solve` finds the roots
+/// of the rest.
+pub(crate) fn roots(
+    linear: &Linear,
+    count: usize,
+    solve: impl FnOnce(&Linear) -> Result<Vec<Root>, Trouble>,
+) -> Result<Vec<Root>, Trouble> {
+    let Some(deflated) = (count > 0).then(|| Deflated::new(linear, count)).flatten() else {
+        return solve(linear);
+    };
+    let mut found: Vec<Root> = (deflated.right.iter().zip(&deflated.left))
+        .map(|(z, w)| standing(z, w))
+        .collect();
+    for mut root in solve(&deflated.pencil())? {
+        root.right = deflated.right(root.s, &root.right);
+        root.left = deflated.left(root.s, &root.left);
+        found.push(root);
+    }
+    for root in &mut found {
+        for vector in [&mut root.right, &mut root.left] {
+            super::constrained::normalise_by_mass(vector, &linear.mass);
+        }
+    }
+    Ok(found)
+}
+
+/// The eigenpairs of symmetric matrices with `count` free directions, which come first.
+pub(crate) fn pairs(
+    stiffness: &Matrix,
+    mass: &Matrix,
+    count: usize,
+    pairs: &mut Pairs,
+) -> Result<(), Trouble> {
+    let n = mass.row_count();
+    let linear = || Linear {
+        mass: mass.clone(),
+        damping: Matrix::zeros(n, n),
+        stiffness: stiffness.clone(),
+    };
+    let own = (count > 0).then(linear);
+    let Some(deflated) = own.as_ref().and_then(|own| Deflated::new(own, count)) else {
+        return symmetric::solve_into(stiffness, mass, pairs);
+    };
+    let pencil = deflated.pencil();
+    let mut rest = Pairs::default();
+    symmetric::solve_into(&pencil.stiffness, &pencil.mass, &mut rest)?;
+    let free = orthonormal_in(mass, &deflated.right);
+    let zeros = || free.iter().map(|_| 0.0);
+    pairs.lambda = zeros().chain(rest.lambda.iter().copied()).collect();
+    pairs.errors = zeros().chain(rest.errors.iter().copied()).collect();
+    pairs.residuals = zeros().chain(rest.residuals.iter().copied()).collect();
+    pairs.shapes = Matrix::zeros(n, n);
+    for (to, shape) in pairs.shapes.iter_mut().zip(&free) {
+        to.copy_from_slice(shape);
+    }
+    for (to, shape) in pairs
+        .shapes
+        .iter_mut()
+        .skip(free.len())
+        .zip(rest.shapes.iter())
+    {
+        let shape = shape.iter().map(|x| Complex64::from(*x));
+        // Without damping the vector does not depend on the eigenvalue.
+        let lifted = deflated.right(Complex64::ONE, &shape.collect::<Vec<_>>());
+        for (to, value) in to.iter_mut().zip(&lifted) {
+            *to = value.re;
+        }
+    }
+    for shape in pairs.shapes.iter_mut() {
+        symmetric::fix_sign(shape);
+    }
+    Ok(())
+}
+
+/// The roots of `A x = s x` with `count` free directions, which come first; `solve` finds the roots of the rest.
+///
+/// Along `A Z = 0` with `x = Y e + Z a`, the equations at the places that `Y` leaves out determine `s a`, and the others
+/// become `A' e = s e`. If such a motion drifts, its zero is double, and `A'` still has the second one: it is taken out
+/// in the same way.
+pub(crate) fn first_order_roots(
+    matrix: &Matrix,
+    count: usize,
+    solve: impl FnOnce(&Matrix) -> Result<Vec<Root>, Trouble>,
+) -> Result<Vec<Root>, Trouble> {
+    let space = NullSpace::of(matrix, count);
+    if count == 0 || space.remainder > REMAINDER {
+        return solve(matrix);
+    }
+    let (right, left) = (&space.right[..count], &space.left[..count]);
+    let rest = WithoutZeros::new(matrix, right);
+    let drifting = count - NullSpace::rank(&products(left, right));
+    let again = (drifting > 0).then(|| {
+        let space = NullSpace::of(&rest.matrix, drifting);
+        WithoutZeros::new(&rest.matrix, &space.right[..drifting])
+    });
+    let innermost = again.as_ref().unwrap_or(&rest);
+    let mut found: Vec<Root> = right
+        .iter()
+        .zip(left)
+        .map(|(z, w)| standing(z, w))
+        .collect();
+    for mut root in solve(&innermost.matrix)? {
+        for level in again.iter().chain([&rest]) {
+            root.right = level.right(root.s, &root.right);
+            root.left = level.left(&root.left);
+        }
+        found.push(root);
+    }
+    Ok(found)
+}
+
+/// A matrix without some of its zero eigenvalues.
+struct WithoutZeros {
+    matrix: Matrix,
+    /// `Z`.
+    zeros: Vec<Vector>,
+    kept: Vec<usize>,
+    /// `(Z at the places left out)^-1`, one row for each vector.
+    inverse: Matrix,
+    left_out: Vec<usize>,
+    /// The rows of the whole matrix at the places left out, over the places kept.
+    rows: Matrix,
+}
+
+impl WithoutZeros {
+    fn new(whole: &Matrix, zeros: &[Vector]) -> Self {
+        let kept = others(zeros);
+        let n = whole.row_count();
+        let left_out: Vec<usize> = (0..n).filter(|i| !kept.contains(i)).collect();
+        let at = Matrix::from_fn(left_out.len(), zeros.len(), |i, k| zeros[k][left_out[i]]);
+        let inverse = inverse(&at).unwrap_or_default();
+        let rows = Matrix::from_fn(left_out.len(), kept.len(), |i, j| {
+            whole[left_out[i]][kept[j]]
+        });
+        let amounts = Matrix::from_fn(zeros.len(), kept.len(), |k, j| {
+            (0..left_out.len()).fold(0.0, |sum, i| sum + inverse[k][i] * rows[i][j])
+        });
+        let matrix = Matrix::from_fn(kept.len(), kept.len(), |i, j| {
+            let own = zeros.iter().enumerate();
+            own.fold(whole[kept[i]][kept[j]], |sum, (k, z)| {
+                sum - z[kept[i]] * amounts[k][j]
+            })
+        });
+        Self {
+            matrix,
+            zeros: zeros.to_vec(),
+            kept,
+            inverse,
+            left_out,
+            rows,
+        }
+    }
+
+    fn right(&self, s: Complex64, e: &[Complex64]) -> Vector<Complex64> {
+        let mut x = placed(self.kept.len() + self.left_out.len(), &self.kept, e);
+        let images: Vec<Complex64> = self.rows.iter().map(|row| product_with(row, e)).collect();
+        for (k, z) in self.zeros.iter().enumerate() {
+            let amount = product_with(&self.inverse[k], &images) / s;
+            for (x, z) in x.iter_mut().zip(z) {
+                *x += amount * z;
+            }
+        }
+        x
+    }
+
+    fn left(&self, e: &[Complex64]) -> Vector<Complex64> {
+        let mut y = placed(self.kept.len() + self.left_out.len(), &self.kept, e);
+        let along: Vec<Complex64> = self.zeros.iter().map(|z| product_with(z, &y)).collect();
+        for (i, &place) in self.left_out.iter().enumerate() {
+            let column = along.iter().enumerate();
+            y[place] = -column
+                .map(|(k, along)| along * self.inverse[k][i])
+                .sum::<Complex64>();
+        }
+        y
+    }
+}
+
+/// `W^T Z`, with what is rounding set to zero.
+fn products(left: &[Vector], right: &[Vector]) -> Matrix {
+    Matrix::from_fn(left.len(), right.len(), |i, j| {
+        let pairs = left[i].iter().zip(&right[j]);
+        let terms = pairs.fold(0.0, |sum, (w, z)| sum + (w * z).abs());
+        let product = dot(&left[i], &right[j]);
+        if product.abs() <= UNDAMPED * terms {
+            0.0
+        } else {
+            product
+        }
+    })
+}
+
+/// The root of a motion along which the mechanism stays where it is put, or drifts.
+fn standing(motion: &[f64], balance: &[f64]) -> Root {
+    let complex = |x: &[f64]| x.iter().map(|x| Complex64::from(*x)).collect();
+    Root {
+        s: Complex64::ZERO,
+        right: complex(motion),
+        left: complex(balance),
+        residual: 0.0,
+        error: 0.0,
+        condition: f64::INFINITY,
+    }
+}
+
+/// The combinations of free directions without damping among themselves.
+fn undamped(damping: &Matrix, right: &[Vector], left: &[Vector]) -> (Vec<Vector>, Vec<Vector>) {
+    let mut coupled = product(left, damping, right);
+    let size = |x: &Vector| x.map(f64::abs);
+    let sizes = |all: &[Vector]| all.iter().map(size).collect::<Vec<_>>();
+    let terms = product(&sizes(left), &damping.map(f64::abs), &sizes(right));
+    for (own, terms) in coupled
+        .as_flattened_mut()
+        .iter_mut()
+        .zip(terms.as_flattened())
+    {
+        if own.abs() <= UNDAMPED * terms {
+            *own = 0.0;
+        }
+    }
+    let space = NullSpace::of(&coupled, 0);
+    let combined = |all: &[Vector], shares: &[Vector]| -> Vec<Vector> {
+        (shares.iter())
+            .map(|shares| {
+                let mut sum = Vector::zeros(all[0].len());
+                for (share, own) in shares.iter().zip(all) {
+                    add_to(&mut sum, *share, own);
+                }
+                sum
+            })
+            .collect()
+    };
+    match right.is_empty() {
+        true => (Vec::new(), Vec::new()),
+        false => (combined(right, &space.right), combined(left, &space.left)),
+    }
+}
+
+/// `W^T matrix Z`.
+fn product(left: &[Vector], matrix: &Matrix, right: &[Vector]) -> Matrix {
+    let images: Vec<Vector> = right.iter().map(|z| times(matrix, z)).collect();
+    Matrix::from_fn(left.len(), right.len(), |i, j| dot(&left[i], &images[j]))
+}
+
+fn times_left(w: &[f64], matrix: &Matrix) -> Vector {
+    let mut sum = Vector::zeros(matrix.column_count());
+    for (w, row) in w.iter().zip(matrix.iter()) {
+        add_to(&mut sum, *w, row);
+    }
+    sum
+}
+
+fn product_with(x: &[f64], y: &[Complex64]) -> Complex64 {
+    x.iter().zip(y).map(|(x, y)| y * x).sum()
+}
+
+fn inverse(matrix: &Matrix) -> Option<Matrix> {
+    let factors = Lu::new(matrix)?;
+    let n = matrix.row_count();
+    let unit = |k: usize| Vector::from_fn(n, |i| if i == k { 1.0 } else { 0.0 });
+    let columns: Vec<Vector> = (0..n).map(|k| factors.solve(&unit(k))).collect();
+    let mut found = Matrix::from_fn(n, n, |i, j| columns[j][i]);
+    restore_symmetry(&mut found, matrix);
+    Some(found)
+}
+
+/// Makes `matrix` exactly symmetric or skew-symmetric if `like` is.
+fn restore_symmetry(matrix: &mut Matrix, like: &Matrix) {
+    let skew = || (0..like.row_count()).all(|i| (0..=i).all(|j| like[i][j] == -like[j][i]));
+    let sign = if is_symmetric(like) {
+        1.0
+    } else if skew() {
+        -1.0
+    } else {
+        return;
+    };
+    for i in 0..matrix.row_count() {
+        for j in 0..=i {
+            let mean = 0.5 * (matrix[i][j] + sign * matrix[j][i]);
+            (matrix[i][j], matrix[j][i]) = (mean, sign * mean);
+        }
+    }
+}
+
+/// The places outside those that independent vectors determine: of each vector the largest remaining component is left
+/// out.
+fn others(vectors: &[Vector]) -> Vec<usize> {
+    let n = vectors.first().map_or(0, |x| x.len());
+    let sizes = Vector::from_fn(n, |i| {
+        vectors
+            .iter()
+            .fold(0.0, |most, x| greater(most, x[i].abs()))
+    });
+    let mut rest = vectors.to_vec();
+    let mut kept: Vec<usize> = (0..n).collect();
+    for k in 0..rest.len() {
+        let weight = |i: usize| match sizes[i] > 0.0 {
+            true => rest[k][i].abs() / sizes[i],
+            false => 0.0,
+        };
+        // A margin makes the first of equal ones win, regardless of rounding.
+        let pivot = kept
+            .iter()
+            .copied()
+            .fold(None, |best: Option<usize>, i| match best {
+                Some(best) if weight(i) <= weight(best) * (1.0 + 1e-9) => Some(best),
+                _ => Some(i),
+            });
+        let Some(pivot) = pivot else {
+            return kept;
+        };
+        kept.retain(|&i| i != pivot);
+        let own = rest[k].clone();
+        for other in &mut rest[k + 1..] {
+            let factor = -other[pivot] / own[pivot];
+            add_to(other, factor, &own);
+        }
+    }
+    kept
+}
+
+fn placed(n: usize, places: &[usize], values: &[Complex64]) -> Vector<Complex64> {
+    let mut found = Vector::zeros(n);
+    for (&place, value) in places.iter().zip(values) {
+        found[place] = *value;
+    }
+    found
+}
+
+/// Vectors made orthonormal in the mass matrix.
+fn orthonormal_in(mass: &Matrix, vectors: &[Vector]) -> Vec<Vector> {
+    let mut found: Vec<Vector> = Vec::new();
+    for vector in vectors {
+        let mut own = vector.clone();
+        for _ in 0..2 {
+            for other in &found {
+                let along = dot(&times(mass, other), &own);
+                add_to(&mut own, -along, other);
+            }
+        }
+        let size = dot(&own, &times(mass, &own)).sqrt();
+        found.push(own.map(|value| value / size));
+    }
+    found
+}

@@ -1,0 +1,76 @@
+//! Free directions: whether the loads along them stay balanced when a variable changes, and which outputs depend on the
+//! place.
+
+use super::redundancy::ROUNDING;
+use crate::algebra::{Matrix, Values, Vector, dot, largest, times};
+use crate::equilibrium::SMALL_MOTION;
+use crate::kernels::Kernels;
+use crate::{Equilibrium, Error, Text};
+
+/// Share of a variable's effect on the terms of a balance below which it counts as no effect, compared with the forces
+/// themselves.
+const OF_FORCES: f64 = 1e-12;
+
+/// Checks that the loads along free directions stay balanced: `W^T dg/du = 0` and `W^T dg/db = 0`. Otherwise there is
+/// no equilibrium for neighbouring values, and nothing has a derivative.
+///
+/// # Errors
+/// [`Error::BalancesHereOnly`].
+pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
+    if at.free.is_empty() {
+        return Ok(());
+    }
+    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+    let (by_input, by_design) = mechanism.residual_partials(q, u, b);
+    let forces = forces(mechanism, at);
+    let moved = |partials: &Matrix, values: &[f64], w: &[f64]| {
+        let weights = w.map(f64::abs);
+        let least = OF_FORCES * dot(&weights, &forces);
+        (0..values.len()).find(|&j| {
+            let column = partials.column(j);
+            let (change, terms) = (dot(w, &column).abs(), dot(&weights, &column.map(f64::abs)));
+            change > ROUNDING * terms && change * (SMALL_MOTION + values[j].abs()) > least
+        })
+    };
+    for (w, z) in at.free.balances.iter().zip(&at.free.motions) {
+        let input = moved(&by_input, u, w).map(|j| &at.description.inputs[j].name);
+        let design = || moved(&by_design, b, w).map(|j| &at.description.design[j].name);
+        if let Some(variable) = input.or_else(design) {
+            return Err(Error::BalancesHereOnly {
+                coordinates: moving(at, z),
+                variable: variable.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Whether a covector sees the place: an output with this derivative by the unknowns depends on where the mechanism
+/// stands.
+pub(super) fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
+    at.free.motions.iter().any(|z| {
+        let terms = by_unknown
+            .iter()
+            .zip(z)
+            .fold(0.0, |sum, (a, z)| sum + (a * z).abs());
+        dot(by_unknown, z).abs() > ROUNDING * terms
+    })
+}
+
+/// The forces in each equation: inertia, applied forces, and what its stiffnesses restore over the coordinates
+/// themselves or a small motion.
+fn forces(mechanism: &dyn Kernels, at: &Equilibrium) -> Vector {
+    let parts = mechanism.residual_parts(&at.coordinates, &at.inputs, &at.design);
+    let reach = at.coordinates.map(|q| q.abs() + SMALL_MOTION);
+    let restored = times(&at.linear.stiffness.map(f64::abs), &reach);
+    Vector::from_fn(reach.len(), |i| {
+        parts.inertia[i].abs() + parts.applied[i].abs() + restored[i]
+    })
+}
+
+/// The names of the unknowns that take part in a motion.
+fn moving(at: &Equilibrium, z: &[f64]) -> Vec<Text> {
+    let most = largest(z);
+    let part = (0..z.len()).filter(|&j| z[j].abs() > ROUNDING * most);
+    part.map(|j| at.description.unknown_name(j)).collect()
+}

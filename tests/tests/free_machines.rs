@@ -1,0 +1,6 @@
+//! Machines that nothing holds in some direction, against reference values (`truth/practice`), in any coordinates.
+
+#[path = "free_machines/common.rs"]
+mod common;
+#[path = "free_machines/reference.rs"]
+mod reference;
