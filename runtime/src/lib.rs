@@ -163,8 +163,6 @@ pub use equilibrium::Policy;
 #[cfg(feature = "std")]
 pub use error::Error;
 #[cfg(feature = "std")]
-pub use free::FreeDirections;
-#[cfg(feature = "std")]
 pub use kernels::Kernels;
 #[cfg(feature = "std")]
 pub use modes::{Behaviour, Family, Mode, Modes};

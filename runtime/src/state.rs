@@ -49,8 +49,41 @@ pub struct Equilibrium {
     pub free: FreeDirections,
     /// The solver passed through an unstable region: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
+    /// What a user should know about how it was found.
+    pub notes: Vec<Note>,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
+}
+
+/// What a user should know about how an equilibrium was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Note {
+    /// The start values are those of an unstable equilibrium, which therefore is the answer.
+    Stays,
+    /// The nearest equilibrium is this far from a start value, rad or m (rad/s or m/s for a speed).
+    Far {
+        /// The unknown that differs most.
+        unknown: usize,
+        /// How far it is from its start value.
+        distance: f64,
+    },
+    /// It is one of a family of steady motions with this number of parameters; [`FreeDirections::held`] says what holds
+    /// it, also in derivatives.
+    Member {
+        /// Number of parameters of the family.
+        dimension: usize,
+    },
+    /// An unknown has another value than the start value that was given.
+    OtherValue {
+        /// The unknown.
+        unknown: usize,
+        /// Its start value, SI.
+        asked: f64,
+        /// Its value, SI.
+        found: f64,
+    },
 }
 
 impl Equilibrium {
@@ -72,6 +105,7 @@ impl Equilibrium {
             constraints: ConstraintState::open(n),
             free: FreeDirections::default(),
             left_unstable_region: false,
+            notes: Vec::new(),
             description: description.clone(),
         }
     }

@@ -2,5 +2,9 @@
 
 #[path = "free_machines/common.rs"]
 mod common;
+#[path = "free_machines/families.rs"]
+mod families;
 #[path = "free_machines/reference.rs"]
 mod reference;
+#[path = "free_machines/unstable.rs"]
+mod unstable;

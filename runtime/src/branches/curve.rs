@@ -280,6 +280,7 @@ impl<'a> Curve<'a> {
             relative_residual: relative,
             iterations,
             left_unstable_region: false,
+            notes: Vec::new(),
             description: self.description.clone(),
         })
     }

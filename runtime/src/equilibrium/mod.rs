@@ -5,6 +5,8 @@ mod assembly;
 mod constraint_projection;
 mod convergence;
 mod descent;
+mod finish;
+mod member;
 mod multistart;
 mod newton;
 mod newton_fast_path;
@@ -24,16 +26,18 @@ pub use multistart::{Search, find_equilibria};
 pub(crate) use convergence::{
     ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,
 };
+pub(crate) use finish::Judged;
 pub(crate) use operating_point::{Failure, OperatingPoint};
 pub(crate) use prediction::{MISSED, Passed, Path, STILL};
 pub(crate) use regularity::constraint_state;
 pub(crate) use root::{Bracket, refine};
-pub(crate) use solve::{Judged, solve, solve_from_prediction, solve_into};
+pub(crate) use solve::{solve, solve_from_prediction, solve_into};
 pub(crate) use stability::{Verdict, judge, judge_critical};
 pub(crate) use turns::{coincide, turned_towards, turns_do_not_count};
 
 pub use crate::constraints::ConstraintState;
-pub use crate::state::{Equilibrium, Stability};
+pub use crate::free::{FreeDirections, Held};
+pub use crate::state::{Equilibrium, Note, Stability};
 
 use crate::kernels::Kernels;
 use crate::{Error, Mode};
@@ -52,14 +56,16 @@ pub enum Policy {
     /// the same as `Nearest`: an unstable equilibrium may be found although there are stable ones.
     #[default]
     Stable,
-    /// The equilibrium that Newton's method reaches from the start value, whatever its stability.
+    /// The equilibrium that Newton's method reaches from the start value, whatever its stability: the upright pendulum, the
+    /// far side of a snap-through. Its derivatives are those of that equilibrium, and samples of tolerances stay near it.
     Nearest,
 }
 
 /// Finds a dynamic equilibrium from the start value `start`.
 ///
 /// `u` are inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an
-/// unstable equilibrium is left along its most unstable mode, towards positive values of the mode's largest component.
+/// unstable equilibrium is left along its most unstable mode, towards positive values of the mode's largest component;
+/// a [`Study`](crate::Study) stays there if that start was given.
 ///
 /// A mechanism with constraints is first moved from `start` to the nearest position that closes its loops ([`assemble`]
 /// does that with some coordinates held); the reactions in `start` are ignored.
@@ -75,22 +81,20 @@ pub fn equilibrium(
     policy: Policy,
 ) -> Result<Equilibrium, Error> {
     let mut state = Equilibrium::blank(&mechanism.description(), u, b);
-    equilibrium_into(mechanism, u, b, start, policy, &mut state)?;
+    let point = OperatingPoint::unchecked(mechanism, u, b);
+    equilibrium_into(&point, start, policy, &mut state)?;
     Ok(state)
 }
 
-/// Like [`equilibrium`], but overwrites a blank state at these inputs and design variables, and returns
+/// Like [`equilibrium`], but overwrites a blank state of this point, whose values are checked here, and returns
 /// [`Judged::modes`].
 pub(crate) fn equilibrium_into(
-    mechanism: &dyn Kernels,
-    u: &[f64],
-    b: &[f64],
+    point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
     state: &mut Equilibrium,
 ) -> Result<Vec<Mode>, Error> {
-    let point = OperatingPoint::unchecked(mechanism, u, b);
     point.check_values()?;
     point.check_start(start)?;
-    solve_into(&point, start, policy, state).map_err(|failure| failure.explain(&point.description))
+    solve_into(point, start, policy, state).map_err(|failure| failure.explain(&point.description))
 }

@@ -5,7 +5,7 @@ use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
 use crate::error::{NotClosed, NotFound};
-use crate::free::fix_place;
+use crate::free::{Held, fix_place};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
 use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, Role, Shared};
@@ -24,6 +24,10 @@ pub(crate) struct OperatingPoint<'a> {
     dropped: Vec<bool>,
     /// The modes of a nearby state, which speed up the computation of those of this one; may be empty.
     pub(super) nearby: &'a [Mode],
+    /// Whether each unknown has a start value that was given, not a default; may be empty.
+    named: &'a [bool],
+    /// The unknowns by which the member of a family of steady motions is to be held.
+    pub(super) held: Vec<Held>,
 }
 
 impl<'a> OperatingPoint<'a> {
@@ -70,7 +74,23 @@ impl<'a> OperatingPoint<'a> {
             design,
             dropped: Vec::new(),
             nearby: &[],
+            named: &[],
+            held: Vec::new(),
         }
+    }
+
+    /// This point with the unknowns whose start values are given, and those by which a member of a family is to be held.
+    pub(crate) fn asked(self, named: &'a [bool], held: Vec<Held>) -> Self {
+        Self {
+            named,
+            held,
+            ..self
+        }
+    }
+
+    /// The coordinates and speeds whose start values are given.
+    pub(super) fn named(&self) -> impl Iterator<Item = usize> {
+        (0..self.motions()).filter(|&unknown| self.named.get(unknown) == Some(&true))
     }
 
     /// This point with the modes of a nearby state.
@@ -295,6 +315,11 @@ pub(crate) enum Failure {
         /// The constraints that become dependent there.
         dependent: Vector<bool>,
     },
+    /// A family of steady motions of this dimension cannot be held by these unknowns.
+    Held {
+        unknowns: Vec<usize>,
+        dimension: usize,
+    },
     SingularMass(usize),
     Mode {
         mode: usize,
@@ -356,6 +381,15 @@ impl Failure {
             } => Error::UnboundedReactions {
                 constraints: dependent_names(description, &dependent).collect(),
                 coordinates,
+            },
+            Self::Held {
+                unknowns,
+                dimension,
+            } => Error::NotHeld {
+                unknowns: (unknowns.into_iter())
+                    .map(|unknown| description.unknown_name(unknown))
+                    .collect(),
+                dimension,
             },
             Self::SingularMass(row) => Error::SingularMass {
                 coordinate: description.unknown_name(row),

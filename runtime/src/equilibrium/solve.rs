@@ -1,27 +1,18 @@
-//! From a start value to a finished equilibrium: solved to rounding, stability judged, reactions determined.
+//! From a start value to a finished equilibrium, by the way that suits the mechanism.
 
 use super::acceptance::{Found, Measured};
-use super::convergence::{ACCEPTED, relative_residual};
+use super::convergence::{SMALL_MOTION, relative_residual};
 use super::descent;
+use super::finish::{Judged, finish, judge};
 use super::operating_point::{Failure, OperatingPoint};
 use super::prediction::confirmed;
-use super::regularity::{constraint_state, unbalanced};
-use super::stability::Verdict;
-use super::{Equilibrium, Policy, assembly, newton, newton_fast_path, search_space, stability};
-use crate::algebra::{Cholesky, Vector, add_scaled, add_to, dot};
-use crate::constraints::{Structure, Tangent, all_rows, placed};
+use super::regularity::unbalanced;
+use super::{Equilibrium, Policy, assembly, member, newton, newton_fast_path, search_space};
+use crate::algebra::{Cholesky, Vector, add_scaled};
+use crate::constraints::Tangent;
 use crate::error::NotFound;
-use crate::free::FreeDirections;
-use crate::kernels::Linear;
-use crate::rounding::CheckedState;
+use crate::state::Note;
 use crate::{DampingKind, Mode, Stability};
-
-/// A finished state.
-pub(crate) struct Judged {
-    pub(crate) state: Equilibrium,
-    /// Its general modes if they were needed to judge its stability; empty otherwise.
-    pub(crate) modes: Vec<Mode>,
-}
 
 /// Like [`equilibrium`](super::equilibrium), for validated values.
 pub(crate) fn solve(
@@ -76,7 +67,17 @@ fn solve_slowly(
     };
     let potential = point.description.symmetric_stiffness && structure.holonomic();
     if policy == Policy::Nearest || !potential {
-        return nearest_beside(point, start);
+        let mut found = nearest_beside(point, start)?;
+        if !structure.holonomic() {
+            found = member::settled(point, start, found)?;
+        }
+        if policy == Policy::Nearest {
+            found
+                .state
+                .notes
+                .extend(far(point, start, &found.state.coordinates));
+        }
+        return Ok(found);
     }
     let mut found = from_afar(point, start, &descent::SearchState::first(start));
     for _ in 0..descent::MAX_DEPARTURES {
@@ -96,6 +97,17 @@ fn solve_slowly(
     }
     found
 }
+
+/// What to say if the nearest equilibrium is far from the start values that were given.
+fn far(point: &OperatingPoint<'_>, start: &[f64], q: &[f64]) -> Option<Note> {
+    let away = |unknown: usize| (start[unknown] - q[unknown]).abs();
+    let unknown = point.named().max_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+    let distance = away(unknown);
+    (distance > FAR).then_some(Note::Far { unknown, distance })
+}
+
+/// Distance from a start value, rad or m, that is worth a note.
+const FAR: f64 = 0.1;
 
 /// Leaves a singular configuration in the direction in which the forces drive.
 #[cold]
@@ -133,6 +145,9 @@ fn from_afar(
     place: &descent::SearchState,
 ) -> Result<Judged, Failure> {
     let structure = point.structure;
+    if let Some(named) = stays(point, start) {
+        return Ok(named);
+    }
     if let Some(held) = gyroscopically_stabilised(point, start) {
         return Ok(held);
     }
@@ -157,6 +172,39 @@ fn from_afar(
             _ => failure,
         })
 }
+
+/// The equilibrium whose coordinates are the start values that were given, if these are those of one: it is the answer
+/// whatever its stability. Coordinates without a given value are free to adapt.
+#[cold]
+fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
+    let count = point.named().count();
+    if count == 0 {
+        return None;
+    }
+    if point.structure.open() && count == point.size() {
+        let (residual, stiffness) = point.evaluate(start)?;
+        if relative_residual(point, start, &residual, &stiffness) > NAMED {
+            return None;
+        }
+    }
+    let found = nearest(point, start).ok()?;
+    let is_there = |unknown: usize| {
+        let (asked, found) = (start[unknown], found.coordinates[unknown]);
+        (asked - found).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
+    };
+    if !point.named().all(is_there) {
+        return None;
+    }
+    let mut judged = finish(point, found).ok()?;
+    if !judged.state.stability.holds() {
+        judged.state.notes.push(Note::Stays);
+    }
+    Some(judged)
+}
+
+/// Residual at start values, and change of them, relative to forces and coordinates, up to which they are those of an
+/// equilibrium.
+const NAMED: f64 = 1e-8;
 
 /// The minimum that the fast path finds from `place`.
 fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<Found> {
@@ -253,101 +301,4 @@ fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Optio
     let judged = finish(point, found).ok()?;
     let stability = judged.state.stability;
     matches!(stability, Stability::GyroscopicallyStabilised { .. }).then_some(judged)
-}
-
-fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failure> {
-    let Measured {
-        linear,
-        relative_residual: relative,
-    } = match found.measured.take() {
-        Some(measured) => measured,
-        None => measure(point, &mut found)?,
-    };
-    if relative.is_nan() || relative > ACCEPTED {
-        return Err(Failure::NotFound {
-            reason: NotFound::Inaccurate,
-            coordinates: found.coordinates.into(),
-            iterations: found.iterations,
-            relative,
-        });
-    }
-    let constraints = constraint_state(point, &found.coordinates, &found.residual, &linear)?;
-    let mut state = Equilibrium {
-        coordinates: found.coordinates,
-        inputs: point.inputs.into(),
-        design: point.design.into(),
-        stability: Stability::Undecided,
-        rounding: 0.0,
-        linear,
-        residual: found.residual,
-        relative_residual: relative,
-        iterations: found.iterations,
-        pose: None,
-        constraints,
-        free: FreeDirections::default(),
-        left_unstable_region: found.left_unstable_region,
-        description: point.description.clone(),
-    };
-    let modes = judge(point, &mut state)?;
-    Ok(Judged { state, modes })
-}
-
-/// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
-fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<Vec<Mode>, Failure> {
-    state.free = FreeDirections::of(&state.linear.stiffness, point.free());
-    let verdict = if state.constraints.singular {
-        Verdict::undecided()
-    } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
-        Verdict::without_modes(Stability::Stable, 0.0)
-    } else {
-        let place = CheckedState {
-            coordinates: &state.coordinates,
-            inputs: point.inputs,
-            design: point.design,
-            residual: &state.residual,
-        };
-        stability::judge(point.mechanism, &place, &state.linear, point.nearby)?
-    };
-    state.pose = point
-        .mechanism
-        .pose_margin(&state.coordinates, point.inputs, point.design);
-    (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
-    Ok(verdict.modes)
-}
-
-/// Determines the reactions of a state, and measures the state.
-fn measure(point: &OperatingPoint<'_>, found: &mut Found) -> Result<Measured, Failure> {
-    let mut linear = point.linear(&found.coordinates)?;
-    if point.structure.constraints() > 1 {
-        if let Some(least) = least_reactions(&found.coordinates, &linear, point.structure) {
-            linear = point.linear(&least)?;
-            found.coordinates = least;
-        }
-        // Includes the gaps of constraints that were left out.
-        found.residual = point.residual(&found.coordinates);
-    }
-    let (q, residual) = (&found.coordinates, &found.residual);
-    Ok(Measured {
-        relative_residual: relative_residual(point, q, residual, &linear.stiffness),
-        linear,
-    })
-}
-
-/// Whether positive masses and stiffnesses alone make a state stable.
-fn at_rest_by_stiffness(point: &OperatingPoint<'_>) -> bool {
-    let undamped = point.description.damping == DampingKind::Zero;
-    undamped && point.description.symmetric_stiffness && point.structure.open()
-}
-
-/// The state with the smallest reactions among those that redundant constraints allow; `None` if the reactions are
-/// determined.
-fn least_reactions(x: &[f64], linear: &Linear, structure: Structure) -> Option<Vector> {
-    let rows = all_rows(&linear.stiffness, structure);
-    let mut least = Vector::from(x);
-    for k in 0..rows.dependent() {
-        let along = placed(structure, &rows.null_left(k));
-        let amount = dot(x, &placed(structure, &rows.null_left_scaled(k)));
-        add_to(&mut least, -amount, &along);
-    }
-    (rows.dependent() > 0).then_some(least)
 }

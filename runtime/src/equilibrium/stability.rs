@@ -162,7 +162,10 @@ fn by_eigenvalues(
     floor: f64,
 ) -> Verdict {
     let mut found = Modes::empty(Family::General, description);
-    if found.solve_near(linear, floor, nearby).is_err() {
+    if found
+        .solve_near(linear, (description.free_directions, floor), nearby)
+        .is_err()
+    {
         return Verdict::without_modes(Stability::Undecided, floor);
     }
     let count = |wanted: fn(Behaviour) -> bool| {

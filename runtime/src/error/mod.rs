@@ -170,6 +170,14 @@ pub enum Error {
         /// The input or design variable that breaks it.
         variable: Text,
     },
+    /// The member of a family of steady motions cannot be held by these unknowns.
+    #[error("{}", not_held(.unknowns, *.dimension))]
+    NotHeld {
+        /// The unknowns that were to be held.
+        unknowns: Vec<Text>,
+        /// The number of parameters of the family; zero if the steady motion is the only one nearby.
+        dimension: usize,
+    },
     /// The loads along a motion that nothing resists balance only at these values of the variables.
     #[error(
         "nothing holds {}, and the loads along it balance at these values only: with another `{variable}` there is no \
@@ -408,6 +416,22 @@ pub enum Error {
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),
+}
+
+fn not_held(unknowns: &[Text], dimension: usize) -> String {
+    let names = names(unknowns);
+    match (dimension, unknowns.len()) {
+        (0, _) => format!(
+            "{names} cannot be held at a value: this steady motion is not one of a family, its equations determine it"
+        ),
+        (_, count) if count > dimension => format!(
+            "a family of {dimension} cannot hold {names}: let {} of them go",
+            count - dimension
+        ),
+        _ => format!(
+            "{names} cannot all be chosen in this family of {dimension}: one follows from the others, so let it go"
+        ),
+    }
 }
 
 fn names(names: &[Text]) -> String {

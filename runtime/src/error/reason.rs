@@ -32,6 +32,7 @@ reasons! {
         IterationLimit = "too many iterations",
         Inaccurate = "the residual stays larger than rounding can explain",
         Diverges = "Newton's method does not converge",
+        NoMember = "no member of this family of steady motions has the values that are to be held",
         NotIsolated = "other equilibria lie right beside it, as where nothing resists a motion",
         BendsAway = "the branch bends away",
         BendsSharply = "the branch bends sharply",

@@ -3,17 +3,20 @@
 use std::borrow::Cow;
 
 use super::NullSpace;
-use crate::algebra::{Matrix, Vector};
+use crate::algebra::{Matrix, Vector, add_to, dot};
 
 /// What elimination may leave of the stiffness of an equilibrium along its free directions, relative to the terms in
 /// it.
 const REMAINDER: f64 = 1e-6;
 
-/// Independent motions along which nothing depends on where the mechanism stands: a shaft that may turn as a whole, a
-/// body that floats.
+/// Independent motions from one steady motion to neighbouring ones.
 ///
-/// The place along them is that of the start, and derivatives hold it: `rows . dq = 0`. What depends on the place has
-/// no derivative.
+/// Along those of [`Description::free_directions`](crate::Description::free_directions) nothing depends on where the
+/// mechanism stands: a shaft may turn as a whole, a body floats. The place along them is that of the start, and
+/// derivatives hold it: `rows . dq = 0`. What depends on the place has no derivative.
+///
+/// Others lead to another member of a family of steady motions, as for a wheel that may roll in a circle of any size:
+/// each of these is fixed by an unknown that is [held](Self::held), and derivatives hold it too.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -27,6 +30,25 @@ pub struct FreeDirections {
     pub(crate) rows: Vec<Vector>,
     /// Where the forces that hold it act, by equation.
     pub(crate) columns: Vec<Vector>,
+    /// The unknowns that select the member of a family of steady motions, one for each parameter of the family.
+    pub held: Vec<Held>,
+}
+
+/// An unknown that selects the member of a family of steady motions.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Held {
+    /// Its position among the unknowns.
+    pub unknown: usize,
+    /// The value at which it is held, SI.
+    pub value: f64,
+    /// The derivative of that value by each input; empty if it is a plain number.
+    pub by_input: Vector,
+    /// The derivative of that value by each design variable; empty if it is a plain number.
+    pub by_design: Vector,
+    /// The output that declares it: the unknown minus the value it is to have.
+    pub(crate) declared: Option<usize>,
 }
 
 impl FreeDirections {
@@ -46,6 +68,37 @@ impl FreeDirections {
             balances: taken(space.left),
             rows: taken(space.rows),
             columns: taken(space.columns),
+            held: Vec::new(),
+        }
+    }
+
+    /// The directions at a member of a family of steady motions with this stiffness, whose null space has a direction
+    /// for each of these held unknowns besides `count` free ones.
+    pub(crate) fn of_member(stiffness: &Matrix, count: usize, held: Vec<Held>) -> Self {
+        let own = Self::of(stiffness, count + held.len());
+        if own.is_empty() {
+            return own;
+        }
+        // How the held unknowns move along the directions; what moves none of them is free.
+        let moved = Matrix::from_fn(own.count(), own.count(), |i, k| match held.get(i) {
+            Some(held) => own.motions[k][held.unknown],
+            None => 0.0,
+        });
+        let free = NullSpace::of(&moved, count).right;
+        let n = stiffness.row_count();
+        let unit = |place: usize| Vector::from_fn(n, |i| if i == place { 1.0 } else { 0.0 });
+        let combined = |shares: &Vector| {
+            let mut row = Vector::zeros(n);
+            for (share, own) in shares.iter().zip(&own.rows) {
+                add_to(&mut row, *share, own);
+            }
+            row
+        };
+        let rows = held.iter().map(|held| unit(held.unknown));
+        Self {
+            rows: rows.chain(free.iter().take(count).map(combined)).collect(),
+            held,
+            ..own
         }
     }
 
@@ -59,6 +112,25 @@ impl FreeDirections {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.motions.is_empty()
+    }
+
+    /// Adds to a gradient by inputs or design variables what a change of held values contributes to `w^T dg`.
+    pub(crate) fn add_to_gradient(&self, w: &[f64], by_input: &mut [f64], by_design: &mut [f64]) {
+        for (held, column) in self.held.iter().zip(&self.columns) {
+            let along = -dot(w, column);
+            add_to(by_input, along, &held.by_input);
+            add_to(by_design, along, &held.by_design);
+        }
+    }
+
+    /// Adds what a change of held values contributes to the derivatives of the residual.
+    pub(crate) fn add_to_partials(&self, (by_input, by_design): &mut (Matrix, Matrix)) {
+        for (held, column) in self.held.iter().zip(&self.columns) {
+            for (i, amount) in column.iter().enumerate() {
+                add_to(&mut by_input[i], -amount, &held.by_input);
+                add_to(&mut by_design[i], -amount, &held.by_design);
+            }
+        }
     }
 
     /// The stiffness with the place held.

@@ -25,6 +25,8 @@ pub(crate) struct NullSpace {
     pub(crate) rows: Vec<Vector>,
     /// The same of `left`, in the units of `K x`.
     pub(crate) columns: Vec<Vector>,
+    /// `right` in the units in which it is orthonormal.
+    pub(crate) basis: Vec<Vector>,
     /// What elimination left of the matrix, relative to the terms in it: small if the vectors are null vectors.
     pub(crate) remainder: f64,
 }
@@ -36,24 +38,27 @@ impl NullSpace {
         let (row, column) = units(matrix);
         let mut elimination = Elimination::new(matrix, &row, &column);
         elimination.run(least);
-        let vectors = |basis: Vec<Vector>, unit: &[f64]| -> (Vec<Vector>, Vec<Vector>) {
+        let vectors = |basis: &[Vector], unit: &[f64]| -> (Vec<Vector>, Vec<Vector>) {
             let times = |x: &Vector| x.iter().zip(unit).map(|(x, unit)| x * unit).collect();
             let over = |x: &Vector| x.iter().zip(unit).map(|(x, unit)| x / unit).collect();
-            let basis = orthonormal(basis);
-            let own = basis.iter().map(times).collect();
-            (own, basis.iter().map(over).collect())
+            (
+                basis.iter().map(times).collect(),
+                basis.iter().map(over).collect(),
+            )
         };
-        let (right, rows) = vectors(elimination.right(), &column);
+        let basis = orthonormal(elimination.right());
+        let (right, rows) = vectors(&basis, &column);
         // Of a symmetric matrix exactly the same, so that what is built from both stays symmetric.
         let (left, columns) = match is_symmetric(matrix) {
             true => (right.clone(), rows.clone()),
-            false => vectors(elimination.left(), &row),
+            false => vectors(&orthonormal(elimination.left()), &row),
         };
         Self {
             right,
             left,
             rows,
             columns,
+            basis,
             remainder: elimination.remainder(),
         }
     }

@@ -299,7 +299,7 @@ pub(crate) fn solve_modes(
     floor: f64,
 ) -> Result<Modes, ModesFailure> {
     let mut modes = Modes::empty(family, description);
-    modes.solve_near(linear, floor, &[])?;
+    modes.solve_near(linear, (description.free_directions, floor), &[])?;
     Ok(modes)
 }
 
@@ -333,19 +333,21 @@ impl Modes {
         judged: Vec<Mode>,
         nearby: &[Mode],
     ) -> Result<(), ModesFailure> {
-        if self.family == Family::General && !judged.is_empty() {
+        let alone = at.free.held.is_empty();
+        if self.family == Family::General && !judged.is_empty() && alone {
             self.modes = judged;
             return Ok(());
         }
-        self.solve_near(&at.linear, at.rounding, nearby)
+        let free = at.description.free_directions + at.free.held.len();
+        self.solve_near(&at.linear, (free, at.rounding), nearby)
     }
 
-    /// Overwrites this set with the modes of these matrices, reusing its vectors. A `lambda` not beyond `floor` counts
-    /// as zero. For damped modes of an open mechanism, passing all modes of a nearby one saves time.
+    /// Overwrites this set with the modes of these matrices, reusing its vectors. There are `free` directions that lead to
+    /// neighbouring steady motions, and a `lambda` not beyond `floor` counts as zero. For damped modes of an open mechanism, passing all modes of a nearby one saves time.
     pub(crate) fn solve_near(
         &mut self,
         linear: &Linear,
-        floor: f64,
+        (free, floor): (usize, f64),
         nearby: &[Mode],
     ) -> Result<(), ModesFailure> {
         let damping = linear.damping.as_flattened();
@@ -354,7 +356,10 @@ impl Modes {
             && damping.iter().any(|&value| value != 0.0);
         match self.family {
             Family::Undamped => undamped(linear, &self.description, floor, &mut self.modes),
-            Family::General => damped(linear, &self.description, floor, nearby, &mut self.modes),
+            Family::General => {
+                let limits = (free, floor);
+                damped(linear, &self.description, limits, nearby, &mut self.modes)
+            }
         }
     }
 }
@@ -398,12 +403,11 @@ fn undamped(
 fn damped(
     linear: &Linear,
     description: &Description,
-    floor: f64,
+    (free, floor): (usize, f64),
     nearby: &[Mode],
     modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
-    let free = description.free_directions;
     let roots = if structure.open() && free > 0 {
         deflation::roots(linear, free, |rest| {
             roots_near(Eigenproblem::Quadratic(rest), &[])
@@ -420,6 +424,10 @@ fn damped(
         description.symmetric_stiffness && description.damping != DampingKind::General;
     modes.clear();
     let mut free_left = free;
+    // Without dissipation two real zeros are one motion, as a pair of small imaginary ones is: which of the two they are
+    // is rounding.
+    let in_pairs = conservative && structure.holonomic();
+    let mut second_zero = false;
     for (r, root) in roots.into_iter().enumerate() {
         let mut s = root.s;
         let error = if floor > 0.0 {
@@ -429,6 +437,12 @@ fn damped(
         };
         let zero = sign(s.norm(), error) == Sign::Zero;
         let keeps_amplitude = sign(s.re, error) == Sign::Zero;
+        if zero && s.im == 0.0 && in_pairs && free_left == 0 {
+            second_zero = !second_zero;
+            if !second_zero {
+                continue;
+            }
+        }
         if zero {
             s = Complex::ZERO;
         } else if s.im > 0.0 && keeps_amplitude && conservative {
@@ -460,7 +474,7 @@ fn damped(
             residual: root.residual,
             error,
             condition: root.condition,
-            label: r,
+            label: modes.len(),
         });
     }
     Ok(())

@@ -3,11 +3,11 @@
 use core::fmt;
 
 use super::branches::critical_vectors;
-use super::numbers::{given, heading, in_unit, rough_in, with_unit};
+use super::numbers::{given, given_in, heading, in_unit, rough_in, with_unit};
 use super::relevance::of_its_kind;
 use super::table::{Table, cells};
 use super::title::{title, title_along};
-use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState};
+use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState, Note};
 use crate::sweep::{Condition, CriticalState, Crossing};
 use crate::{Description, Equilibrium, Role, Stability, Text};
 
@@ -66,6 +66,9 @@ impl fmt::Display for Equilibrium {
         writeln!(f)?;
         unknowns(f, d, &self.coordinates, None)?;
         redundancy(f, &self.constraints, self.dependent_constraints())?;
+        for note in &self.notes {
+            writeln!(f, "  {}.", said(self, note))?;
+        }
         match &self.pose {
             Some(pose) if pose.margin < NEAR_SINGULAR => writeln!(
                 f,
@@ -74,6 +77,50 @@ impl fmt::Display for Equilibrium {
             ),
             _ => Ok(()),
         }
+    }
+}
+
+/// A note as a sentence.
+fn said(state: &Equilibrium, note: &Note) -> String {
+    let infos = &state.description.coordinates;
+    let value = |unknown: usize, value: f64| {
+        let unit = &infos[unknown].unit;
+        with_unit(given_in(value, unit), unit)
+    };
+    match note {
+        Note::Stays => {
+            "Stays at the start values: they are those of an unstable equilibrium".to_owned()
+        }
+        Note::Far { unknown, distance } => format!(
+            "The nearest equilibrium is {} from the start of {}",
+            value(*unknown, *distance),
+            infos[*unknown].name
+        ),
+        Note::Member { dimension } => {
+            let held = state.free.held.iter();
+            let held = held.map(|held| {
+                let found = value(held.unknown, state.coordinates[held.unknown]);
+                format!("{} = {found}", infos[held.unknown].name)
+            });
+            let parameters = match dimension {
+                1 => "one parameter".to_owned(),
+                _ => format!("{dimension} parameters"),
+            };
+            format!(
+                "One of a family of steady motions with {parameters}: holds {}, in derivatives too",
+                held.collect::<Vec<_>>().join(" and ")
+            )
+        }
+        Note::OtherValue {
+            unknown,
+            asked,
+            found,
+        } => format!(
+            "{} is {} here, although {} was given",
+            infos[*unknown].name,
+            value(*unknown, *found),
+            value(*unknown, *asked)
+        ),
     }
 }
 

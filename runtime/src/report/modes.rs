@@ -1,6 +1,6 @@
 //! Modes as text.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{LN_2, TAU};
 use core::fmt;
 
 use super::numbers::{optional, or_dash, rough};
@@ -19,7 +19,12 @@ impl fmt::Display for Behaviour {
             Self::Decaying(rate) => write!(f, "creeps back, rate {} 1/s", rough(*rate)),
             Self::Free => write!(f, "free"),
             Self::Neutral => write!(f, "neutral"),
-            Self::Divergent(rate) => write!(f, "diverges, rate {} 1/s", rough(*rate)),
+            Self::Divergent(rate) => write!(
+                f,
+                "diverges, rate {} 1/s: doubles in {} s",
+                rough(*rate),
+                rough(LN_2 / rate)
+            ),
         }
     }
 }

@@ -32,6 +32,8 @@ impl<'a> Adjoint<'a> {
         let w = self.factors.solve(&gradient.coordinates);
         let kernels: &dyn Kernels = self.mechanism;
         kernels.residual_gradient_into(q, u, b, &w, room);
+        let free = &self.at.free;
+        free.add_to_gradient(&w, &mut room.inputs, &mut room.design);
         subtract(gradient, room);
         w
     }

@@ -74,10 +74,12 @@ impl<'a> Adjoint<'a> {
         let (matrices, residual) = match source {
             Source::Partials => {
                 mechanism.partials_into(q, u, b, matrices, residual);
+                at.free.add_to_partials(residual);
                 (Some(&*matrices), Some(&*residual))
             }
             Source::ResidualPartials => {
                 mechanism.residual_partials_into(q, u, b, residual);
+                at.free.add_to_partials(residual);
                 (None, Some(&*residual))
             }
             Source::Reverse => (None, None),
@@ -208,6 +210,8 @@ impl Shared<'_> {
             None => {
                 let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
                 self.mechanism.residual_gradient_into(q, u, b, w, shift);
+                let free = &self.at.free;
+                free.add_to_gradient(w, &mut shift.inputs, &mut shift.design);
             }
         }
         add_to(&mut direct.inputs, -1.0, &shift.inputs);

@@ -34,8 +34,9 @@ pub fn equilibrium_shift(
     redundancy::check(mechanism, at)?;
     place::check(mechanism, at)?;
     let factors = Lu::new(&at.held_stiffness()).ok_or(Error::CriticalState)?;
-    let (by_input, by_design) =
-        mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    let mut partials = mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    at.free.add_to_partials(&mut partials);
+    let (by_input, by_design) = partials;
     let shift = EquilibriumShift {
         by_input: solve_columns(&factors, by_input),
         by_design: solve_columns(&factors, by_design),

@@ -106,6 +106,9 @@ impl<M: Kernels> Study<M> {
 
     /// Sets the value at which the search for an equilibrium starts.
     ///
+    /// If the given values are those of an equilibrium, it is the answer even if it is unstable
+    /// ([`Note::Stays`](crate::equilibrium::Note::Stays)).
+    ///
     /// A mechanism with constraints is first assembled with this coordinate held at the value: give start values to as
     /// many coordinates as are independent, and a [`Study::guess`] to the others.
     #[must_use]
@@ -113,6 +116,24 @@ impl<M: Kernels> Study<M> {
         self.settings
             .set_start(coordinate.any(), value.into(), true);
         self
+    }
+
+    /// Holds an unknown at a value where steady motions come in a family: the lean of a wheel that rolls in a circle, the
+    /// speed of one that rolls straight ahead.
+    ///
+    /// As many unknowns are held as the family has parameters, and derivatives hold them too: with another choice they
+    /// compare other members. Without this, those with a [`start`](Self::start) are held, then speeds of coasting
+    /// coordinates in the order of declaration; [`Equilibrium::notes`](crate::Equilibrium::notes) tells.
+    #[must_use]
+    pub fn hold(mut self, unknown: Coordinate<M>, value: impl Into<Value>) -> Self {
+        self.settings.hold(unknown.any(), value.into());
+        self
+    }
+
+    /// Takes the equilibrium nearest to the start values whatever its stability ([`Policy::Nearest`]).
+    #[must_use]
+    pub fn stay(self) -> Self {
+        self.policy(Policy::Nearest)
     }
 
     /// Sets the initial guess of a dependent coordinate for the assembly of a mechanism with constraints.

@@ -9,7 +9,8 @@ use super::watcher::Watcher;
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
 use crate::equilibrium;
-use crate::equilibrium::{Assembly, Policy};
+use crate::equilibrium::{Assembly, OperatingPoint, Policy};
+use crate::free::Held;
 use crate::kernels::Kernels;
 use crate::mechanism::ToleranceInfo;
 use crate::modes::Family;
@@ -28,8 +29,11 @@ pub(super) struct Settings {
     pub(super) inputs: Vector,
     pub(super) design: Vector,
     pub(super) start: Vector,
-    /// Which coordinates keep their start value when a mechanism with constraints is assembled.
-    held: Vec<bool>,
+    /// Which coordinates have a start value of their own: they keep it when a mechanism with constraints is assembled, and
+    /// an equilibrium with these values is the answer whatever its stability.
+    named: Vec<bool>,
+    /// The unknowns by which a member of a family of steady motions is held.
+    holds: Vec<Held>,
     pub(super) policy: Policy,
     pub(super) family: Option<Family>,
     design_variations: Vec<Variation>,
@@ -58,7 +62,8 @@ impl Settings {
             inputs: Vector::zeros(description.inputs.len()),
             design: design.iter().map(|info| info.nominal).collect(),
             start: Vector::zeros(unknowns),
-            held: vec![false; unknowns],
+            named: vec![false; unknowns],
+            holds: Vec::new(),
             policy: Policy::Stable,
             family: None,
             design_variations: (design.iter())
@@ -104,7 +109,20 @@ impl Settings {
         }
     }
 
-    pub(super) fn set_start(&mut self, coordinate: Coordinate, value: Value, held: bool) {
+    /// Holds an unknown at a value along a family of steady motions.
+    pub(super) fn hold(&mut self, unknown: Coordinate, value: Value) {
+        self.set_start(unknown, value, true);
+        if let Some(&value) = self.start.get(unknown.index()) {
+            self.holds.retain(|held| held.unknown != unknown.index());
+            self.holds.push(Held {
+                unknown: unknown.index(),
+                value,
+                ..Held::default()
+            });
+        }
+    }
+
+    pub(super) fn set_start(&mut self, coordinate: Coordinate, value: Value, named: bool) {
         let all = self.description.coordinates.get(coordinate.index());
         let value = match all {
             Some(info) => Ok(value.si(&info.unit)),
@@ -112,8 +130,8 @@ impl Settings {
         };
         let place = self.start.get_mut(coordinate.index());
         set(place, value, &mut self.fault);
-        if let Some(place) = self.held.get_mut(coordinate.index()) {
-            *place = held;
+        if let Some(place) = self.named.get_mut(coordinate.index()) {
+            *place = named;
         }
     }
 
@@ -303,7 +321,7 @@ impl Settings {
 
     pub(super) fn assembly(&self, mechanism: &dyn Kernels) -> Result<Assembly, Error> {
         self.ready()?;
-        let held = (0..self.held.len()).filter(|&j| self.held[j]);
+        let held = (0..self.named.len()).filter(|&j| self.named[j]);
         let held: Vec<Coordinate> = held.map(Coordinate::new).collect();
         equilibrium::assemble(mechanism, &self.inputs, &self.design, &self.start, &held)
     }
@@ -311,7 +329,7 @@ impl Settings {
     /// The start of the solvers: the start values, assembled if any coordinate is held.
     pub(super) fn assembled_start(&self, mechanism: &dyn Kernels) -> Result<Cow<'_, [f64]>, Error> {
         self.ready()?;
-        if Structure::of(&self.description).open() || !self.held.contains(&true) {
+        if Structure::of(&self.description).open() || !self.named.contains(&true) {
             return Ok(Cow::Borrowed(&self.start));
         }
         let assembly = self.assembly(mechanism)?;
@@ -330,8 +348,9 @@ impl Settings {
         state: &mut Equilibrium,
     ) -> Result<Vec<Mode>, Error> {
         let start = self.assembled_start(mechanism)?;
-        let (u, b) = (&self.inputs, &self.design);
-        equilibrium::equilibrium_into(mechanism, u, b, &start, self.policy, state)
+        let point = OperatingPoint::unchecked(mechanism, &self.inputs, &self.design);
+        let point = point.asked(&self.named, self.holds.clone());
+        equilibrium::equilibrium_into(&point, &start, self.policy, state)
     }
 
     /// An equilibrium that is regular, so that it has derivatives.

@@ -51,7 +51,9 @@ impl Outcome {
 impl From<&Failure> for Outcome {
     fn from(failure: &Failure) -> Self {
         match failure {
-            Failure::NotFound { .. } | Failure::Unbalanced { .. } => Self::NoEquilibrium,
+            Failure::NotFound { .. } | Failure::Unbalanced { .. } | Failure::Held { .. } => {
+                Self::NoEquilibrium
+            }
             Failure::NotAssembled { .. } => Self::NotAssembled,
             Failure::OutsideDomain { .. } | Failure::SingularMass(_) => Self::Unphysical,
             Failure::Mode { .. } => Self::NoModes,

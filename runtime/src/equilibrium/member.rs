@@ -1,0 +1,228 @@
+//! Families of steady motions: which member is meant, and which unknowns hold it.
+//!
+//! A wheel may roll in a circle of any size at any speed: the equations have more unknowns than independent rows. As
+//! many unknowns as the family has parameters are held at a value. Preferred are those that the mechanism or the user
+//! declares, then those with a start value, then the speeds of coasting coordinates. With `H y = c` for the held
+//! unknowns and columns `B` not orthogonal to the left null space, the bordered equations `g(y) + B mu = 0`, `H y = c`
+//! are regular. On a family they have a solution with `mu = 0` for every `c` nearby; at an equilibrium where the
+//! stiffness only happens to be singular they do not.
+
+use super::convergence::{StepsLeft, TOLERANCE, last, relative_residual};
+use super::finish::{Judged, finished};
+use super::operating_point::{Failure, OperatingPoint};
+use super::scaling::units;
+
+use crate::algebra::{Lu, Matrix, Vector, add_scaled, dot, largest};
+use crate::error::NotFound;
+use crate::free::{FreeDirections, Held, NullSpace};
+use crate::state::Note;
+
+const MAX_ITERATIONS: usize = 40;
+/// Steps on the way to held values that Newton's method does not reach at once.
+const STAGES: usize = 16;
+/// Change of the held values, in their units, over which a family must exist.
+const REACH: f64 = 1e-2;
+/// Smallest share of a direction that an unknown may have to hold the member along it.
+const INDEPENDENT: f64 = 1e-8;
+/// Difference, relative to an unknown or in its unit, that counts as another value.
+const DIFFERENT: f64 = 1e-9;
+
+/// Moves a steady motion found from `start` to the member of its family that is meant, and notes what holds it there.
+/// Leaves a steady motion that belongs to no family as it is.
+pub(super) fn settled(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    found: Judged,
+) -> Result<Judged, Failure> {
+    let q = &found.state.coordinates;
+    let choice = choice(point, start, q)?;
+    let unit = units_of(point, q)?;
+    let family = choice.filter(|held| newton(point, q, &beside(held, q, &unit)).is_some());
+    let Some(mut held) = family else {
+        return match point.held.is_empty() {
+            true => Ok(found),
+            false => Err(refused(point, 0)),
+        };
+    };
+    let differs = |unknown: usize, a: f64, b: f64| {
+        (a - b).abs() > DIFFERENT * (a.abs() + b.abs() + unit[unknown])
+    };
+    let moves = |held: &Held| differs(held.unknown, q[held.unknown], held.value);
+    let mut settled = match held.iter().any(moves) {
+        true => finished(point, led(point, start, q, &held)?)?,
+        false => found,
+    };
+    let state = &mut settled.state;
+    let dimension = held.len();
+    for held in &mut held {
+        held.value = state.coordinates[held.unknown];
+    }
+    state.free = FreeDirections::of_member(&state.linear.stiffness, point.free(), held);
+    state.notes.push(Note::Member { dimension });
+    for unknown in point.named() {
+        let (asked, found) = (start[unknown], state.coordinates[unknown]);
+        if differs(unknown, asked, found) {
+            state.notes.push(Note::OtherValue {
+                unknown,
+                asked,
+                found,
+            });
+        }
+    }
+    Ok(settled)
+}
+
+fn refused(point: &OperatingPoint<'_>, dimension: usize) -> Failure {
+    Failure::Held {
+        unknowns: point.held.iter().map(|held| held.unknown).collect(),
+        dimension,
+    }
+}
+
+/// The unknowns that hold a member of the family that `q` belongs to, with the values they are to have; `None` where the
+/// stiffness is regular, and the steady motion the only one nearby.
+fn choice(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    q: &[f64],
+) -> Result<Option<Vec<Held>>, Failure> {
+    let Some((_, stiffness)) = point.evaluate(q) else {
+        return Ok(None);
+    };
+    let space = NullSpace::of(&stiffness, 0);
+    let dimension = space.right.len();
+    if dimension == 0 {
+        return Ok(None);
+    }
+    let mut chosen = Independent::new(&space.basis);
+    let mut held = point.held.to_vec();
+    if held.len() > dimension || !held.iter().all(|held| chosen.take(held.unknown)) {
+        return Err(refused(point, dimension));
+    }
+    let plain = |unknown, value| Held {
+        unknown,
+        value,
+        ..Held::default()
+    };
+    let structure = point.structure;
+    let named = point.named().map(|unknown| plain(unknown, start[unknown]));
+    let others = structure.speed_range().chain(0..structure.coordinates);
+    for own in named.chain(others.map(|unknown| plain(unknown, q[unknown]))) {
+        if held.len() < dimension && chosen.take(own.unknown) {
+            held.push(own);
+        }
+    }
+    Ok((held.len() == dimension).then_some(held))
+}
+
+/// Unknowns that move independently along the directions of a null space.
+struct Independent<'a> {
+    basis: &'a [Vector],
+    taken: Vec<Vector>,
+}
+
+impl<'a> Independent<'a> {
+    fn new(basis: &'a [Vector]) -> Self {
+        Self {
+            basis,
+            taken: Vec::new(),
+        }
+    }
+
+    /// Takes an unknown if it moves along a direction that those taken before do not fix.
+    fn take(&mut self, unknown: usize) -> bool {
+        let mut row: Vector = self.basis.iter().map(|x| x[unknown]).collect();
+        let size = dot(&row, &row).sqrt();
+        for other in &self.taken {
+            let along = dot(&row, other);
+            row = add_scaled(&row, -along, other);
+        }
+        let left = dot(&row, &row).sqrt();
+        if left.is_nan() || size <= INDEPENDENT || left <= INDEPENDENT * size {
+            return false;
+        }
+        row.iter_mut().for_each(|value| *value /= left);
+        self.taken.push(row);
+        true
+    }
+}
+
+/// One unit of every unknown: of coordinates and speeds as for first steps, of reactions their largest.
+fn units_of(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
+    let motions = units(point, q)?;
+    let reaction = largest(&q[point.motions()..]);
+    Ok(Vector::from_fn(q.len(), |i| {
+        motions.get(i).copied().unwrap_or(reaction)
+    }))
+}
+
+/// The held unknowns with values beside those at `q`.
+fn beside(held: &[Held], q: &[f64], unit: &[f64]) -> Vec<Held> {
+    let moved = |own: &Held| {
+        let here = q[own.unknown];
+        Held {
+            value: here + REACH * (here.abs() + unit[own.unknown]),
+            ..own.clone()
+        }
+    };
+    held.iter().map(moved).collect()
+}
+
+/// The member with these held values: from the start, from the motion found there, or from the latter by stages.
+fn led(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    found: &[f64],
+    held: &[Held],
+) -> Result<Vector, Failure> {
+    let direct = newton(point, start, held).or_else(|| newton(point, found, held));
+    let by_stages = || {
+        (1..=STAGES).try_fold(Vector::from(found), |q, stage| {
+            let share = stage as f64 / STAGES as f64;
+            let on_the_way = |own: &Held| Held {
+                value: found[own.unknown] + share * (own.value - found[own.unknown]),
+                ..own.clone()
+            };
+            newton(point, &q, &held.iter().map(on_the_way).collect::<Vec<_>>())
+        })
+    };
+    direct.or_else(by_stages).ok_or_else(|| Failure::NotFound {
+        reason: NotFound::NoMember,
+        coordinates: start.into(),
+        iterations: MAX_ITERATIONS,
+        relative: f64::INFINITY,
+    })
+}
+
+/// Solves the bordered equations from `from`; `None` if they have no solution with `mu = 0`.
+fn newton(point: &OperatingPoint<'_>, from: &[f64], held: &[Held]) -> Option<Vector> {
+    let n = from.len();
+    let mut q = Vector::from(from);
+    for _ in 0..MAX_ITERATIONS {
+        let (residual, stiffness) = point.evaluate(&q)?;
+        let space = NullSpace::of(&stiffness, held.len());
+        let size = n + held.len();
+        let whole = Matrix::from_fn(size, size, |i, j| match (i < n, j < n) {
+            (true, true) => stiffness[i][j],
+            (true, false) => space.columns[j - n][i],
+            (false, true) if held[i - n].unknown == j => 1.0,
+            _ => 0.0,
+        });
+        let right = Vector::from_fn(size, |i| match i < n {
+            true => -residual[i],
+            false => held[i - n].value - q[held[i - n].unknown],
+        });
+        let step = Lu::of(whole)?.solve(&right);
+        let step = &step[..n];
+        q = add_scaled(&q, 1.0, step);
+        if last(step, &q, point.motions()) == StepsLeft::Reached {
+            break;
+        }
+    }
+    let (residual, stiffness) = point.evaluate(&q)?;
+    let there = held.iter().all(|held| {
+        let value = q[held.unknown];
+        (value - held.value).abs() <= DIFFERENT * (value.abs() + held.value.abs())
+    });
+    (there && relative_residual(point, &q, &residual, &stiffness) <= TOLERANCE).then_some(q)
+}
