@@ -1,5 +1,4 @@
-//! Free rolling has a whole family of steady motions: modes belong to the current one, and quantities that depend on
-//! the choice of motion give an error.
+//! Free rolling has a whole family of steady motions: modes and derivatives belong to the current member, which is held.
 
 use eigentol::{Behaviour, Error, Stability, Study};
 use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk};
@@ -26,7 +25,7 @@ fn a_disk_without_drag() {
         };
         assert_eq!(state.stability, stability, "{spin} rad/s");
         let modes = study.modes().expect("modes");
-        let neutral = |behaviour| matches!(behaviour, Behaviour::Neutral);
+        let neutral = |behaviour| matches!(behaviour, Behaviour::Free);
         let count = modes.modes.iter().filter(|mode| neutral(mode.behaviour));
         assert_eq!(count.count(), 1, "{modes:?}");
         let moving = modes.modes.iter().filter(|mode| !neutral(mode.behaviour));
@@ -36,8 +35,18 @@ fn a_disk_without_drag() {
             close((s * s).re, square, 0.0, "the square of an eigenvalue");
             assert!((s * s).im.abs() < 1e-9 * square.abs());
         }
-        assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
-        assert_eq!(study.sensitivities().err(), Some(Error::CriticalState));
+        // The yaw rate is held: it stays upright whatever changes.
+        let held = &state.free.held;
+        assert_eq!(held.len(), 1);
+        assert_eq!(state.description.coordinates[held[0].unknown].name, *"yaw");
+        // With any torque there is no such motion.
+        for refused in [study.equilibrium_shift().err(), study.sensitivities().err()] {
+            let expected = Error::BalancesHereOnly {
+                coordinates: vec!["yaw".into()],
+                variable: "torque".into(),
+            };
+            assert_eq!(refused, Some(expected));
+        }
         // A branch would be one of many: the heading is free.
         let critical = study.critical_state(RollingDisk::spin, 20.0, 25.0);
         assert!(
@@ -83,7 +92,12 @@ fn a_cart_without_drag() {
         0.0,
         "swing",
     );
-    assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
+    // With any push there is none.
+    let refused = study.equilibrium_shift();
+    assert!(
+        matches!(&refused, Err(Error::BalancesHereOnly { variable, .. }) if *variable == *"push"),
+        "{refused:?}"
+    );
 }
 
 /// At rest the trailer stays at any angle: a single zero eigenvalue, because its rate is not a state.
@@ -94,5 +108,5 @@ fn a_trailer_at_rest() {
     assert_eq!(state.stability, Stability::Neutral { zero: 1 });
     let modes = study.modes().expect("modes");
     assert_eq!(modes.modes.len(), 1);
-    assert_eq!(modes.modes[0].behaviour, Behaviour::Neutral);
+    assert_eq!(modes.modes[0].behaviour, Behaviour::Free);
 }
