@@ -41,11 +41,11 @@ fn a_disk_without_drag() {
         assert_eq!(state.description.coordinates[held[0].unknown].name, *"yaw");
         // With any torque there is no such motion.
         for refused in [study.equilibrium_shift().err(), study.sensitivities().err()] {
-            let expected = Error::BalancesHereOnly {
-                coordinates: vec!["yaw".into()],
-                variable: "torque".into(),
-            };
-            assert_eq!(refused, Some(expected));
+            assert!(
+                matches!(&refused, Some(Error::BalancesHereOnly { variable, coordinates })
+                    if *variable == *"torque" && coordinates.contains(&"yaw".into())),
+                "{refused:?}"
+            );
         }
         // A branch would be one of many: the heading is free.
         let critical = study.critical_state(RollingDisk::spin, 20.0, 25.0);
