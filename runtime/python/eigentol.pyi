@@ -34,6 +34,9 @@ class Settings(TypedDict, total=False):
     design: Mapping[str, Value]
     start: Mapping[str, Value]
     guess: Mapping[str, Value]
+    hold: Mapping[str, Value]
+    stay: bool
+    at: Equilibrium
     tolerances: Mapping[str, Value | tuple[Value, Value]]
     measured: Mapping[str, ArrayLike]
     sigma_level: float
@@ -194,7 +197,10 @@ class Study:
     def equilibrium(self) -> Equilibrium: ...
     def assembly(self) -> Assembly: ...
     def equilibria(
-        self, lower: Numbers, upper: Numbers, starts: int | None = None, seed: int | None = None
+        self,
+        bounds: Mapping[str, tuple[Value, Value]] | None = None,
+        starts: int | None = None,
+        seed: int | None = None,
     ) -> list[Equilibrium]: ...
     def equilibrium_shift(self) -> EquilibriumShift: ...
     def modes(self) -> Modes: ...
@@ -310,6 +316,12 @@ class Equilibrium(_Result):
     def stable(self) -> bool: ...
     @property
     def iterations(self) -> int: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def held(self) -> dict[str, float]: ...
+    @property
+    def free(self) -> Real: ...
 
 @final
 class Assembly(_Result):

@@ -8,8 +8,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use eigentol::Error;
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, report,
-    sample, sensitivities, sweep, tolerance,
+    allocate, branches, campbell, check, completions, equilibria, expand, import, merge, modes,
+    new, report, sample, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -124,6 +124,7 @@ pub(crate) fn explain(error: &clap::Error) {
 enum Command {
     Check(check::Check),
     Modes(modes::Modes),
+    Equilibria(equilibria::Equilibria),
     Sensitivities(sensitivities::Sensitivities),
     Tolerance(tolerance::Tolerance),
     Campbell(campbell::Campbell),
@@ -172,6 +173,7 @@ impl Command {
         match self {
             Self::Check(own) => own.run(color),
             Self::Modes(own) => own.run(),
+            Self::Equilibria(own) => own.run(),
             Self::Sensitivities(own) => own.run(),
             Self::Tolerance(own) => own.run(),
             Self::Campbell(own) => own.run(),

@@ -5,6 +5,7 @@ mod arguments;
 mod commands;
 mod declaration;
 mod diagnostics;
+mod ends;
 mod failure;
 mod interrupt;
 mod mistake;

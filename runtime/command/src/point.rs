@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
+use eigentol::equilibrium::Search;
 use eigentol::{
     Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role,
     Study, Text, ToleranceInfo, Unit,
@@ -13,6 +14,7 @@ use eigentol_compiler::base::nearest::nearest;
 use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value};
 
 use crate::declaration::Declaration;
+use crate::ends::with_unit_of;
 use crate::failure::Failure;
 use crate::study_file::{StudyFile, Written};
 
@@ -34,6 +36,18 @@ pub(crate) struct Point {
     /// Where the search for the equilibrium starts; held while a mechanism with loops is assembled
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     start: Vec<(String, String)>,
+    /// Take the equilibrium nearest to the start, whatever its stability
+    #[arg(long)]
+    stay: bool,
+    /// Value of an unknown where steady motions come in a family: `lean=20deg`
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    hold: Vec<(String, String)>,
+    /// Bounds of the starts of a search for equilibria: `x=-1..1m`; without them, angles start anywhere
+    #[arg(long, value_name = "NAME=FROM..TO", value_parser = pair)]
+    between: Vec<(String, String)>,
+    /// Take this equilibrium, as numbered by `eigentol equilibria`, whatever its stability
+    #[arg(long, value_name = "NUMBER", value_parser = whole)]
+    equilibrium: Option<usize>,
     /// Where a dependent coordinate starts, free to move while a mechanism with loops is assembled
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     guess: Vec<(String, String)>,
@@ -50,6 +64,29 @@ pub(crate) struct Question {
     pub(crate) text: String,
     /// The names that the command line sets.
     pub(crate) set: Vec<String>,
+    /// Where starts of a search for equilibria lie.
+    between: Vec<(Coordinate<Interpreted>, f64, f64)>,
+}
+
+impl Question {
+    /// Where to search for equilibria.
+    pub(crate) fn search(&self) -> Result<Search, Failure> {
+        Ok(self.study.search(&self.between)?)
+    }
+
+    /// The same question of the equilibrium with this number.
+    fn of_equilibrium(mut self, number: usize) -> Result<Self, Failure> {
+        let found = self.study.equilibria(&self.search()?)?;
+        let Some(state) = number.checked_sub(1).and_then(|k| found.get(k)) else {
+            let message = format!(
+                "there is no equilibrium {number}: the search finds {}",
+                found.len()
+            );
+            return Err(Failure::usage(message, "`eigentol equilibria` lists them"));
+        };
+        self.study = self.study.at(state);
+        Ok(self)
+    }
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {
@@ -108,6 +145,7 @@ impl Point {
             ("set", &file.set, &self.set),
             ("start", &file.start, &self.start),
             ("guess", &file.guess, &self.guess),
+            ("hold", &file.hold, &self.hold),
         ] {
             for (name, value) in given {
                 study = set(study, option, (name, &value.to_string()))?;
@@ -122,12 +160,25 @@ impl Point {
             study = tolerate(study, &compilation, name, text)?;
         }
         study = correlate(study, &file.correlation)?;
-        Ok(Question {
+        if self.stay || file.stay {
+            study = study.stay();
+        }
+        let given = file.between.iter();
+        let own = self.between.iter().map(|(name, text)| (name, text));
+        let between = given
+            .chain(own)
+            .map(|(name, text)| bounds(&study, name, text));
+        let question = Question {
+            between: between.collect::<Result<_, _>>()?,
             study,
-            file,
             text: declaration.text,
             set: self.set.iter().map(|(name, _)| name.clone()).collect(),
-        })
+            file,
+        };
+        match self.equilibrium.or(question.file.equilibrium) {
+            Some(number) => question.of_equilibrium(number),
+            None => Ok(question),
+        }
     }
 }
 
@@ -158,8 +209,27 @@ fn set(
     let value = read(option, name, text, &unit)?;
     Ok(match option {
         "start" => study.start(coordinate, value),
+        "hold" => study.hold(coordinate, value),
         _ => study.guess(coordinate, value),
     })
+}
+
+/// Bounds of an unknown, SI.
+fn bounds(
+    study: &Study<Interpreted>,
+    name: &str,
+    text: &str,
+) -> Result<(Coordinate<Interpreted>, f64, f64), Failure> {
+    let (coordinate, unit) = coordinate(study, name)?;
+    let Some((low, high)) = text.split_once("..") else {
+        let message = format!("`{text}` is not a range");
+        return Err(Failure::usage(
+            message,
+            format!("write `--between {name}=-1..1`"),
+        ));
+    };
+    let low = read("between", name, &with_unit_of(low, high), &unit)?;
+    Ok((coordinate, low, read("between", name, high, &unit)?))
 }
 
 fn read(option: &str, name: &str, text: &str, unit: &Unit) -> Result<f64, Failure> {

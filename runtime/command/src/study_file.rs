@@ -25,6 +25,17 @@ pub(crate) struct StudyFile {
     /// Start values of dependent coordinates.
     #[serde(default)]
     pub(crate) guess: BTreeMap<String, Written>,
+    /// Whether to take the equilibrium nearest to the start, whatever its stability.
+    #[serde(default)]
+    pub(crate) stay: bool,
+    /// Values of unknowns where steady motions come in a family.
+    #[serde(default)]
+    pub(crate) hold: BTreeMap<String, Written>,
+    /// Bounds of the starts of a search for equilibria, as for `--between`.
+    #[serde(default)]
+    pub(crate) between: BTreeMap<String, String>,
+    /// The number of the equilibrium to take.
+    pub(crate) equilibrium: Option<usize>,
     /// Tolerances of design variables and inputs, with their laws.
     #[serde(default)]
     pub(crate) tolerance: BTreeMap<String, String>,

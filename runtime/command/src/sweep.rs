@@ -4,6 +4,7 @@ use clap::Args;
 use eigentol::{Input, Study};
 use eigentol_interpreter::{Interpreted, value};
 
+use crate::ends::with_unit_of;
 use crate::failure::Failure;
 use crate::point::{Question, input, whole};
 
@@ -173,23 +174,6 @@ pub(crate) fn multiple(
     };
     let message = format!("order {order} crosses no mode");
     Err(Failure::usage(message, help))
-}
-
-/// Lets the low end of a range take its unit from the high end.
-fn with_unit_of(low: &str, high: &str) -> String {
-    if low.trim().parse::<f64>().is_err() {
-        return low.to_owned();
-    }
-    format!("{low} {}", &high[number(high)..])
-}
-
-/// Length of the number at the start of a text.
-fn number(text: &str) -> usize {
-    let ends = (1..=text.len())
-        .rev()
-        .filter(|&end| text.is_char_boundary(end));
-    let mut numbers = ends.filter(|&end| text[..end].trim().parse::<f64>().is_ok());
-    numbers.next().unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
 //! The analyses of a study.
 
-use eigentol::equilibrium::Search;
 use eigentol::second_order::Band;
 use eigentol::sweep::Line;
-use eigentol::{Input, Vector};
+use eigentol::{Coordinate, Input};
 use eigentol_interpreter::Interpreted;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyString, PyTuple};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::events::{Event, events};
 use crate::response::wanted;
@@ -131,21 +130,26 @@ impl Study {
             .map(MonteCarlo)
     }
 
-    /// All equilibria found from random starts between two states: lists in the order of the coordinates, SI, or
-    /// dictionaries.
-    #[pyo3(signature = (lower, upper, starts=None, seed=None))]
+    /// Equilibria found from random starts: between bounds for the coordinates that have some,
+    /// `{"x": ("-10 mm", "10 mm")}`, and anywhere for other angles. A displacement needs bounds.
+    #[pyo3(signature = (bounds=None, starts=None, seed=None))]
     fn equilibria(
         &self,
         py: Python<'_>,
-        lower: &Bound<'_, PyAny>,
-        upper: &Bound<'_, PyAny>,
+        bounds: Option<&Bound<'_, PyDict>>,
         starts: Option<usize>,
         seed: Option<u64>,
     ) -> PyResult<Vec<Equilibrium>> {
         let of = self.inner.description();
-        let lower: Vector = List::Coordinates.read(py, of, Some(lower))?.into();
-        let upper: Vector = List::Coordinates.read(py, of, Some(upper))?.into();
-        let mut search = Search::new(lower, upper);
+        let mut within = Vec::new();
+        for (name, ends) in bounds.into_iter().flatten() {
+            let name = name.extract::<String>()?;
+            let (place, unit) = List::Coordinates.find(py, of, &name)?;
+            let (low, high) = ends.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()?;
+            let end = |end: &Bound<'_, PyAny>| number(end, &unit, &name);
+            within.push((Coordinate::new(place), end(&low)?, end(&high)?));
+        }
+        let mut search = self.ask(py, |study| study.search(&within))?;
         search.starts = starts.unwrap_or(search.starts);
         search.seed = seed.unwrap_or(search.seed);
         let found = self.ask(py, |study| study.equilibria(&search))?;

@@ -15,16 +15,18 @@ use pyo3::types::{PyBool, PyDict, PyString};
 
 use crate::errors::{invalid, raise};
 use crate::names::did_you_mean;
+use crate::results::Equilibrium;
 use crate::values::{List, number, numbers, refused, word, wrong_type};
 
 type Set = fn(Study<Interpreted>, &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>>;
 
 /// The settings in the order of application: those that depend on values come after them.
-const SETTINGS: [(&str, Set); 17] = [
+const SETTINGS: [(&str, Set); 20] = [
     ("inputs", inputs),
     ("design", design),
     ("start", start),
     ("guess", guess),
+    ("hold", hold),
     ("sigma_level", |study, given| {
         Ok(study.sigma_level(real(given, "sigma_level")?))
     }),
@@ -32,6 +34,23 @@ const SETTINGS: [(&str, Set); 17] = [
     ("measured", measured),
     ("correlation", correlation),
     ("policy", policy),
+    ("stay", |study, given| {
+        Ok(match given.extract::<bool>()? {
+            true => study.stay(),
+            false => study,
+        })
+    }),
+    ("at", |study, given| {
+        let state: PyRef<'_, Equilibrium> = given.extract()?;
+        let count = study.description().coordinates.len();
+        match state.0.coordinates.len() == count {
+            true => Ok(study.at(&state.0)),
+            false => Err(invalid(
+                given.py(),
+                "`at`: this equilibrium belongs to another mechanism".to_owned(),
+            )),
+        }
+    }),
     ("family", family),
     ("samples", |study, given| match whole(given, "samples")? {
         0 => Err(invalid(
@@ -60,11 +79,12 @@ const SETTINGS: [(&str, Set); 17] = [
 ];
 
 /// The settings that are dictionaries by name.
-const BY_NAME: [&str; 6] = [
+const BY_NAME: [&str; 7] = [
     "inputs",
     "design",
     "start",
     "guess",
+    "hold",
     "tolerances",
     "measured",
 ];
@@ -202,6 +222,13 @@ fn guess(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<
     each(study, given, "guess", |study, name, value| {
         let (place, value) = entry(study.description(), List::Coordinates, name, value)?;
         Ok(study.guess(Coordinate::new(place), value))
+    })
+}
+
+fn hold(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    each(study, given, "hold", |study, name, value| {
+        let (place, value) = entry(study.description(), List::Coordinates, name, value)?;
+        Ok(study.hold(Coordinate::new(place), value))
     })
 }
 

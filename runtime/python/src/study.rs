@@ -30,6 +30,10 @@ const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 ///   inputs, design: values by name.
 ///   start: where the search for the equilibrium starts, by coordinate; held while a mechanism with loops is assembled.
 ///   guess: the same for dependent coordinates, which move freely.
+///   hold: values of unknowns where steady motions come in a family; derivatives hold them too.
+///   stay: True for the equilibrium next to the start whatever its stability. Start values of an unstable equilibrium are kept
+///       without it: `notes` of the equilibrium says so.
+///   at: an equilibrium found by `equilibria`, whatever its stability.
 ///   tolerances: by name of a design variable or an input: a half-width, a text ("3%", "+0.2 -0.1 mm uniform",
 ///       "one of [9, 10] mm"), or a pair of deviations, lower and upper.
 ///   measured: arrays of measured values by name, SI, which take the place of a tolerance.

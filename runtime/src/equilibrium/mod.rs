@@ -21,7 +21,7 @@ mod stability;
 mod turns;
 
 pub use assembly::{Assembly, AssemblyMode, assemble};
-pub use multistart::{Search, find_equilibria};
+pub use multistart::{Equilibria, Search, find_equilibria};
 
 pub(crate) use convergence::{
     ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,

@@ -1,13 +1,16 @@
 //! Finds several equilibria of one mechanism from a reproducible set of start values.
 
+use std::ops::Deref;
+
 use eigentol_statistics::random::RandomNumbers;
 
 use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{Judged, OperatingPoint, Policy, solve};
 use crate::algebra::Vector;
+use crate::constraints::Structure;
 use crate::kernels::Kernels;
 use crate::setters::setters;
-use crate::{Equilibrium, Error, Stability};
+use crate::{Coordinate, Description, Equilibrium, Error, Role, Shared, Stability};
 
 /// Where to start a search for several equilibria.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +29,81 @@ pub struct Search {
     pub seed: u64,
 }
 
+/// Distinct equilibria of one mechanism at one operating point, in the order of discovery. Dereferences to their list.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Equilibria {
+    /// The equilibria.
+    pub states: Vec<Equilibrium>,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+impl Deref for Equilibria {
+    type Target = [Equilibrium];
+
+    fn deref(&self) -> &[Equilibrium] {
+        &self.states
+    }
+}
+
+impl IntoIterator for Equilibria {
+    type Item = Equilibrium;
+    type IntoIter = std::vec::IntoIter<Equilibrium>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.states.into_iter()
+    }
+}
+
 impl Search {
     setters!(starts: usize, seed: u64);
+
+    /// Starts about the state `about`: between bounds for the coordinates and speeds that have some, anywhere within half
+    /// a turn either way for other angles. Values are SI.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] if a displacement or a speed has no bounds, because nothing says how far it may move. Where
+    /// constraints close loops, displacements may do without: they follow from the others.
+    pub fn within(
+        description: &Description,
+        about: &[f64],
+        bounds: &[(Coordinate, f64, f64)],
+    ) -> Result<Self, Error> {
+        let structure = Structure::of(description);
+        let (mut lower, mut upper) = (Vector::from(about), Vector::from(about));
+        let mut missing = Vec::new();
+        for (i, info) in description.coordinates.iter().enumerate() {
+            let own = bounds.iter().find(|(unknown, ..)| unknown.index() == i);
+            if let Some(&(_, low, high)) = own {
+                (lower[i], upper[i]) = (low, high);
+                continue;
+            }
+            let angle = info.unit.symbol == *"rad";
+            match info.role {
+                Role::Position if angle => {
+                    lower[i] -= core::f64::consts::PI;
+                    upper[i] += core::f64::consts::PI;
+                }
+                Role::Position if structure.position_constraints > 0 => {}
+                Role::Position | Role::Speed => missing.push(format!("`{}`", info.name)),
+                Role::PositionReaction | Role::VelocityReaction => {}
+            }
+        }
+        match missing.is_empty() {
+            true => Ok(Self::new(lower, upper)),
+            false => Err(Error::Setting {
+                setting: "search for equilibria",
+                reason: format!(
+                    "nothing says how far {} may move: give bounds",
+                    missing.join(", ")
+                ),
+            }),
+        }
+    }
 
     /// Starts in the box from `lower` to `upper`: one value for each unknown, SI.
     pub fn new(lower: impl Into<Vector>, upper: impl Into<Vector>) -> Self {
@@ -62,7 +138,7 @@ pub fn find_equilibria(
     b: &[f64],
     start: &[f64],
     search: &Search,
-) -> Result<Vec<Equilibrium>, Error> {
+) -> Result<Equilibria, Error> {
     let point = OperatingPoint::new(mechanism, u, b)?;
     point.check_start(start)?;
     point.check_start(&search.lower)?;
@@ -91,7 +167,11 @@ pub fn find_equilibria(
             search.lower[i] + random.fraction() * (search.upper[i] - search.lower[i])
         });
     }
-    Ok(found)
+    Ok(Equilibria {
+        states: found,
+        inputs: u.into(),
+        description: point.description.clone(),
+    })
 }
 
 /// Whether half an equilibrium or more is still expected, after `found` distinct ones were met `met` times.

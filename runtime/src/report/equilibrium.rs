@@ -7,7 +7,7 @@ use super::numbers::{given, given_in, heading, in_unit, rough_in, with_unit};
 use super::relevance::of_its_kind;
 use super::table::{Table, cells};
 use super::title::{title, title_along};
-use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState, Note};
+use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState, Equilibria, Note};
 use crate::sweep::{Condition, CriticalState, Crossing};
 use crate::{Description, Equilibrium, Role, Stability, Text};
 
@@ -66,8 +66,8 @@ impl fmt::Display for Equilibrium {
         writeln!(f)?;
         unknowns(f, d, &self.coordinates, None)?;
         redundancy(f, &self.constraints, self.dependent_constraints())?;
-        for note in &self.notes {
-            writeln!(f, "  {}.", said(self, note))?;
+        for sentence in self.sentences() {
+            writeln!(f, "  {sentence}.")?;
         }
         match &self.pose {
             Some(pose) if pose.margin < NEAR_SINGULAR => writeln!(
@@ -77,6 +77,60 @@ impl fmt::Display for Equilibrium {
             ),
             _ => Ok(()),
         }
+    }
+}
+
+impl fmt::Display for Equilibria {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = &self.description;
+        let title = title(d, &self.inputs);
+        writeln!(
+            f,
+            "{title}: {}",
+            counted_as(self.len(), "equilibrium", "equilibria")
+        )?;
+        if self.is_empty() {
+            return Ok(());
+        }
+        let motions = || {
+            let infos = d.coordinates.iter().enumerate();
+            infos.filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed))
+        };
+        let names = motions().map(|(_, info)| heading(&info.name, &info.unit));
+        let mut table = Table::new(
+            cells(["equilibrium"])
+                .into_iter()
+                .chain(names)
+                .chain(cells(["state"]))
+                .collect(),
+        );
+        for (k, state) in self.iter().enumerate() {
+            let values = motions()
+                .map(|(i, info)| in_unit(of_its_kind(d, &state.coordinates, i), &info.unit));
+            let stability = match state.constraints.singular {
+                true => "undecided in a singular configuration".to_owned(),
+                false => state.stability.to_string(),
+            };
+            let number = [(k + 1).to_string()].into_iter();
+            table.row(number.chain(values).chain([stability]).collect());
+        }
+        write!(f, "{table}")
+    }
+}
+
+/// `1 thing`, `2 things`.
+fn counted_as(number: usize, one: &str, several: &str) -> String {
+    match number {
+        1 => format!("1 {one}"),
+        _ => format!("{number} {several}"),
+    }
+}
+
+impl Equilibrium {
+    /// [`Self::notes`] in words, without full stops.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        self.notes.iter().map(|note| said(self, note)).collect()
     }
 }
 

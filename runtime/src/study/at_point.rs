@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::subject::Subject;
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
-use crate::equilibrium::{self, Assembly, Search};
+use crate::equilibrium::{self, Assembly, Equilibria, Search};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
 use crate::modes::Whirl;
 use crate::picture::{self, ModePictures, Scene};
@@ -15,7 +15,7 @@ use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::ShapeSensitivity;
 use crate::tolerance;
 use crate::tolerance::{OutputTolerances, PartialMonteCarlo, Sampling};
-use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
+use crate::{Coordinate, Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
 impl<M: Kernels> Study<M> {
     /// Finds the dynamic equilibrium ([`equilibrium::equilibrium`]).
@@ -70,10 +70,23 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::NotAssembled`],
     /// [`Error::UnknownHandle`]. Finding none is not an error.
-    pub fn equilibria(&self, search: &Search) -> Result<Vec<Equilibrium>, Error> {
+    pub fn equilibria(&self, search: &Search) -> Result<Equilibria, Error> {
         let (u, b) = (&self.settings.inputs, &self.settings.design);
         let start = self.settings.assembled_start(&self.mechanism)?;
         equilibrium::find_equilibria(&self.mechanism, u, b, &start, search)
+    }
+
+    /// Where to search for equilibria about the start values ([`Search::within`]).
+    ///
+    /// # Errors
+    /// Those of [`Search::within`]; [`Error::NotAssembled`], [`Error::UnknownHandle`].
+    pub fn search(&self, bounds: &[(Coordinate<M>, f64, f64)]) -> Result<Search, Error> {
+        let start = self.settings.assembled_start(&self.mechanism)?;
+        let bounds = bounds.iter();
+        let bounds: Vec<_> = bounds
+            .map(|(own, low, high)| (own.any(), *low, *high))
+            .collect();
+        Search::within(&self.settings.description, &start, &bounds)
     }
 
     /// Solves the equilibrium and its modes once, for several questions about them.

@@ -12,7 +12,9 @@ use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::tolerance::{Distribution, Sampling, Tolerances};
-use crate::{Coordinate, Description, DesignVariable, Error, Input, Law, Matrix, Output, Text};
+use crate::{
+    Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Law, Matrix, Output, Text,
+};
 
 /// A mechanism at one operating point, with tolerances and settings.
 ///
@@ -134,6 +136,13 @@ impl<M: Kernels> Study<M> {
     #[must_use]
     pub fn stay(self) -> Self {
         self.policy(Policy::Nearest)
+    }
+
+    /// Takes this equilibrium, found before ([`Self::equilibria`]), whatever its stability.
+    #[must_use]
+    pub fn at(mut self, state: &Equilibrium) -> Self {
+        self.settings.start_at(&state.coordinates);
+        self.stay()
     }
 
     /// Sets the initial guess of a dependent coordinate for the assembly of a mechanism with constraints.

@@ -122,6 +122,12 @@ impl Settings {
         }
     }
 
+    /// Starts at all of these unknowns.
+    pub(super) fn start_at(&mut self, unknowns: &[f64]) {
+        self.start = unknowns.into();
+        self.named.fill(true);
+    }
+
     pub(super) fn set_start(&mut self, coordinate: Coordinate, value: Value, named: bool) {
         let all = self.description.coordinates.get(coordinate.index());
         let value = match all {

@@ -4,7 +4,7 @@ use eigentol::allocation::Allocation;
 use eigentol::branches::{Branch, Branches};
 use eigentol::campbell::Campbell;
 use eigentol::clusters::{ClusterTolerance, DirectionalDerivatives};
-use eigentol::equilibrium::Assembly;
+use eigentol::equilibrium::{Assembly, Equilibria};
 use eigentol::modes::Whirl;
 use eigentol::propagation::{Controlled, Influence, Propagation, WorstCase};
 use eigentol::requirement::{Chances, RareFailure, Reliability};
@@ -74,6 +74,7 @@ at_one_point! {
     "chances": Chances;
     "controlled spreads": Controlled;
     "directional derivatives": DirectionalDerivatives;
+    "equilibria": Equilibria;
     "equilibrium": Equilibrium;
     "equilibrium shift": EquilibriumShift;
     "first-order tolerances": FirstOrder;
@@ -197,7 +198,6 @@ macro_rules! lists {
 lists! {
     "critical states": CriticalState;
     "crossings": Crossing;
-    "equilibria": Equilibrium;
     "events": EventTolerance;
 }
 

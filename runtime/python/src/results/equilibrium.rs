@@ -1,5 +1,8 @@
 //! Equilibria of a mechanism.
 
+use std::collections::BTreeMap;
+
+use eigentol::Matrix;
 use eigentol::equilibrium::AssemblyMode;
 use pyo3::prelude::*;
 
@@ -84,6 +87,32 @@ impl Equilibrium {
     #[getter]
     fn iterations(&self) -> usize {
         self.0.iterations
+    }
+
+    /// What to know about how it was found: that it is unstable and stays at the start, what holds it in a family of steady
+    /// motions.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.sentences()
+    }
+
+    /// The unknowns that hold it in a family of steady motions, with their values, SI.
+    #[getter]
+    fn held(&self) -> BTreeMap<String, f64> {
+        let held = self.0.free.held.iter();
+        let name = |unknown: usize| self.0.description.coordinates[unknown].name.to_string();
+        held.map(|held| (name(held.unknown), held.value)).collect()
+    }
+
+    /// Motions that nothing resists, wherever the mechanism stands, shape (r, n).
+    #[getter]
+    fn free<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
+        let motions = &self.0.free.motions;
+        let columns = self.0.coordinates.len();
+        matrix(
+            py,
+            &Matrix::from_fn(motions.len(), columns, |r, i| motions[r][i]),
+        )
     }
 }
 

@@ -1,5 +1,5 @@
 use eigentol::Equilibrium;
-use eigentol::equilibrium::Assembly;
+use eigentol::equilibrium::{Assembly, Equilibria};
 
 use super::Tables;
 use super::names::{operating_point, unknowns, word};
@@ -36,7 +36,7 @@ impl Tables for Equilibrium {
 }
 
 /// `equilibria`: a row for each.
-impl Tables for [Equilibrium] {
+impl Tables for Equilibria {
     fn tables(&self) -> Vec<Table> {
         states("equilibria", self)
     }

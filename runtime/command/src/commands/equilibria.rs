@@ -1,0 +1,33 @@
+//! All equilibria at one operating point.
+
+use clap::Args;
+use eigentol::equilibrium::Equilibria as Found;
+
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::point::Point;
+use crate::verdict::Verdict;
+
+/// Distinct equilibria at one operating point, numbered, from random starts (`--between`)
+#[derive(Args, Debug)]
+pub(crate) struct Equilibria {
+    #[command(flatten)]
+    point: Point,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Equilibria {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.output.check()?;
+        let question = self.point.question()?;
+        let found: Found = question.study.equilibria(&question.search()?)?;
+        let mut answer = self.output.answer();
+        answer.add(&found)?;
+        self.output.write(&answer)?;
+        Ok(match found.iter().any(|state| state.stability.holds()) {
+            true => Verdict::Yes,
+            false => Verdict::No("no stable equilibrium was found".to_owned()),
+        })
+    }
+}
