@@ -18,6 +18,7 @@ mod readme;
 mod reports;
 mod rust_examples;
 mod starter;
+mod strangers;
 mod streams;
 mod subcommands;
 mod walkthrough;
