@@ -376,7 +376,7 @@ const CARRIAGE: &str = "mechanism Carriage {
     design k = 200 N/m +/- 4 N/m;
     design m = 2 kg +/- 6% uniform;
     design c = 1 N*s/m;
-    curve motor: [0, 10, 20] rad/s -> [3, 2, 0] N*m;
+    curve motor: [-60, 90, 240] rpm -> [4, 2, 0] N*m;
     gravity 9.81 m/s^2 along x;
     body turntable: massless;
     body cart: box(mass: m, size: [0.2, 0.1, 0.1] m);
@@ -426,7 +426,7 @@ fn everything_that_acts_is_listed() {
         "rubbing: damper: on theta damping 0.1",
         "drive: generalized: on theta value (torque + (0.1 * motor(speed)))",
         "push: load: at hand force [1, 0, 0]",
-        "motor: curve: through 3 points from 0 to 20 rad/s",
+        "motor: curve: through 3 points from -60 to 240 rpm",
     ];
     assert_eq!(found, expected);
 }

@@ -32,6 +32,7 @@ impl Mechanism {
             .map(|constraint| element(&constraint.name, &names.constraint(&constraint.law)));
         let curves = self.curves.iter().map(|curve| {
             let [first, last] = curve.range();
+            let first = curve.in_unit(first);
             let points = curve.spline.pieces().len().saturating_sub(1);
             Element {
                 name: curve.spline.name().to_string(),
