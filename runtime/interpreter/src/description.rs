@@ -43,7 +43,8 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
     }
 }
 
-pub(crate) fn description(compilation: &Compilation) -> Description {
+/// Names, units, nominal values and properties of a compiled declaration, for those who need no kernels.
+pub fn description(compilation: &Compilation) -> Description {
     let Compilation {
         mechanism,
         functions,

@@ -10,6 +10,7 @@ mod registers;
 mod schedule;
 mod tape;
 
+pub use description::description;
 pub use given::{design_tolerance, tolerance, value};
 pub use mechanism::Interpreted;
 pub use mistakes::{Mistake, Mistakes, ReadError};

@@ -1,5 +1,7 @@
 //! An executable kernel: operations on numbered registers.
 
+use std::collections::HashMap;
+
 use eigentol::Real;
 use eigentol_compiler::algebra::{Operator, Unary};
 use eigentol_compiler::program::{Kernel, Operand, Operation};
@@ -143,6 +145,8 @@ fn binary<R: Registers>(
 /// The assignment of values to registers.
 struct Allocation {
     constants: Vec<f64>,
+    /// Register of each constant, by its bits.
+    known: HashMap<u64, u32>,
     /// First register of each argument.
     arguments: Vec<u32>,
     /// Register of each instruction placed so far.
@@ -157,16 +161,20 @@ impl Allocation {
     fn new(kernel: &Kernel) -> Self {
         let mut uses = vec![0; kernel.instructions.len()];
         let mut constants: Vec<f64> = Vec::new();
+        let mut known = HashMap::new();
         let operations = kernel.instructions.iter();
         let operands = operations.flat_map(|instruction| instruction.operation.operands());
         let results = kernel.results.iter().flat_map(|array| &array.values);
         for operand in operands.chain(results.copied()) {
             match operand {
                 Operand::Instruction(index) => uses[index] += 1,
-                Operand::Constant(value) if position(&constants, value).is_none() => {
-                    constants.push(value);
+                Operand::Constant(value) => {
+                    known.entry(value.to_bits()).or_insert_with(|| {
+                        constants.push(value);
+                        constants.len() as u32 - 1
+                    });
                 }
-                _ => {}
+                Operand::Parameter(..) => {}
             }
         }
         let mut next = constants.len() as u32;
@@ -181,6 +189,7 @@ impl Allocation {
             .collect();
         Self {
             constants,
+            known,
             arguments,
             values: vec![0; kernel.instructions.len()],
             uses,
@@ -191,7 +200,7 @@ impl Allocation {
 
     fn register(&self, operand: Operand) -> u32 {
         match operand {
-            Operand::Constant(value) => position(&self.constants, value).unwrap_or_default() as u32,
+            Operand::Constant(value) => self.known[&value.to_bits()],
             Operand::Parameter(argument, entry) => self.arguments[argument] + entry as u32,
             Operand::Instruction(index) => self.values[index],
         }
@@ -240,11 +249,4 @@ impl Allocation {
         }
         register
     }
-}
-
-/// Index of a constant, compared bit by bit.
-fn position(constants: &[f64], value: f64) -> Option<usize> {
-    constants
-        .iter()
-        .position(|constant| constant.to_bits() == value.to_bits())
 }

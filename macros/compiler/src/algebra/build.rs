@@ -48,12 +48,14 @@ impl Graph {
 
     /// A unary operator, simplified.
     pub fn unary(&mut self, operator: Unary, a: ExprId) -> ExprId {
+        self.requests += 1;
         rules::simplify_unary(self, operator, a)
             .unwrap_or_else(|| self.intern(Node::Unary(operator, a)))
     }
 
     /// A binary operator, simplified.
     pub fn binary(&mut self, operator: Operator, a: ExprId, b: ExprId) -> ExprId {
+        self.requests += 1;
         let (first, second) = match operator {
             Operator::Add | Operator::Multiply if b < a => (b, a),
             _ => (a, b),

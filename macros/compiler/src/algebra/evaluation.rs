@@ -3,25 +3,20 @@
 use crate::base::operators::{Operator, Unary};
 
 /// Largest relative rounding error of one operation.
-const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+pub(super) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// A value and a first-order bound on its rounding error (running error analysis; Higham, Accuracy and Stability of
 /// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, because they are rounded numbers or were
 /// computed from rounded numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Evaluation {
+pub(super) struct Evaluation {
     /// The value.
-    pub value: f64,
+    pub(super) value: f64,
     /// Bound on the rounding error.
-    pub error: f64,
+    pub(super) error: f64,
 }
 
 impl Evaluation {
-    /// Whether rounding alone can explain that the value is not zero.
-    pub fn is_negligible(self) -> bool {
-        self.value.abs() <= 16.0 * self.error
-    }
-
     /// One.
     pub(super) const ONE: Self = Self {
         value: 1.0,
@@ -42,22 +37,10 @@ impl Evaluation {
 }
 
 /// `operator a`.
-pub(super) fn unary(operator: Unary, a: Evaluation) -> Evaluation {
+fn unary(operator: Unary, a: Evaluation) -> Evaluation {
     let value = operator.apply(a.value);
-    // A value that has underflowed to zero proves nothing.
-    if value == 0.0 && matches!(operator, Unary::Exp | Unary::PowerInteger(_)) && a.value != 0.0 {
-        return Evaluation {
-            value: f64::NAN,
-            error: f64::NAN,
-        };
-    }
     let slope = match operator {
-        Unary::Negate => {
-            return Evaluation {
-                value,
-                error: a.error,
-            };
-        }
+        Unary::Negate => 1.0,
         Unary::Sqrt => 0.5 / value,
         Unary::Sin => a.value.cos(),
         Unary::Cos => a.value.sin(),
@@ -73,16 +56,24 @@ pub(super) fn unary(operator: Unary, a: Evaluation) -> Evaluation {
     } else {
         slope.abs() * a.error
     };
-    if let Unary::Spline(spline, derivative) = operator {
+    let error = inherited + rounding_of(operator, a.value, value);
+    Evaluation { value, error }
+}
+
+/// What rounding adds in `value = operator a`.
+pub(super) fn rounding_of(operator: Unary, a: f64, value: f64) -> f64 {
+    match operator {
+        Unary::Negate => 0.0,
+        // A value that has underflowed to zero proves nothing.
+        Unary::Exp | Unary::PowerInteger(_) if value == 0.0 && a != 0.0 => f64::NAN,
         // Seven operations, including the difference from the start of the piece.
-        let terms = spline.magnitude(a.value, derivative);
-        let shift = slope.abs() * a.value.abs();
-        return Evaluation {
-            value,
-            error: inherited + 8.0 * UNIT_ROUNDOFF * (terms + shift),
-        };
+        Unary::Spline(spline, derivative) => {
+            let terms = spline.magnitude(a, derivative);
+            let shift = spline.at(a, derivative + 1).abs() * a.abs();
+            8.0 * UNIT_ROUNDOFF * (terms + shift)
+        }
+        _ => UNIT_ROUNDOFF * value.abs(),
     }
-    Evaluation::rounded(value, inherited)
 }
 
 /// `a operator b`.

@@ -1,9 +1,9 @@
 //! Forward differentiation: the derivative of many expressions along one direction.
 
-use super::count::dependent;
 use super::graph::Graph;
 use super::node::Node;
 use super::node_map::NodeMap;
+use super::reached::Reached;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::base::operators::{Operator, Unary};
 
@@ -47,8 +47,9 @@ pub fn derivatives_along(
     let mask = Graph::mask(direction.rates.iter().map(|(symbol, _)| *symbol));
     let zero = graph.zero();
     let known = graph.len();
-    let mut tangents = NodeMap::new(known);
-    for id in dependent(graph, roots, mask) {
+    let changing = Reached::dependent(graph, roots, mask);
+    let mut tangents = NodeMap::new(&changing);
+    for &id in changing.nodes() {
         let tangent = match graph.node(id) {
             Node::Constant(_) => zero,
             Node::Symbol(symbol) => direction.rate(symbol).unwrap_or(zero),
@@ -61,8 +62,10 @@ pub fn derivatives_along(
                 }
             }
             Node::Binary(operator, a, b) => {
-                let [da, db] = [a, b].map(|operand| tangents.get(operand).unwrap_or(zero));
-                binary_tangent(graph, operator, id, (a, da), (b, db))
+                match [a, b].map(|operand| tangents.get(operand).unwrap_or(zero)) {
+                    [da, db] if da == zero && db == zero => zero,
+                    [da, db] => binary_tangent(graph, operator, id, (a, da), (b, db)),
+                }
             }
         };
         // Nodes that existed before have a meaning of their own.

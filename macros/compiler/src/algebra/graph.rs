@@ -1,5 +1,9 @@
 //! The expression graph: equal expressions are one node, and operands are always older than the nodes that use them.
 
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
 use super::evaluation::Evaluation;
 use super::interner::Interner;
 use super::node::Node;
@@ -37,11 +41,14 @@ pub struct Graph {
     /// The symbols a node depends on: one bit per symbol modulo 128, so a clear bit proves independence.
     support: Vec<u128>,
     interned: Interner,
+    pub(super) requests: u64,
     symbols: Vec<Symbol>,
-    names: Vec<Option<Box<str>>>,
+    /// By node: the number of its name, counted from one, or zero.
+    named: Vec<u32>,
+    names: Vec<Arc<str>>,
     /// Bound on the rounding error of each constant computed from others. Otherwise the remainder of larger constants
     /// that should cancel would look like any other number.
-    rounding: Vec<Option<f64>>,
+    rounding: FxHashMap<ExprId, f64>,
 }
 
 impl Graph {
@@ -53,6 +60,11 @@ impl Graph {
     /// Number of nodes.
     pub fn len(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// How often an operation was asked for, whether its node existed, was new or was simplified: the work done so far.
+    pub fn requests(&self) -> u64 {
+        self.requests
     }
 
     /// Whether the graph has no node.
@@ -90,31 +102,44 @@ impl Graph {
     /// Gives a node a name for readers of the generated code. The first name stays, and constants and symbols keep
     /// theirs. The operand of a negation called `name` becomes `minus_name`, because signs have no statement of their
     /// own.
-    pub fn set_name(&mut self, id: ExprId, name: impl FnOnce() -> String) {
+    pub fn set_name<N: Into<Arc<str>>>(&mut self, id: ExprId, name: impl FnOnce() -> N) {
         match self.node(id) {
             Node::Constant(_) | Node::Symbol(_) => {}
             Node::Unary(Unary::Negate, operand) => {
                 if self.name(operand).is_none() {
-                    let name = name();
+                    let name: Arc<str> = name().into();
                     let positive = match name.strip_prefix("minus_") {
-                        Some(positive) => positive.to_owned(),
-                        None => format!("minus_{name}"),
+                        Some(positive) => positive.into(),
+                        None => format!("minus_{name}").into(),
                     };
-                    self.names[operand.index()] = Some(positive.into());
+                    self.enter_name(operand, positive);
                 }
             }
             _ => {
-                self.names[id.index()].get_or_insert_with(|| name().into());
+                if self.given_name(id).is_none() {
+                    self.enter_name(id, name().into());
+                }
             }
         }
+    }
+
+    fn enter_name(&mut self, id: ExprId, name: Arc<str>) {
+        self.names.push(name);
+        self.named[id.index()] = self.names.len() as u32;
     }
 
     /// The name given to a node, or the name of a symbol.
     pub fn name(&self, id: ExprId) -> Option<&str> {
         match self.node(id) {
             Node::Symbol(symbol) => Some(&self.symbols[symbol.index()].name),
-            _ => self.names[id.index()].as_deref(),
+            _ => self.given_name(id).map(|name| &**name),
         }
+    }
+
+    /// The name given to a node.
+    pub fn given_name(&self, id: ExprId) -> Option<&Arc<str>> {
+        let number = self.named[id.index()].checked_sub(1)?;
+        self.names.get(number as usize)
     }
 
     /// The value of a constant node.
@@ -133,8 +158,8 @@ impl Graph {
     /// A constant node with the bound on its rounding error.
     pub(super) fn number(&self, id: ExprId) -> Option<Evaluation> {
         let number = Evaluation::nearest(self.constant_value(id)?);
-        Some(match self.rounding[id.index()] {
-            Some(error) => Evaluation { error, ..number },
+        Some(match self.rounding.get(&id) {
+            Some(&error) => Evaluation { error, ..number },
             None => number,
         })
     }
@@ -142,7 +167,7 @@ impl Graph {
     /// A number; negative zero becomes zero.
     pub fn constant(&mut self, value: f64) -> ExprId {
         let id = self.intern(Node::Constant((value + 0.0).to_bits()));
-        self.rounding[id.index()] = None;
+        self.rounding.remove(&id);
         id
     }
 
@@ -150,10 +175,9 @@ impl Graph {
     pub(super) fn computed(&mut self, number: Evaluation) -> ExprId {
         let known = self.len();
         let id = self.intern(Node::Constant((number.value + 0.0).to_bits()));
-        let rounding = &mut self.rounding[id.index()];
         if id.index() == known {
-            *rounding = Some(number.error);
-        } else if let Some(error) = rounding {
+            self.rounding.insert(id, number.error);
+        } else if let Some(error) = self.rounding.get_mut(&id) {
             *error = error.min(number.error);
         }
         id
@@ -207,8 +231,7 @@ impl Graph {
         };
         self.nodes.push(node);
         self.support.push(support);
-        self.names.push(None);
-        self.rounding.push(None);
+        self.named.push(0);
         self.interned.enter_last(&self.nodes);
         id
     }

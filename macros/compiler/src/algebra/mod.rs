@@ -4,6 +4,7 @@
 
 mod build;
 mod count;
+mod disturbed;
 mod evaluate;
 mod evaluation;
 mod forward;
@@ -12,19 +13,21 @@ mod graph;
 mod interner;
 mod node;
 mod node_map;
+mod reached;
 mod regroup;
 mod reverse;
 mod rules;
 mod substitute;
 mod vector;
 
-pub use count::{Cost, cost, reachable};
-pub use evaluate::{evaluate, evaluate_with_error};
-pub use evaluation::Evaluation;
+pub use count::{Cost, cost};
+pub use disturbed::{Disturbed, Evaluator};
+pub use evaluate::evaluate;
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
 pub use graph::{Graph, Stage, Symbol};
 pub use node::Node;
+pub use reached::Reached;
 pub use regroup::{regroup, regrouped};
 pub use reverse::gradient;
 pub use rules::{Rule, TABLES, Table};

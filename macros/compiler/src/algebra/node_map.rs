@@ -1,30 +1,33 @@
 //! A map from nodes to nodes.
 
+use super::reached::Reached;
 use crate::base::ids::ExprId;
 
-/// Maps some nodes of a graph to nodes. Zeroed memory costs nothing until it is used, so a walk over part of a large
-/// graph pays only for this part.
-pub(super) struct NodeMap {
-    /// By node: the number of its image, counted from one, or zero.
+/// Maps nodes of a part of a graph to nodes.
+pub(super) struct NodeMap<'a> {
+    part: &'a Reached,
+    /// By place: the number of the image, counted from one, or zero.
     images: Vec<u32>,
 }
 
-impl NodeMap {
-    /// An empty map for the first `size` nodes.
-    pub(super) fn new(size: usize) -> Self {
-        Self {
-            images: vec![0; size],
-        }
+impl<'a> NodeMap<'a> {
+    /// An empty map of these nodes.
+    pub(super) fn new(part: &'a Reached) -> Self {
+        let images = vec![0; part.len()];
+        Self { part, images }
     }
 
     pub(super) fn get(&self, id: ExprId) -> Option<ExprId> {
-        match self.images[id.index()] {
+        match self.images[self.part.place(id)?] {
             0 => None,
             number => Some(ExprId(number - 1)),
         }
     }
 
+    /// Sets the image of one of the nodes; that of any other is not kept.
     pub(super) fn set(&mut self, id: ExprId, image: ExprId) {
-        self.images[id.index()] = image.0 + 1;
+        if let Some(place) = self.part.place(id) {
+            self.images[place] = image.0 + 1;
+        }
     }
 }

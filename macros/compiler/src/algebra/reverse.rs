@@ -1,10 +1,10 @@
 //! Reverse differentiation: the derivatives of one expression by many symbols, at a small multiple of its cost.
 
-use super::count::dependent;
 use super::forward::{slope, slopes};
 use super::graph::Graph;
 use super::node::Node;
 use super::node_map::NodeMap;
+use super::reached::Reached;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::base::operators::{Operator, Unary};
 
@@ -13,10 +13,11 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
     let mask = Graph::mask(symbols.iter().copied());
     let zero = graph.zero();
     let known = graph.len();
-    let mut adjoints = NodeMap::new(root.index() + 1);
+    let changing = Reached::dependent(graph, &[root], mask);
+    let mut adjoints = NodeMap::new(&changing);
     adjoints.set(root, graph.constant(1.0));
     let mut by_symbol = vec![zero; graph.symbol_count()];
-    for id in dependent(graph, &[root], mask).into_iter().rev() {
+    for &id in changing.nodes().iter().rev() {
         let adjoint = adjoints.get(id).unwrap_or(zero);
         if adjoint == zero {
             continue;

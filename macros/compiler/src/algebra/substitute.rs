@@ -1,9 +1,9 @@
 //! Replaces symbols: the graph above them is rebuilt and simplified on the way.
 
-use super::count::dependent;
 use super::graph::Graph;
 use super::node::Node;
 use super::node_map::NodeMap;
+use super::reached::Reached;
 use crate::base::ids::{ExprId, SymbolId};
 
 /// `roots` with each listed symbol replaced.
@@ -14,8 +14,9 @@ pub fn substitute(
 ) -> Vec<ExprId> {
     let mask = Graph::mask(replacements.iter().map(|(symbol, _)| *symbol));
     let known = graph.len();
-    let mut image = NodeMap::new(known);
-    for id in dependent(graph, roots, mask) {
+    let changing = Reached::dependent(graph, roots, mask);
+    let mut image = NodeMap::new(&changing);
+    for &id in changing.nodes() {
         let replaced = match graph.node(id) {
             Node::Constant(_) => id,
             Node::Symbol(symbol) => replacements
@@ -32,7 +33,7 @@ pub fn substitute(
             }
         };
         if replaced.index() >= known
-            && let Some(name) = graph.name(id).map(str::to_owned)
+            && let Some(name) = graph.given_name(id).cloned()
         {
             graph.set_name(replaced, || name);
         }

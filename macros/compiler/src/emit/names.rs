@@ -57,7 +57,7 @@ pub(super) fn wanted(
     operand: impl Fn(Operand) -> Option<String>,
 ) -> String {
     if let Some(name) = &instruction.name {
-        return name.clone();
+        return name.to_string();
     }
     let of = |word: &str, a: Operand| match operand(a) {
         Some(name) if name.len() <= COMPOUND => format!("{word}_{name}"),

@@ -1,6 +1,6 @@
 //! From expressions to instructions.
 
-use crate::algebra::{Function, Graph, Node};
+use crate::algebra::{Function, Graph, Node, Reached};
 use crate::base::ids::{ExprId, SymbolId};
 
 use super::schedule::schedule;
@@ -25,8 +25,10 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
                     scalar: parameter.scalar,
                 })
                 .collect();
-            let order = schedule(graph, &function.roots());
-            let mut lowering = Lowering::new(graph, function);
+            let roots = function.roots();
+            let needed = Reached::below(graph, &roots);
+            let order = schedule(graph, &needed, &roots);
+            let mut lowering = Lowering::new(graph, &needed, function);
             let instructions = order
                 .into_iter()
                 .map(|id| lowering.instruction(id, stages[id.index()]))
@@ -58,14 +60,15 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
 
 struct Lowering<'a> {
     graph: &'a Graph,
+    needed: &'a Reached,
     symbols: Vec<Option<(usize, usize)>>,
-    /// By node: the number of its instruction, counted from one, or zero if there is none yet.
+    /// By place among the needed nodes: the number of its instruction, counted from one, or zero if there is none yet.
     done: Vec<u32>,
     count: u32,
 }
 
 impl<'a> Lowering<'a> {
-    fn new(graph: &'a Graph, function: &Function) -> Self {
+    fn new(graph: &'a Graph, needed: &'a Reached, function: &Function) -> Self {
         let mut symbols = vec![None; graph.symbol_count()];
         for (position, parameter) in function.parameters.iter().enumerate() {
             for (entry, symbol) in parameter.symbols.iter().enumerate() {
@@ -74,8 +77,9 @@ impl<'a> Lowering<'a> {
         }
         Self {
             graph,
+            needed,
             symbols,
-            done: vec![0; graph.len()],
+            done: vec![0; needed.len()],
             count: 0,
         }
     }
@@ -89,9 +93,11 @@ impl<'a> Lowering<'a> {
             Node::Constant(_) | Node::Symbol(_) => unreachable!("leaves are operands"),
         };
         self.count += 1;
-        self.done[id.index()] = self.count;
+        if let Some(place) = self.needed.place(id) {
+            self.done[place] = self.count;
+        }
         Instruction {
-            name: self.graph.name(id).map(str::to_owned),
+            name: self.graph.given_name(id).cloned(),
             stage,
             operation,
         }
@@ -102,7 +108,8 @@ impl<'a> Lowering<'a> {
             Node::Constant(bits) => Operand::Constant(f64::from_bits(bits)),
             Node::Symbol(symbol) => self.parameter(symbol),
             _ => {
-                let number = self.done[id.index()].checked_sub(1);
+                let place = self.needed.place(id);
+                let number = place.and_then(|place| self.done[place].checked_sub(1));
                 Operand::Instruction(number.expect("operands come before their users") as usize)
             }
         }

@@ -10,6 +10,8 @@ mod schedule;
 
 pub use lower::lower;
 
+use std::sync::Arc;
+
 use crate::algebra::{Cost, Operator, Stage, Unary};
 
 /// All kernels of a mechanism.
@@ -49,7 +51,7 @@ pub struct Parameter {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instruction {
     /// Name given by the derivation.
-    pub name: Option<String>,
+    pub name: Option<Arc<str>>,
     /// The latest stage of its operands.
     pub stage: Stage,
     /// The operation.

@@ -5,17 +5,13 @@
 //! registers. Sines and cosines come first: no other value then has to survive the branch that they contain, and
 //! several are computed at once.
 
-use crate::algebra::{Graph, Node, Unary, reachable};
+use crate::algebra::{Graph, Node, Reached, Unary};
 use crate::base::ids::ExprId;
 
-/// Every operation that the results need, operands before their users.
-pub(super) fn schedule(graph: &Graph, results: &[ExprId]) -> Vec<ExprId> {
-    let needed: Vec<ExprId> = reachable(graph, results)
-        .into_iter()
-        .filter(|&id| !is_leaf(graph, id))
-        .collect();
-    let mut schedule = Schedule::new(graph, &needed);
-    for id in sines(graph, &needed) {
+/// Every operation that the results need, operands before their users. `needed` are the nodes below the results.
+pub(super) fn schedule(graph: &Graph, needed: &Reached, results: &[ExprId]) -> Vec<ExprId> {
+    let mut schedule = Schedule::new(graph, needed);
+    for id in sines(graph, needed) {
         schedule.place(id);
     }
     for &id in results {
@@ -26,22 +22,23 @@ pub(super) fn schedule(graph: &Graph, results: &[ExprId]) -> Vec<ExprId> {
 
 /// Sines and cosines, starting with those that need no others: those that can be computed side by side become
 /// neighbours.
-fn sines(graph: &Graph, needed: &[ExprId]) -> Vec<ExprId> {
-    let mut depth = vec![0; graph.len()];
+fn sines(graph: &Graph, needed: &Reached) -> Vec<ExprId> {
+    let mut depths: Vec<u32> = Vec::with_capacity(needed.len());
     let mut sines = Vec::new();
-    for &id in needed {
-        depth[id.index()] = match graph.node(id) {
+    for &id in needed.nodes() {
+        let depth = |id| needed.place(id).map_or(0, |place| depths[place]);
+        depths.push(match graph.node(id) {
             Node::Constant(_) | Node::Symbol(_) => 0,
             Node::Unary(Unary::Sin | Unary::Cos, a) => {
-                sines.push(id);
-                depth[a.index()] + 1
+                sines.push((depth(a) + 1, id));
+                depth(a) + 1
             }
-            Node::Unary(_, a) => depth[a.index()],
-            Node::Binary(_, a, b) => depth[a.index()].max(depth[b.index()]),
-        };
+            Node::Unary(_, a) => depth(a),
+            Node::Binary(_, a, b) => depth(a).max(depth(b)),
+        });
     }
-    sines.sort_by_key(|id| depth[id.index()]);
-    sines
+    sines.sort_by_key(|(depth, _)| *depth);
+    sines.into_iter().map(|(_, id)| id).collect()
 }
 
 fn is_leaf(graph: &Graph, id: ExprId) -> bool {
@@ -50,7 +47,8 @@ fn is_leaf(graph: &Graph, id: ExprId) -> bool {
 
 struct Schedule<'a> {
     graph: &'a Graph,
-    /// Registers that the tree of each value needs (Sethi and Ullman 1970); zero for unneeded nodes.
+    needed: &'a Reached,
+    /// By place among the needed nodes: registers that the tree of each takes (Sethi and Ullman 1970).
     registers: Vec<u32>,
     placed: Vec<bool>,
     order: Vec<ExprId>,
@@ -58,36 +56,48 @@ struct Schedule<'a> {
 }
 
 impl<'a> Schedule<'a> {
-    fn new(graph: &'a Graph, needed: &[ExprId]) -> Self {
-        let mut registers = vec![0; graph.len()];
-        for &id in needed {
-            registers[id.index()] = match graph.node(id) {
-                Node::Constant(_) | Node::Symbol(_) => 0,
-                Node::Unary(_, a) => registers[a.index()].max(1),
-                Node::Binary(_, a, b) => {
-                    let (a, b) = (registers[a.index()], registers[b.index()]);
-                    if a == b { a + 1 } else { a.max(b) }
-                }
-            };
-        }
-        Self {
+    fn new(graph: &'a Graph, needed: &'a Reached) -> Self {
+        let mut this = Self {
             graph,
-            registers,
-            placed: vec![false; graph.len()],
+            needed,
+            registers: Vec::with_capacity(needed.len()),
+            placed: vec![false; needed.len()],
             order: Vec::with_capacity(needed.len()),
             pending: Vec::new(),
+        };
+        for &id in needed.nodes() {
+            let registers = match graph.node(id) {
+                Node::Constant(_) | Node::Symbol(_) => 0,
+                Node::Unary(_, a) => this.registers(a).max(1),
+                Node::Binary(_, a, b) => match (this.registers(a), this.registers(b)) {
+                    (a, b) if a == b => a + 1,
+                    (a, b) => a.max(b),
+                },
+            };
+            this.registers.push(registers);
         }
+        this
+    }
+
+    fn registers(&self, id: ExprId) -> u32 {
+        self.registers[self.index(id)]
+    }
+
+    fn index(&self, id: ExprId) -> usize {
+        let place = self.needed.place(id);
+        place.expect("results need their operands")
     }
 
     /// Places a value after everything that it needs.
     fn place(&mut self, id: ExprId) {
         self.pending.push((id, false));
         while let Some((id, ready)) = self.pending.pop() {
-            if self.placed[id.index()] || is_leaf(self.graph, id) {
+            let index = self.index(id);
+            if self.placed[index] || is_leaf(self.graph, id) {
                 continue;
             }
             if ready {
-                self.placed[id.index()] = true;
+                self.placed[index] = true;
                 self.order.push(id);
                 continue;
             }
@@ -96,7 +106,7 @@ impl<'a> Schedule<'a> {
                 Node::Constant(_) | Node::Symbol(_) => {}
                 Node::Unary(_, a) => self.pending.push((a, false)),
                 Node::Binary(_, a, b) => {
-                    let swapped = self.registers[b.index()] > self.registers[a.index()];
+                    let swapped = self.registers(b) > self.registers(a);
                     let (first, second) = if swapped { (b, a) } else { (a, b) };
                     self.pending.extend([(second, false), (first, false)]);
                 }

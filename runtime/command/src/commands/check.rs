@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use eigentol::{Description, Role};
-use eigentol_interpreter::Interpreted;
+use eigentol_interpreter::description;
 
 use crate::arguments::Color;
 use crate::declaration::Declaration;
@@ -30,7 +30,7 @@ impl Check {
             for warning in &compilation.warnings() {
                 diagnostics::warn(&declaration, &warning.into(), color);
             }
-            let found = summary(Interpreted::new(&compilation).description());
+            let found = summary(&description(&compilation));
             print(&format!("{}: {found}\n", declaration.name))?;
         }
         Ok(Verdict::Yes)

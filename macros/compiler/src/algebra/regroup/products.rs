@@ -13,7 +13,7 @@ use super::uses::Uses;
 use crate::base::ids::ExprId;
 use crate::base::operators::Operator;
 
-/// A factor: a node, or a pair of factors.
+/// A factor: the place of a node among those that are rebuilt, or a pair of factors.
 type Factor = u32;
 
 /// The products below some roots, and the pairs of factors that represent partial products.
@@ -31,15 +31,16 @@ struct Products {
 impl Products {
     fn new(graph: &Graph, uses: &Uses) -> Self {
         let mut this = Self {
-            nodes: uses.count.len(),
+            nodes: uses.nodes.len(),
             ..Self::default()
         };
-        for &id in &uses.order {
+        for &id in uses.nodes.nodes() {
             let is_product = matches!(graph.node(id), Node::Binary(Operator::Multiply, ..));
-            if is_product && !uses.in_product[id.index()] {
+            if is_product && !uses.in_product(id) {
                 let mut factors = Vec::new();
                 uses.factors(graph, id, &mut factors);
-                let mut factors: Vec<Factor> = factors.iter().map(|f| f.index() as u32).collect();
+                let places = factors.iter().filter_map(|&f| uses.nodes.place(f));
+                let mut factors: Vec<Factor> = places.map(|place| place as Factor).collect();
                 factors.sort_unstable();
                 this.lists.push((id, factors));
             }
@@ -122,12 +123,12 @@ impl Products {
         }
     }
 
-    fn build(&self, graph: &mut Graph, factor: Factor, images: &NodeMap) -> ExprId {
+    fn build(&self, graph: &mut Graph, uses: &Uses, factor: Factor, images: &NodeMap) -> ExprId {
         match (factor as usize).checked_sub(self.nodes) {
-            None => image(images, ExprId(factor)),
+            None => image(images, uses.nodes.nodes()[factor as usize]),
             Some(k) => {
                 let (a, b) = self.pairs[k];
-                let (a, b) = (self.build(graph, a, images), self.build(graph, b, images));
+                let [a, b] = [a, b].map(|part| self.build(graph, uses, part, images));
                 graph.mul(a, b)
             }
         }
@@ -148,7 +149,7 @@ pub(super) fn share_products(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId>
         next += 1;
         let factors: Vec<ExprId> = factors
             .iter()
-            .map(|&factor| products.build(graph, factor, images))
+            .map(|&factor| products.build(graph, &uses, factor, images))
             .collect();
         Some(product(graph, &factors))
     })

@@ -13,8 +13,8 @@ pub(super) fn rebuild(
     uses: &Uses,
     mut special: impl FnMut(&mut Graph, ExprId, &NodeMap) -> Option<ExprId>,
 ) -> Vec<ExprId> {
-    let mut images = NodeMap::new(uses.count.len());
-    for &id in &uses.order {
+    let mut images = NodeMap::new(&uses.nodes);
+    for &id in uses.nodes.nodes() {
         let node = graph.node(id);
         let built = match special(graph, id, &images) {
             Some(built) => built,
@@ -27,7 +27,7 @@ pub(super) fn rebuild(
             },
         };
         if built != id
-            && let Some(name) = graph.name(id).map(str::to_owned)
+            && let Some(name) = graph.given_name(id).cloned()
         {
             graph.set_name(built, || name);
         }

@@ -15,7 +15,7 @@ pub(super) fn factor_sums(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
         let Node::Binary(operator, ..) = graph.node(id) else {
             return None;
         };
-        if !is_sum(operator) || uses.in_sum[id.index()] {
+        if !is_sum(operator) || uses.in_sum(id) {
             return None;
         }
         let mut terms = Vec::new();
@@ -24,7 +24,7 @@ pub(super) fn factor_sums(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
             .into_iter()
             .map(|(minus, term)| {
                 let mut factors = Vec::new();
-                match uses.in_sum[term.index()] {
+                match uses.in_sum(term) {
                     true => uses.factors(graph, term, &mut factors),
                     false => factors.push(term),
                 }

@@ -1,50 +1,74 @@
 //! How often nodes are used, and by which operators.
 
-use super::super::count::reachable;
 use super::super::graph::Graph;
 use super::super::node::Node;
+use super::super::reached::Reached;
 use crate::base::ids::ExprId;
 use crate::base::operators::Operator;
 
 /// How the nodes below some roots are used.
 pub(super) struct Uses {
-    pub(super) order: Vec<ExprId>,
-    /// By node: how often it is an operand or a root.
-    pub(super) count: Vec<u32>,
-    /// By node: whether its only use is as an operand of a sum (or of a product, below).
-    pub(super) in_sum: Vec<bool>,
-    pub(super) in_product: Vec<bool>,
+    pub(super) nodes: Reached,
+    /// By place among the nodes: what the only use of a node is.
+    only: Vec<Only>,
+}
+
+/// The use of a node that is used once.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Only {
+    /// None yet.
+    Unused,
+    /// As an operand of a sum.
+    InSum,
+    /// As an operand of a product.
+    InProduct,
+    /// As a root or any other operand, or it is used more than once.
+    Other,
 }
 
 impl Uses {
     pub(super) fn new(graph: &Graph, roots: &[ExprId]) -> Self {
-        let order = reachable(graph, roots);
-        let size = order.last().map_or(0, |last| last.index() + 1);
-        let mut this = Self {
-            order,
-            count: vec![0; size],
-            in_sum: vec![false; size],
-            in_product: vec![false; size],
-        };
-        for root in roots {
-            this.count[root.index()] += 1;
+        let nodes = Reached::below(graph, roots);
+        let only = vec![Only::Unused; nodes.len()];
+        let mut this = Self { nodes, only };
+        for &root in roots {
+            this.note(root, Only::Other);
         }
-        for &id in &this.order {
-            let node = graph.node(id);
+        for k in 0..this.nodes.len() {
+            let node = graph.node(this.nodes.nodes()[k]);
+            let role = match node {
+                Node::Binary(operator, ..) if is_sum(operator) => Only::InSum,
+                Node::Binary(Operator::Multiply, ..) => Only::InProduct,
+                _ => Only::Other,
+            };
             for operand in operands(node).into_iter().flatten() {
-                let k = operand.index();
-                this.count[k] += 1;
-                if let Node::Binary(operator, ..) = node {
-                    this.in_sum[k] = is_sum(operator);
-                    this.in_product[k] = operator == Operator::Multiply;
-                }
+                this.note(operand, role);
             }
         }
-        for k in this.order.iter().map(|id| id.index()) {
-            this.in_sum[k] &= this.count[k] == 1;
-            this.in_product[k] &= this.count[k] == 1;
-        }
         this
+    }
+
+    fn note(&mut self, id: ExprId, role: Only) {
+        if let Some(place) = self.nodes.place(id) {
+            self.only[place] = match self.only[place] {
+                Only::Unused => role,
+                _ => Only::Other,
+            };
+        }
+    }
+
+    fn only(&self, id: ExprId) -> Option<Only> {
+        self.nodes.place(id).map(|place| self.only[place])
+    }
+
+    /// Whether the only use of a node is as an operand of a sum.
+    pub(super) fn in_sum(&self, id: ExprId) -> bool {
+        self.only(id) == Some(Only::InSum)
+    }
+
+    /// Whether the only use of a node is as an operand of a product.
+    pub(super) fn in_product(&self, id: ExprId) -> bool {
+        self.only(id) == Some(Only::InProduct)
     }
 
     /// The factors of a product, expanding inner products that are used nowhere else.
@@ -54,7 +78,7 @@ impl Uses {
             return;
         };
         for operand in [a, b] {
-            if self.in_product[operand.index()] {
+            if self.in_product(operand) {
                 self.factors(graph, operand, list);
             } else {
                 list.push(operand);
@@ -77,7 +101,7 @@ impl Uses {
         };
         let signs = [minus, minus ^ (operator == Operator::Subtract)];
         for (operand, minus) in [a, b].into_iter().zip(signs) {
-            if self.in_sum[operand.index()] {
+            if self.in_sum(operand) {
                 self.terms(graph, operand, minus, list);
             } else {
                 list.push((minus, operand));

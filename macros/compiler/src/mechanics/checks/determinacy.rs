@@ -1,6 +1,6 @@
 //! Checks that the equations determine every motion: each must move some mass, and something must resist it.
 
-use crate::algebra::{Evaluation, Graph};
+use crate::algebra::{Disturbed, Evaluator, Graph};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{CoordinateId, ExprId};
 use crate::mechanics::linear::Jacobians;
@@ -57,8 +57,10 @@ pub(crate) fn require_determinate_motion(
         };
         diagnostics.error_with_help(name(last).span(), message, help);
     }
-    for (k, column) in jacobians.stiffness.iter().enumerate() {
-        let idle = vanish(g, context, column).into_iter().all(|zero| zero);
+    let unknowns = jacobians.stiffness.len();
+    let zeros = vanish(g, context, &jacobians.stiffness.concat());
+    for (k, column) in zeros.chunks_exact(unknowns.max(1)).enumerate() {
+        let idle = column.iter().all(|zero| *zero);
         if !idle || without_inertia == Some(k) {
             continue;
         }
@@ -131,27 +133,12 @@ fn massless_motion(
         };
         roots.extend(by_rate(demands, &jacobians.stiffness, n + k));
     }
-    let motions: Option<Vec<Vec<f64>>> = probe(g, context, &roots)
-        .iter()
+    let evaluator = Evaluator::new(g, &roots);
+    let motions: Option<Vec<Vec<f64>>> = probe(&evaluator, context)
         .map(|entries| {
-            let values: Vec<f64> = entries.iter().map(|v| v.value).collect();
-            let (mass, constraints) = values.split_at(n * n);
-            let is_rounding = |pivot: f64, k: usize| {
-                let pivot = Evaluation {
-                    value: pivot,
-                    ..entries[k * n + k]
-                };
-                pivot.is_negligible()
-            };
-            let masses: Vec<f64> = (0..n)
-                .map(|k| &entries[k * n + k])
-                .map(|own| if own.is_negligible() { 0.0 } else { own.value })
-                .collect();
-            null_vector(
-                n,
-                &with_constraints(mass, constraints, &masses),
-                is_rounding,
-            )
+            let (mass, constraints) = entries.split_at(n * n);
+            let matrix = with_constraints(n, mass, constraints, evaluator.operations());
+            null_vector(n, matrix, evaluator.operations())
         })
         .collect();
     let motions = motions.filter(|motions| !motions.is_empty())?;
@@ -165,53 +152,66 @@ fn massless_motion(
     Some(moving.map(|k| (k, share(k))).collect())
 }
 
-/// `M + sum a a^T / (a^T D^-1 a)` over the constraints, with `D` the diagonal of `M` where it is not zero, given as
-/// `masses`: each constraint counts as much as the masses it moves, whatever the units. One that moves no mass counts
-/// as the largest mass.
-fn with_constraints(mass: &[f64], constraints: &[f64], masses: &[f64]) -> Vec<f64> {
-    let n = masses.len();
+/// `M + sum a a^T / (a^T D^-1 a)` over the constraints, with `D` the diagonal of `M` where it is not zero: each
+/// constraint counts as much as the masses it moves, whatever the units. One that moves no mass counts as the largest
+/// mass.
+fn with_constraints(
+    n: usize,
+    mass: &[Disturbed],
+    constraints: &[Disturbed],
+    operations: usize,
+) -> Vec<Disturbed> {
     let mut sum = mass.to_vec();
+    let masses: Vec<f64> = (0..n)
+        .map(|k| &mass[k * n + k])
+        .map(|own| {
+            if own.is_rounding(operations) {
+                0.0
+            } else {
+                own.value()
+            }
+        })
+        .collect();
     let most = masses.iter().fold(0.0, |most: f64, own| most.max(*own));
     for a in constraints.chunks_exact(n.max(1)) {
-        let square: f64 = a.iter().map(|x| x * x).sum();
-        let moved = a.iter().zip(masses).filter(|(_, mass)| **mass > 0.0);
-        let mobility: f64 = moved.map(|(x, mass)| x * x / mass).sum();
+        let square: f64 = a.iter().map(|x| x.value() * x.value()).sum();
+        let moved = a.iter().zip(&masses).filter(|(_, mass)| **mass > 0.0);
+        let mobility: f64 = moved.map(|(x, mass)| x.value() * x.value() / mass).sum();
         let weight = match mobility > 0.0 {
             true => 1.0 / mobility,
             false => most / square,
         };
         if square > 0.0 {
             for (k, entry) in sum.iter_mut().enumerate() {
-                *entry += weight * a[k / n] * a[k % n];
+                let product = a[k / n].with(a[k % n], |x, y| weight * x * y);
+                *entry = entry.with(product, |sum, product| sum + product);
             }
         }
     }
     sum
 }
 
-/// A null vector of a singular symmetric matrix, with its last nonzero component one. A pivot counts as zero if it is
-/// negligible compared with its diagonal entry or with the rounding error of that entry.
-fn null_vector(
-    n: usize,
-    matrix: &[f64],
-    is_rounding: impl Fn(f64, usize) -> bool,
-) -> Option<Vec<f64>> {
-    let mut a = matrix.to_vec();
+/// A null vector of a singular symmetric matrix, with its last nonzero component one. A pivot counts as zero if the
+/// rounding of the entries or of the elimination can explain it.
+fn null_vector(n: usize, mut a: Vec<Disturbed>, operations: usize) -> Option<Vec<f64>> {
+    let diagonal: Vec<f64> = (0..n).map(|k| a[k * n + k].value()).collect();
     for k in 0..n {
         let pivot = a[k * n + k];
-        if pivot <= 1e-10 * matrix[k * n + k].abs() || is_rounding(pivot, k) {
+        let elimination = 4.0 * (k + 1) as f64 * f64::EPSILON * diagonal[k].abs();
+        if pivot.value() <= pivot.rounding(operations).max(elimination) {
             let mut vector = vec![0.0; n];
             vector[k] = 1.0;
             for i in (0..k).rev() {
-                let sum: f64 = (i + 1..=k).map(|j| a[i * n + j] * vector[j]).sum();
-                vector[i] = -sum / a[i * n + i];
+                let sum: f64 = (i + 1..=k).map(|j| a[i * n + j].value() * vector[j]).sum();
+                vector[i] = -sum / a[i * n + i].value();
             }
             return Some(vector);
         }
         for i in k + 1..n {
-            let factor = a[i * n + k] / a[k * n + k];
-            for j in k..n {
-                a[i * n + j] -= factor * a[k * n + j];
+            let factor = a[k * n + i].with(pivot, |above, pivot| above / pivot);
+            for j in i..n {
+                let share = factor.with(a[k * n + j], |factor, row| factor * row);
+                a[i * n + j] = a[i * n + j].with(share, |entry, share| entry - share);
             }
         }
     }

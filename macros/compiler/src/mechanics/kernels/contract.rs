@@ -1,6 +1,6 @@
 //! The kernels of the runtime's contract: the expressions that each returns, and their order.
 
-use crate::algebra::{Array, Function, Graph, Parameter, cost, substitute};
+use crate::algebra::{Array, Function, Graph, Parameter, substitute};
 use crate::base::ids::ExprId;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::Limits;
@@ -144,10 +144,7 @@ pub(crate) fn kernels(
                 .collect(),
         ),
     ];
-    let motion = (3 * n * n <= limits.motion_linear)
-        .then(|| linear.along_motion(g, s, e))
-        .filter(|roots| cost(g, roots).operations <= limits.motion_linear);
-    if let Some(motion) = motion {
+    if let Some(motion) = linear.along_motion(g, s, e, limits.motion_linear) {
         let before = vec![
             parameter("acceleration", &s.acceleration),
             parameter("velocity", &s.velocity),

@@ -10,6 +10,9 @@ use crate::mechanics::setup::{Context, ForceSelection, at_rest, columns, vanish}
 
 use super::columns::{added, transposed};
 
+/// Number of operations up to which the two ways to the inertial part are compared.
+const COMPARED: usize = 50_000;
+
 /// All first derivatives of the residual at rest: `matrix[j][i]` is the derivative of residual `i` by coordinate `j`.
 pub(crate) struct Jacobians {
     /// `Mhat = dg/dqddot` (eq. 15). It holds at any velocity.
@@ -55,7 +58,8 @@ impl Jacobians {
 
 /// Stiffness and damping due to inertia and weight, with respect to the unknowns instead of the absolute angles. They
 /// are obtained by differentiation, or from the [`Variation`] of the equations if that takes fewer operations, counted
-/// together with the residual and with the mass matrix.
+/// together with the residual and with the mass matrix. The larger a mechanism is, the more surely the walks win: beyond
+/// [`COMPARED`] operations, differentiating only to compare would be most of the work of reading the declaration.
 ///
 /// [`Variation`]: crate::mechanics::inertia::Variation
 fn of_inertia(
@@ -74,37 +78,44 @@ fn of_inertia(
         at_rest(g, s, &roots)
     };
     let all_still = |g: &mut Graph, columns: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
-        columns.iter().map(|column| still(g, column)).collect()
+        let roots = still(g, &columns.concat());
+        let columns = roots.chunks(columns.len().max(1));
+        columns.map(<[_]>::to_vec).collect()
     };
     let rest = still(g, inertial);
-    let stiffness = columns(g, &rest, &runs.position);
-    let damping = columns(g, inertial, &runs.velocity);
-    let damping = all_still(g, &damping);
-    let differentiated = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
-    let Some(known) = &e.variation else {
-        return differentiated;
-    };
-    let [stiffness, damping] =
-        [&known.by_position, &known.by_velocity].map(|matrix| all_still(g, matrix));
-    // equations of outer coordinates are shorter when differentiated by inner ones than the other way round
-    let stiffness = match is_symmetric(g, context, &stiffness) {
-        true => {
-            taken(|| "linearise: symmetric stiffness, transposed".into());
-            transposed(&stiffness)
-        }
-        false => stiffness,
-    };
-    let composed = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
-    let operations = |[stiffness, damping]: &[Vec<Vec<ExprId>>; 2]| {
+    let operations = |g: &Graph, [stiffness, damping]: &[Vec<Vec<ExprId>>; 2]| {
         let with_residual = [&rest[..], &stiffness.concat()].concat();
         let with_mass = [mass.concat(), damping.concat(), stiffness.concat()].concat();
         cost(g, &with_residual).operations + cost(g, &with_mass).operations
     };
-    if operations(&composed) < operations(&differentiated) {
-        taken(|| "linearise: stiffness and damping by variation".into());
-        composed
-    } else {
-        differentiated
+    let composed = e.variation.as_ref().map(|known| {
+        let [stiffness, damping] =
+            [&known.by_position, &known.by_velocity].map(|matrix| all_still(g, matrix));
+        // equations of outer coordinates are shorter when differentiated by inner ones than the other way round
+        let stiffness = match is_symmetric(g, context, &stiffness) {
+            true => {
+                taken(|| "linearise: symmetric stiffness, transposed".into());
+                transposed(&stiffness)
+            }
+            false => stiffness,
+        };
+        let composed = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
+        (operations(g, &composed), composed)
+    });
+    let composed = match composed {
+        Some((operations, composed)) if operations > COMPARED => return composed,
+        other => other,
+    };
+    let stiffness = columns(g, &rest, &runs.position);
+    let damping = columns(g, inertial, &runs.velocity);
+    let damping = all_still(g, &damping);
+    let differentiated = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
+    match composed {
+        Some((fewer, composed)) if fewer < operations(g, &differentiated) => {
+            taken(|| "linearise: stiffness and damping by variation".into());
+            composed
+        }
+        _ => differentiated,
     }
 }
 

@@ -92,10 +92,26 @@ impl Linear {
         [&self.mass[..], &self.damping, &self.stiffness].concat()
     }
 
-    /// All entries of the matrices linearised along any motion. The mass matrix does not depend on the motion, and the
-    /// other two are not symmetric.
-    pub(crate) fn along_motion(&self, g: &mut Graph, s: &Symbols, e: &Equations) -> Vec<ExprId> {
+    /// All entries of the matrices linearised along any motion, unless they take more than `limit` operations. The mass
+    /// matrix does not depend on the motion, and the other two are not symmetric.
+    pub(crate) fn along_motion(
+        &self,
+        g: &mut Graph,
+        s: &Symbols,
+        e: &Equations,
+        limit: usize,
+    ) -> Option<Vec<ExprId>> {
         let n = e.motion.len();
+        let operations = |g: &Graph, roots: &[ExprId]| cost(g, roots).operations;
+        if 3 * n * n > limit {
+            return None;
+        }
+        if let Some(known) = &e.variation {
+            let inertial = [&known.by_velocity, &known.by_position].map(|matrix| matrix.concat());
+            if operations(g, &inertial.concat()) > limit {
+                return None;
+            }
+        }
         let all = |g: &mut Graph, motion: &[ExprId], inertial: Option<&Variation>| {
             let mut roots = self.mass.clone();
             let inertial = inertial.map(|known| [&known.by_velocity, &known.by_position]);
@@ -108,12 +124,15 @@ impl Linear {
             }
             roots
         };
-        let differentiated = all(g, &e.motion, None);
-        let Some(known) = &e.variation else {
-            return differentiated;
-        };
-        let composed = all(g, &e.parts.applied, Some(known));
-        cheaper(g, differentiated, composed)
+        let mut motion = all(g, &e.motion, None);
+        if let Some(known) = &e.variation {
+            let composed = all(g, &e.parts.applied, Some(known));
+            if operations(g, &composed) < operations(g, &motion) {
+                taken(|| "linearise: along a motion by variation".into());
+                motion = composed;
+            }
+        }
+        (operations(g, &motion) <= limit).then_some(motion)
     }
 
     /// The three matrices.
@@ -139,17 +158,6 @@ impl Linear {
             });
         }
         arrays
-    }
-}
-
-/// The cheaper of two equivalent sets of expressions, by number of operations.
-fn cheaper(g: &Graph, one: Vec<ExprId>, other: Vec<ExprId>) -> Vec<ExprId> {
-    let operations = |roots: &[ExprId]| cost(g, roots).operations;
-    if operations(&other) < operations(&one) {
-        taken(|| "linearise: along a motion by variation".into());
-        other
-    } else {
-        one
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tests whether expressions vanish at every state: structurally if the graph shows it, otherwise by evaluation at
 //! random states, at all of which a value must vanish up to rounding.
 
-use crate::algebra::{Evaluation, Graph, evaluate_with_error};
+use crate::algebra::{Disturbed, Evaluator, Graph};
 use crate::base::ids::{ExprId, SymbolId};
 use crate::model::mechanism::CoordinateQuantity;
 
@@ -11,28 +11,47 @@ use super::context::Context;
 const STATES: usize = 4;
 const ATTEMPTS: u64 = 16;
 
-/// Values of `roots` at random states. Returns fewer than [`STATES`] only if the equations are rarely finite.
-pub(crate) fn probe(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<Vec<Evaluation>> {
+/// Values of `roots` at random states, one state after the other: fewer than [`STATES`] only if the equations are rarely
+/// finite.
+pub(crate) fn probe<'a>(
+    evaluator: &'a Evaluator,
+    context: &'a Context,
+) -> impl Iterator<Item = Vec<Disturbed>> + 'a {
     (1..=ATTEMPTS)
-        .map(|seed| evaluate_with_error(g, roots, |symbol| state(context, seed, symbol)))
-        .filter(|values| {
-            values
-                .iter()
-                .all(|v| v.value.is_finite() && v.error.is_finite())
-        })
+        .map(|seed| evaluator.at(seed, |symbol| state(context, seed, symbol)))
+        .filter(|values| values.iter().all(Disturbed::is_finite))
         .take(STATES)
-        .collect()
 }
 
 /// Whether each root vanishes at every probed state.
 pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool> {
-    let probes = probe(g, context, roots);
-    (0..roots.len())
-        .map(|k| {
-            g.is(roots[k], 0.0)
-                || (!probes.is_empty() && probes.iter().all(|values| values[k].is_negligible()))
-        })
-        .collect()
+    let mut zero: Vec<bool> = roots.iter().map(|&root| g.is(root, 0.0)).collect();
+    let mut open: Vec<usize> = (0..roots.len()).filter(|&k| !zero[k]).collect();
+    let (mut states, mut seeds) = (0, 1..=ATTEMPTS);
+    while states < STATES && !open.is_empty() && !seeds.is_empty() {
+        let rest: Vec<ExprId> = open.iter().map(|&k| roots[k]).collect();
+        let evaluator = Evaluator::new(g, &rest);
+        for seed in seeds.by_ref() {
+            let values = evaluator.at(seed, |symbol| state(context, seed, symbol));
+            if !values.iter().all(Disturbed::is_finite) {
+                continue;
+            }
+            states += 1;
+            let mut values = values.iter();
+            open.retain(|_| {
+                values
+                    .next()
+                    .is_some_and(|v| v.is_rounding(evaluator.operations()))
+            });
+            if states == STATES || open.len() < rest.len() {
+                break;
+            }
+        }
+    }
+    if states > 0 {
+        open.into_iter().for_each(|k| zero[k] = true);
+    }
+    zero
 }
 
 /// A symbol's value in random state number `seed`: design variables near their nominal values, everything else of the

@@ -1,0 +1,99 @@
+//! The nodes below some roots.
+
+use super::graph::Graph;
+use super::node::Node;
+use crate::base::ids::ExprId;
+
+/// Some nodes of a graph, operands first, and the place of each among them. What is known about these nodes is stored
+/// by place, so that work on part of a large graph needs room for this part only.
+pub struct Reached {
+    nodes: Vec<ExprId>,
+    /// One bit for each node of the graph, and how many are set before each word.
+    bits: Vec<u64>,
+    before: Vec<u32>,
+}
+
+impl Reached {
+    /// The nodes needed to evaluate `roots`, themselves included.
+    pub fn below(graph: &Graph, roots: &[ExprId]) -> Self {
+        Self::through(graph, roots, |_| true)
+    }
+
+    /// Of the nodes needed to evaluate `roots`, those that may depend on a symbol of `mask`.
+    pub(super) fn dependent(graph: &Graph, roots: &[ExprId], mask: u128) -> Self {
+        Self::through(graph, roots, |id| graph.may_depend(id, mask))
+    }
+
+    /// The nodes reached from `roots` through `wanted` nodes only.
+    fn through(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) -> Self {
+        let mut bits = vec![0_u64; graph.len() / 64 + 1];
+        let mut nodes = Vec::new();
+        let mut visit = |nodes: &mut Vec<ExprId>, id: ExprId| {
+            let (word, bit) = (id.index() / 64, 1 << (id.index() % 64));
+            if bits[word] & bit == 0 && wanted(id) {
+                bits[word] |= bit;
+                nodes.push(id);
+            }
+        };
+        for &root in roots {
+            visit(&mut nodes, root);
+        }
+        let mut next = 0;
+        while let Some(&id) = nodes.get(next) {
+            next += 1;
+            match graph.node(id) {
+                Node::Constant(_) | Node::Symbol(_) => {}
+                Node::Unary(_, a) => visit(&mut nodes, a),
+                Node::Binary(_, a, b) => {
+                    visit(&mut nodes, a);
+                    visit(&mut nodes, b);
+                }
+            }
+        }
+        Self::in_order(bits, nodes)
+    }
+
+    /// Puts `nodes` in order of ids, for each of which a bit is set. Sorting would take a fifth of the macro's time if
+    /// it is compiled without optimisation.
+    fn in_order(bits: Vec<u64>, mut nodes: Vec<ExprId>) -> Self {
+        let mut before = Vec::with_capacity(bits.len());
+        let mut next = 0;
+        for (word, &set) in bits.iter().enumerate() {
+            before.push(next as u32);
+            let mut rest = set;
+            while rest != 0 {
+                nodes[next] = ExprId::new(word * 64 + rest.trailing_zeros() as usize);
+                next += 1;
+                rest &= rest - 1;
+            }
+        }
+        Self {
+            nodes,
+            bits,
+            before,
+        }
+    }
+
+    /// The nodes, operands first.
+    pub fn nodes(&self) -> &[ExprId] {
+        &self.nodes
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there is no node.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The place of a node; `None` if it is not one of them.
+    pub fn place(&self, id: ExprId) -> Option<usize> {
+        let (word, bit) = (id.index() / 64, id.index() % 64);
+        let set = self.bits.get(word)? >> bit;
+        let earlier = self.bits[word] & ((1 << bit) - 1);
+        (set & 1 == 1).then(|| self.before[word] as usize + earlier.count_ones() as usize)
+    }
+}
