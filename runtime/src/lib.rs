@@ -100,7 +100,11 @@ pub mod equilibrium;
 #[cfg(feature = "std")]
 pub mod error;
 #[cfg(feature = "std")]
+pub mod judge;
+#[cfg(feature = "std")]
 pub mod kernels;
+#[cfg(feature = "std")]
+mod limits;
 #[cfg(feature = "std")]
 pub mod modes;
 #[cfg(feature = "std")]

@@ -43,7 +43,7 @@ const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
 /// The rooms of the runtime, in order: each may import the earlier ones. The first seventeen are the core: contract,
 /// equilibrium, modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 32] = [
+const RUNTIME: [&str; 34] = [
     "setters",
     "algebra",
     "scalar",
@@ -67,6 +67,8 @@ const RUNTIME: [&str; 32] = [
     "response",
     "shapes",
     "clusters",
+    "limits",
+    "judge",
     "second_order",
     "propagation",
     "requirement",

@@ -8,4 +8,5 @@ mod tolerance;
 pub use couplings::{ModalCouplings, modal_couplings};
 pub use directional::{DirectionalDerivatives, directional_derivatives};
 pub use sampling::{ClusterSampling, ClusterSpread, MemberSpread, SortedSpread, sample_cluster};
+pub(crate) use tolerance::groups;
 pub use tolerance::{ClusterTolerance, MeanEigenvalue, clusters};

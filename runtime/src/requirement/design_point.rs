@@ -2,10 +2,9 @@
 
 use eigentol_statistics::reliability::{self, FormSensitivity, LimitState, sorm};
 
-use super::deviations::Deviations;
-use super::limit::LimitAt;
 use crate::Error;
 use crate::algebra::Vector;
+use crate::limits::{Deviations, LimitAt};
 
 /// Distance on either side of a design point at which the limit is checked, in standard deviations.
 const STEP: f64 = 1e-3;

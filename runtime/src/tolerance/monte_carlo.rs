@@ -199,6 +199,7 @@ fn gathered(
         part: parts.pop().unwrap_or_else(|| Partial::new(plan)),
         kept: sampling.keep_samples.then_some(kept),
         side_by_side,
+        varies: tolerances.vary(),
         clustered: clusters(modes, CLUSTER_GAP).contains(&true),
         family: modes.family,
         inputs: nominal.inputs.clone(),

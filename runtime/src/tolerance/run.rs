@@ -18,7 +18,7 @@ pub(crate) struct Format;
 
 #[cfg(feature = "serde")]
 impl Format {
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 }
 
 #[cfg(feature = "serde")]
