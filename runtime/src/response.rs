@@ -2,15 +2,17 @@
 //! input, with exact total derivatives.
 
 use crate::algebra::Vector;
+use crate::clusters::common_slopes;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::modes::Family;
 use crate::scalar::Instructions;
-use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
+use crate::sensitivity::{Quantity, eigenvalue_slope, output_sensitivities, sensitivities};
 use crate::sweep::{
     Condition, CriticalState, Crossing, Following, Range, critical_sensitivity, critical_state,
     crossing_sensitivity, first_crossing,
 };
 use crate::tolerance::{Outcome, Solution};
-use crate::{Equilibrium, Error, Modes, Output, Watch};
+use crate::{Complex, Equilibrium, Error, Modes, Output, Watch};
 
 /// A scalar that depends on the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +64,7 @@ pub struct Realisation {
     /// stable an equilibrium is, exist at an unstable one too.
     pub values: Vec<Option<f64>>,
     /// Total derivatives with respect to the design variables, if requested; `None` where they do not exist, as for one
-    /// of several equal eigenvalues.
+    /// of several equal eigenvalues that a variable splits.
     pub gradients: Vec<Option<Vector>>,
 }
 
@@ -278,8 +280,11 @@ impl<'a> Responses<'a> {
                     let place = solved.place(*mode);
                     let gradient = slopes.and(place).and_then(|place| {
                         let all = own.of_modes(self.mechanism, solved)?;
-                        let own = all.modes.get(place).filter(|own| !own.clustered)?;
-                        Some(own.of(*quantity)?.by_design)
+                        let own = all.modes.get(place)?;
+                        match own.clustered {
+                            false => Some(own.of(*quantity)?.by_design),
+                            true => self.common_gradient(solved, place, *quantity),
+                        }
                     });
                     (value, gradient)
                 }
@@ -303,6 +308,24 @@ impl<'a> Responses<'a> {
             }
         }
         Ok(found)
+    }
+
+    /// Derivatives of a quantity of one of several equal modes, if no variable splits them.
+    fn common_gradient(
+        &self,
+        solved: &Solution,
+        place: usize,
+        quantity: Quantity,
+    ) -> Option<Vector> {
+        let modes = solved.modes();
+        let slopes = common_slopes(self.mechanism, &solved.state, modes, place)?;
+        let s = modes.modes.get(place)?.s;
+        let slope = |own: &Complex| match modes.family {
+            Family::Undamped => eigenvalue_slope(s, own.re),
+            Family::General => *own,
+        };
+        let each = slopes.iter().map(|own| quantity.slope(s, slope(own)));
+        (s != Complex::ZERO).then(|| each.collect())
     }
 
     pub(crate) fn critical_state(&self, design: &[f64], range: Range) -> Option<CriticalState> {

@@ -64,9 +64,9 @@ const RUNTIME: [&str; 34] = [
     // beyond the core
     "branches",
     "sweep",
-    "response",
     "shapes",
     "clusters",
+    "response",
     "limits",
     "judge",
     "second_order",

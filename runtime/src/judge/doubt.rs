@@ -110,3 +110,26 @@ pub enum Doubt {
         reason: Error,
     },
 }
+
+/// A critical state so near that first order exceeds the spread that the frequency can have: the first-order variance is
+/// `sigma^2 / (4 lambda)`, the true one at most the mean of `|lambda|`, several times over on another branch.
+const UPON_CRITICAL: f64 = 0.1;
+
+impl Doubt {
+    /// Whether it shows that there is no such standard deviation, or that it is wrong. Distances to other states only
+    /// warn.
+    #[must_use]
+    pub fn certain(&self) -> bool {
+        match self {
+            Self::NearCritical { distance } => *distance < UPON_CRITICAL,
+            Self::BranchNear { distance, .. } | Self::NearInstability { distance } => {
+                *distance <= 0.0
+            }
+            Self::NearCriticalDamping { .. }
+            | Self::NearNeighbour { .. }
+            | Self::Unchecked { .. }
+            | Self::Unrepresentative { .. } => false,
+            _ => true,
+        }
+    }
+}

@@ -65,6 +65,17 @@ impl Judged {
         (claimed - lower).abs().max((claimed - upper).abs())
     }
 
+    /// Whether a claimed probability is within [`TRUSTED_PROBABILITY_ERROR`] of one in the interval.
+    #[must_use]
+    pub fn agrees(&self, claimed: f64) -> bool {
+        let Interval { lower, upper } = self.interval();
+        let (least, most) = (
+            1.0 - TRUSTED_PROBABILITY_ERROR,
+            1.0 + TRUSTED_PROBABILITY_ERROR,
+        );
+        self.settled && (least * lower..=most * upper).contains(&claimed)
+    }
+
     /// Whether a claimed probability is within [`TRUSTED_PROBABILITY_ERROR`] of the true one.
     #[must_use]
     pub fn confirms(&self, claimed: f64) -> bool {
@@ -113,6 +124,12 @@ impl Judgement {
             Self::Judged(found) => Some(found),
             Self::Open(_) => None,
         }
+    }
+
+    /// Whether designs were solved anew and agree with a claimed probability ([`Judged::agrees`]).
+    #[must_use]
+    pub fn agrees(&self, claimed: f64) -> bool {
+        self.judged().is_some_and(|own| own.agrees(claimed))
     }
 
     /// Whether a claimed probability was confirmed ([`Judged::confirms`]).

@@ -8,29 +8,45 @@ use crate::judge::Doubt;
 use crate::tolerance::TRUSTED_DISTANCE;
 
 /// Each doubt once, with all the modes that share it; one list of doubts for each mode.
-pub(super) fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
-    let mut said: Vec<&Doubt> = Vec::new();
-    for doubt in all.iter().flat_map(AsRef::as_ref) {
-        if !said.contains(&doubt) {
-            said.push(doubt);
+fn shared(all: &[impl AsRef<[Doubt]>]) -> Vec<(Vec<usize>, &Doubt)> {
+    let mut said: Vec<(Vec<usize>, &Doubt)> = Vec::new();
+    for (mode, own) in all.iter().enumerate() {
+        for doubt in own.as_ref() {
+            let of_one = matches!(doubt, Doubt::EqualNeighbours | Doubt::NearNeighbour { .. });
+            match said
+                .iter_mut()
+                .find(|(_, other)| !of_one && *other == doubt)
+            {
+                Some((modes, _)) => modes.push(mode),
+                None => said.push((vec![mode], doubt)),
+            }
         }
     }
-    let sentence = |doubt: &Doubt| {
-        let shares = all.iter().enumerate();
-        let shares = shares.filter(|(_, own)| own.as_ref().contains(doubt));
-        let modes: Vec<usize> = shares.map(|(mode, _)| mode).collect();
-        format!("{}: {doubt}", capital(named(&modes)))
-    };
-    said.into_iter().map(sentence).collect()
+    said
+}
+
+/// Each doubt in a sentence, with all the modes that share it.
+pub(super) fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
+    let sentence =
+        |(modes, doubt): &(Vec<usize>, &Doubt)| format!("{}: {doubt}", capital(named(modes)));
+    shared(all).iter().map(sentence).collect()
 }
 
 /// Writes the doubts of a result that only distances judge, and who judges better.
 pub(super) fn doubted(f: &mut fmt::Formatter<'_>, all: &[impl AsRef<[Doubt]>]) -> fmt::Result {
-    for sentence in doubt_sentences(all) {
-        writeln!(f, "  {sentence}")?;
+    let mut open = false;
+    for (modes, doubt) in shared(all) {
+        let names = named(&modes);
+        match doubt {
+            Doubt::NoFrequency => writeln!(f, "  {}: {doubt}", capital(names))?,
+            _ if doubt.certain() => writeln!(f, "  Not to be trusted for {names}: {doubt}")?,
+            _ => {
+                open = true;
+                writeln!(f, "  Doubtful for {names}: {doubt}")?;
+            }
+        }
     }
-    let open = |own: &[Doubt]| !own.is_empty() && !own.contains(&Doubt::NoFrequency);
-    match all.iter().any(|own| open(own.as_ref())) {
+    match open {
         true => writeln!(
             f,
             "  Distances do not tell how large an error is: `summary` compares sigma with samples."

@@ -53,6 +53,25 @@ impl LimitReliability {
             && (self.design_points.iter().flatten()).all(|point| point.verified)
     }
 
+    /// Second-order failure probability, summed as [`Self::probability`]; `None` if a design point has none.
+    #[must_use]
+    pub fn second_order(&self) -> Option<f64> {
+        let points = self.design_points.as_ref().ok()?;
+        let first = points.first()?;
+        if first.beta() < 0.0 {
+            return first.second_order;
+        }
+        let parts = points.iter().map(|point| point.second_order);
+        parts.sum::<Option<f64>>().map(|sum| sum.min(1.0))
+    }
+
+    /// Whether designs solved anew do not refute what the design points say: the failure probability to second order,
+    /// or to first where there is no second.
+    fn described(&self) -> bool {
+        let claimed = self.second_order().or(self.probability());
+        claimed.is_some_and(|claimed| self.judgement.agrees(claimed))
+    }
+
     /// Whether there are no design points because no design within reach fails.
     #[must_use]
     pub fn out_of_reach(&self) -> bool {
@@ -283,9 +302,9 @@ pub(crate) fn judge(
             (limit.edge).distance_of(found.outcome, limit.response, value)
         };
         own.judgement = Event::new(responses, deviations, &distance).judge(&lines)?;
-        let verified = own.verified();
+        let described = own.described();
         for point in own.design_points.iter_mut().flatten() {
-            point.verified = verified;
+            point.verified &= described;
         }
         all.directions.extend(lines.directions);
         all.expected = all.expected.max(lines.expected);

@@ -15,6 +15,8 @@ use crate::{Description, Error, Shared};
 /// The fingerprint facts that identify the random numbers.
 pub(super) const SEED: &str = "seed";
 pub(super) const STREAM: &str = "stream";
+/// The one that tells how many variables have a tolerance.
+pub(super) const VARIABLES: &str = "variables with a tolerance";
 
 /// Part of the samples of a Monte Carlo run. Parts of a run merge to the same bits as the whole, however it was split.
 ///
@@ -33,7 +35,6 @@ pub struct PartialMonteCarlo {
     pub(super) part: Partial,
     pub(super) kept: Option<Vec<Numbered>>,
     pub(super) side_by_side: bool,
-    pub(super) varies: bool,
     pub(super) clustered: bool,
     pub(super) family: Family,
     pub(super) inputs: Vector,
@@ -129,6 +130,7 @@ impl PartialMonteCarlo {
 
     pub(super) fn into_result(self) -> MonteCarlo {
         let (seed, stream) = self.sequence().unwrap_or_default();
+        let varies = self.run.fingerprint.number(VARIABLES) != Some(0);
         let ranges = self.ranges();
         let outcomes = self.part.outcomes();
         let counts = Counts::of_all(outcomes);
@@ -151,7 +153,7 @@ impl PartialMonteCarlo {
             modes,
             damping_ratios,
             side_by_side: self.side_by_side,
-            varies: self.varies,
+            varies,
             clustered: self.clustered,
             all: (self.kept).map(|kept| kept.into_iter().map(|(_, sample)| sample).collect()),
             family: self.family,
@@ -171,7 +173,6 @@ struct Unchecked {
     part: Partial,
     kept: Option<Vec<Numbered>>,
     side_by_side: bool,
-    varies: bool,
     clustered: bool,
     family: Family,
     inputs: Vector,
@@ -189,7 +190,6 @@ impl TryFrom<Unchecked> for PartialMonteCarlo {
             part: read.part,
             kept: read.kept,
             side_by_side: read.side_by_side,
-            varies: read.varies,
             clustered: read.clustered,
             family: read.family,
             inputs: read.inputs,

@@ -18,7 +18,7 @@ pub(crate) struct Format;
 
 #[cfg(feature = "serde")]
 impl Format {
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 1;
 }
 
 #[cfg(feature = "serde")]
