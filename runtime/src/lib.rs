@@ -102,7 +102,11 @@ pub mod error;
 #[cfg(feature = "std")]
 mod free;
 #[cfg(feature = "std")]
+pub mod judge;
+#[cfg(feature = "std")]
 pub mod kernels;
+#[cfg(feature = "std")]
+mod limits;
 #[cfg(feature = "std")]
 pub mod modes;
 #[cfg(feature = "std")]

@@ -2,22 +2,25 @@
 //! input, with exact total derivatives.
 
 use crate::algebra::Vector;
+use crate::clusters::common_slopes;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::modes::Family;
 use crate::scalar::Instructions;
-use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
+use crate::sensitivity::{Quantity, eigenvalue_slope, output_sensitivities, sensitivities};
 use crate::sweep::{
     Condition, CriticalState, Crossing, Following, Range, critical_sensitivity, critical_state,
     crossing_sensitivity, first_crossing,
 };
 use crate::tolerance::{Outcome, Solution};
-use crate::{Equilibrium, Error, Modes, Output, Watch};
+use crate::{Complex, Equilibrium, Error, Modes, Output, Watch};
 
 /// A scalar that depends on the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Response {
-    /// A quantity of a nominal mode, counted from 0: frequencies in rad/s, growth in 1/s.
+    /// A quantity of a nominal mode, counted from 0: frequencies in rad/s, growth in 1/s. Modes with equal nominal
+    /// eigenvalues have no identity but their order: the first of them is the lowest in every design.
     Mode {
         /// Position of the nominal mode, from 0.
         mode: usize,
@@ -42,6 +45,13 @@ pub enum Response {
     },
 }
 
+impl Response {
+    /// Whether it describes the state at the operating point: a mode or an output, which only a stable equilibrium has.
+    pub(crate) fn of_state(self) -> bool {
+        matches!(self, Self::Mode { .. } | Self::Output(_))
+    }
+}
+
 /// The responses at one design.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -50,9 +60,11 @@ pub struct Realisation {
     /// The outcome at the operating point.
     pub outcome: Outcome,
     /// The responses in the order requested. `None` where a response does not exist: the mode does not oscillate, the
-    /// design has no stable equilibrium, or the range has no critical value.
+    /// design has no stable equilibrium, or the range has no critical value. Growth and damping ratio, which say how
+    /// stable an equilibrium is, exist at an unstable one too.
     pub values: Vec<Option<f64>>,
-    /// Total derivatives with respect to the design variables, if requested; `None` where they do not exist.
+    /// Total derivatives with respect to the design variables, if requested; `None` where they do not exist, as for one
+    /// of several equal eigenvalues that a variable splits.
     pub gradients: Vec<Option<Vector>>,
 }
 
@@ -178,6 +190,15 @@ impl<'a> Responses<'a> {
         &self.wanted
     }
 
+    /// Equilibrium solutions needed for one design.
+    pub(crate) fn price(&self) -> u64 {
+        let steps = self.wanted.iter().map(|response| match response {
+            Response::Critical(range) | Response::Crossing { range, .. } => range.steps as u64,
+            Response::Mode { .. } | Response::Output(_) => 0,
+        });
+        steps.fold(1, u64::saturating_add)
+    }
+
     /// The nominal equilibrium, about which responses are evaluated.
     pub(crate) fn nominal(&self) -> &'a Equilibrium {
         self.nominal
@@ -229,6 +250,7 @@ impl<'a> Responses<'a> {
         self.counted()?;
         solved.solve(self.mechanism, self.nominal, self.modes, design);
         let stable = solved.outcome == Outcome::Stable;
+        let unstable = matches!(solved.outcome, Outcome::Divergent | Outcome::Flutter);
         let mut found = Realisation {
             outcome: solved.outcome,
             values: Vec::with_capacity(self.wanted.len()),
@@ -251,14 +273,18 @@ impl<'a> Responses<'a> {
                         asked.and_then(|state| crossing_sensitivity(self.mechanism, state).ok());
                     (state.map(|state| state.value), gradient)
                 }
-                _ if !stable => (None, None),
+                _ if !stable && !(unstable && tells_stability(response)) => (None, None),
                 Response::Mode { mode, quantity } => {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
                     let slopes = value.filter(|_| slopes);
                     let place = solved.place(*mode);
                     let gradient = slopes.and(place).and_then(|place| {
                         let all = own.of_modes(self.mechanism, solved)?;
-                        Some(all.modes.get(place)?.of(*quantity)?.by_design)
+                        let own = all.modes.get(place)?;
+                        match own.clustered {
+                            false => Some(own.of(*quantity)?.by_design),
+                            true => self.common_gradient(solved, place, *quantity),
+                        }
                     });
                     (value, gradient)
                 }
@@ -282,6 +308,24 @@ impl<'a> Responses<'a> {
             }
         }
         Ok(found)
+    }
+
+    /// Derivatives of a quantity of one of several equal modes, if no variable splits them.
+    fn common_gradient(
+        &self,
+        solved: &Solution,
+        place: usize,
+        quantity: Quantity,
+    ) -> Option<Vector> {
+        let modes = solved.modes();
+        let slopes = common_slopes(self.mechanism, &solved.state, modes, place)?;
+        let s = modes.modes.get(place)?.s;
+        let slope = |own: &Complex| match modes.family {
+            Family::Undamped => eigenvalue_slope(s, own.re),
+            Family::General => *own,
+        };
+        let each = slopes.iter().map(|own| quantity.slope(s, slope(own)));
+        (s != Complex::ZERO).then(|| each.collect())
     }
 
     pub(crate) fn critical_state(&self, design: &[f64], range: Range) -> Option<CriticalState> {
@@ -315,6 +359,14 @@ impl<'a> Responses<'a> {
         .ok()
         .flatten()
     }
+}
+
+/// Whether a response says how stable an equilibrium is: it exists at an unstable one too.
+fn tells_stability(response: &Response) -> bool {
+    let Response::Mode { quantity, .. } = response else {
+        return false;
+    };
+    matches!(quantity, Quantity::DampingRatio | Quantity::Growth)
 }
 
 fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {

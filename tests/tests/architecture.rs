@@ -43,7 +43,7 @@ const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
 /// The rooms of the runtime, in order: each may import the earlier ones. The first eighteen are the core: contract,
 /// equilibrium, modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 33] = [
+const RUNTIME: [&str; 35] = [
     "setters",
     "algebra",
     "scalar",
@@ -65,9 +65,11 @@ const RUNTIME: [&str; 33] = [
     // beyond the core
     "branches",
     "sweep",
-    "response",
     "shapes",
     "clusters",
+    "response",
+    "limits",
+    "judge",
     "second_order",
     "propagation",
     "requirement",

@@ -5,9 +5,8 @@ use eigentol_statistics::normal;
 use eigentol_statistics::reliability::{DesignPoint, failure_regions};
 
 use super::choices::Choices;
-use crate::requirement::{
-    Deviations, FormSettings, Limit, LimitAt, Requirements, out_of_reach, slopes_at,
-};
+use crate::limits::{Deviations, LimitAt};
+use crate::requirement::{FormSettings, Limit, Requirements, out_of_reach, slopes_at};
 use crate::{Error, Vector};
 
 /// Cost and reliability at one choice.

@@ -8,7 +8,7 @@ use slsqp::{Func, StopTols, minimize};
 use super::choices::Choices;
 use super::problem::{Evaluated, Problem, Reached, Search};
 use crate::requirement::{
-    Chances, FormSettings, Reliability, Requirements, chances_of, check, reliability_of,
+    Chances, FormSettings, Reliability, Requirements, chances_of, check, judge, reliability_of,
 };
 use crate::tolerance::Sampling;
 use crate::{Description, Error, Shared, Vector, Watch};
@@ -114,6 +114,7 @@ pub fn allocate(
         });
     }
     let moved = deviations.moved(&nominal, &half_widths);
+    judge(requirements, &moved, 0, &mut reliability)?;
     let chances = chances_of(requirements, &moved, sampling)?;
     let mut refuted = Vec::new();
     for (k, (tally, allowed)) in chances.each.iter().zip(&choices.failure).enumerate() {

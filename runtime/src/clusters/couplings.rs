@@ -2,7 +2,7 @@
 //! (nearly) equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997,
 //! Dailey 1989).
 
-use crate::algebra::{Matrix, dot_complex, times_complex};
+use crate::algebra::{Matrix, Vector, dot_complex, times_complex};
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, pencil_times};
 use crate::sensitivity::{check_modes, directions, normaliser};
@@ -85,6 +85,37 @@ impl ModalCouplings {
             by_design: self.by_design.iter().map(minor).collect(),
         }
     }
+}
+
+/// Elements of couplings below this, relative to the largest or to what the whole variable could change, are rounding.
+const ROUNDING: f64 = 1e-8;
+
+/// Derivatives with respect to the design variables of the eigenvalue of a mode with equal neighbours, where they
+/// exist: where no variable splits them, because its couplings are a multiple of the identity.
+pub(crate) fn common_slopes(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    mode: usize,
+) -> Option<Vector<Complex>> {
+    let couplings = modal_couplings(mechanism, at, modes, &modes.cluster_of(mode)).ok()?;
+    let size = couplings.mean().norm();
+    let splits = |(matrix, variable): (&Matrix<Complex>, &f64)| {
+        let elements = matrix.as_flattened().iter();
+        let largest = elements.fold(0.0_f64, |most, own| most.max(own.norm()));
+        let rounding = ROUNDING * largest.max(size / variable.abs());
+        let common = couplings.trace(matrix);
+        let count = couplings.modes.len();
+        let off = |i: usize, j: usize| {
+            let wanted = if i == j { common } else { Complex::ZERO };
+            (matrix[i][j] - wanted).norm()
+        };
+        // A value that is not a number splits them too.
+        !(0..count).all(|i| (0..count).all(|j| off(i, j) <= rounding))
+    };
+    let all = couplings.by_design.iter().zip(&at.design);
+    let slopes = Vector::from(couplings.mean_by_design());
+    (!all.into_iter().any(splits)).then_some(slopes)
 }
 
 /// The couplings among the modes at `positions`, including the shift of the equilibrium.

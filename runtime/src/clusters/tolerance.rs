@@ -92,10 +92,39 @@ pub fn clusters(
     modes: &Modes,
     tolerances: &Tolerances,
 ) -> Result<Vec<ClusterTolerance>, Error> {
+    let Some((couplings, groups)) = grouped(mechanism, at, modes, tolerances)? else {
+        return Ok(Vec::new());
+    };
+    let each = groups.iter();
+    Ok(each
+        .map(|group| tolerance(&couplings.among(group), modes, tolerances))
+        .collect())
+}
+
+/// The positions of the modes of each cluster, as [`clusters`] finds them.
+pub(crate) fn groups(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> Result<Vec<Vec<usize>>, Error> {
+    let found = grouped(mechanism, at, modes, tolerances)?;
+    Ok(found.map_or_else(Vec::new, |(_, groups)| groups))
+}
+
+type Grouped = (ModalCouplings, Vec<Vec<usize>>);
+
+/// The couplings of all modes and the clusters among them; `None` if there cannot be any.
+fn grouped(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> Result<Option<Grouped>, Error> {
     tolerances.check_count(at.design.len())?;
     let count = modes.modes.len();
     if count == 0 || count == 1 && !merged(modes, 0) {
-        return Ok(Vec::new());
+        return Ok(None);
     }
     let all: Vec<usize> = (0..count).collect();
     let couplings = modal_couplings(mechanism, at, modes, &all)?;
@@ -114,10 +143,8 @@ pub fn clusters(
     let members = |first| (0..count).filter(|&i| label[i] == first).collect();
     let wanted =
         |group: &Vec<usize>| group.len() > 1 || group.iter().any(|&mode| merged(modes, mode));
-    let groups = (0..count).map(members).filter(wanted);
-    Ok(groups
-        .map(|group| tolerance(&couplings.among(&group), modes, tolerances))
-        .collect())
+    let groups = (0..count).map(members).filter(wanted).collect();
+    Ok(Some((couplings, groups)))
 }
 
 /// The effects that change the difference of two modes.

@@ -2,6 +2,7 @@
 
 mod acceptance;
 mod assembly;
+mod branch;
 mod constraint_projection;
 mod convergence;
 mod descent;
@@ -23,6 +24,7 @@ mod turns;
 pub use assembly::{Assembly, AssemblyMode, assemble};
 pub use multistart::{Equilibria, Search, find_equilibria};
 
+pub(crate) use branch::Branch;
 pub(crate) use convergence::{
     ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,
 };

@@ -215,6 +215,34 @@ pub(crate) fn merged(modes: &Modes, r: usize) -> bool {
     !own.condition.is_finite() || gaps.chain(conjugate).any(|gap| gap <= own.error)
 }
 
+/// The groups of equal eigenvalues, each with the positions of its modes, ascending. The shapes in a group are an
+/// arbitrary basis, so its modes have no identity but their order.
+pub(crate) fn equal_groups(modes: &Modes) -> Vec<Vec<usize>> {
+    let all = 0..modes.modes.len();
+    let groups = all.filter_map(|r| {
+        let group = modes.cluster_of(r);
+        (group.len() > 1 && group.first() == Some(&r)).then_some(group)
+    });
+    groups.collect()
+}
+
+/// Puts what continues a group of equal modes in ascending order of `size`, by exchanging it with `swap`.
+#[inline]
+pub(crate) fn in_order<T>(
+    group: &[usize],
+    all: &mut T,
+    size: impl Fn(&T, usize) -> f64,
+    swap: impl Fn(&mut T, usize, usize),
+) {
+    for (k, &r) in group.iter().enumerate() {
+        for &before in &group[..k] {
+            if size(all, r) < size(all, before) {
+                swap(all, r, before);
+            }
+        }
+    }
+}
+
 /// Marks the modes whose eigenvalue (`lambda` for undamped modes, `s` for general ones) lies within `gap` of another
 /// one, relative to the larger of the two.
 ///

@@ -16,7 +16,8 @@ mod pencil;
 mod whirl;
 
 pub(crate) use assurance::{
-    EIGENVALUE_SHARE, match_with_assurance, merged, near, near_another, position,
+    EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another,
+    position,
 };
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use constrained::{Normalisation, free_pairs};

@@ -8,7 +8,7 @@ use super::space::Space;
 use super::taylor::{first_order, second_order};
 use crate::Error;
 use crate::kernels::CurvatureKernels;
-use crate::response::{Response, Responses};
+use crate::response::Responses;
 use crate::setters::setters;
 use crate::tolerance::Tolerances;
 
@@ -93,9 +93,9 @@ pub fn propagate(
     };
     if dimensions == 0 {
         let found = first_order(mechanism, responses, tolerances);
-        return with(found, "nothing varies".to_owned());
+        return with(found, "no tolerance is declared".to_owned());
     }
-    let price = price(responses.wanted());
+    let price = responses.price();
     let affordable = effort.solutions / price;
     let sample = |samples: u64, reason: String| {
         let sampler = Sampler::new(Points::Sobol)
@@ -151,13 +151,4 @@ pub fn propagate(
     }
     let reason = format!("{dear}, so would quadrature, and a response has no second derivatives");
     with(first_order(mechanism, responses, tolerances), reason)
-}
-
-/// Equilibrium solutions needed for one design.
-fn price(wanted: &[Response]) -> u64 {
-    let steps = wanted.iter().map(|response| match response {
-        Response::Critical(range) | Response::Crossing { range, .. } => range.steps as u64,
-        Response::Mode { .. } | Response::Output(_) => 0,
-    });
-    steps.fold(1, u64::saturating_add)
 }

@@ -78,7 +78,10 @@ impl fmt::Display for MarginTable<'_> {
             "to band [sigma]".to_owned(),
             "first order".to_owned(),
             "second order".to_owned(),
-            "integration error".to_owned(),
+            match margin.corrected.model_error {
+                None => "integration error".to_owned(),
+                Some(_) => "error of second order".to_owned(),
+            },
         ]);
         table.row(vec![
             in_unit(margin.value, unit),
@@ -86,7 +89,7 @@ impl fmt::Display for MarginTable<'_> {
             far(margin.distance),
             chance(margin.first_order, 0.0),
             chance(margin.corrected.value, margin.corrected.error),
-            format!("{:.0e}", margin.corrected.error),
+            format!("{:.1e}", margin.corrected.error),
         ]);
         write!(f, "{table}")?;
         let Some(slopes) = &margin.derivatives else {

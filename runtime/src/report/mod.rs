@@ -7,9 +7,12 @@
 mod allocation;
 mod branches;
 mod campbell;
+mod doubts;
 mod equilibrium;
+mod judgement;
 mod margin;
 mod modes;
+mod naming;
 mod numbers;
 mod propagation;
 mod relevance;

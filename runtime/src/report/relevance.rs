@@ -25,6 +25,9 @@ const NAMED: usize = 6;
 /// Maximum number of columns of one kind; if there are more, a single column names the largest.
 pub(super) const COLUMNS: usize = 6;
 
+/// Says why nothing spreads.
+pub(super) const NOTHING_VARIES: &str = "No tolerance is declared, so nothing varies.";
+
 /// Whether a value matters compared to the largest.
 pub(super) fn relevant(value: f64, largest: f64) -> bool {
     value.abs() >= RELEVANT * largest.abs() && value != 0.0

@@ -2,9 +2,10 @@
 
 use core::fmt;
 
+use super::judgement::verdict;
 use super::margin::chance;
 use super::numbers::{counted, given_in, heading, in_unit, or_dash, rough, short, with_unit};
-use super::relevance::{BELOW, names, relevant};
+use super::relevance::{BELOW, NOTHING_VARIES, names, relevant};
 use super::table::{Table, cells};
 use super::title::title;
 use crate::Description;
@@ -40,6 +41,9 @@ impl fmt::Display for Chances {
         }
         table.row(row("all".to_owned(), &self.all));
         write!(f, "{table}")?;
+        if !self.varies {
+            writeln!(f, "  {NOTHING_VARIES}")?;
+        }
         if self.each.iter().any(|tally| tally.untold > 0) {
             writeln!(
                 f,
@@ -89,6 +93,13 @@ impl fmt::Display for Reliability {
                 chance(system.bounds.upper, 0.0)
             )?;
         }
+        if self.limits.len() + self.left_out.len() > 1 {
+            writeln!(
+                f,
+                "  At least one requirement fails, designs solved anew: {}.",
+                self.judgement
+            )?;
+        }
         Ok(())
     }
 }
@@ -101,26 +112,36 @@ fn limit(f: &mut fmt::Formatter<'_>, own: &LimitReliability, d: &Description) ->
         text(&own.limit, d)
     )?;
     match &own.design_points {
-        Err(error) => writeln!(f, ": {error}."),
-        Ok(points) => {
-            writeln!(f)?;
-            points.iter().try_for_each(|at| point(f, at, d))
-        }
+        Err(error) => writeln!(f, ": {error}.")?,
+        Ok(_) => writeln!(f)?,
     }
+    writeln!(
+        f,
+        "  Designs solved anew: probability of failure {}.",
+        own.judgement
+    )?;
+    let verdict = own
+        .probability()
+        .map(|claimed| verdict(&own.judgement, claimed));
+    let verdict = verdict.unwrap_or_default();
+    let points = own.design_points.iter().flatten();
+    points
+        .into_iter()
+        .try_for_each(|at| point(f, (at, &verdict), d))
 }
 
-fn point(f: &mut fmt::Formatter<'_>, at: &DesignPoint, d: &Description) -> fmt::Result {
+fn point(
+    f: &mut fmt::Formatter<'_>,
+    (at, verdict): (&DesignPoint, &str),
+    d: &Description,
+) -> fmt::Result {
     writeln!(
         f,
         "  beta {}, probability of failure {} (first order), {} (second order); design point {}",
         rough(at.beta()),
         chance(at.probability(), 0.0),
         or_dash(at.second_order, |value| chance(value, 0.0)),
-        if at.verified {
-            "verified"
-        } else {
-            "not verified"
-        }
+        verdict
     )?;
     let mut table = Table::new(cells([
         "variable",
@@ -186,6 +207,15 @@ impl fmt::Display for RareFailure {
             counted(found.failures, "sample"),
             found.without_value
         )?;
+        if self.contradicted() {
+            writeln!(
+                f,
+                "  Not to be relied on: along lines of designs, the probability is {}.",
+                self.judgement
+            )?;
+        } else if !found.reached {
+            writeln!(f, "  Not settled: the samples did not reach their target.")?;
+        }
         if self.without_design_point.is_empty() {
             return Ok(());
         }

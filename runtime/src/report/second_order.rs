@@ -2,12 +2,15 @@
 
 use core::fmt;
 
+use super::doubts::doubted;
+use super::judgement::verdict;
 use super::margin::MarginTable;
+use super::naming::named;
 use super::numbers::{heading, number, rough};
-use super::relevance::{CHANCE, unless_rounding};
-use super::summary::named;
+use super::relevance::{CHANCE, NOTHING_VARIES, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title;
+use crate::judge::Doubt;
 use crate::second_order::{ModeMargin, SecondOrder};
 
 impl fmt::Display for SecondOrder {
@@ -42,12 +45,19 @@ impl fmt::Display for SecondOrder {
             ]);
         }
         write!(f, "{table}")?;
+        if !self.varies {
+            writeln!(f, "  {NOTHING_VARIES}")?;
+        }
         for (r, mode) in self.modes.iter().enumerate() {
             if let Err(error) = mode {
                 writeln!(f, "  Mode {}: {error}.", r + 1)?;
             }
         }
-        Ok(())
+        let known = self.modes.iter().zip(&self.doubts);
+        let known: Vec<&[Doubt]> = known
+            .map(|(mode, doubts)| mode.as_ref().map_or(&[][..], |_| &doubts[..]))
+            .collect();
+        doubted(f, &known)
     }
 }
 
@@ -65,10 +75,20 @@ impl fmt::Display for ModeMargin {
             description: &self.description,
         };
         write!(f, "{table}")?;
+        let of = |claimed| verdict(&self.judgement, claimed);
+        writeln!(f, "  Designs solved anew: {}.", self.judgement)?;
+        if self.judgement.judged().is_some() {
+            writeln!(
+                f,
+                "  First order: {}; second order: {}.",
+                of(self.margin.first_order),
+                of(self.margin.corrected.value)
+            )?;
+        }
         if !self.mixed_with.is_empty() {
             writeln!(
                 f,
-                "  Tolerances mix this mode with {}: neither probability can be relied on; sample.",
+                "  Tolerances mix this mode with {}: no model of it alone can be relied on.",
                 named(&self.mixed_with)
             )?;
         }

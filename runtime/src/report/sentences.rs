@@ -2,8 +2,9 @@
 
 use core::fmt;
 
+use super::doubts::doubt_sentences;
+use super::naming::{capital, named, quantity_name};
 use super::numbers::{number, rough, short};
-use super::summary::{capital, named, quantity_name};
 use crate::Stability;
 use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampling, Summary, Trust};
 use crate::tolerance::{ModeTolerance, Outcome};
@@ -104,21 +105,12 @@ impl Summary {
     }
 
     fn doubts(&self) -> Vec<Sentence> {
-        let mut said: Vec<&Doubt> = Vec::new();
-        for doubt in self.trust.iter().flat_map(|own| &own.doubts) {
-            if !said.contains(&doubt) {
-                said.push(doubt);
-            }
-        }
-        let sentence = |doubt: &Doubt| {
-            let shares = self.trust.iter().filter(|own| own.doubts.contains(doubt));
-            let modes: Vec<usize> = shares.map(|own| own.mode).collect();
-            Sentence {
-                news: News::Bad,
-                text: format!("{}: {doubt}", capital(named(&modes))),
-            }
+        let all: Vec<&[Doubt]> = self.trust.iter().map(|own| &own.doubts[..]).collect();
+        let bad = |text| Sentence {
+            news: News::Bad,
+            text,
         };
-        said.into_iter().map(sentence).collect()
+        doubt_sentences(&all).into_iter().map(bad).collect()
     }
 
     fn advice(&self) -> Vec<Sentence> {

@@ -2,46 +2,18 @@
 
 use core::fmt;
 
+use super::naming::named;
 use super::numbers::{number, optional, or_dash, rough, short};
-use super::relevance::unless_rounding;
+use super::relevance::{NOTHING_VARIES, unless_rounding};
 use super::shares::mostly;
 use super::table::{Table, cells, undamped};
 use super::title::title;
 use super::tolerance::{far, spread_of, unmoved};
 use crate::Quantity;
 use crate::clusters::{ClusterSpread, ClusterTolerance, MemberSpread, SortedSpread};
-use crate::summary::{Doubt, Summary};
-use crate::tolerance::{Statistics, TRUSTED_DISTANCE};
-
-/// `mode 2`, `modes 2 and 3`, `modes 1 to 4 and 7`, counted from 1.
-pub(super) fn named(modes: &[usize]) -> String {
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for &mode in modes {
-        match runs.last_mut() {
-            Some((_, last)) if *last + 1 == mode => *last = mode,
-            _ => runs.push((mode, mode)),
-        }
-    }
-    let texts = runs.iter().flat_map(|&(first, last)| match last - first {
-        0 => vec![(first + 1).to_string()],
-        1 => vec![(first + 1).to_string(), (last + 1).to_string()],
-        _ => vec![format!("{} to {}", first + 1, last + 1)],
-    });
-    let texts: Vec<String> = texts.collect();
-    match &texts[..] {
-        [] => "no mode".to_owned(),
-        [one] if modes.len() == 1 => format!("mode {one}"),
-        [one] => format!("modes {one}"),
-        [others @ .., last] => format!("modes {} and {last}", others.join(", ")),
-    }
-}
-
-pub(super) fn capital(mut text: String) -> String {
-    if let Some(first) = text.get_mut(..1) {
-        first.make_ascii_uppercase();
-    }
-    text
-}
+use crate::judge::Doubt;
+use crate::summary::Summary;
+use crate::tolerance::Statistics;
 
 fn statistics(name: String, value: Option<&Statistics>) -> Vec<String> {
     let of = |pick: fn(&Statistics) -> Option<f64>| optional(value.and_then(pick));
@@ -78,7 +50,7 @@ impl fmt::Display for ClusterTolerance {
                 return writeln!(
                     f,
                     "{title}: merged into a defective eigenvalue: {modes}. It splits as the square root of any change and \
-                     has no sigma; use Monte Carlo"
+                     has no sigma"
                 );
             }
             Err(error) => return writeln!(f, "{title}: {modes} form a cluster: {error}"),
@@ -127,7 +99,9 @@ impl fmt::Display for Summary {
         let d = &self.description;
         let title = title(d, &self.inputs);
         writeln!(f, "{title}: what tolerances do to the frequencies")?;
-        if self.unmoved() {
+        if !self.first.varies {
+            writeln!(f, "  {NOTHING_VARIES}")?;
+        } else if self.unmoved() {
             writeln!(f, "  No tolerance moves a mode.")?;
         } else {
             self.frequencies(f)?;
@@ -239,110 +213,6 @@ impl Summary {
         match table.is_empty() {
             true => Ok(()),
             false => write!(f, "{table}"),
-        }
-    }
-}
-
-pub(super) fn quantity_name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Frequency => "frequency",
-        Quantity::NaturalFrequency => "natural frequency",
-        Quantity::DampingRatio => "damping ratio",
-        Quantity::Growth => "growth",
-    }
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoFrequency => write!(f, "no oscillation, so there is no frequency to spread."),
-            Self::Clustered {
-                defective: true, ..
-            } => write!(
-                f,
-                "merged into one defective eigenvalue, which splits as the square root of any change. There is no \
-                 sigma at first order; use Monte Carlo."
-            ),
-            Self::Clustered {
-                modes, distance, ..
-            } => write!(
-                f,
-                "tolerances mix {}, {} standard deviations apart. None has a sigma of its own: use that of the \
-                 mean, of the lowest and of the highest below, or Monte Carlo.",
-                named(modes),
-                short(*distance)
-            ),
-            Self::Unrepresentative { quantity } => write!(
-                f,
-                "sigma of the {} is due to values too rare to be among the samples: nothing confirms it.",
-                quantity_name(*quantity)
-            ),
-            Self::NearCritical { distance: 0.0 } => write!(
-                f,
-                "the stiffness is zero within rounding: this is a critical state. Sigma is meaningless here."
-            ),
-            Self::NearCritical { distance } if *distance < 0.0 => write!(
-                f,
-                "the equilibrium is not stable. Samples settle elsewhere, and sigma says nothing about them."
-            ),
-            Self::NearCritical { distance } => write!(
-                f,
-                "the critical state is {} standard deviations away. Within {TRUSTED_DISTANCE} of them the error of sigma \
-                 has no bound.",
-                short(*distance)
-            ),
-            Self::NearInstability { distance: 0.0 } => write!(
-                f,
-                "the vibration neither grows nor decays within rounding. Sigma counts samples that are unstable: see the counts of Monte \
-                 Carlo."
-            ),
-            Self::NearInstability { distance } if *distance < 0.0 => write!(
-                f,
-                "the vibration grows. Sigma is that of the frequency of a motion that does not stay small."
-            ),
-            Self::NearInstability { distance } => write!(
-                f,
-                "the vibration begins to grow {} standard deviations away. Sigma counts samples that are unstable: see \
-                 the counts of Monte Carlo.",
-                short(*distance)
-            ),
-            Self::NearCriticalDamping { distance } => write!(
-                f,
-                "the oscillation ceases {} standard deviations away, where it becomes two decaying motions. Within \
-                 {TRUSTED_DISTANCE} of them the error of sigma has no bound.",
-                short(*distance)
-            ),
-            Self::Nonlinear {
-                quantity,
-                sigma_error,
-            } => {
-                let name = quantity_name(*quantity);
-                write!(
-                    f,
-                    "the first-order sigma of the {name} is {:.1} % below that of second order, because it is not linear \
-                     within the tolerances. Second order shows that, but not by how much.",
-                    100.0 * sigma_error
-                )
-            }
-            Self::Inaccurate { quantity, error } => write!(
-                f,
-                "the first-order sigma of the {} is {:.1} % {} that of the samples.",
-                quantity_name(*quantity),
-                100.0 * error.value.abs(),
-                if error.value < 0.0 { "below" } else { "above" }
-            ),
-            Self::Missing {
-                quantity,
-                count,
-                samples,
-            } => write!(
-                f,
-                "only {count} of {samples} samples have its {}.",
-                quantity_name(*quantity)
-            ),
-            Self::Unchecked { reason } => {
-                write!(f, "sigma was not checked against second order: {reason}.")
-            }
         }
     }
 }

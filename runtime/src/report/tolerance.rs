@@ -2,21 +2,22 @@
 
 use core::fmt;
 
+use eigentol_statistics::reliability::sampling::wilson;
+
+use super::doubts::doubted;
 use super::equilibrium::meeting;
 use super::numbers::{
     CLUSTER, given, heading, in_unit, number, of_mode, optional, or_dash, per, percent, rough,
     rough_in, short, with_unit,
 };
-use super::relevance::{BELOW, names, relevant, unless_rounding};
+use super::relevance::{BELOW, NOTHING_VARIES, names, relevant, unless_rounding};
 use super::shares::Shares;
 use super::table::{Table, cells, undamped};
 use super::title::{title, title_along};
+use crate::judge::Doubt;
 use crate::modes::Family;
-use crate::summary::Doubt;
 use crate::sweep::{Event, EventTolerance};
-use crate::tolerance::{
-    Counts, ModeTolerance, OutputTolerances, Spread, Statistics, TRUSTED_DISTANCE,
-};
+use crate::tolerance::{Counts, ModeTolerance, OutputTolerances, Spread, Statistics};
 use crate::{FirstOrder, MonteCarlo};
 
 /// The standard deviation, or zero if it is rounding compared to the mean.
@@ -52,6 +53,9 @@ impl fmt::Display for OutputTolerances {
             table.row(row);
         }
         write!(f, "{table}")?;
+        if !self.varies {
+            writeln!(f, "  {NOTHING_VARIES}")?;
+        }
         shares.rest(f)
     }
 }
@@ -79,62 +83,18 @@ impl fmt::Display for FirstOrder {
         let d = &self.description;
         let title = title(d, &self.inputs);
         writeln!(f, "{title}: first-order spread of the frequencies")?;
-        if self.modes.iter().all(unmoved) {
+        if !self.varies {
+            writeln!(f, "  {NOTHING_VARIES}")?;
+        } else if self.modes.iter().all(unmoved) {
             writeln!(f, "  No tolerance moves a mode.")?;
         } else {
             self.spreads(f)?;
         }
         undamped(f, self.family, d)?;
-        if self.distance_to_critical == 0.0 {
-            return writeln!(
-                f,
-                "  The stiffness is zero within rounding: this is a critical state. Use Monte Carlo here."
-            );
-        }
-        if self.distance_to_critical < 0.0 {
-            return writeln!(
-                f,
-                "  The equilibrium is not stable: a mode that does not oscillate has no frequency to spread."
-            );
-        }
-        if self.distance_to_critical < TRUSTED_DISTANCE {
-            writeln!(
-                f,
-                "  Not to be trusted: the critical state is {} standard deviations away. First order errs by several \
-                 percent at {TRUSTED_DISTANCE} of them, and without bound nearer. Use Monte Carlo here.",
-                short(self.distance_to_critical)
-            )?;
-        }
-        for (r, mode) in self
-            .modes
-            .iter()
-            .enumerate()
-            .filter(|(_, mode)| !mode.alone())
-        {
-            write!(f, "  Not to be trusted for mode {}: ", r + 1)?;
-            match mode.clustered {
-                true => writeln!(
-                    f,
-                    "it has nearly equal neighbours and no derivative of its own."
-                )?,
-                false => writeln!(
-                    f,
-                    "samples mix it with another mode, {} standard deviations away.",
-                    short(mode.distance_to_neighbour)
-                )?,
-            }
-        }
-        for (r, mode) in self.modes.iter().enumerate() {
-            let distance = mode.distance_to_instability;
-            if distance < TRUSTED_DISTANCE && !mode.clustered {
-                writeln!(
-                    f,
-                    "  Mode {}: {}",
-                    r + 1,
-                    Doubt::NearInstability { distance }
-                )?;
-            }
-        }
+        let doubts: Vec<Vec<Doubt>> = (0..self.modes.len())
+            .map(|mode| self.doubts(mode))
+            .collect();
+        doubted(f, &doubts)?;
         if self.modes.len() > 1 {
             writeln!(
                 f,
@@ -275,6 +235,9 @@ impl fmt::Display for MonteCarlo {
                 "  {names}: no oscillation in any stable sample, so no frequency."
             )?;
         }
+        if !self.varies {
+            writeln!(f, "  {NOTHING_VARIES}")?;
+        }
         self.skewed(f)?;
         undamped(f, self.family, &self.description)?;
         if self.samples < self.planned {
@@ -293,17 +256,32 @@ impl fmt::Display for MonteCarlo {
         if self.clustered {
             writeln!(
                 f,
-                "  Some modes have equal nominal eigenvalues: which of them a sample counts for is arbitrary."
+                "  Modes with equal nominal eigenvalues count in ascending order in each sample."
             )?;
         }
         if self.left_nominal_branch > 0 {
             writeln!(
                 f,
-                "  {} stable samples settled on another branch than the nominal one.",
-                self.left_nominal_branch
+                "  {} stable samples settled on another branch than the nominal one{}.",
+                self.left_nominal_branch,
+                share(self.left_nominal_branch, self.samples)
             )?;
         }
         Ok(())
+    }
+}
+
+/// `: 7.3 % (95 %: 6.9 to 7.7 %)`.
+fn share(count: usize, samples: usize) -> String {
+    let percent = |value: f64| format!("{:.3}", 100.0 * value);
+    match wilson(count as u64, samples as u64, 0.95) {
+        Err(_) => String::new(),
+        Ok(interval) => format!(
+            ": {} % (95 %: {} to {} %)",
+            percent(count as f64 / samples as f64),
+            percent(interval.lower),
+            percent(interval.upper)
+        ),
     }
 }
 

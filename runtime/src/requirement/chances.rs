@@ -2,9 +2,9 @@
 
 use eigentol_statistics::reliability::sampling::{Interval, clopper_pearson, wilson};
 
-use super::deviations::Deviations;
 use super::requirements::{Requirements, all_met};
 use crate::algebra::{Matrix, Vector};
+use crate::limits::Deviations;
 use crate::response::Workspace;
 use crate::tolerance::{Counts, Draw, Sampling, Tolerances, pool};
 use crate::{Description, Error, Shared};
@@ -93,6 +93,8 @@ pub struct Chances {
     pub counts: Counts,
     /// Number of samples requested: larger than the number solved if the run was stopped, or if this is part of a run.
     pub planned: usize,
+    /// Whether any variable has a tolerance.
+    pub varies: bool,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
@@ -172,6 +174,7 @@ pub(crate) fn chances_of(
         each: sum.each,
         counts: sum.counts,
         planned: sampling.samples,
+        varies: deviations.tolerances().vary(),
         inputs: state.inputs.clone(),
         description: state.description.clone(),
     })

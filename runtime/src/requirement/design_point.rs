@@ -2,10 +2,9 @@
 
 use eigentol_statistics::reliability::{self, FormSensitivity, LimitState, sorm};
 
-use super::deviations::Deviations;
-use super::limit::LimitAt;
 use crate::Error;
 use crate::algebra::Vector;
+use crate::limits::{Deviations, LimitAt};
 
 /// Distance on either side of a design point at which the limit is checked, in standard deviations.
 const STEP: f64 = 1e-3;
@@ -34,7 +33,8 @@ pub struct DesignPoint {
     /// they bend around the origin more than a sphere.
     pub second_order: Option<f64>,
     /// Whether the re-solved mechanism fails a thousandth of a standard deviation beyond this point and does not fail
-    /// the same distance before it.
+    /// the same distance before it, and designs solved anew agree that the design points of the limit describe its
+    /// failure, to second order ([`LimitReliability::judgement`](super::LimitReliability::judgement)).
     pub verified: bool,
 }
 

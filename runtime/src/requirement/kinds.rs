@@ -1,7 +1,7 @@
 //! The kinds of requirements.
 
-use super::limit::Edge;
 use crate::Error;
+use crate::limits::Edge;
 use crate::response::Response;
 use crate::tolerance::Outcome;
 
@@ -76,18 +76,23 @@ impl Requirement {
     /// A design without a stable equilibrium has no modes and no outputs to speak of, and meets no requirement on them.
     #[must_use]
     pub fn met(&self, outcome: Outcome, response: Option<f64>) -> Option<bool> {
-        let Some(value) = response else {
-            return match self.response() {
-                None => Some(outcome == Outcome::Stable),
-                Some(Response::Mode { .. } | Response::Output(_)) if outcome.lost() => Some(false),
-                Some(_) => None,
+        Some(self.distance(outcome, response)? >= 0.0)
+    }
+
+    /// Distance of a design from failing it, negative in failure; infinite where only the side is known. `None` if the
+    /// response needed to tell is missing.
+    pub(super) fn distance(&self, outcome: Outcome, value: Option<f64>) -> Option<f64> {
+        let Some(response) = self.response() else {
+            let side = if outcome == Outcome::Stable {
+                1.0
+            } else {
+                -1.0
             };
+            return Some(side * f64::INFINITY);
         };
-        match *self {
-            Self::Within { low, high, .. } => Some(low <= value && value <= high),
-            Self::Outside { low, high, .. } => Some(value <= low || value >= high),
-            Self::Stable => Some(outcome == Outcome::Stable),
-        }
+        let of = |edge: Edge| edge.distance_of(outcome, response, value);
+        let mut edges = self.edges().into_iter();
+        edges.try_fold(f64::INFINITY, |least, edge| Some(least.min(of(edge)?)))
     }
 
     /// The limits at which the requirement fails.

@@ -8,9 +8,7 @@
 
 mod chances;
 mod design_point;
-mod deviations;
 mod kinds;
-mod limit;
 mod rare;
 mod reliability;
 mod requirements;
@@ -22,13 +20,12 @@ pub use eigentol_statistics::reliability::sampling::{
 };
 pub use eigentol_statistics::reliability::{FormSensitivity, FormSettings};
 pub use kinds::Requirement;
-pub use limit::{Edge, Limit};
 pub use rare::RareFailure;
 pub use reliability::{LimitReliability, Reliability, SystemFailure};
-pub use requirements::Requirements;
+pub use requirements::{Limit, Requirements};
+
+pub use crate::limits::Edge;
 
 pub(crate) use chances::chances_of;
 pub(crate) use design_point::slopes_at;
-pub(crate) use deviations::Deviations;
-pub(crate) use limit::LimitAt;
-pub(crate) use reliability::{check, out_of_reach, reliability_of};
+pub(crate) use reliability::{check, judge, out_of_reach, reliability_of};

@@ -3,13 +3,15 @@
 use core::cell::{Cell, RefCell};
 
 use eigentol_statistics::reliability::sampling::{
-    Failure, Proposal, SampleSums, SampledProbability, Sampler, SamplingSettings,
+    Estimate, Failure, Interval, Proposal, SampleSums, SampledProbability, Sampler,
+    SamplingSettings,
 };
 use eigentol_statistics::reliability::{self, LimitState, LimitValue};
 
 use super::reliability::Reliability;
 use super::requirements::{Requirements, all_met};
 use crate::algebra::Vector;
+use crate::judge::{Judgement, TRUSTED_PROBABILITY_ERROR};
 use crate::response::Workspace;
 use crate::tolerance::{Counts, Outcome, pool};
 use crate::{Description, Error, Shared};
@@ -19,6 +21,8 @@ const CHUNK: u64 = 64;
 const CHUNKS: u64 = 16;
 /// Share of the samples that are distributed like the designs, if failures may lie anywhere.
 const PLAIN: f64 = 0.5;
+/// Standard errors by which an estimate from samples must miss to be contradicted.
+const CLEARLY: f64 = 3.0;
 /// Probability of seeing none of the failures that are said to be possible though unseen.
 const UNSEEN: f64 = 0.05;
 
@@ -41,16 +45,45 @@ pub struct RareFailure {
     /// Probability that failures of these requirements may have without having been seen, at a confidence of 95 %:
     /// three over the number of samples distributed like the designs. Zero if every requirement has its design points.
     pub unseen: f64,
+    /// The same probability by lines of designs ([`Reliability::judgement`]), which see what lies far from the design
+    /// points.
+    pub judgement: Judgement,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
+impl RareFailure {
+    /// Whether the samples reached their target and lines of designs do not contradict them: a failure far from all
+    /// design points, or a layer too thin for samples to meet, shows in neither the samples nor their standard error.
+    #[must_use]
+    pub fn trusted(&self) -> bool {
+        self.failure.reached && !self.contradicted()
+    }
+
+    /// Whether lines of designs found another probability, beyond the errors of both.
+    #[must_use]
+    pub fn contradicted(&self) -> bool {
+        let Estimate {
+            value,
+            standard_error,
+        } = self.failure.probability;
+        let judged = self.judgement.judged().filter(|own| own.settled);
+        judged.is_some_and(|own| {
+            let Interval { lower, upper } = own.interval();
+            let known =
+                CLEARLY * standard_error + TRUSTED_PROBABILITY_ERROR * own.probability.value;
+            value + known < lower || value - known > upper
+        })
+    }
+}
+
 impl Requirements<'_> {
     /// Probability of failing any requirement, from samples about the design points of `about`, on `threads` threads (0
     /// for all available); identical for any number of threads. The estimate is unbiased wherever failure lies, but its
-    /// error estimate cannot see a failure region far from all design points. If a requirement has no design point,
+    /// standard error cannot see a failure region far from all design points: lines of designs do
+    /// ([`RareFailure::trusted`]). If a requirement has no design point,
     /// sampling goes on until what its failures may hide ([`RareFailure::unseen`]) is within the target too, or until
     /// the largest number of samples.
     ///
@@ -123,6 +156,7 @@ impl Requirements<'_> {
                     failure,
                     without_design_point,
                     unseen,
+                    judgement: about.judgement,
                     counts,
                     centres: centres.len(),
                     inputs: state.inputs.clone(),

@@ -6,10 +6,13 @@ use eigentol_statistics::reliability::system::{FirstOrderSystem, QuadratureSetti
 use eigentol_statistics::reliability::{self, FormSettings, failure_regions};
 
 use super::design_point::DesignPoint;
-use super::deviations::Deviations;
-use super::limit::{Edge, Limit, LimitAt};
-use super::requirements::Requirements;
+use super::requirements::{Limit, Requirements, least};
 use crate::algebra::Vector;
+use crate::judge::{Event, Judgement, Lines, Unjudged};
+use crate::limits::{Deviations, Edge, LimitAt};
+use crate::response::Realisation;
+use crate::sensitivity::{Quantity, sensitivities};
+use crate::tolerance::first_order;
 use crate::{Description, Error, Shared};
 
 /// A limit and its design points.
@@ -23,6 +26,8 @@ pub struct LimitReliability {
     /// design within reach fails, or because the centre of the distribution lies inside a forbidden band that can be
     /// left on both sides.
     pub design_points: Result<Vec<DesignPoint>, Error>,
+    /// The failure probability by designs solved anew, which holds with and without design points, and judges them.
+    pub judgement: Judgement,
 }
 
 impl LimitReliability {
@@ -37,6 +42,34 @@ impl LimitReliability {
         }
         let sum: f64 = points.iter().map(DesignPoint::probability).sum();
         Some(sum.min(1.0))
+    }
+
+    /// Whether designs solved anew confirm the first-order failure probability
+    /// ([`Judged::confirms`](crate::judge::Judged::confirms)): tangent planes describe all of the failure.
+    #[must_use]
+    pub fn verified(&self) -> bool {
+        let claimed = self.probability();
+        claimed.is_some_and(|claimed| self.judgement.confirms(claimed))
+            && (self.design_points.iter().flatten()).all(|point| point.verified)
+    }
+
+    /// Second-order failure probability, summed as [`Self::probability`]; `None` if a design point has none.
+    #[must_use]
+    pub fn second_order(&self) -> Option<f64> {
+        let points = self.design_points.as_ref().ok()?;
+        let first = points.first()?;
+        if first.beta() < 0.0 {
+            return first.second_order;
+        }
+        let parts = points.iter().map(|point| point.second_order);
+        parts.sum::<Option<f64>>().map(|sum| sum.min(1.0))
+    }
+
+    /// Whether designs solved anew do not refute what the design points say: the failure probability to second order,
+    /// or to first where there is no second.
+    fn described(&self) -> bool {
+        let claimed = self.second_order().or(self.probability());
+        claimed.is_some_and(|claimed| self.judgement.agrees(claimed))
     }
 
     /// Whether there are no design points because no design within reach fails.
@@ -75,6 +108,8 @@ pub struct Reliability {
     pub system: Option<SystemFailure>,
     /// Requirements without a limit: [`Requirement::Stable`](super::Requirement::Stable).
     pub left_out: Vec<usize>,
+    /// Probability of failing any requirement, those without a limit included, by designs solved anew.
+    pub judgement: Judgement,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
@@ -105,29 +140,28 @@ impl Reliability {
         all
     }
 
-    /// Whether every requirement has a limit, every limit has a design point, and all design points are verified.
+    /// Whether every requirement has a limit, and every limit design points that are verified.
     #[must_use]
     pub fn verified(&self) -> bool {
-        let verified = |own: &LimitReliability| match &own.design_points {
-            Ok(points) => points.iter().all(|point| point.verified),
-            Err(_) => false,
-        };
-        self.left_out.is_empty() && self.limits.iter().all(verified)
+        self.left_out.is_empty() && self.limits.iter().all(LimitReliability::verified)
     }
 }
 
 impl Requirements<'_> {
-    /// Failure probabilities by first- and second-order reliability, with design points and exact derivatives.
+    /// Failure probabilities by first- and second-order reliability, with design points and exact derivatives, judged
+    /// by designs solved anew.
     ///
     /// # Errors
     /// [`Error::Setting`] if no requirement sets a limit on a response, if nothing varies, or for variables without a
     /// density. A limit without a design point carries its own error.
     pub fn reliability(&self, settings: &FormSettings) -> Result<Reliability, Error> {
-        reliability_of(self, self.deviations(), settings)
+        let mut found = reliability_of(self, self.deviations(), settings)?;
+        judge(self, self.deviations(), 0, &mut found)?;
+        Ok(found)
     }
 }
 
-/// Like [`Requirements::reliability`], for given deviations.
+/// Like [`Requirements::reliability`], for given deviations and without judgement.
 pub(crate) fn reliability_of(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
@@ -139,6 +173,7 @@ pub(crate) fn reliability_of(
     let found = limits.iter().map(|(place, limit)| LimitReliability {
         limit: *limit,
         design_points: design_points(requirements, deviations, (*place, limit), settings),
+        judgement: Judgement::Open(Unjudged::NotAsked),
     });
     let found: Vec<LimitReliability> = found.collect();
     requirements.responses().go_on()?;
@@ -149,6 +184,7 @@ pub(crate) fn reliability_of(
         left_out: (0..requirements.wanted().len())
             .filter(|k| !has_limit(k))
             .collect(),
+        judgement: Judgement::Open(Unjudged::NotAsked),
         inputs: state.inputs.clone(),
         description: state.description.clone(),
     })
@@ -234,4 +270,111 @@ fn system(limits: &[LimitReliability]) -> Result<Option<SystemFailure>, Error> {
         probability: system.series_probability(&QuadratureSettings::default())?,
         bounds: system.series_bounds(),
     }))
+}
+
+/// How many times the usual budget a probability is worth that was asked for by itself.
+const EFFORT: f64 = 10.0;
+/// Number of modes whose way to instability is searched.
+const LEAST_STABLE: usize = 3;
+
+/// Judges design points by designs solved anew, at least `worth` of them for each limit.
+pub(crate) fn judge(
+    requirements: &Requirements<'_>,
+    deviations: &Deviations<'_>,
+    worth: u64,
+    found: &mut Reliability,
+) -> Result<(), Error> {
+    let responses = requirements.responses();
+    let mut all = Lines {
+        directions: Vec::new(),
+        expected: 0.0,
+        worth,
+        effort: EFFORT,
+    };
+    for (own, (place, limit)) in found.limits.iter_mut().zip(requirements.limits()) {
+        let lines = Lines {
+            worth,
+            effort: EFFORT,
+            ..lines(requirements, deviations, place, own)
+        };
+        let distance = |_: &[f64], found: &Realisation| {
+            let value = found.values.get(place).copied().flatten();
+            (limit.edge).distance_of(found.outcome, limit.response, value)
+        };
+        own.judgement = Event::new(responses, deviations, &distance).judge(&lines)?;
+        let described = own.described();
+        for point in own.design_points.iter_mut().flatten() {
+            point.verified &= described;
+        }
+        all.directions.extend(lines.directions);
+        all.expected = all.expected.max(lines.expected);
+    }
+    found.judgement = match (&found.limits[..], &found.left_out[..]) {
+        ([only], []) => only.judgement,
+        _ => {
+            if !found.left_out.is_empty() {
+                all.directions
+                    .extend(ways_to_instability(requirements, deviations));
+            }
+            let distance = |_: &[f64], found: &Realisation| least(&requirements.distances(found));
+            Event::new(responses, deviations, &distance).judge(&all)?
+        }
+    };
+    Ok(())
+}
+
+/// Where to look for failure: towards the design points, or else along the gradient at the centre.
+fn lines(
+    requirements: &Requirements<'_>,
+    deviations: &Deviations<'_>,
+    place: usize,
+    own: &LimitReliability,
+) -> Lines {
+    let points = own.design_points.iter().flatten();
+    let directions: Vec<Vec<f64>> = points
+        .clone()
+        .map(|own| own.normal.direction.clone())
+        .collect();
+    if !directions.is_empty() {
+        let farthest = points.map(|own| own.beta().abs());
+        return Lines {
+            directions,
+            expected: farthest.fold(0.0, f64::max),
+            worth: 0,
+            effort: 0.0,
+        };
+    }
+    let limit = LimitAt::new(requirements.responses(), place, own.limit.edge, deviations);
+    let origin = vec![0.0; deviations.dimension()];
+    match limit.by_design(&origin) {
+        Ok((_, slopes)) => Lines::along(deviations, &slopes, 0.0),
+        Err(_) => Lines::along(deviations, &origin, 0.0),
+    }
+}
+
+/// Directions in which the least stable modes lose their stability.
+fn ways_to_instability(
+    requirements: &Requirements<'_>,
+    deviations: &Deviations<'_>,
+) -> Vec<Vec<f64>> {
+    let responses = requirements.responses();
+    let (at, modes) = (responses.nominal(), responses.modes());
+    let first = sensitivities(responses.mechanism(), at, modes)
+        .and_then(|slopes| first_order(modes, &slopes, deviations.tolerances()));
+    let Ok(first) = first else {
+        return Vec::new();
+    };
+    let mut ways = Vec::new();
+    for mode in first.modes.iter().filter(|mode| !mode.clustered) {
+        ways.push((mode.distance_to_critical, mode.lambda.by_design.clone()));
+        if let Some(growth) = mode.of(Quantity::Growth) {
+            ways.push((mode.distance_to_instability, growth.by_design));
+        }
+    }
+    ways.retain(|(distance, _)| distance.is_finite());
+    ways.sort_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()));
+    let origin = vec![0.0; deviations.dimension()];
+    let ways = ways.iter().take(LEAST_STABLE);
+    ways.map(|(_, slopes)| deviations.gradient(&origin, slopes))
+        .collect()
 }

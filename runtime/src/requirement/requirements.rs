@@ -1,12 +1,24 @@
 //! All requirements of a design.
 
-use super::deviations::Deviations;
 use super::kinds::Requirement;
-use super::limit::Limit;
 use crate::kernels::DirectionalKernels;
+use crate::limits::{Deviations, Edge};
 use crate::response::{Realisation, Response, Responses};
 use crate::tolerance::Tolerances;
 use crate::{Equilibrium, Error, Modes, Watch};
+
+/// A limit that a requirement sets on a response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Limit {
+    /// Position of the requirement.
+    pub requirement: usize,
+    /// The response that is limited.
+    pub response: Response,
+    /// The values at which it fails.
+    pub edge: Edge,
+}
 
 /// Requirements on designs near a nominal one, all to be met at once.
 ///
@@ -91,10 +103,16 @@ impl<'a> Requirements<'a> {
 
     /// Whether each requirement is met.
     pub(super) fn each_met(&self, found: &Realisation) -> Vec<Option<bool>> {
+        let each = self.distances(found).into_iter();
+        each.map(|distance| Some(distance? >= 0.0)).collect()
+    }
+
+    /// Distance from failing each requirement, as [`Requirement::distance`].
+    pub(super) fn distances(&self, found: &Realisation) -> Vec<Option<f64>> {
         let mut values = found.values.iter();
         let each = self.wanted.iter().map(|wanted| {
             let own = wanted.response().and_then(|_| values.next().copied());
-            wanted.met(found.outcome, own.flatten())
+            wanted.distance(found.outcome, own.flatten())
         });
         each.collect()
     }
@@ -106,4 +124,11 @@ pub(super) fn all_met(each: &[Option<bool>]) -> Option<bool> {
         true => Some(false),
         false => (!each.contains(&None)).then_some(true),
     }
+}
+
+/// Distance from failing any requirement, as far as can be told: a single failure decides.
+pub(super) fn least(distances: &[Option<f64>]) -> Option<f64> {
+    let known = distances.iter().flatten();
+    let least = known.fold(f64::INFINITY, |least, own| least.min(*own));
+    (least < 0.0 || !distances.contains(&None)).then_some(least)
 }

@@ -6,8 +6,11 @@ use super::margin::{Margin, margin};
 use super::quadratic::Quadratic;
 use crate::algebra::{Vector, add_scaled};
 use crate::arguments::check_input;
-use crate::clusters::clusters;
+use crate::clusters::groups;
+use crate::judge::{Event, Judgement, Lines};
 use crate::kernels::{CurvatureKernels, Kernels};
+use crate::limits::Deviations;
+use crate::response::{Realisation, Response, Responses};
 use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
@@ -88,6 +91,19 @@ impl Band {
         })
     }
 
+    /// Nominal over actual centre of the band in a design.
+    fn shrinks(self, mechanism: &dyn Kernels, at: &Equilibrium, design: &[f64]) -> f64 {
+        match self {
+            Self::Around { input, .. } => {
+                let nominal = actual(mechanism, at, input.index());
+                let moved = mechanism.deviation(input.index(), design)
+                    - mechanism.deviation(input.index(), &at.design);
+                nominal / (nominal + moved)
+            }
+            Self::Between { .. } => 1.0,
+        }
+    }
+
     fn is_around(self, input: usize) -> bool {
         matches!(self, Self::Around { input: own, .. } if own.index() == input)
     }
@@ -157,8 +173,10 @@ pub struct ModeMargin {
     /// Total derivatives of the first-order probability with respect to each input, per SI unit: the quantity, its
     /// standard deviation and a band around the input all move. `None` where [`Margin::derivatives`] is.
     pub by_input: Option<Vector>,
-    /// The other modes that tolerances mix with this one ([`clusters`]). If there are any, no series of this mode alone
-    /// describes it, and neither probability can be relied on.
+    /// The probability by designs solved anew, which judges the other two.
+    pub judgement: Judgement,
+    /// The other modes that tolerances mix with this one ([`clusters`](crate::clusters::clusters)). If there are any, no
+    /// series of this mode alone describes it, and neither model can be relied on.
     pub mixed_with: Vec<usize>,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
@@ -166,8 +184,17 @@ pub struct ModeMargin {
     pub description: Shared<Description>,
 }
 
+impl ModeMargin {
+    /// Whether designs solved anew confirm the second-order probability
+    /// ([`Judged::confirms`](crate::judge::Judged::confirms)).
+    #[must_use]
+    pub fn verified(&self) -> bool {
+        self.judgement.confirms(self.margin.corrected.value)
+    }
+}
+
 /// Probability that a quantity of mode number `mode` lies in a forbidden band, to first and second order, with its
-/// sensitivities.
+/// sensitivities, judged by designs solved anew. Designs without the quantity do not lie in the band.
 ///
 /// With [`Quantity::Growth`] between zero and infinity it is the probability that the mode is unstable.
 ///
@@ -193,7 +220,7 @@ pub fn mode_margin(
     let model = relative(&model, &reciprocal);
     let first = curvature.first.of(quantity).ok_or(silent.clone())?;
     let mixed = curvature.of(quantity).ok_or(silent)?.by_input_and_design;
-    let margin = margin(&model, tolerances, ends)?;
+    let mut margin = margin(&model, tolerances, ends)?;
     let by_input = margin.derivatives.as_ref().map(|derivatives| {
         Vector::from_fn(at.inputs.len(), |k| {
             let (low, high) = band.slopes(mechanism, at, k);
@@ -207,12 +234,30 @@ pub fn mode_margin(
             derivatives.along(first.by_input[k], sigma, low, high)
         })
     });
-    let clusters = clusters(mechanism, at, modes, tolerances)?;
-    let own = clusters.iter().find(|own| own.modes.contains(&mode));
-    let mut mixed_with = own.map_or_else(Vec::new, |own| own.modes.clone());
+    let groups = groups(mechanism, at, modes, tolerances)?;
+    let own = groups.into_iter().find(|own| own.contains(&mode));
+    let mut mixed_with = own.unwrap_or_default();
     mixed_with.retain(|other| *other != mode);
+    let judgement = {
+        let response = Response::Mode { mode, quantity };
+        let responses = Responses::new(mechanism, at, modes, vec![response])?;
+        let deviations = Deviations::new(tolerances, &at.design)?;
+        let (low, high) = ends;
+        let distance = |design: &[f64], found: &Realisation| {
+            let value = found.values.first().copied().flatten()?;
+            let value = value * band.shrinks(mechanism, at, design);
+            Some((low - value).max(value - high))
+        };
+        let lines = Lines::along(&deviations, &model.slopes, margin.distance);
+        Event::new(&responses, &deviations, &distance).judge(&lines)?
+    };
+    if let Some(judged) = judgement.judged() {
+        let error = judged.error_of(margin.corrected.value);
+        margin.corrected = margin.corrected.with_model_error(error);
+    }
     Ok(ModeMargin {
         mode,
+        judgement,
         mixed_with,
         quantity,
         band,

@@ -28,7 +28,8 @@ pub struct Margin {
     pub distance: f64,
     /// First-order probability of the band; for normal variables, that of a normal distribution.
     pub first_order: f64,
-    /// Probability of the band from the second-order model ([`Quadratic::probability`]).
+    /// Probability of the band from the second-order model ([`Quadratic::probability`]), with the error of that model
+    /// in a [`ModeMargin`](super::ModeMargin).
     pub corrected: Probability,
     /// Derivatives of the first-order probability. `None` if nothing varies, if variables are not normal, or if a
     /// derivative exceeds the range of a double.

@@ -6,15 +6,37 @@ use crate::Error;
 use crate::second_order::distribution::normal_cdf;
 use crate::tolerance::Tolerances;
 
-/// A probability and its numerical error.
+/// A probability and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Probability {
     /// In [0, 1].
     pub value: f64,
-    /// Bound or estimate of the numerical error of `value`, not of the model error.
+    /// Bound or estimate of the error of `value`: of the integration, and of the model where that is known.
     pub error: f64,
+    /// The part of it that is due to the model, from designs solved anew; `None` if these were not asked, as for the
+    /// model alone.
+    pub model_error: Option<f64>,
+}
+
+impl Probability {
+    fn of_model(value: f64, error: f64) -> Self {
+        Self {
+            value,
+            error,
+            model_error: None,
+        }
+    }
+
+    /// The same with the error of the model.
+    pub(super) fn with_model_error(self, error: f64) -> Self {
+        Self {
+            error: self.error + error,
+            model_error: Some(error),
+            ..self
+        }
+    }
 }
 
 impl Quadratic {
@@ -57,7 +79,7 @@ impl Quadratic {
     /// `e^(i t f0) prod_j (1 - i t nu_j)^(-1/2) exp(-t^2 c_j^2 / (2 (1 - i t nu_j)))` (Imhof 1961). Closed forms with
     /// accurate tails exist without curvature and for a single variable. Otherwise it is inverted numerically
     /// (Gil-Pelaez 1951, Davies 1980, or on a tilted contour), with an absolute error below about `1e-11`, which is
-    /// returned with the value.
+    /// returned with the value. The error of the model itself is not known here.
     ///
     /// # Errors
     /// As [`probability_first_order`](Self::probability_first_order).
@@ -71,24 +93,16 @@ impl Quadratic {
         if let Some((joint, about)) = tolerances.joint() {
             let sampled = Sampled::new(self, joint, about)?;
             let estimate = sampled.between(low - self.value, high - self.value);
-            return Ok(Probability {
-                value: estimate.value,
-                error: estimate.error,
-            });
+            return Ok(Probability::of_model(estimate.value, estimate.error));
         }
         let central = self.about_means(tolerances);
         let Some(terms) = Terms::new(Standard::new(&central, tolerances)?) else {
-            return Ok(Probability {
-                value: normal_probability(central.value, 0.0, (low, high)),
-                error: 0.0,
-            });
+            let value = normal_probability(central.value, 0.0, (low, high));
+            return Ok(Probability::of_model(value, 0.0));
         };
         let scaled = |end: f64| (end - central.value) / terms.unit;
         let estimate = terms.between(scaled(low), scaled(high));
-        Ok(Probability {
-            value: estimate.value,
-            error: estimate.error,
-        })
+        Ok(Probability::of_model(estimate.value, estimate.error))
     }
 
     /// First-order standard deviation.

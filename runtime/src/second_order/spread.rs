@@ -5,9 +5,10 @@ use super::curvature::{ModeCurvature, mode_curvature};
 use super::nonlinearity::Nonlinearity;
 use super::quadratic::{ModelMoments, Quadratic};
 use crate::algebra::Vector;
+use crate::judge::Doubt;
 use crate::kernels::CurvatureKernels;
-use crate::sensitivity::Quantity;
-use crate::tolerance::Tolerances;
+use crate::sensitivity::{Quantity, sensitivities};
+use crate::tolerance::{Tolerances, first_order};
 use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
 
 /// A quantity of a mode to second order.
@@ -43,8 +44,13 @@ pub struct ModeSecondOrder {
 pub struct SecondOrder {
     /// One result per mode, in order; an error for a mode that does not oscillate or has no derivatives of its own.
     pub modes: Vec<Result<ModeSecondOrder, Error>>,
+    /// For each mode, the doubts that distances raise ([`FirstOrder::doubts`](crate::FirstOrder::doubts)): a series does
+    /// not converge beyond a critical state, and describes no mode that mixes with another.
+    pub doubts: Vec<Vec<Doubt>>,
     /// Number of standard deviations that a tolerance represents.
     pub sigma_level: f64,
+    /// Whether any variable has a tolerance.
+    pub varies: bool,
     /// The inputs of the operating point, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
@@ -72,7 +78,8 @@ pub fn second_order(
     tolerances: &Tolerances,
 ) -> SecondOrder {
     let one = |mode: usize| mode_second_order(mechanism, at, modes, mode, tolerances);
-    of_each((0..modes.modes.len()).map(one).collect(), at, tolerances)
+    let all = (0..modes.modes.len()).map(one).collect();
+    of_each(mechanism, (at, modes), all, tolerances)
 }
 
 /// Like [`second_order`], but `watch` can stop it.
@@ -87,17 +94,28 @@ pub(crate) fn second_order_watched(
         false => Ok(mode_second_order(mechanism, at, modes, mode, tolerances)),
     };
     let all = (0..modes.modes.len()).map(one).collect::<Result<_, _>>()?;
-    Ok(of_each(all, at, tolerances))
+    Ok(of_each(mechanism, (at, modes), all, tolerances))
 }
 
 fn of_each(
-    modes: Vec<Result<ModeSecondOrder, Error>>,
-    at: &Equilibrium,
+    mechanism: &dyn CurvatureKernels,
+    (at, modes): (&Equilibrium, &Modes),
+    all: Vec<Result<ModeSecondOrder, Error>>,
     tolerances: &Tolerances,
 ) -> SecondOrder {
+    let first = sensitivities(mechanism, at, modes)
+        .and_then(|slopes| first_order(modes, &slopes, tolerances));
+    // Without derivatives there is no second order either, and each mode says why.
+    let doubts = |mode| {
+        first
+            .as_ref()
+            .map_or_else(|_| Vec::new(), |first| first.doubts(mode))
+    };
     SecondOrder {
-        modes,
+        doubts: (0..all.len()).map(doubts).collect(),
+        modes: all,
         sigma_level: tolerances.sigma_level(),
+        varies: tolerances.vary(),
         inputs: at.inputs.clone(),
         description: at.description.clone(),
     }

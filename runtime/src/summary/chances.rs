@@ -52,8 +52,7 @@ pub struct Sampled {
     /// Probability of each outcome.
     pub outcomes: Vec<(Outcome, Chance)>,
     /// Stable samples on a branch of equilibria other than the nominal one: beyond a branch point, or in another
-    /// valley. Only the first few thousand samples are examined; `None` if the nominal state is not stable, so that
-    /// there is no branch to stay on.
+    /// valley. `None` if the nominal state is not stable, so that there is no branch to stay on.
     pub other_branch: Option<Chance>,
 }
 

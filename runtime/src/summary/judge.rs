@@ -1,14 +1,14 @@
 //! The verdict on a mode, from samples, distances and the second-order model.
 
 use super::chances::Sampling;
-use super::paired::Measured;
 use super::sampled::{FEWEST, Finding, Found, Prediction, ROUNDING, finding};
-use super::verdict::{Advice, Check, Doubt, TRUSTED_SIGMA_ERROR, Trust};
+use super::verdict::{Advice, Check, Trust};
 use crate::clusters::ClusterTolerance;
+use crate::judge::{Doubt, Measured, TRUSTED_SIGMA_ERROR};
 use crate::modes::Family;
 use crate::second_order::{ModeSecondOrder, SecondOrder, SecondOrderSpread};
 use crate::sensitivity::Quantity;
-use crate::tolerance::{FirstOrder, TRUSTED_DISTANCE};
+use crate::tolerance::FirstOrder;
 use crate::{Behaviour, Mode};
 
 /// With a critical state or critical damping within this many standard deviations, more samples are drawn: rare ones
@@ -50,7 +50,7 @@ impl<'a> Judge<'a> {
         }
         let first = &self.first.modes[mode];
         let second = self.second.modes[mode].as_ref().ok();
-        let damping = self.distance_to_critical_damping(mode);
+        let damping = first.distance_to_critical_damping(self.first.family);
         let distance = damping.map_or(self.first.distance_to_critical, |distance| {
             distance.min(self.first.distance_to_critical)
         });
@@ -154,40 +154,30 @@ impl<'a> Judge<'a> {
 
     /// Doubts from distances and the second-order model, given that samples found the mode wrong, right, or undecided.
     fn doubts(&self, mode: usize, own: &Mode, said: &Findings) -> Vec<Doubt> {
-        let mut doubts = Vec::new();
-        if own.behaviour == Behaviour::Free {
-            return doubts;
-        }
-        let near = |distance: f64| distance < TRUSTED_DISTANCE;
-        if own.frequency().is_none() {
-            doubts.push(Doubt::NoFrequency);
-        }
-        let decided = said.wrong || said.right;
         let cluster = (self.cluster(mode)).filter(|_| !(said.separate && said.right));
+        let mut doubts = self.first.doubts(mode);
+        doubts.retain(|doubt| match doubt {
+            // Samples about an unstable state have left it.
+            Doubt::NearCritical { distance } | Doubt::BranchNear { distance, .. } => {
+                !(said.right && *distance > 0.0)
+            }
+            Doubt::NearCriticalDamping { .. } => !said.right,
+            // Clusters decide.
+            Doubt::EqualNeighbours | Doubt::NearNeighbour { .. } => false,
+            _ => true,
+        });
         if let Some(cluster) = cluster {
-            doubts.push(Doubt::Clustered {
+            let clustered = Doubt::Clustered {
                 modes: cluster.modes.clone(),
                 distance: cluster.distance,
                 defective: cluster.defective(),
-            });
+            };
+            let place = doubts
+                .iter()
+                .take_while(|doubt| **doubt == Doubt::NoFrequency);
+            doubts.insert(place.count(), clustered);
         }
-        let first = &self.first.modes[mode];
-        let distance = self.first.distance_to_critical;
-        // Samples about an unstable state have left it.
-        if near(distance) && !(said.right && distance > 0.0) {
-            doubts.push(Doubt::NearCritical { distance });
-        }
-        let distance = first.distance_to_instability;
-        if own.frequency().is_some() && near(distance) {
-            doubts.push(Doubt::NearInstability { distance });
-        }
-        if let Some(distance) = self.distance_to_critical_damping(mode)
-            && near(distance)
-            && !said.right
-            && !near(first.distance_to_critical)
-        {
-            doubts.push(Doubt::NearCriticalDamping { distance });
-        }
+        let decided = said.wrong || said.right;
         let open = !decided && cluster.is_none() && own.frequency().is_some();
         if open && !expanded_near_a_root(&doubts) {
             self.check_by_second_order(mode, own, &mut doubts);
@@ -204,7 +194,7 @@ impl<'a> Judge<'a> {
         let stays = self.first.distance_to_critical > 0.0;
         if doubts.is_empty() {
             Advice::FirstOrder
-        } else if any(|doubt| matches!(doubt, Doubt::Clustered { .. })) {
+        } else if any(|doubt| matches!(doubt, Doubt::Clustered { defective, .. } if !defective)) {
             Advice::Cluster
         } else if stays
             && any(|doubt| matches!(doubt, Doubt::Inaccurate { .. }))
@@ -229,14 +219,6 @@ impl<'a> Judge<'a> {
                 && !cluster.defective()
                 && !cluster.modes.iter().any(|r| self.first.modes[*r].clustered)
         })
-    }
-
-    /// `(Im s)^2` divided by its own standard deviation, `Im s / (2 sigma)`; `None` for undamped modes and those that
-    /// do not oscillate.
-    fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
-        let own = self.first.modes[mode].frequency()?;
-        (self.first.family == Family::General && own.sigma > 0.0)
-            .then(|| 0.5 * own.mean / own.sigma)
     }
 
     fn check_by_second_order(&self, mode: usize, own: &Mode, doubts: &mut Vec<Doubt>) {
@@ -284,7 +266,9 @@ pub(super) fn expanded_near_a_root(doubts: &[Doubt]) -> bool {
     doubts.iter().any(|doubt| {
         matches!(
             doubt,
-            Doubt::NearCritical { .. } | Doubt::NearCriticalDamping { .. }
+            Doubt::NearCritical { .. }
+                | Doubt::BranchNear { .. }
+                | Doubt::NearCriticalDamping { .. }
         )
     })
 }

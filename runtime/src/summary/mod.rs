@@ -17,17 +17,15 @@
 //! them has settled. A mode that does not oscillate in a sample has no frequency there, and an unstable sample has none
 //! at all. Both are counted ([`Check::count`], [`Sampled`]) and excluded from mean and standard deviation.
 
-mod branch;
 mod chances;
-mod cost;
 mod judge;
 mod paired;
 mod sampled;
 mod verdict;
 
+pub use crate::judge::{BUDGET, Doubt, Measured, TRUSTED_SIGMA_ERROR};
 pub use chances::{Chance, Sampled, Sampling};
-pub use paired::Measured;
-pub use verdict::{Advice, Check, Doubt, TRUSTED_SIGMA_ERROR, Trust};
+pub use verdict::{Advice, Check, Trust};
 
 use self::judge::{Judge, expanded_near_a_root};
 use self::sampled::{About, Prediction};
@@ -38,9 +36,6 @@ use crate::second_order::{SecondOrder, second_order_watched};
 use crate::sensitivity::sensitivities;
 use crate::tolerance::{FirstOrder, Tolerances, first_order};
 use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
-
-/// Limit on the additions and multiplications spent on the samples of a [`summary`]: some ten milliseconds.
-pub const BUDGET: f64 = 1.5e8;
 
 /// The effect of tolerances on the modes, with a verdict for each mode.
 #[derive(Clone, Debug, PartialEq)]

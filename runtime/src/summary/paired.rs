@@ -1,6 +1,8 @@
 //! Samples paired with their predictions: the ratio of two standard deviations over the same samples is known much more
 //! accurately than either.
 
+use crate::judge::Measured;
+
 /// Number of groups of samples; the jackknife leaves out one at a time.
 const GROUPS: usize = 32;
 /// Samples represent a distribution if their standard deviation is that of the distribution within this fraction, or
@@ -53,19 +55,6 @@ impl Group {
         self.first.join(&other.first, sign);
         self.second.join(&other.second, sign);
     }
-}
-
-/// A number with its standard error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Measured {
-    /// The number.
-    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-    pub value: f64,
-    /// Its standard error.
-    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-    pub standard_error: f64,
 }
 
 /// A quantity of a mode over samples, with its first- and second-order prediction for each. All are deviations from the

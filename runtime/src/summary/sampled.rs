@@ -1,16 +1,15 @@
 //! Checks first and second order against re-solved samples: as many as a decision needs, within a budget.
 
-use super::branch::on_nominal_branch;
 use super::chances::{Chance, Sampled, Sampling};
-use super::cost::{operations, together};
-use super::paired::{Measured, Paired};
-use super::verdict::{Check, TRUSTED_SIGMA_ERROR};
+use super::paired::Paired;
+use super::verdict::Check;
 use crate::algebra::Vector;
+use crate::judge::{Measured, TRUSTED_SIGMA_ERROR, operations, together};
 use crate::kernels::SummaryKernels;
 use crate::second_order::Quadratic;
 use crate::sensitivity::Quantity;
 use crate::tolerance::{self, Counts, Outcome, Sample, Tolerances, monte_carlo};
-use crate::{Equilibrium, Error, Modes, Stability, Watch};
+use crate::{Equilibrium, Error, Modes, Watch};
 
 /// Successive numbers of samples; the next is used if the last did not decide.
 const STAGES: [usize; 5] = [256, 1024, 4096, 16_384, 65_536];
@@ -20,8 +19,6 @@ const DECISIVE: usize = 1024;
 const DECISIVE_IN_DOUBT: usize = 4096;
 /// Maximum number of samples drawn at once.
 const TOGETHER: usize = 8192;
-/// Number of samples whose branch is checked.
-const BRANCHES: usize = 4096;
 /// The error of a standard deviation that separates right from wrong.
 const LIMIT: f64 = 0.03;
 /// A smaller error is not rejected.
@@ -87,13 +84,12 @@ impl About<'_> {
             counts: pairs.iter().map(Paired::count).collect(),
             sampling,
         };
-        let still = self.tolerances.sigmas().iter().all(|sigma| *sigma == 0.0);
-        if predictions.is_empty() || still {
+        if predictions.is_empty() || !self.tolerances.vary() {
             return Ok(found(&pairs, exchanged, Sampling::NotNeeded));
         }
         let mut each = operations(self.modes, together(self.modes));
         let mut counts = Counts::default();
-        let mut branches = (self.at.stability == Stability::Stable).then_some((0, 0));
+        let mut elsewhere = 0;
         let mut stream = 0;
         for stage in STAGES {
             if stage.max(DECISIVE) as f64 * each > budget {
@@ -119,10 +115,10 @@ impl About<'_> {
                 }
                 stream += 1;
                 counts.merge(&run.counts);
+                elsewhere += run.left_nominal_branch;
                 each = operations(self.modes, run.side_by_side);
                 for sample in run.all.iter().flatten() {
                     self.look_at(sample, predictions, &mut pairs);
-                    self.follow(sample, &mut branches);
                     for (group, exchanged) in groups.iter().zip(&mut exchanged) {
                         *exchanged += usize::from(!self.in_order(group, sample));
                     }
@@ -150,9 +146,8 @@ impl About<'_> {
                 Sampling::TooDear { operations, budget },
             ));
         }
-        let other_branch = branches
-            .filter(|(_, samples)| *samples > 0)
-            .map(|(count, samples)| Chance::new(count, samples))
+        let other_branch = (self.at.stability.holds())
+            .then(|| Chance::new(elsewhere, samples))
             .transpose()?;
         let sampled = Sampled::new(&counts, other_branch)?;
         Ok(found(&pairs, exchanged, Sampling::Done(sampled)))
@@ -188,23 +183,6 @@ impl About<'_> {
         let turned =
             |(i, j): (usize, usize)| (found[i].0 < found[j].0) != (found[i].1 < found[j].1);
         !pairs.into_iter().any(turned)
-    }
-
-    /// Counts the samples checked so far, and those on another branch.
-    fn follow(&self, sample: &Sample, branches: &mut Option<(usize, usize)>) {
-        let Some((others, asked)) = branches else {
-            return;
-        };
-        if *asked == BRANCHES {
-            return;
-        }
-        *asked += 1;
-        if let Some(q) = &sample.coordinates
-            && sample.outcome == Outcome::Stable
-            && !on_nominal_branch(self.mechanism, self.at, &sample.design, q)
-        {
-            *others += 1;
-        }
     }
 }
 

@@ -1,11 +1,7 @@
 //! The verdict on a mode: advice, doubts and the results of sampling.
 
-use super::paired::Measured;
-use crate::Error;
+use crate::judge::{Doubt, Measured};
 use crate::sensitivity::Quantity;
-
-/// A first-order standard deviation with a larger error is not to be trusted.
-pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
 
 /// The verdict on the first-order standard deviation of one mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,80 +75,4 @@ pub struct Check {
     pub first_order_error: Option<Measured>,
     /// Relative error of the second-order standard deviation, likewise.
     pub second_order_error: Option<Measured>,
-}
-
-/// A reason not to trust a first-order standard deviation.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Doubt {
-    /// The mode does not oscillate: it has no frequency.
-    NoFrequency,
-    /// Tolerances mix it with other modes.
-    Clustered {
-        /// Positions of all modes of the cluster, including this one.
-        modes: Vec<usize>,
-        /// Smallest distance between two of them, in standard deviations.
-        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        distance: f64,
-        /// They have merged into one defective eigenvalue.
-        defective: bool,
-    },
-    /// The critical state, beyond which the equilibrium changes branch, is near: the distance is zero within rounding
-    /// of it, negative beyond it. A positive distance is not reported if samples found first order right.
-    NearCritical {
-        /// Standard deviations.
-        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        distance: f64,
-    },
-    /// The mode is close to growing: the distance is zero if it neither grows nor decays within rounding, negative if
-    /// it grows. It is reported whatever samples show, because sigma says nothing about unstable ones.
-    NearInstability {
-        /// Standard deviations.
-        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        distance: f64,
-    },
-    /// The mode is close to ceasing to oscillate: its eigenvalue meets its conjugate and splits into two real ones. It
-    /// is not reported near a critical state, or if samples found first order right.
-    NearCriticalDamping {
-        /// Standard deviations, `Im s / (2 sigma)`: the distance of `(Im s)^2` from zero.
-        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        distance: f64,
-    },
-    /// First order disagrees with the standard deviation of the second-order model. Checked only where samples did not
-    /// decide and the series may converge: not near a critical state or critical damping.
-    Nonlinear {
-        /// The quantity.
-        quantity: Quantity,
-        /// Relative error with respect to second order.
-        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        sigma_error: f64,
-    },
-    /// First order disagrees with the standard deviation of samples.
-    Inaccurate {
-        /// The quantity.
-        quantity: Quantity,
-        /// The error, as in [`Check::first_order_error`].
-        error: Measured,
-    },
-    /// The standard deviation is due to values too rare to be among the samples, such as an outlier in a list of measured
-    /// values: nothing confirms first order.
-    Unrepresentative {
-        /// The quantity.
-        quantity: Quantity,
-    },
-    /// Fewer than half of the samples have the quantity, for a reason other than a nearby instability.
-    Missing {
-        /// The quantity.
-        quantity: Quantity,
-        /// Number of samples that have it.
-        count: usize,
-        /// Number of samples drawn.
-        samples: usize,
-    },
-    /// The second-order model needed for the check does not exist, and no samples decided.
-    Unchecked {
-        /// The reason.
-        reason: Error,
-    },
 }

@@ -128,12 +128,6 @@ impl ModeTolerance {
         let frequency = all.and_then(|all| all[Quantity::Frequency as usize].as_ref());
         &frequency.unwrap_or(&self.lambda).variance_shares
     }
-
-    /// Whether every other mode is far enough away that tolerances do not bring the two together.
-    #[must_use]
-    pub fn alone(&self) -> bool {
-        !self.clustered && self.distance_to_neighbour >= TRUSTED_DISTANCE
-    }
 }
 
 /// First-order spread of all modes.
@@ -145,6 +139,8 @@ pub struct FirstOrder {
     pub modes: Vec<ModeTolerance>,
     /// How many standard deviations a tolerance and a band span.
     pub sigma_level: f64,
+    /// Whether any variable has a tolerance.
+    pub varies: bool,
     /// Smallest distance of any mode to the critical state. Beyond the critical state the equilibrium changes branch,
     /// which changes every mode, so the nearest mode limits the reliability of all.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
@@ -155,16 +151,6 @@ pub struct FirstOrder {
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
-}
-
-impl FirstOrder {
-    /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]).
-    ///
-    /// It considers each mode alone; [`summary`](crate::summary::summary) also detects which modes mix and how
-    /// nonlinear frequencies are.
-    pub fn trusted(&self) -> bool {
-        self.distance_to_critical >= TRUSTED_DISTANCE && self.modes.iter().all(ModeTolerance::alone)
-    }
 }
 
 /// First-order spread of every mode.
@@ -201,6 +187,7 @@ pub fn first_order(
         distance_to_critical: distances.fold(f64::INFINITY, f64::min),
         modes: found,
         sigma_level: tolerances.sigma_level(),
+        varies: tolerances.vary(),
         family: modes.family,
         inputs: sensitivities.inputs.clone(),
         description: modes.description.clone(),
@@ -221,6 +208,8 @@ fn undamped(
     found.value = mode.s;
     found.distance_to_critical = match mode.behaviour {
         Behaviour::Free => f64::INFINITY,
+        // Along a free direction nothing vanishes that tolerances could bring back.
+        Behaviour::Neutral if found.lambda.sigma <= mode.error * mode.error => f64::INFINITY,
         Behaviour::Neutral => 0.0,
         _ => in_sigmas(found.lambda.mean, found.lambda.sigma),
     };
@@ -263,6 +252,7 @@ fn keeps_amplitude(mode: &Mode, growth: &Spread) -> bool {
 fn distance_to_zero(mode: &Mode, natural: Option<&Spread>, growth: Option<&Spread>) -> f64 {
     match (mode.behaviour, natural, growth) {
         (Behaviour::Free, ..) => f64::INFINITY,
+        (Behaviour::Neutral, _, Some(growth)) if growth.sigma <= mode.error => f64::INFINITY,
         (Behaviour::Neutral, ..) => 0.0,
         (_, Some(natural), _) => in_sigmas(0.5 * natural.mean, natural.sigma),
         (_, None, Some(growth)) => in_sigmas(-growth.mean, growth.sigma),

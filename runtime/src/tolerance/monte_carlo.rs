@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use eigentol_statistics::summary::Partial;
 
 use super::gather::{Part, Work};
-use super::partial::{SEED, STREAM};
+use super::partial::{SEED, STREAM, VARIABLES};
 use super::run::{Format, Run};
 use super::solver::{Numbered, Room, Solver};
 use super::{Fingerprint, MonteCarlo, PartialMonteCarlo, Tolerances};
@@ -117,7 +117,7 @@ pub fn monte_carlo(
 ) -> Result<MonteCarlo, Error> {
     let about = (nominal, modes);
     // Nothing will be merged with this run, so its fingerprint may stay empty.
-    let fingerprint = |method: &str| drawn(Fingerprint::default(), method, sampling);
+    let fingerprint = |method: &str| drawn(Fingerprint::default(), method, tolerances, sampling);
     let all = gathered(mechanism, about, tolerances, sampling, fingerprint)?;
     Ok(all.into_result())
 }
@@ -135,7 +135,7 @@ pub fn partial_monte_carlo(
 ) -> Result<PartialMonteCarlo, Error> {
     let fingerprint = |method: &str| {
         let about = Fingerprint::new(mechanism, nominal, modes, tolerances);
-        drawn(about, method, sampling)
+        drawn(about, method, tolerances, sampling)
     };
     gathered(
         mechanism,
@@ -147,9 +147,16 @@ pub fn partial_monte_carlo(
 }
 
 /// Adds how samples are drawn to the fingerprint of what they are drawn about.
-fn drawn(about: Fingerprint, method: &str, sampling: &Sampling<'_>) -> Fingerprint {
+fn drawn(
+    about: Fingerprint,
+    method: &str,
+    tolerances: &Tolerances,
+    sampling: &Sampling<'_>,
+) -> Fingerprint {
+    let varied = tolerances.sigmas().iter().filter(|sigma| **sigma > 0.0);
     about
         .with("method", method)
+        .with(VARIABLES, varied.count())
         .with("samples", sampling.samples)
         .with(SEED, sampling.seed)
         .with(STREAM, sampling.stream)

@@ -16,6 +16,8 @@ pub struct OutputTolerances {
     pub spreads: Vec<Option<Spread>>,
     /// Standard deviations that a tolerance spans.
     pub sigma_level: f64,
+    /// Whether any variable has a tolerance.
+    pub varies: bool,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
@@ -41,6 +43,7 @@ pub fn output_tolerances(
         values: outputs.values.clone(),
         spreads: each.map(spread).collect(),
         sigma_level: tolerances.sigma_level(),
+        varies: tolerances.vary(),
         inputs: outputs.inputs.clone(),
         description: outputs.description.clone(),
     })

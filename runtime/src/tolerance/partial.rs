@@ -15,6 +15,8 @@ use crate::{Description, Error, Shared};
 /// The fingerprint facts that identify the random numbers.
 pub(super) const SEED: &str = "seed";
 pub(super) const STREAM: &str = "stream";
+/// The one that tells how many variables have a tolerance.
+pub(super) const VARIABLES: &str = "variables with a tolerance";
 
 /// Part of the samples of a Monte Carlo run. Parts of a run merge to the same bits as the whole, however it was split.
 ///
@@ -128,6 +130,7 @@ impl PartialMonteCarlo {
 
     pub(super) fn into_result(self) -> MonteCarlo {
         let (seed, stream) = self.sequence().unwrap_or_default();
+        let varies = self.run.fingerprint.number(VARIABLES) != Some(0);
         let ranges = self.ranges();
         let outcomes = self.part.outcomes();
         let counts = Counts::of_all(outcomes);
@@ -150,6 +153,7 @@ impl PartialMonteCarlo {
             modes,
             damping_ratios,
             side_by_side: self.side_by_side,
+            varies,
             clustered: self.clustered,
             all: (self.kept).map(|kept| kept.into_iter().map(|(_, sample)| sample).collect()),
             family: self.family,

@@ -24,7 +24,8 @@ pub struct MonteCarlo {
     pub ranges: Vec<Range<u64>>,
     /// Number of samples with each outcome.
     pub counts: Counts,
-    /// Stable samples whose nominal position is itself unstable: they settled on another branch.
+    /// Stable samples on a branch of equilibria other than the nominal one: beyond a branch point, or in another valley;
+    /// all of them if the nominal equilibrium is not stable.
     pub left_nominal_branch: usize,
     /// Statistics of the frequency, rad/s, by nominal mode, over the stable samples in which the mode oscillates;
     /// `None` if there are none. They include quantiles and a histogram ([`Statistics::quantile`],
@@ -35,9 +36,11 @@ pub struct MonteCarlo {
     /// Samples were solved side by side in vectors ([`Sampling::vectors`](super::Sampling::vectors)), except those that
     /// had to be solved alone. If solved one by one, the statistics differ in the last bits.
     pub side_by_side: bool,
-    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode matches is arbitrary, so only
-    /// statistics over all of them together are meaningful ([`clusters`](crate::clusters::clusters)).
+    /// Some nominal modes have equal eigenvalues. They have no identity but their order: in every sample, the modes that
+    /// continue them count in ascending order of their natural frequencies.
     pub clustered: bool,
+    /// Whether any variable has a tolerance.
+    pub varies: bool,
     /// Every sample, in order, if requested.
     pub all: Option<Vec<Sample>>,
     /// The family of the modes.

@@ -4,7 +4,7 @@ use super::Outcome;
 use crate::algebra::Vector;
 use crate::equilibrium::{OperatingPoint, solve_into};
 use crate::kernels::Kernels;
-use crate::modes::{match_with_assurance, position};
+use crate::modes::{Family, equal_groups, in_order, match_with_assurance, position};
 use crate::{Complex, Equilibrium, Mode, Modes, Policy};
 
 /// One sample.
@@ -34,6 +34,8 @@ pub(crate) struct Solution {
     pub(crate) state: Equilibrium,
     solved: bool,
     modes: Modes,
+    /// Groups of nominal modes with equal eigenvalues.
+    groups: Vec<Vec<usize>>,
     /// Positions of the nominal modes among them; empty if they were not found.
     places: Vector<Option<usize>>,
 }
@@ -46,6 +48,7 @@ impl Solution {
             state: nominal.clone(),
             solved: true,
             modes: modes.clone(),
+            groups: equal_groups(modes),
             places: Vector::default(),
         }
     }
@@ -75,7 +78,16 @@ impl Solution {
         let (found, state) = (&mut self.modes, &self.state);
         match found.solve_judged(state, judged, &modes.modes) {
             Ok(()) => {
-                self.places = match_with_assurance(modes, found, &state.linear).map(position);
+                let mut places = match_with_assurance(modes, found, &state.linear).map(position);
+                let size = |places: &Vector<Option<usize>>, r: usize| match places[r] {
+                    None => f64::INFINITY,
+                    Some(place) if found.family == Family::Undamped => found.modes[place].lambda,
+                    Some(place) => found.modes[place].s.norm(),
+                };
+                for group in &self.groups {
+                    in_order(group, &mut places, size, |places, i, j| places.swap(i, j));
+                }
+                self.places = places;
             }
             Err(_) => self.outcome = Outcome::NoModes,
         }

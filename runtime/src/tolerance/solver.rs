@@ -8,13 +8,14 @@ use super::sample::Solution;
 use super::sampling::{Batches, Draw};
 use super::{Outcome, Sample, Tolerances};
 use crate::algebra::Vector;
+use crate::equilibrium::Branch;
 use crate::kernels::BatchKernels;
 use crate::modes::Family;
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::sensitivity::{Quantity, sensitivities};
 use crate::{Complex, Equilibrium, Error, Modes};
 
-/// Index, after the outcomes, of the count of stable samples that left the nominal branch.
+/// Index, after the outcomes, of the count of stable samples on another branch than the nominal one.
 pub(super) const LEFT_NOMINAL_BRANCH: usize = Outcome::ALL.len();
 
 /// A sample with its number.
@@ -184,6 +185,11 @@ impl<'a> Solver<'a> {
         Ok(())
     }
 
+    /// Whether a stable equilibrium lies on the nominal branch, which is left from the start if it is not stable.
+    fn stays(&self, design: &[f64], q: &[f64]) -> bool {
+        self.nominal.stability.holds() && Branch::of(self.mechanism, self.nominal).holds(design, q)
+    }
+
     /// Solves a sample on its own.
     fn alone(
         &self,
@@ -195,8 +201,8 @@ impl<'a> Solver<'a> {
         chunk.count(solved.outcome as usize, 1)?;
         let count = self.modes.modes.len();
         if solved.outcome == Outcome::Stable {
-            let left = u64::from(solved.state.left_unstable_region);
-            chunk.count(LEFT_NOMINAL_BRANCH, left)?;
+            let left = !self.stays(design, &solved.state.coordinates);
+            chunk.count(LEFT_NOMINAL_BRANCH, u64::from(left))?;
             for r in 0..count {
                 let Some(mode) = solved.mode(r) else { continue };
                 let Some(omega) = mode.frequency().filter(|omega| *omega <= LARGEST) else {

@@ -168,6 +168,12 @@ impl Tolerances {
         &self.shifts
     }
 
+    /// Whether any variable has a tolerance.
+    #[must_use]
+    pub fn vary(&self) -> bool {
+        self.sigmas.iter().any(|sigma| *sigma > 0.0)
+    }
+
     /// Whether the values are jointly normal, about any mean.
     #[must_use]
     pub fn is_normal(&self) -> bool {

@@ -6,6 +6,7 @@ use crate::batched::POSITIVE;
 use crate::batched::algebra::{self, Row, Square, congruent, keep, load_matrix};
 use crate::batched::closed::{self, Solver};
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
+use crate::kernels::BatchPoint;
 use crate::scalar::Lanes;
 
 /// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last. It uses the
@@ -51,7 +52,26 @@ pub(super) fn improve<V: Lanes, const N: usize>(
     V::choose(moving, last, rested).store(&mut batch.resting, at);
 }
 
-/// Flags samples at rest near the nominal equilibrium whose stiffness stays close to the nominal one all the way.
+/// The stiffness of the nominal design at the equilibrium of a sample, where no derivative of it is known.
+pub(super) fn nominal_stiffness<const N: usize>(
+    prepared: &TaylorModel<'_, N>,
+    batch: &mut Solved<'_>,
+) {
+    let point = BatchPoint {
+        q: batch.coordinates,
+        u: &prepared.inputs,
+        b: &prepared.design,
+    };
+    prepared.kernels.residual_and_stiffness_batch(
+        prepared.instructions,
+        point,
+        batch.residual,
+        batch.stiffness,
+    );
+}
+
+/// Flags samples at rest near the nominal equilibrium whose stiffness stays close to the nominal one all the way. They
+/// are on its branch: each of the two equilibria is in the basin of the other.
 #[inline(always)]
 pub(super) fn held<V: Lanes, const N: usize>(
     n: usize,
@@ -76,7 +96,9 @@ pub(super) fn held<V: Lanes, const N: usize>(
         }
         Statics::Forces(forces) => {
             let stiffness = load_matrix(n, batch.linear.stiffness, at);
-            forces.relative(n, &stiffness).1
+            let nominal = load_matrix(n, batch.stiffness, at);
+            let (_, regular) = forces.relative(n, &stiffness);
+            keep(regular, one.at_most(forces.relative(n, &nominal).1))
         }
     };
     keep(flag, one.at_most(regular))
@@ -128,7 +150,7 @@ impl<const N: usize> Potential<N> {
     }
 
     /// Whether the stiffness, in the basis of the nominal modes, is positive definite all the way from the nominal
-    /// position.
+    /// position, and the nominal one all the way from there.
     ///
     /// It is checked here and, using its derivative, from the nominal position to its mirror image.
     #[inline(always)]
@@ -139,16 +161,24 @@ impl<const N: usize> Potential<N> {
         displacement: &Row<V, N>,
     ) -> V {
         let mut nearby = *stiffness;
+        let mut nominal = [[V::constant(0.0); N]; N];
+        for i in 0..n {
+            nominal[i][i] = V::constant(self.lambda[i]);
+        }
         let stiffening = &self.stiffening[..n];
         for k in 0..n {
-            let twice = displacement[k] * V::constant(2.0);
             for i in 0..n {
                 for j in 0..=i {
-                    nearby[i][j] = nearby[i][j] - V::constant(stiffening[k][i][j]) * twice;
+                    let change = V::constant(stiffening[k][i][j]) * displacement[k];
+                    nearby[i][j] = nearby[i][j] - (change + change);
+                    nominal[i][j] = nominal[i][j] + change;
                 }
             }
         }
-        closed::definite(n, &nearby, CLEARLY_POSITIVE)
+        keep(
+            closed::definite(n, &nearby, CLEARLY_POSITIVE),
+            V::constant(1.0).at_most(closed::definite(n, &nominal, CLEARLY_POSITIVE)),
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::batched::room::Room;
 use crate::kernels::BatchLinear;
-use crate::modes::Family;
+use crate::modes::{Family, in_order};
 use crate::scalar::{Batch, WIDTH};
 use crate::tolerance::sampling::Bits;
 use crate::{Complex, Equilibrium, Modes};
@@ -119,6 +119,19 @@ impl Solved<'_> {
     pub(in crate::tolerance) fn eigenvalues(&self, member: usize) -> impl Iterator<Item = Complex> {
         let both = self.rates.iter().zip(&*self.frequencies);
         both.map(move |(re, im)| Complex::new(re.0[member], im.0[member]))
+    }
+
+    /// Puts the modes of a group of equal nominal ones in ascending order, in every member.
+    pub(super) fn put_in_order(&mut self, group: &[usize]) {
+        for k in 0..self.members {
+            let size = |own: &Self, r: usize| own.rates[r].0[k].hypot(own.frequencies[r].0[k]);
+            in_order(group, self, size, |own, i, j| {
+                for parts in [&mut *own.rates, &mut *own.frequencies] {
+                    let (a, b) = (parts[i].0[k], parts[j].0[k]);
+                    (parts[i].0[k], parts[j].0[k]) = (b, a);
+                }
+            });
+        }
     }
 
     /// Accepts the members that have passed every check so far.

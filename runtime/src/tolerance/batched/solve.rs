@@ -28,6 +28,11 @@ impl<const N: usize> TaylorModel<'_, N> {
                 batches,
             });
         }
+        for group in &self.groups {
+            for batch in &mut *batches {
+                batch.put_in_order(group);
+            }
+        }
     }
 
     fn point<'b>(&'b self, coordinates: &'b [Batch], design: &'b [Batch]) -> BatchPoint<'b> {
@@ -112,10 +117,13 @@ fn through<V: Lanes, const N: usize>(
         prepared
             .kernels
             .linear_batch(prepared.instructions, point, linear);
-        if let Statics::Potential(potential) = &prepared.statics {
-            for at in (0..WIDTH).step_by(V::WIDTH) {
-                equilibrium::between_modes::<V, N>(n, potential, batch, at);
+        match &prepared.statics {
+            Statics::Potential(potential) => {
+                for at in (0..WIDTH).step_by(V::WIDTH) {
+                    equilibrium::between_modes::<V, N>(n, potential, batch, at);
+                }
             }
+            Statics::Forces(_) => equilibrium::nominal_stiffness(prepared, batch),
         }
     }
     for batch in &mut *batches {

@@ -9,7 +9,7 @@ use crate::batched::algebra::Row;
 use crate::constraints::Structure;
 use crate::eigenproblem::Reference;
 use crate::kernels::BatchKernels;
-use crate::modes::Family;
+use crate::modes::{Family, equal_groups};
 use crate::scalar::{Batch, Instructions};
 use crate::tolerance::Tolerances;
 use crate::tolerance::normal_sampling::GREATEST_NORMAL;
@@ -26,6 +26,8 @@ pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
     pub(super) means: Vector,
     /// The inputs, equal in every lane.
     pub(super) inputs: Vector<Batch>,
+    /// The nominal design, equal in every lane.
+    pub(super) design: Vector<Batch>,
     /// Diagonal of the factor `L` of the covariance; for values that are not normal, of the correlation of the normal
     /// numbers behind them.
     pub(super) own: Vector,
@@ -45,6 +47,8 @@ pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
     pub(super) motions: usize,
     /// The nominal pairs, if modes are damped or constrained.
     pub(super) reference: Option<Reference>,
+    /// Groups of nominal modes with equal eigenvalues.
+    pub(super) groups: Vec<Vec<usize>>,
     /// No design that can be drawn violates a physical requirement, so samples need no check.
     pub(super) all_possible: bool,
     /// Displacements caused by one standard deviation of every variable.
@@ -120,6 +124,7 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
             instructions,
             nominal,
             inputs: nominal.inputs.map(Batch::all),
+            design: nominal.design.map(Batch::all),
             joint: joint.map(|(joint, about)| {
                 let moved = Vector::from_fn(p, |i| nominal.design[i] - about[i]);
                 (joint, moved)
@@ -128,6 +133,7 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
             second: answer.curvatures(&varied, &first, deviations)?,
             all_possible: kernels.possible_within(&nominal.inputs, &nominal.design, &limits),
             reach: row(&reach),
+            groups: equal_groups(modes),
             statics,
             motions: structure.motions(),
             reference,

@@ -1,12 +1,13 @@
 //! Failure probabilities of limit states in independent standard normal variables.
 //!
 //! A [`LimitState`] is a function `g(z)` that is not positive in failure. [`form`] finds its design point, [`sorm`]
-//! corrects for the curvature of the limit there, [`sampling`] gives unbiased estimates, and [`system`] combines
-//! several requirements. The caller transforms physical variables to standard normal ones.
+//! corrects for the curvature of the limit there, [`sampling`] and [`lines`] give unbiased estimates, and [`system`]
+//! combines several requirements. The caller transforms physical variables to standard normal ones.
 
 mod counted;
 mod form;
 mod limit_state;
+pub mod lines;
 mod random;
 pub mod sampling;
 mod sorm;

@@ -5,60 +5,9 @@ use core::cell::RefCell;
 use eigentol_statistics::reliability::{LimitState, LimitValue};
 
 use super::deviations::Deviations;
-use crate::response::{Realisation, Response, Responses, Workspace};
+use super::edge::Edge;
+use crate::response::{Realisation, Responses, Workspace};
 use crate::tolerance::Outcome;
-
-/// The values at which a response fails, in its SI unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Edge {
-    /// Below this value.
-    AtLeast(f64),
-    /// Above this value.
-    AtMost(f64),
-    /// Between these values.
-    Outside {
-        /// Low end of the forbidden band.
-        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        low: f64,
-        /// High end of the forbidden band.
-        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        high: f64,
-    },
-}
-
-impl Edge {
-    pub(super) fn is_finite(&self) -> bool {
-        match self {
-            Self::AtLeast(end) | Self::AtMost(end) => end.is_finite(),
-            Self::Outside { .. } => true,
-        }
-    }
-
-    /// Distance of a value from failure, negative in failure, and its derivative with respect to the value.
-    pub(super) fn distance(&self, value: f64) -> (f64, f64) {
-        match *self {
-            Self::AtLeast(low) => (value - low, 1.0),
-            Self::AtMost(high) => (high - value, -1.0),
-            Self::Outside { low, high } if low - value > value - high => (low - value, -1.0),
-            Self::Outside { high, .. } => (value - high, 1.0),
-        }
-    }
-}
-
-/// A limit that a requirement sets on a response.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Limit {
-    /// Position of the requirement.
-    pub requirement: usize,
-    /// The response that is limited.
-    pub response: Response,
-    /// The values at which it fails.
-    pub edge: Edge,
-}
 
 /// A limit as a function of deviations from a nominal design.
 pub(crate) struct LimitAt<'a> {
@@ -87,7 +36,7 @@ impl<'a> LimitAt<'a> {
     }
 
     /// Distance from failure and its derivatives with respect to the design variables.
-    pub(super) fn by_design(&self, z: &[f64]) -> Result<(f64, Vec<f64>), String> {
+    pub(crate) fn by_design(&self, z: &[f64]) -> Result<(f64, Vec<f64>), String> {
         let found = self.at(z, true)?;
         let value = self.value_of(&found)?;
         let gradient = found.gradients.get(self.place).cloned().flatten();

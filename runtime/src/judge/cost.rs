@@ -4,6 +4,9 @@ use crate::Description;
 use crate::modes::{Family, Modes};
 use crate::tolerance::side_by_side_possible;
 
+/// Limit on the additions and multiplications spent on the designs that judge a number: some ten milliseconds.
+pub const BUDGET: f64 = 1.5e8;
+
 /// Cost of an elementary function, in additions and multiplications.
 const FUNCTION: f64 = 40.0;
 /// Evaluations of residual and stiffness until a sample has converged.
@@ -12,12 +15,12 @@ const STEPS: f64 = 4.0;
 const SIDE_BY_SIDE: f64 = 0.25;
 
 /// Whether samples may be solved in vectorised blocks.
-pub(super) fn together(modes: &Modes) -> bool {
+pub(crate) fn together(modes: &Modes) -> bool {
     side_by_side_possible(&modes.description, modes.family)
 }
 
 /// Operations per sample: equilibrium, modes and their evaluation.
-pub(super) fn operations(modes: &Modes, together: bool) -> f64 {
+pub(crate) fn operations(modes: &Modes, together: bool) -> f64 {
     let description = &modes.description;
     let n = description.coordinates.len() as f64;
     let kernels =

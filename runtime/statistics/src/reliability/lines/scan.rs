@@ -1,0 +1,269 @@
+//! Every place along a line where a limit state changes its sign.
+
+use core::cell::Cell;
+
+use super::Line;
+use crate::normal::cdf;
+
+/// Widths, in standard deviations, to which a place is bracketed where values are known on both sides of the limit, and
+/// where they are not.
+const NARROW: f64 = 1e-12;
+const NARROW_JUMP: f64 = 1e-7;
+/// A value that changes by less than this share of itself next to an extremum does not reach zero there.
+const FLAT: f64 = 0.2;
+/// Maximum number of steps towards an extremum.
+const STEPS: usize = 60;
+/// How far a secant is moved towards the middle, relative to the square of the width.
+const TOWARDS_MIDDLE: f64 = 0.1;
+/// `(3 - sqrt(5)) / 2`.
+const GOLDEN: f64 = 0.381_966_011_250_105;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Safe,
+    Fails,
+    WithoutValue,
+}
+
+/// A point of the line and the value of the limit state there; NaN if there is none.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    s: f64,
+    value: f64,
+}
+
+impl Point {
+    fn side(&self) -> Side {
+        match self.value {
+            value if value.is_nan() => Side::WithoutValue,
+            value if value > 0.0 => Side::Safe,
+            _ => Side::Fails,
+        }
+    }
+}
+
+struct Scan<F> {
+    value: F,
+    evaluations: Cell<u64>,
+}
+
+/// The probabilities along a line with these values: evaluated first at a number of points up to `reach` on either side,
+/// beyond which nothing changes any more.
+pub(super) fn scan(value: impl Fn(f64) -> f64, reach: f64, points: u64) -> Line {
+    let scan = Scan {
+        value,
+        evaluations: Cell::new(0),
+    };
+    let half = (points / 2) as f64;
+    let grid = (0..=2 * (points / 2)).map(|k| scan.at(reach * (k as f64 - half) / half));
+    let grid: Vec<Point> = grid.collect();
+    let mut points = Vec::with_capacity(grid.len());
+    for (k, point) in grid.iter().enumerate() {
+        points.push(*point);
+        if let (Some(before), Some(after)) = (k.checked_sub(1), grid.get(k + 1)) {
+            points.extend(scan.hidden([grid[before], *point, *after]));
+        }
+    }
+    points.sort_by(|a, b| a.s.total_cmp(&b.s));
+    let mut stretches = Stretches::from(points[0].side());
+    for pair in points.windows(2) {
+        scan.between(pair[0], pair[1], 0, &mut stretches);
+    }
+    stretches.enter(f64::INFINITY, Side::Safe);
+    Line {
+        fails: stretches.fails,
+        without_value: stretches.without_value,
+        evaluations: scan.evaluations.get(),
+    }
+}
+
+impl<F: Fn(f64) -> f64> Scan<F> {
+    fn at(&self, s: f64) -> Point {
+        self.evaluations.set(self.evaluations.get() + 1);
+        let value = (self.value)(s);
+        Point { s, value }
+    }
+
+    /// A point on the other side of the limit between three points, of which the middle one is nearest to the limit: by
+    /// golden section towards it.
+    fn hidden(&self, [mut a, mut b, mut c]: [Point; 3]) -> Option<Point> {
+        let side = b.side();
+        let size = |point: &Point| point.value.abs();
+        let nearest = a.side() == side
+            && c.side() == side
+            && size(&c).is_finite()
+            && size(&a).is_finite()
+            && size(&b) < size(&a)
+            && size(&b) <= size(&c);
+        if !nearest {
+            return None;
+        }
+        for _ in 0..STEPS {
+            if size(&a).max(size(&c)) - size(&b) <= FLAT * size(&b) || c.s - a.s <= NARROW {
+                return None;
+            }
+            let left = b.s - a.s > c.s - b.s;
+            let s = match left {
+                true => b.s - GOLDEN * (b.s - a.s),
+                false => b.s + GOLDEN * (c.s - b.s),
+            };
+            let next = self.at(s);
+            if next.side() != side {
+                return Some(next);
+            }
+            match (left, size(&next) < size(&b)) {
+                (true, true) => (b, c) = (next, b),
+                (true, false) => a = next,
+                (false, true) => (a, b) = (b, next),
+                (false, false) => c = next,
+            }
+        }
+        None
+    }
+
+    /// The changes between two points: secants, moved a little towards the middle so that both ends close in (Oliveira
+    /// and Takahashi 2020, *An enhancement of the bisection method average performance*), and every third time a
+    /// bisection, which makes sure of a jump.
+    fn between(&self, a: Point, b: Point, depth: usize, found: &mut Stretches) {
+        if a.side() == b.side() {
+            return;
+        }
+        let width = b.s - a.s;
+        let known = (a.value * b.value).is_finite() && a.value * b.value < 0.0;
+        let narrow = if known { NARROW } else { NARROW_JUMP };
+        let middle = a.s + 0.5 * width;
+        if width <= narrow || middle <= a.s || middle >= b.s {
+            found.enter(middle, b.side());
+            return;
+        }
+        let secant = a.s + width * a.value / (a.value - b.value);
+        let moved = TOWARDS_MIDDLE * width * width;
+        let secant = secant + (middle - secant).clamp(-moved, moved);
+        let inside = known && depth % 3 != 2 && a.s < secant && secant < b.s;
+        let next = self.at(if inside { secant } else { middle });
+        self.between(a, next, depth + 1, found);
+        self.between(next, b, depth + 1, found);
+    }
+}
+
+/// The probability of each side, summed along the line.
+struct Stretches {
+    start: f64,
+    side: Side,
+    fails: f64,
+    without_value: f64,
+}
+
+impl Stretches {
+    fn from(side: Side) -> Self {
+        Self {
+            start: f64::NEG_INFINITY,
+            side,
+            fails: 0.0,
+            without_value: 0.0,
+        }
+    }
+
+    /// Ends the present stretch where another side begins.
+    fn enter(&mut self, s: f64, side: Side) {
+        let probability = match self.start > 0.0 {
+            true => cdf(-self.start) - cdf(-s),
+            false => cdf(s) - cdf(self.start),
+        };
+        match self.side {
+            Side::Safe => {}
+            Side::Fails => self.fails += probability,
+            Side::WithoutValue => self.without_value += probability,
+        }
+        (self.start, self.side) = (s, side);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fails(value: impl Fn(f64) -> f64) -> f64 {
+        scan(value, 8.0, 65).fails
+    }
+
+    fn close(found: f64, expected: f64) {
+        assert!(
+            (found - expected).abs() <= 1e-5 * expected,
+            "{found:e}, not {expected:e}"
+        );
+    }
+
+    #[test]
+    fn planes_bands_and_jumps() {
+        close(fails(|s| 3.0 - s), cdf(-3.0));
+        close(fails(|s| s + 7.0), cdf(-7.0));
+        close(fails(|s| (s - 1.0) * (s - 2.0)), cdf(2.0) - cdf(1.0));
+        close(fails(|s| 1.0 - s * s), 2.0 * cdf(-1.0));
+        let jump = |s: f64| {
+            if s > 0.3 {
+                -f64::INFINITY
+            } else {
+                f64::INFINITY
+            }
+        };
+        close(fails(jump), cdf(-0.3));
+    }
+
+    /// Layers of failure far thinner than the grid: round, pointed and cusped.
+    #[test]
+    fn thin_layers_are_found() {
+        for half in [1e-2, 1e-4, 1e-6] {
+            let exact = cdf(-1.3 + half) - cdf(-1.3 - half);
+            close(fails(|s| (s + 1.3).powi(2) - half * half), exact);
+            close(fails(|s| (s + 1.3).abs() - half), exact);
+            let cusp = |s: f64| (s + 1.3).abs().sqrt() - half.sqrt();
+            close(fails(cusp), exact);
+            // A layer of safety in failure.
+            close(1.0 - fails(|s| half - (s + 1.3).abs()), exact);
+        }
+    }
+
+    #[test]
+    fn what_has_no_value_is_counted_apart() {
+        let value = |s: f64| match s {
+            s if s < -2.0 => f64::NAN,
+            s => s + 1.0,
+        };
+        let line = scan(value, 8.0, 33);
+        let of = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-5);
+        of(line.without_value, cdf(-2.0));
+        of(line.fails, cdf(-1.0) - cdf(-2.0));
+        // A window without a value between safety and failure.
+        let value = |s: f64| match s {
+            s if (1.0..1.1).contains(&s) => f64::NAN,
+            s => 1.05 - s,
+        };
+        let line = scan(value, 8.0, 33);
+        of(line.without_value, cdf(1.1) - cdf(1.0));
+        of(line.fails, cdf(-1.1));
+    }
+
+    #[test]
+    fn a_value_that_stays_above_zero_costs_little() {
+        let line = scan(|s| 1e-3 + (s - 0.1).powi(2), 8.0, 33);
+        assert_eq!(line.fails, 0.0);
+        assert!(line.evaluations < 33 + 25, "{}", line.evaluations);
+    }
+
+    #[test]
+    fn a_crossing_takes_a_few_secants_and_a_jump_a_bisection() {
+        let cost = |value: &dyn Fn(f64) -> f64| scan(value, 8.0, 33).evaluations - 33;
+        assert!(cost(&|s| 3.1 - s) <= 12);
+        assert!(cost(&|s: f64| s.exp() - 9.0) <= 14);
+        assert!(cost(&|s: f64| (s + 1.2).atan()) <= 14);
+        let jump = |s: f64| {
+            if s > 0.3 {
+                -f64::INFINITY
+            } else {
+                f64::INFINITY
+            }
+        };
+        assert!(cost(&jump) <= 26);
+    }
+}
