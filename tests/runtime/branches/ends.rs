@@ -164,7 +164,7 @@ fn no_equilibrium_of_a_random_field_is_missed() {
                     })
                 })
             };
-            for state in &there {
+            for state in there.iter() {
                 assert!(crossed(state), "{trial} {value} {state}\n{found}");
             }
             let passes: usize = found
