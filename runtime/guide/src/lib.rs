@@ -7,6 +7,7 @@
 //! | [Reading a tolerance result](tolerances) | every column, and when not to trust first order |
 //! | [Distributions and requirements](requirements) | how parts scatter, the probability of a good product, the cheapest tolerances |
 //! | [Closed loops](loops) | linkages, and which assembly is found |
+//! | [Which equilibrium](equilibria) | unstable ones, families of steady motions, machines that nothing holds |
 //! | [Rotors](rotors) | whirl, Campbell diagrams, critical speeds, instability |
 //! | [Theory](theory) | the equations, with the numbers of the paper |
 //! | [Embedding](embedding) | Python, C, build scripts, no standard library |
@@ -30,6 +31,9 @@ pub mod requirements {}
 
 #[doc = include_str!("loops.md")]
 pub mod loops {}
+
+#[doc = include_str!("equilibria.md")]
+pub mod equilibria {}
 
 #[doc = include_str!("rotors.md")]
 pub mod rotors {}

@@ -148,18 +148,26 @@ impl fmt::Display for Sensitivities {
             self.method
         )?;
         let numbers = 1..=self.modes.len();
-        let mut columns: Vec<String> = numbers
-            .clone()
-            .map(|r| format!("omega{r} [rad/s]"))
-            .collect();
+        let count = self.modes.len();
+        let mode = |column: usize| &self.modes[column % count.max(1)];
+        // A mode that does not oscillate has only a rate.
+        let first = |column: usize| match mode(column).of(Quantity::Frequency) {
+            None if !mode(column).clustered && mode(column).of(Quantity::Growth).is_some() => {
+                Quantity::Growth
+            }
+            _ => Quantity::Frequency,
+        };
+        let heading = |r: usize| match first(r - 1) {
+            Quantity::Growth => format!("growth{r} [1/s]"),
+            _ => format!("omega{r} [rad/s]"),
+        };
+        let mut columns: Vec<String> = numbers.clone().map(heading).collect();
         if self.family == Family::General {
             columns.extend(numbers.map(|r| format!("damping ratio {r}")));
         }
-        let count = self.modes.len();
-        let mode = |column: usize| &self.modes[column % count.max(1)];
         let value = |column: usize, j| {
             let quantity = match column < count {
-                true => Quantity::Frequency,
+                true => first(column),
                 false => Quantity::DampingRatio,
             };
             let slopes = mode(column).of(quantity)?;

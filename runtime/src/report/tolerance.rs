@@ -146,7 +146,18 @@ impl FirstOrder {
             table.row(row);
         }
         write!(f, "{table}")?;
-        shares.rest(f)
+        shares.rest(f)?;
+        for (r, mode) in self.modes.iter().enumerate() {
+            let grows = mode.growth().filter(|own| {
+                mode.behaviour.frequency().is_none() && !mode.clustered && spread_of(own) != 0.0
+            });
+            if let Some(own) = grows {
+                let verb = if own.mean > 0.0 { "grows" } else { "decays" };
+                let (rate, sigma) = (number(own.mean.abs()), rough(own.sigma));
+                writeln!(f, "  Mode {} {verb} at {rate} 1/s, sigma {sigma} 1/s.", r + 1)?;
+            }
+        }
+        Ok(())
     }
 }
 
