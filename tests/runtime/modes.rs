@@ -20,6 +20,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     design: Shared::Static(&[]),
     outputs: Shared::Static(&[]),
     symmetric_stiffness: true,
+    free_directions: 0,
     damping: DampingKind::Zero,
     kernels: Shared::Static(&[]),
 });

@@ -115,6 +115,7 @@ impl Model for Chain {
         ]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -462,6 +463,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         design: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }));

@@ -31,6 +31,7 @@ macro_rules! law {
                     design: Shared::Static(&DESIGN),
                     outputs: Shared::Static(&[]),
                     symmetric_stiffness: $symmetric,
+                    free_directions: 0,
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),
                 }

@@ -55,6 +55,7 @@ macro_rules! chain {
                         unit: METRE,
                     }]),
                     symmetric_stiffness: true,
+                    free_directions: 0,
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),
                 }

@@ -25,6 +25,7 @@ impl Model for Plate {
         ]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -80,6 +81,7 @@ impl Model for Spring {
         ]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -114,6 +116,7 @@ impl Model for Follower {
         design: Shared::Static(&[design("stiffness", NUMBER, 1.0, 0.01)]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -160,6 +163,7 @@ impl Model for Pair {
         ]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -205,6 +209,7 @@ impl Model for Triple {
         ]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -249,6 +254,7 @@ impl Model for Slipping {
         ]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -290,6 +296,7 @@ impl Model for Supercritical {
         design: Shared::Static(&[design("e", METRE, 0.0, 0.03)]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -330,6 +337,7 @@ impl Model for Overdamped {
         design: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

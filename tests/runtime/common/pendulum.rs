@@ -61,6 +61,7 @@ impl Mechanism for Pendulum {
             unit: METRE,
         }]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };

@@ -29,6 +29,7 @@ const fn described(
         design: Shared::Static(design),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping,
         kernels: Shared::Static(&[]),
     }

@@ -184,6 +184,7 @@ mod contradictory {
             ]),
             outputs: Shared::Static(&[]),
             symmetric_stiffness: true,
+            free_directions: 0,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };
@@ -255,6 +256,7 @@ pub(crate) mod held {
             design: Shared::Static(&[design("L", METRE, 1.0, 0.01)]),
             outputs: Shared::Static(&[]),
             symmetric_stiffness: true,
+            free_directions: 0,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

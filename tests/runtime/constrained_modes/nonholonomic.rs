@@ -406,6 +406,7 @@ impl Model for Rated {
         design: Shared::Static(BAR),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
+        free_directions: 0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -461,6 +462,7 @@ fn a_free_mass_drifts() {
         design: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
+        free_directions: 0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     });

@@ -54,6 +54,7 @@ impl Sizes {
             design: Shared::Static(&[]),
             outputs: Shared::Static(&[]),
             symmetric_stiffness: false,
+            free_directions: 0,
             damping: DampingKind::General,
             kernels: Shared::Static(&[]),
         };

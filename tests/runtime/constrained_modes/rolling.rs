@@ -45,6 +45,7 @@ const fn described(
         design: Shared::Static(design),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
+        free_directions: 0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     }

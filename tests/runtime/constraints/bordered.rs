@@ -88,6 +88,7 @@ pub(crate) const fn described(
         design: Shared::Static(design),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }

@@ -170,6 +170,7 @@ impl Model for Fed {
         design: Shared::Static(&[design("d", NUMBER, 1.0, 0.0)]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
+        free_directions: 0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

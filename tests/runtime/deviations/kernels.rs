@@ -573,6 +573,7 @@ mod declared {
             design: Shared::Static(&[]),
             outputs: Shared::Static(&[]),
             symmetric_stiffness: true,
+            free_directions: 0,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

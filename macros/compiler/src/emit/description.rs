@@ -49,6 +49,7 @@ pub(super) fn description(
         quote! { ::eigentol::OutputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
     });
     let symmetric = functions.properties.symmetric_stiffness;
+    let free_directions = functions.free.count;
     let damping = match functions.properties.damping {
         Damping::Zero => quote!(Zero),
         Damping::Gyroscopic => quote!(Gyroscopic),
@@ -69,6 +70,7 @@ pub(super) fn description(
             design: ::eigentol::Shared::Static(&[#(#design),*]),
             outputs: ::eigentol::Shared::Static(&[#(#outputs),*]),
             symmetric_stiffness: #symmetric,
+            free_directions: #free_directions,
             damping: ::eigentol::DampingKind::#damping,
             kernels: ::eigentol::Shared::Static(&[#(#kernels),*]),
         };

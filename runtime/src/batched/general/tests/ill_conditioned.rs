@@ -13,6 +13,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     design: Shared::Static(&[]),
     outputs: Shared::Static(&[]),
     symmetric_stiffness: false,
+    free_directions: 0,
     damping: DampingKind::General,
     kernels: Shared::Static(&[]),
 });
