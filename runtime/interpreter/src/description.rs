@@ -111,7 +111,7 @@ pub fn description(compilation: &Compilation) -> Description {
         design: design.into(),
         outputs: outputs.into(),
         symmetric_stiffness: functions.properties.symmetric_stiffness,
-        free_directions: functions.undetermined.len(),
+        free_directions: functions.free.count,
         damping: match functions.properties.damping {
             mechanics::Damping::Zero => DampingKind::Zero,
             mechanics::Damping::Gyroscopic => DampingKind::Gyroscopic,

@@ -21,8 +21,10 @@ pub struct Description {
     pub outputs: List<OutputInfo>,
     /// `Khat` is symmetric for every design, input and position.
     pub symmetric_stiffness: bool,
-    /// Number of independent motions along which nothing depends on where the mechanism stands, for every design, input
-    /// and position: as many null vectors `Khat` has at every equilibrium.
+    /// Number of directions in which nothing determines where the mechanism stands: null vectors of `Khat` that exist at
+    /// every equilibrium of every design, apart from those of redundant constraints. A train of gears that nothing holds
+    /// has one, a free body in space six. An equilibrium may be moved along them.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub free_directions: usize,
     /// The kind of `Chat`.
     pub damping: DampingKind,

@@ -8,6 +8,8 @@
 //! 2004). A bound carried along from operation to operation is no substitute: in a chain of bodies it grows by a constant
 //! factor per body, because it does not know that what a rotation takes from one component it gives to another.
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use super::evaluation::{UNIT_ROUNDOFF, rounding_of};
 use super::graph::Graph;
 use super::node::Node;
@@ -33,9 +35,37 @@ impl Disturbed {
         self.0[0]
     }
 
-    /// What follows from this value and another, disturbed alike.
-    pub fn with(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(|k| of(self.0[k], other.0[k])))
+    /// A number without rounding.
+    pub fn exact(value: f64) -> Self {
+        Self([value; LANES])
+    }
+
+    /// A number that rounding has changed by at most `rounding`. `seed` chooses the disturbances.
+    pub fn rounded(value: f64, rounding: f64, seed: u64) -> Self {
+        Self([value; LANES]).disturbed(rounding, seed)
+    }
+
+    /// Whether it is exactly zero, disturbed or not.
+    pub fn is_zero(&self) -> bool {
+        self.0.iter().all(|lane| *lane == 0.0)
+    }
+
+    /// The result of an operation that adds at most `rounding`.
+    fn disturbed(mut self, rounding: f64, seed: u64) -> Self {
+        if rounding != 0.0 {
+            let amount = rounding * (AMPLITUDE / UNIT_ROUNDOFF);
+            for (lane, share) in self.0.iter_mut().zip(shares(seed)) {
+                *lane += amount * share;
+            }
+        }
+        self
+    }
+
+    /// The result of an operation on two values, rounded.
+    fn of(a: Self, b: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+        let result = Self(std::array::from_fn(|k| operation(a.0[k], b.0[k])));
+        let value = result.value();
+        result.disturbed(UNIT_ROUNDOFF * value.abs(), value.to_bits())
     }
 
     /// Whether it is finite, disturbed or not.
@@ -75,17 +105,16 @@ impl<'a> Evaluator<'a> {
         self.part.len()
     }
 
-    /// Values of the expressions. `seed` chooses the disturbances; symbols are exact.
-    pub fn at(&self, seed: u64, symbol: impl Fn(SymbolId) -> f64) -> Vec<Disturbed> {
+    /// Values of the expressions. `seed` chooses the disturbances.
+    pub fn at(&self, seed: u64, symbol: impl Fn(SymbolId) -> Disturbed) -> Vec<Disturbed> {
         let mut values: Vec<[f64; LANES]> = Vec::with_capacity(self.part.len());
         let read = |values: &[[f64; LANES]], id: ExprId| match self.part.place(id) {
             Some(place) => values[place],
             None => unreachable!("operands are among the nodes below the roots"),
         };
         for &id in self.part.nodes() {
-            let node = self.graph.node(id);
-            let (mut lanes, rounding) = match node {
-                Node::Symbol(s) => ([symbol(s); LANES], 0.0),
+            let (lanes, rounding) = match self.graph.node(id) {
+                Node::Symbol(s) => (symbol(s).0, 0.0),
                 Node::Constant(bits) => {
                     let value = f64::from_bits(bits);
                     let rounding = self.graph.number(id).map_or(0.0, |number| number.error);
@@ -97,18 +126,13 @@ impl<'a> Evaluator<'a> {
                     (lanes, rounding_of(operator, a[0], lanes[0]))
                 }
                 Node::Binary(operator, a, b) => {
-                    let [a, b] = [a, b].map(|operand| Disturbed(read(&values, operand)));
-                    let Disturbed(lanes) = a.with(b, |a, b| operator.apply(a, b));
+                    let (a, b) = (read(&values, a), read(&values, b));
+                    let lanes = std::array::from_fn(|k| operator.apply(a[k], b[k]));
                     (lanes, UNIT_ROUNDOFF * f64::abs(lanes[0]))
                 }
             };
-            if rounding != 0.0 {
-                let amount = rounding * (AMPLITUDE / UNIT_ROUNDOFF);
-                let shares = shares(seed, id);
-                for (lane, share) in lanes.iter_mut().zip(shares) {
-                    *lane += amount * share;
-                }
-            }
+            let Disturbed(lanes) =
+                Disturbed(lanes).disturbed(rounding, seed << 32 | u64::from(id.0));
             values.push(lanes);
         }
         let root = |&root: &ExprId| Disturbed(read(&values, root));
@@ -116,9 +140,9 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// Shares between -1 and 1 that depend only on the arguments (SplitMix64); the first is zero.
-fn shares(seed: u64, id: ExprId) -> [f64; LANES] {
-    let mut x = (seed << 32 | u64::from(id.0)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+/// Shares between -1 and 1 that depend only on the seed (SplitMix64); the first is zero.
+fn shares(seed: u64) -> [f64; LANES] {
+    let mut x = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
     let bytes = (x ^ x >> 31).to_le_bytes();
@@ -126,4 +150,44 @@ fn shares(seed: u64, id: ExprId) -> [f64; LANES] {
         0 => 0.0,
         _ => f64::from(bytes[k] as i8) / 128.0,
     })
+}
+
+impl Add for Disturbed {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::of(self, other, |a, b| a + b)
+    }
+}
+
+impl Sub for Disturbed {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self::of(self, other, |a, b| a - b)
+    }
+}
+
+impl Mul for Disturbed {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self::of(self, other, |a, b| a * b)
+    }
+}
+
+impl Div for Disturbed {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        Self::of(self, other, |a, b| a / b)
+    }
+}
+
+impl Neg for Disturbed {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(self.0.map(|lane| -lane))
+    }
 }

@@ -338,7 +338,7 @@ fn regrouping_keeps_values_and_saves_operations() {
 fn disturbed(g: &Graph, id: ExprId, x: f64) -> (f64, bool) {
     let roots = [id];
     let evaluator = Evaluator::new(g, &roots);
-    let found = evaluator.at(1, |_| x)[0];
+    let found = evaluator.at(1, |_| Disturbed::exact(x))[0];
     (found.value(), found.is_rounding(evaluator.operations()))
 }
 

@@ -49,7 +49,7 @@ pub(super) fn description(
         quote! { ::eigentol::OutputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
     });
     let symmetric = functions.properties.symmetric_stiffness;
-    let free_directions = functions.undetermined.len();
+    let free_directions = functions.free.count;
     let damping = match functions.properties.damping {
         Damping::Zero => quote!(Zero),
         Damping::Gyroscopic => quote!(Gyroscopic),

@@ -7,7 +7,8 @@ use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 
 use super::checks::{
-    poses, properties, require_determinate_motion, require_steady_state, requirements,
+    free_directions, poses, properties, require_determinate_motion, require_steady_state,
+    requirements,
 };
 use super::equations::Equations;
 use super::functions::{Functions, Limits, Role, Unknown};
@@ -55,6 +56,7 @@ pub fn derive(
     let equations = Equations::new(g, &context);
     let jacobians = Jacobians::new(g, &context, &equations);
     let undetermined = require_determinate_motion(g, &context, &jacobians)?;
+    let free = free_directions(g, &context, &equations, &jacobians)?;
     let properties = properties(g, &context, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, &context);
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
@@ -75,6 +77,7 @@ pub fn derive(
         picture,
         properties,
         undetermined,
+        free,
     })
 }
 

@@ -25,6 +25,17 @@ pub struct Functions {
     /// Coordinates that nothing resists, and the last coordinate of a motion that moves no mass; empty unless the
     /// declaration says `kernels only`.
     pub undetermined: Vec<CoordinateId>,
+    /// The directions in which nothing determines where the mechanism stands.
+    pub free: FreeDirections,
+}
+
+/// The directions in which nothing determines where a mechanism stands: it can be moved along them in every design.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FreeDirections {
+    /// How many there are: null vectors of `Khat` at every equilibrium, apart from those of redundant constraints.
+    pub count: usize,
+    /// What can be said about them.
+    pub notes: Vec<String>,
 }
 
 /// An unknown of the steady motion.

@@ -18,7 +18,9 @@ mod print;
 mod setup;
 
 pub use derive::derive;
-pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement, Role, Unknown};
+pub use functions::{
+    Damping, FreeDirections, Functions, Limits, Pose, Properties, Requirement, Role, Unknown,
+};
 #[cfg(test)]
 pub(crate) use inertia::compared;
 pub use kernel_name::KernelName;

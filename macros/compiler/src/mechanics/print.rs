@@ -9,6 +9,9 @@ impl Display for Functions {
         let properties = self.properties;
         writeln!(f, "symmetric stiffness: {}", properties.symmetric_stiffness)?;
         writeln!(f, "damping: {:?}", properties.damping)?;
+        if self.free.count > 0 {
+            writeln!(f, "free directions: {}", self.free.count)?;
+        }
         for requirement in &self.requirements {
             writeln!(f, "{}: {}", requirement.quantity, requirement.requirement)?;
         }

@@ -1,4 +1,4 @@
-//! Checks that the equations determine every motion: each must move some mass, and something must resist it.
+//! Checks that the equations determine every motion: each must move some mass, and something must decide every speed.
 
 use crate::algebra::{Disturbed, Evaluator, Graph};
 use crate::base::diagnostics::Diagnostics;
@@ -6,9 +6,9 @@ use crate::base::ids::{CoordinateId, ExprId};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 
-/// Rejects a mechanism with a singular mass matrix, with a coordinate that nothing resists, or with a constraint that
-/// no coordinate affects. If only the kernels are wanted, only the last is an error; for the others the coordinates are
-/// returned.
+/// Rejects a mechanism with a singular mass matrix, with a coasting coordinate whose speed nothing determines, or with a
+/// constraint that no coordinate affects. If only the kernels are wanted, only the last is an error; for the others, and
+/// for coordinates that nothing resists, the coordinates are returned.
 pub(crate) fn require_determinate_motion(
     g: &Graph,
     context: &Context,
@@ -58,17 +58,14 @@ pub(crate) fn require_determinate_motion(
         diagnostics.error_with_help(name(last).span(), message, help);
     }
     let unknowns = jacobians.stiffness.len();
-    let zeros = vanish(g, context, &jacobians.stiffness.concat());
-    for (k, column) in zeros.chunks_exact(unknowns.max(1)).enumerate() {
+    let first = if kernels_only { 0 } else { free };
+    let zeros = vanish(g, context, &jacobians.stiffness[first..].concat());
+    for (k, column) in (first..).zip(zeros.chunks_exact(unknowns.max(1))) {
         let idle = column.iter().all(|zero| *zero);
         if !idle || without_inertia == Some(k) {
             continue;
         }
-        if k < moving && kernels_only {
-            if !undetermined.contains(&coordinate(k)) {
-                undetermined.push(coordinate(k));
-            }
-        } else if k >= moving {
+        if k >= moving {
             let row = &context.rows[k - moving];
             let source = row.source.name(context.mechanism);
             diagnostics.error_with_help(
@@ -76,21 +73,14 @@ pub(crate) fn require_determinate_motion(
                 format!("no coordinate changes what `{}` demands", row.label),
                 "remove it, or let it hold between things that move against each other",
             );
-        } else if k >= free {
+        } else if !kernels_only {
             diagnostics.error_with_help(
                 name(k).span(),
                 format!("nothing determines the speed of `{}`", name(k)),
                 "drive it, or let a constraint or a damper decide how fast it runs",
             );
-        } else {
-            diagnostics.error_with_help(
-                name(k).span(),
-                format!(
-                    "nothing resists `{}`: its equilibrium is not determined, and it has no natural frequency",
-                    name(k)
-                ),
-                "add a spring on it, drive it, or make the joint fixed",
-            );
+        } else if !undetermined.contains(&coordinate(k)) {
+            undetermined.push(coordinate(k));
         }
     }
     diagnostics.into_result(undetermined)
@@ -181,24 +171,22 @@ fn with_constraints(
             true => 1.0 / mobility,
             false => most / square,
         };
+        let weight = Disturbed::exact(weight);
         if square > 0.0 {
             for (k, entry) in sum.iter_mut().enumerate() {
-                let product = a[k / n].with(a[k % n], |x, y| weight * x * y);
-                *entry = entry.with(product, |sum, product| sum + product);
+                *entry = *entry + weight * a[k / n] * a[k % n];
             }
         }
     }
     sum
 }
 
-/// A null vector of a singular symmetric matrix, with its last nonzero component one. A pivot counts as zero if the
-/// rounding of the entries or of the elimination can explain it.
+/// A null vector of a singular symmetric matrix, with its last nonzero component one. A pivot counts as zero if
+/// rounding can explain it.
 fn null_vector(n: usize, mut a: Vec<Disturbed>, operations: usize) -> Option<Vec<f64>> {
-    let diagonal: Vec<f64> = (0..n).map(|k| a[k * n + k].value()).collect();
     for k in 0..n {
         let pivot = a[k * n + k];
-        let elimination = 4.0 * (k + 1) as f64 * f64::EPSILON * diagonal[k].abs();
-        if pivot.value() <= pivot.rounding(operations).max(elimination) {
+        if pivot.value() <= pivot.rounding(operations) {
             let mut vector = vec![0.0; n];
             vector[k] = 1.0;
             for i in (0..k).rev() {
@@ -208,10 +196,9 @@ fn null_vector(n: usize, mut a: Vec<Disturbed>, operations: usize) -> Option<Vec
             return Some(vector);
         }
         for i in k + 1..n {
-            let factor = a[k * n + i].with(pivot, |above, pivot| above / pivot);
+            let factor = a[k * n + i] / pivot;
             for j in i..n {
-                let share = factor.with(a[k * n + j], |factor, row| factor * row);
-                a[i * n + j] = a[i * n + j].with(share, |entry, share| entry - share);
+                a[i * n + j] = a[i * n + j] - factor * a[k * n + j];
             }
         }
     }

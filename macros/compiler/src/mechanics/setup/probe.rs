@@ -18,7 +18,7 @@ pub(crate) fn probe<'a>(
     context: &'a Context,
 ) -> impl Iterator<Item = Vec<Disturbed>> + 'a {
     (1..=ATTEMPTS)
-        .map(|seed| evaluator.at(seed, |symbol| state(context, seed, symbol)))
+        .map(|seed| evaluator.at(seed, |symbol| exact(context, seed, symbol)))
         .filter(|values| values.iter().all(Disturbed::is_finite))
         .take(STATES)
 }
@@ -32,7 +32,7 @@ pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool
         let rest: Vec<ExprId> = open.iter().map(|&k| roots[k]).collect();
         let evaluator = Evaluator::new(g, &rest);
         for seed in seeds.by_ref() {
-            let values = evaluator.at(seed, |symbol| state(context, seed, symbol));
+            let values = evaluator.at(seed, |symbol| exact(context, seed, symbol));
             if !values.iter().all(Disturbed::is_finite) {
                 continue;
             }
@@ -54,31 +54,50 @@ pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool
     zero
 }
 
-/// A symbol's value in random state number `seed`: design variables near their nominal values, everything else of the
-/// order of one.
-fn state(context: &Context, seed: u64, symbol: SymbolId) -> f64 {
-    let signed = 2.0 * random(seed, symbol) - 1.0;
-    let symbols = context.symbols;
-    let position = |list: &[SymbolId]| list.iter().position(|&s| s == symbol);
-    if let Some(k) = position(&symbols.b.ids) {
-        let nominal = context.mechanism.design[k].nominal;
-        return if nominal == 0.0 {
-            0.1 * signed
-        } else {
-            nominal * (1.0 + 0.1 * signed)
-        };
+fn exact(context: &Context, seed: u64, symbol: SymbolId) -> Disturbed {
+    let state = RandomState {
+        design: seed,
+        motion: seed,
+    };
+    Disturbed::exact(state.value(context, symbol))
+}
+
+/// A random state: design variables near their nominal values, everything else of the order of one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RandomState {
+    /// Chooses design variables and inputs; zero is the nominal design.
+    pub(crate) design: u64,
+    /// Chooses everything else.
+    pub(crate) motion: u64,
+}
+
+impl RandomState {
+    /// A symbol's value.
+    pub(crate) fn value(self, context: &Context, symbol: SymbolId) -> f64 {
+        let signed = |seed| 2.0 * random(seed, symbol) - 1.0;
+        let symbols = context.symbols;
+        let position = |list: &[SymbolId]| list.iter().position(|&s| s == symbol);
+        if let Some(k) = position(&symbols.b.ids) {
+            let nominal = context.mechanism.design[k].nominal;
+            return match (self.design, nominal == 0.0) {
+                (0, _) => nominal,
+                (seed, true) => 0.1 * signed(seed),
+                (seed, false) => nominal * (1.0 + 0.1 * signed(seed)),
+            };
+        }
+        if position(&symbols.u.ids).is_some() {
+            return 1.5 + signed(self.design);
+        }
+        let signed = signed(self.motion);
+        if let Some(id) = position(&symbols.q.ids).and_then(|k| context.topology.free.get(k)) {
+            let coordinate = &context.mechanism.coordinates[id.index()];
+            return match coordinate.quantity {
+                CoordinateQuantity::Angle => 1.2 * signed,
+                CoordinateQuantity::Displacement => 0.3 * signed,
+            };
+        }
+        signed
     }
-    if position(&symbols.u.ids).is_some() {
-        return 1.5 + signed;
-    }
-    if let Some(id) = position(&symbols.q.ids).and_then(|k| context.topology.free.get(k)) {
-        let coordinate = &context.mechanism.coordinates[id.index()];
-        return match coordinate.quantity {
-            CoordinateQuantity::Angle => 1.2 * signed,
-            CoordinateQuantity::Displacement => 0.3 * signed,
-        };
-    }
-    signed
 }
 
 /// A number in [0, 1) that depends only on its arguments (SplitMix64).

@@ -1,0 +1,192 @@
+//! The number of free directions at an equilibrium.
+
+use crate::algebra::{Disturbed, NullSpace, times};
+use crate::mechanics::setup::RandomState;
+
+use super::state::{Friction, Linearised, System};
+use super::symmetry::{Combinations, symmetries};
+
+/// The free directions of one design.
+pub(super) struct Count {
+    /// How many there are at an equilibrium.
+    pub(super) directions: usize,
+    pub(super) proof: Proof,
+}
+
+/// How free directions were found.
+pub(super) enum Proof {
+    /// The mechanism rests where all coordinates are zero, and these rates of the free coordinates meet no resistance
+    /// there. Some may meet some farther away.
+    AtZero(Vec<Vec<Disturbed>>),
+    /// Motions that leave the equations as they are.
+    Symmetries(Combinations, Friction),
+}
+
+/// Counts the free directions of a design; `None` if the equations are rarely finite.
+pub(super) fn count(system: &System, design: u64) -> Option<Count> {
+    if let Some(state) = system.at_zero(design) {
+        let vectors = unresisted(system, &state);
+        return Some(Count {
+            directions: vectors.len(),
+            proof: Proof::AtZero(vectors),
+        });
+    }
+    by_symmetry(system, design)
+}
+
+/// The rates of the free coordinates in all null vectors of the stiffness that move no speed.
+fn unresisted(system: &System, state: &Linearised) -> Vec<Vec<Disturbed>> {
+    let (free, n) = (system.fields.free, state.residual.len());
+    let moving = system.context.moving().1;
+    let columns: Vec<usize> = (moving..n).chain(0..free).collect();
+    let row = |i: usize| columns.iter().map(|&j| state.stiffness[j][i]).collect();
+    NullSpace::new((0..n).map(row).collect(), n - moving, state.operations).vectors
+}
+
+/// Rolling at rest takes no place away: at rest its equations hold everywhere. Besides the motions that leave the
+/// equations as they are, the stiffness then has a null vector for each such equation that none of these motions breaks.
+fn by_symmetry(system: &System, design: u64) -> Option<Count> {
+    let mut found = (symmetries(system, design, Friction::Any), Friction::Any);
+    let state = at_random(system, design, Friction::Any)?;
+    let velocities = system.first_of_velocities()..system.size();
+    let all: Vec<usize> = velocities.clone().collect();
+    if !all.is_empty() {
+        // Where nothing but friction acts along these motions, there is none at an equilibrium.
+        let without = symmetries(system, design, Friction::None);
+        let held = rank(&slips(system, &state, &all, &without), state.operations);
+        if held == independent(system, &state, &all) {
+            found = (without, Friction::None);
+        }
+    }
+    let (symmetries, friction) = found;
+    let idle: Vec<usize> = velocities.filter(|&k| is_idle(&state, k)).collect();
+    let slips = slips(system, &state, &idle, &symmetries);
+    let places = independent(system, &state, &idle) - rank(&slips, state.operations);
+    Some(Count {
+        directions: dimension(system, design, &state, &symmetries) + places,
+        proof: Proof::Symmetries(symmetries, friction),
+    })
+}
+
+fn at_random(system: &System, design: u64, friction: Friction) -> Option<Linearised> {
+    (101..140).find_map(|motion| system.at(RandomState { design, motion }, friction))
+}
+
+/// Whether an equation says nothing at rest.
+fn is_idle(state: &Linearised, equation: usize) -> bool {
+    let mut entries = state.stiffness.iter().map(|column| column[equation]);
+    entries.all(|entry| entry.is_rounding(state.operations))
+}
+
+/// The rates of the free coordinates in each combination, by coordinate.
+pub(super) fn rates(
+    system: &System,
+    state: &Linearised,
+    combinations: &Combinations,
+) -> Vec<Vec<Disturbed>> {
+    let mut rows = vec![vec![Disturbed::exact(0.0); state.fields.len()]; system.fields.free];
+    for (k, field) in state.fields.iter().enumerate() {
+        for (&coordinate, &rate) in field.coordinates.iter().zip(&field.rates) {
+            rows[coordinate][k] = rate;
+        }
+    }
+    times(&rows, combinations)
+}
+
+/// By constraint on velocities and combination: how fast it slips.
+fn slips(
+    system: &System,
+    state: &Linearised,
+    constraints: &[usize],
+    combinations: &Combinations,
+) -> Vec<Vec<Disturbed>> {
+    let rates = rates(system, state, combinations);
+    let columns: Vec<Vec<Disturbed>> = (0..combinations.len())
+        .map(|k| rates.iter().map(|row| row[k]).collect())
+        .collect();
+    let row = |&k: &usize| state.stiffness[k][..system.fields.free].to_vec();
+    times(&constraints.iter().map(row).collect::<Vec<_>>(), &columns)
+}
+
+/// How many of the constraints on velocities demand what no other constraint does.
+fn independent(system: &System, state: &Linearised, constraints: &[usize]) -> usize {
+    let moving = system.context.moving().1;
+    let of_positions = moving..system.first_of_velocities();
+    let lead = of_positions.len();
+    let columns: Vec<usize> = of_positions.chain(constraints.iter().copied()).collect();
+    let row = |i: usize| columns.iter().map(|&j| state.stiffness[j][i]).collect();
+    let null = NullSpace::new((0..moving).map(row).collect(), lead, state.operations);
+    constraints.len() - null.vectors.len()
+}
+
+fn rank(rows: &[Vec<Disturbed>], operations: usize) -> usize {
+    let columns = rows.first().map_or(0, Vec::len);
+    columns - NullSpace::new(rows.to_vec(), 0, operations).vectors.len()
+}
+
+/// The number of independent directions of the combinations at an equilibrium, or at a random place if none is found:
+/// on its axis, a turn is no motion.
+fn dimension(
+    system: &System,
+    design: u64,
+    state: &Linearised,
+    combinations: &Combinations,
+) -> usize {
+    if combinations.is_empty() {
+        return 0;
+    }
+    let generic = rates(system, state, combinations);
+    let dimension = rank(&generic, state.operations);
+    let resting = system.at_equilibrium(design);
+    let Some(resting) = resting.filter(|resting| !is_singular(state, resting)) else {
+        return dimension;
+    };
+    let size = |row: &[Disturbed]| {
+        let clear = row.iter().filter(|x| !x.is_rounding(state.operations));
+        clear.fold(0.0_f64, |most, x| most.max(x.value().abs()))
+    };
+    let sizes: Vec<f64> = generic.iter().map(|row| size(row)).collect();
+    let rows = rates(system, &resting, combinations);
+    let scaled = rows.iter().zip(&sizes).filter(|(_, size)| **size > 0.0);
+    let scaled: Vec<Vec<f64>> = scaled
+        .map(|(row, size)| row.iter().map(|x| x.value() / size).collect())
+        .collect();
+    dimension.min(clear_rank(scaled))
+}
+
+/// Whether coordinates fail to describe some motion of space that they describe elsewhere.
+fn is_singular(elsewhere: &Linearised, here: &Linearised) -> bool {
+    let mut pairs = elsewhere.fields.iter().zip(&here.fields);
+    pairs.any(|(elsewhere, here)| elsewhere.coordinates.len() != here.coordinates.len())
+}
+
+/// Relative size below which a direction at an equilibrium, found by iteration, counts as none.
+const NOTHING: f64 = 1e-8;
+
+/// Rank by elimination with complete pivoting.
+fn clear_rank(mut rows: Vec<Vec<f64>>) -> usize {
+    let columns = rows.first().map_or(0, Vec::len);
+    let mut rank = 0;
+    while rank < columns {
+        let places = (rank..rows.len()).flat_map(|i| (0..columns).map(move |j| (i, j)));
+        let size = |(i, j): (usize, usize)| rows[i][j].abs();
+        let Some((row, column)) = places.max_by(|a, b| size(*a).total_cmp(&size(*b))) else {
+            break;
+        };
+        if size((row, column)) < NOTHING {
+            break;
+        }
+        rows.swap(rank, row);
+        let (above, below) = rows.split_at_mut(rank + 1);
+        let pivot = &above[rank];
+        for other in below {
+            let factor = other[column] / pivot[column];
+            for (x, p) in other.iter_mut().zip(pivot) {
+                *x -= factor * p;
+            }
+            other[column] = 0.0;
+        }
+        rank += 1;
+    }
+    rank
+}

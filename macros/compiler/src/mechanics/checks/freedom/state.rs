@@ -1,0 +1,291 @@
+//! The equations, linearised at states where the constraints hold.
+
+use crate::algebra::{Disturbed, Evaluator, Graph, evaluate};
+use crate::base::ids::{ExprId, SymbolId};
+use crate::mechanics::equations::Equations;
+use crate::mechanics::linear::Jacobians;
+use crate::mechanics::setup::{Context, RandomState};
+
+use super::fields::{Field, Fields};
+
+/// The equations and what their linearisation takes.
+pub(super) struct System<'a> {
+    pub(super) g: &'a Graph,
+    pub(super) context: &'a Context<'a>,
+    pub(super) fields: &'a Fields,
+    rest: &'a [ExprId],
+    /// By column.
+    stiffness: &'a [Vec<ExprId>],
+    roots: Vec<ExprId>,
+}
+
+/// The equations linearised at one state.
+pub(super) struct Linearised {
+    /// `stiffness[j][i]`: derivative of equation `i` by unknown `j`.
+    pub(super) stiffness: Vec<Vec<Disturbed>>,
+    pub(super) residual: Vec<Disturbed>,
+    pub(super) fields: Vec<Field>,
+    /// Number of operations behind the values.
+    pub(super) operations: usize,
+}
+
+/// The reactions of constraints on velocities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Friction {
+    None,
+    Any,
+}
+
+impl<'a> System<'a> {
+    pub(super) fn new(
+        g: &'a Graph,
+        context: &'a Context,
+        equations: &'a Equations,
+        jacobians: &'a Jacobians,
+        fields: &'a Fields,
+    ) -> Self {
+        let mut roots = jacobians.stiffness.concat();
+        roots.extend(&equations.rest);
+        roots.extend(fields.roots());
+        Self {
+            g,
+            context,
+            fields,
+            rest: &equations.rest,
+            stiffness: &jacobians.stiffness,
+            roots,
+        }
+    }
+
+    /// Number of unknowns.
+    pub(super) fn size(&self) -> usize {
+        self.rest.len()
+    }
+
+    /// The first constraint on velocities among the unknowns; they come last.
+    pub(super) fn first_of_velocities(&self) -> usize {
+        let of_positions = self.context.rows.iter().filter(|row| !row.of_velocities);
+        self.context.moving().1 + of_positions.count()
+    }
+
+    /// Linearises at a random state; `None` if the equations are not finite there.
+    pub(super) fn at(&self, state: RandomState, friction: Friction) -> Option<Linearised> {
+        let evaluator = Evaluator::new(self.g, &self.roots);
+        let place = self.place(state);
+        let unknowns = &self.context.symbols.q.ids[self.first_of_velocities()..];
+        let values = evaluator.at(state.motion, |symbol| {
+            match friction == Friction::None && unknowns.contains(&symbol) {
+                true => Disturbed::exact(0.0),
+                false => self.found(&place, state, symbol),
+            }
+        });
+        self.linearised(&values, evaluator.operations())
+    }
+
+    /// Linearises where all coordinates are zero; `None` unless this is an equilibrium with some speeds and reactions.
+    pub(super) fn at_zero(&self, design: u64) -> Option<Linearised> {
+        let state = RandomState { design, motion: 1 };
+        let free = self.fields.free;
+        let mut place = vec![0.0; self.size()];
+        if self.size() > free {
+            let columns = self.stiffness[free..].iter().flatten();
+            let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
+            self.solve(state, &roots, &mut place, free)?;
+        }
+        let residual = Evaluator::new(self.g, self.rest);
+        let gaps = residual.at(state.motion, |symbol| self.found(&place, state, symbol));
+        let balanced = |gap: &Disturbed| gap.is_finite() && gap.is_rounding(residual.operations());
+        if !gaps.iter().all(balanced) {
+            return None;
+        }
+        self.at_place(&place, state)
+    }
+
+    /// Linearises at an equilibrium near all coordinates zero; `None` if none is found.
+    pub(super) fn at_equilibrium(&self, design: u64) -> Option<Linearised> {
+        let state = RandomState { design, motion: 1 };
+        let columns = self.stiffness.iter().flatten();
+        let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
+        let mut place = vec![0.0; self.size()];
+        self.solve(state, &roots, &mut place, 0)?;
+        self.at_place(&place, state)
+    }
+
+    fn at_place(&self, place: &[f64], state: RandomState) -> Option<Linearised> {
+        let evaluator = Evaluator::new(self.g, &self.roots);
+        let values = evaluator.at(state.motion, |symbol| self.found(place, state, symbol));
+        self.linearised(&values, evaluator.operations())
+    }
+
+    /// The value of a symbol where unknowns have been found by iteration.
+    fn found(&self, place: &[f64], state: RandomState, symbol: SymbolId) -> Disturbed {
+        let unknowns = &self.context.symbols.q.ids;
+        match unknowns.iter().position(|own| *own == symbol) {
+            Some(k) if k < place.len() => {
+                let rounding = 4.0 * f64::EPSILON * place[k].abs();
+                Disturbed::rounded(place[k], rounding, u64::from(symbol.0))
+            }
+            _ => Disturbed::exact(state.value(self.context, symbol)),
+        }
+    }
+
+    fn linearised(&self, values: &[Disturbed], operations: usize) -> Option<Linearised> {
+        if !values.iter().all(Disturbed::is_finite) {
+            return None;
+        }
+        let n = self.size();
+        let (stiffness, values) = values.split_at(n * n);
+        let (residual, values) = values.split_at(n);
+        Some(Linearised {
+            stiffness: stiffness.chunks(n.max(1)).map(<[_]>::to_vec).collect(),
+            residual: residual.to_vec(),
+            fields: self.fields.at(values, operations),
+            operations,
+        })
+    }
+
+    /// Coordinates and speeds near a random state that satisfy the constraints; empty without constraints, or if none are
+    /// found.
+    fn place(&self, state: RandomState) -> Vec<f64> {
+        let moving = self.context.moving().1;
+        let rows = moving..self.size();
+        if rows.is_empty() {
+            return Vec::new();
+        }
+        let mut roots: Vec<ExprId> = self.rest[rows.clone()].to_vec();
+        let columns = self.stiffness[..moving].iter();
+        roots.extend(columns.flat_map(|column| &column[rows.clone()]));
+        let unknowns = &self.context.symbols.q.ids[..moving];
+        let random = |symbol: &SymbolId| state.value(self.context, *symbol);
+        let mut place: Vec<f64> = unknowns.iter().map(random).collect();
+        match self.solve(state, &roots, &mut place, 0) {
+            Some(()) => place,
+            None => Vec::new(),
+        }
+    }
+
+    /// Solves equations for some unknowns, `place[first..]`, by Newton's method with the shortest steps. `roots` holds the
+    /// equations, then their derivatives by one of these unknowns after the other.
+    fn solve(
+        &self,
+        state: RandomState,
+        roots: &[ExprId],
+        place: &mut [f64],
+        first: usize,
+    ) -> Option<()> {
+        let unknowns = &self.context.symbols.q.ids[..place.len()];
+        let count = roots.len() / (1 + place.len() - first);
+        let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let (mut least, mut stalled) = (f64::INFINITY, 0);
+        while stalled < PATIENCE {
+            let values = evaluate(self.g, roots, |symbol| {
+                match unknowns.iter().position(|own| *own == symbol) {
+                    Some(k) => place[k],
+                    None => state.value(self.context, symbol),
+                }
+            });
+            let (gaps, slopes) = values.split_at(count);
+            let (step, gap) = shortest_step(gaps, slopes)?;
+            let coordinates = self.fields.free.saturating_sub(first).min(step.len());
+            let share = (LARGEST_STEP / size(&step[..coordinates])).min(1.0);
+            for (place, step) in place[first..].iter_mut().zip(&step) {
+                *place += share * step;
+            }
+            if size(&step) <= 1e-12 * size(place) {
+                return (gap <= 1e-9 * size(place)).then_some(());
+            }
+            stalled = if gap < 0.9 * least { 0 } else { stalled + 1 };
+            least = least.min(gap);
+        }
+        None
+    }
+}
+
+/// Steps that may pass without progress.
+const PATIENCE: usize = 8;
+/// Largest step of a coordinate, in rad or m.
+const LARGEST_STEP: f64 = 0.5;
+
+/// The `x` with `slopes^T x = -gaps`, where `slopes` holds the derivatives of all gaps by one unknown after the other:
+/// the shortest, or that with the least rest. Also the largest gap, by the steps that would close it alone.
+fn shortest_step(gaps: &[f64], slopes: &[f64]) -> Option<(Vec<f64>, f64)> {
+    let (m, n) = (gaps.len(), slopes.len() / gaps.len().max(1));
+    let sizes: Vec<f64> = (0..m)
+        .map(|i| {
+            (0..n)
+                .map(|k| slopes[k * m + i] * slopes[k * m + i])
+                .sum::<f64>()
+                .sqrt()
+        })
+        .collect();
+    let scaled = |i: usize, value: f64| {
+        if sizes[i] > 0.0 {
+            value / sizes[i]
+        } else {
+            0.0
+        }
+    };
+    let entry = |i: usize, k: usize| scaled(i, slopes[k * m + i]);
+    let gaps: Vec<f64> = (0..m).map(|i| scaled(i, gaps[i])).collect();
+    let step = if m <= n {
+        let y = damped_solution(m, n, entry, &gaps)?;
+        let along = |k: usize| -(0..m).map(|i| entry(i, k) * y[i]).sum::<f64>();
+        (0..n).map(along).collect()
+    } else {
+        let along = |k: usize| -(0..m).map(|i| entry(i, k) * gaps[i]).sum::<f64>();
+        let right: Vec<f64> = (0..n).map(along).collect();
+        damped_solution(n, m, |k, i| entry(i, k), &right)?
+    };
+    let gap = gaps.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()));
+    Some((step, gap))
+}
+
+/// `(A A^T + epsilon)^-1 right` for a matrix of `m` rows and `n` columns, by Cholesky factors. The small number lets
+/// dependent rows share.
+fn damped_solution(
+    m: usize,
+    n: usize,
+    entry: impl Fn(usize, usize) -> f64,
+    right: &[f64],
+) -> Option<Vec<f64>> {
+    let rows: Vec<f64> = (0..m * n).map(|k| entry(k / n, k % n)).collect();
+    let row = |i: usize| &rows[i * n..(i + 1) * n];
+    let mut factors = vec![0.0; m * m];
+    for i in 0..m {
+        for j in 0..=i {
+            factors[i * m + j] = row(i).iter().zip(row(j)).map(|(a, b)| a * b).sum();
+        }
+        factors[i * m + i] += DAMPING;
+    }
+    for k in 0..m {
+        let pivot = factors[k * m + k].sqrt();
+        if !pivot.is_normal() {
+            return None;
+        }
+        for i in k..m {
+            factors[i * m + k] /= pivot;
+        }
+        for i in k + 1..m {
+            for j in k + 1..=i {
+                factors[i * m + j] -= factors[i * m + k] * factors[j * m + k];
+            }
+        }
+    }
+    let mut x = right.to_vec();
+    for i in 0..m {
+        for k in 0..i {
+            x[i] -= factors[i * m + k] * x[k];
+        }
+        x[i] /= factors[i * m + i];
+    }
+    for i in (0..m).rev() {
+        for k in i + 1..m {
+            x[i] -= factors[k * m + i] * x[k];
+        }
+        x[i] /= factors[i * m + i];
+    }
+    Some(x)
+}
+
+/// Relative to squares of entries of order one.
+const DAMPING: f64 = 1e-12;
