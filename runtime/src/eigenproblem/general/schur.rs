@@ -11,11 +11,12 @@ const ULP: f64 = f64::EPSILON;
 const EXCEPTIONAL: usize = 10;
 
 /// Eigenvalues of an upper Hessenberg matrix, which is destroyed; conjugate pairs are adjacent, the one with positive
-/// imaginary part first. `false` if the iteration did not converge.
-pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> bool {
+/// imaginary part first. Returns the number of steps; `None` if the iteration did not converge.
+pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> Option<usize> {
     let small = negligible(n, h);
     let most_steps = 30 * n.max(10);
     let mut end = n;
+    let mut steps = 0;
     while end > 0 {
         let last = end - 1;
         let mut first = 0;
@@ -29,11 +30,12 @@ pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> 
                 converged = true;
                 break;
             }
+            steps += 1;
             let shifts = shifts(n, h, first, last, step);
             sweep(n, h, first, last, shifts);
         }
         if !converged {
-            return false;
+            return None;
         }
         if first == last {
             values[last] = Complex64::new(h[last * n + last], 0.0);
@@ -48,7 +50,7 @@ pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> 
         }
         end = first;
     }
-    true
+    Some(steps)
 }
 
 /// Size below which an element of `h` is zero. On a diagonal that is exactly zero no other criterion can find it
@@ -309,7 +311,7 @@ mod tests {
         let h = two_blocks();
         assert_eq!(active_start(4, &h, 0, 3, negligible(4, &h)), 2);
         let mut values = [Complex64::ZERO; 4];
-        assert!(eigenvalues(4, &mut two_blocks(), &mut values));
+        assert!(eigenvalues(4, &mut two_blocks(), &mut values).is_some());
         for (value, exact) in values.into_iter().zip([3.0, -3.0, 2.0, -2.0]) {
             assert!(value.re == 0.0 && (value.im - exact).abs() < 4.0 * ULP);
         }
