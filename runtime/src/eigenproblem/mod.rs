@@ -1,5 +1,6 @@
 //! Eigenproblems: `K phi = lambda M phi` with symmetric matrices, and `(s^2 M + s C + K) phi = 0` with any matrices.
 
+mod dense;
 pub(crate) mod general;
 mod jacobi;
 mod refine;

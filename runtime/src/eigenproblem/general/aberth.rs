@@ -4,6 +4,7 @@
 
 use num_complex::Complex64;
 
+use super::census;
 use super::lu::Lu;
 use super::pencil::Pencil;
 
@@ -12,8 +13,14 @@ const NOTHING: f64 = 1e-36;
 /// Steps below this end the search for an eigenvalue of zero.
 const SMALL: f64 = 1e-40;
 const SWEEPS: usize = 150;
+/// For pencils that are not small, a sweep costs too much to wait for slow convergence.
+const FEW_SWEEPS: usize = 10;
+/// Size up to which a pencil is small.
+const FEW: usize = 16;
+/// Size beyond which the method is too slow for a whole spectrum.
+pub(super) const LARGE: usize = 32;
 
-/// Improves those of the eigenvalues that are `open`, and closes them as they settle. `work` needs `4 n` numbers.
+/// Improves those of the eigenvalues that are `open`, and closes them as they settle. `work` needs `2 n^2` numbers.
 pub(super) fn improve(
     pencil: &Pencil,
     values: &mut [Complex64],
@@ -22,7 +29,8 @@ pub(super) fn improve(
     order: &mut [usize],
     work: &mut [Complex64],
 ) {
-    for _ in 0..SWEEPS {
+    let sweeps = if pencil.n <= FEW { SWEEPS } else { FEW_SWEEPS };
+    for _ in 0..sweeps {
         let mut settled = true;
         for i in 0..values.len() {
             if !open[i] {
@@ -68,20 +76,15 @@ fn logarithmic_derivative(
     order: &mut [usize],
     work: &mut [Complex64],
 ) -> Complex64 {
+    census::note(|census| census.second += 1);
     let n = pencil.n;
-    let (column, work) = work.split_at_mut(n);
-    let (x, work) = work.split_at_mut(n);
     pencil.at(s, q);
     let lu = Lu::new(n, q, order);
-    let mut trace = Complex64::ZERO;
-    for j in 0..n {
-        for i in 0..n {
-            column[i] = 2.0 * s * pencil.mass[i * n + j] + pencil.damping[i * n + j];
-        }
-        lu.solve(column, x, &mut work[..n]);
-        trace += x[j];
+    let (slopes, work) = work.split_at_mut(n * n);
+    for (i, slope) in slopes.iter_mut().enumerate() {
+        *slope = 2.0 * s * pencil.mass[i] + pencil.damping[i];
     }
-    trace
+    lu.trace_of_quotient(slopes, &mut work[..n * n])
 }
 
 /// Makes the marked values symmetric about the real axis again: each is paired with the value nearest to its conjugate,

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::cluster::Found;
 use super::measure::Pair;
 use super::pair::INACCURATE;
-use super::pencil::modulus;
+use super::pencil::{bound, modulus};
 use super::solver::Solver;
 
 /// Eigenvalues farther away than this many errors are ignored.
@@ -15,13 +15,35 @@ const SUM: f64 = 1e-7;
 /// Cosine above which vectors count as parallel, as for eigenvalues split from a defective one.
 const PARALLEL: f64 = 0.9;
 /// Condition number above which the vectors of a cluster do not distinguish it from an eigenvalue that it almost meets.
-const DEFECTIVE: f64 = 1e6;
+pub(super) const DEFECTIVE: f64 = 1e6;
 
 /// Whether the pair needs the second method: its error is far larger than rounding in the pencil explains.
 pub(super) fn in_trouble(pair: &Pair) -> bool {
     let step = modulus(pair.newton);
     let far = step > 64.0 * pair.doubt() && step > 1e-12 * modulus(pair.s);
     !pair.merged && (far || pair.residual > INACCURATE)
+}
+
+/// The pairs before or behind pair `i` that the pencil cannot tell from it, although they did not merge.
+fn crowd<'f>(found: &'f Found, i: usize) -> impl Iterator<Item = usize> + use<'f> {
+    let pair = &found.pairs[i];
+    let near = move |j: &usize| (pair.s - found.pairs[*j].s).norm() <= pair.reach;
+    let others = (0..found.count).filter(move |&j| j != i && !pair.merged);
+    others.filter(near)
+}
+
+/// Whether the pencil cannot tell pair `i` from another one, although they did not merge.
+pub(super) fn is_crowded(found: &Found, i: usize) -> bool {
+    crowd(found, i).next().is_some()
+}
+
+/// Whether pair `i` is the same as another one: one eigenvalue found twice in place of two.
+pub(super) fn is_repeated(solver: &mut Solver, found: &Found, i: usize) -> bool {
+    crowd(found, i).any(|j| {
+        let (own, other) = (vector(found, i), vector(found, j));
+        solver.pencil.multiply(own, false, &mut solver.of_right);
+        modulus(solver.overlap(other, false)) > PARALLEL
+    })
 }
 
 /// Whether the eigenvalues have the required sum, within their errors: an eigenvalue found twice in place of another
@@ -34,6 +56,37 @@ pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
         allowed += weight * (pair.error + SUM * modulus(pair.s));
     }
     (sum - solver.linearisation.sum()).abs() <= allowed
+}
+
+/// Fills in the second-order errors of the pairs that are `open`: from their residuals and the resolvent, to which every
+/// other eigenvalue contributes `phi_j psi_j^T / ((s_j - s) slope_j)`, or, where this is not small, by a correction.
+/// Eigenvalues that may be the same are left out: they share a cluster, or their errors are those of a defective one.
+pub(super) fn second_order(solver: &mut Solver, found: &mut Found, open: &[bool]) {
+    if !open.contains(&true) {
+        return;
+    }
+    let size = |x: &[Complex64]| x.iter().fold(0.0, |most: f64, x| most.max(bound(*x)));
+    let n = solver.pencil.n;
+    let vectors = found.right.chunks_exact(n).zip(found.left.chunks_exact(n));
+    let pairs = found.pairs[..found.count].iter().zip(vectors);
+    let weights: Vec<f64> = pairs
+        .map(|(pair, (right, left))| size(right) * size(left) / modulus(pair.slope))
+        .collect();
+    for i in (0..found.count).filter(|&i| open[i]) {
+        let pair = &found.pairs[i];
+        let apart = |s: Complex64| {
+            let distance = modulus(s - pair.s);
+            (distance > pair.radius()).then_some(distance)
+        };
+        let parts = others(found, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?));
+        let mut second = pair.second_order(1.0 / parts.sum::<f64>());
+        if second > pair.doubt() {
+            let place = i * n..(i + 1) * n;
+            let (right, left) = (&found.right[place.clone()], &found.left[place]);
+            second = second.min(solver.second_order(pair, right, left));
+        }
+        found.pairs[i].second = second;
+    }
 }
 
 /// Fills in the errors of all pairs that are not part of a cluster. Returns whether each eigenvalue is clearly
@@ -76,15 +129,9 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
         .multiply(vector(found, i), false, &mut solver.of_right);
     for (s, j, conjugate) in others(found, i) {
         let distance = modulus(s - pair.s);
-        if distance < FAR * error {
-            let parallel = vector(found, j)
-                .iter()
-                .zip(solver.pencil.weighed(&solver.of_right))
-                .map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass })
-                .sum::<Complex64>();
-            if modulus(parallel) > PARALLEL {
-                partner = partner.max(distance);
-            }
+        let near = distance < FAR * error;
+        if near && modulus(solver.overlap(vector(found, j), conjugate)) > PARALLEL {
+            partner = partner.max(distance);
         }
     }
     let reduced = if partner > 0.0 {
@@ -95,6 +142,17 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
     };
     let most = solver.pencil.rate(pair.s) * solver.relative().powf(0.5 / n as f64);
     (reduced.min(most).max(own), false)
+}
+
+impl Solver<'_> {
+    /// `x^H M phi`, or `x^T M phi` for the conjugate of `x`, with the right vector multiplied last.
+    fn overlap(&self, x: &[Complex64], conjugate: bool) -> Complex64 {
+        let weighed = self.pencil.weighed(&self.of_right).iter();
+        let products = x.iter().zip(weighed);
+        products
+            .map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass })
+            .sum()
+    }
 }
 
 fn vector<'f>(found: &'f Found, i: usize) -> &'f [Complex64] {

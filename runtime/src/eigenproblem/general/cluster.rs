@@ -22,6 +22,8 @@ pub(super) struct Cluster {
     pub(super) spread: f64,
     pub(super) radius: f64,
     pub(super) reach: f64,
+    /// Largest condition number of its members as found.
+    pub(super) condition: f64,
     pub(super) nullity: usize,
     /// Vectors `0..regular` belong to semisimple eigenvalues.
     pub(super) regular: usize,
@@ -121,11 +123,12 @@ fn merge_one(
     if real {
         s.im = 0.0;
     }
-    let (mut spread, mut radius, mut reach) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut spread, mut radius, mut reach, mut condition) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     for i in members() {
         spread = spread.max(modulus(found.pairs[i].s - s));
         radius = radius.max(found.pairs[i].radius());
         reach = reach.max(found.pairs[i].reach);
+        condition = condition.max(found.pairs[i].condition);
     }
     let mut cluster = Cluster {
         s,
@@ -133,6 +136,7 @@ fn merge_one(
         spread,
         radius,
         reach,
+        condition,
         nullity: 0,
         regular: 0,
     };

@@ -2,6 +2,7 @@
 
 use num_complex::Complex64;
 
+use super::accuracy::DEFECTIVE;
 use super::cluster::{Cluster, Found};
 use super::lu::Lu;
 use super::measure::{Pair, ZERO, normalise};
@@ -30,6 +31,9 @@ impl Solver<'_> {
     }
 
     fn bases(&mut self, cluster: &mut Cluster) {
+        if self.iterated_bases(cluster) {
+            return;
+        }
         let n = self.pencil.n;
         self.pencil.at(cluster.s, self.q);
         let size = self.pencil.size(cluster.s);
@@ -45,6 +49,29 @@ impl Solver<'_> {
         cluster.nullity = nullity;
         self.orthonormalise(nullity);
         cluster.regular = self.dualise(cluster.s, nullity);
+    }
+
+    /// Bases by inverse iteration from several vectors; `false` unless the eigenvalue is semisimple and they are as good
+    /// as those of single eigenvalues.
+    fn iterated_bases(&mut self, cluster: &mut Cluster) -> bool {
+        let (n, count) = (self.pencil.n, cluster.multiplicity);
+        let Some(iteration) = &mut self.iteration else {
+            return false;
+        };
+        if count > n || cluster.condition > DEFECTIVE {
+            return false;
+        }
+        iteration.bases(
+            &self.linearisation,
+            cluster.s,
+            &mut self.basis_right[..count * n],
+            &mut self.basis_left[..count * n],
+        );
+        self.orthonormalise(count);
+        cluster.nullity = count;
+        cluster.regular = self.dualise(cluster.s, count);
+        cluster.regular == count
+            && (0..count).all(|k| self.basis_pair(cluster.s, k).residual <= INACCURATE)
     }
 
     /// Whether a vector does not belong to the eigenvalue.
@@ -99,25 +126,25 @@ impl Solver<'_> {
     /// Makes the first vectors of `basis_right` orthonormal in the mass matrix.
     fn orthonormalise(&mut self, nullity: usize) {
         let n = self.pencil.n;
+        // Their products with the mass matrix.
+        let weighed = &mut self.cross[..nullity * n];
         for k in 0..nullity {
+            let (done, rest) = self.basis_right.split_at_mut(k * n);
+            let x = &mut rest[..n];
             for _ in 0..2 {
-                for other in 0..k {
-                    let (done, rest) = self.basis_right.split_at_mut(k * n);
-                    let (done, x) = (&done[other * n..(other + 1) * n], &mut rest[..n]);
-                    self.pencil.multiply(done, false, &mut self.of_right);
-                    let part: Complex64 = x
-                        .iter()
-                        .zip(self.pencil.weighed(&self.of_right))
-                        .map(|(x, mass)| x * mass.conj())
-                        .sum();
+                for (done, weighed) in done.chunks_exact(n).zip(weighed.chunks_exact(n)) {
+                    let products = x.iter().zip(weighed);
+                    let part: Complex64 = products.map(|(x, mass)| x * mass.conj()).sum();
                     for (x, done) in x.iter_mut().zip(done) {
                         *x -= part * done;
                     }
                 }
-                let x = &mut self.basis_right[k * n..(k + 1) * n];
                 self.pencil.multiply(x, false, &mut self.of_right);
                 normalise(&self.pencil, x, &mut self.of_right);
             }
+            self.pencil.multiply(x, false, &mut self.of_right);
+            let own = self.pencil.weighed(&self.of_right);
+            weighed[k * n..(k + 1) * n].copy_from_slice(own);
         }
     }
 
@@ -218,10 +245,13 @@ impl Solver<'_> {
                 .max(2);
             let relative = self.relative();
             let size = self.pencil.rate(pair.s);
+            let of_block = |relative: f64| size * relative.powf(1.0 / block as f64);
+            // The step may be a quotient of two rounding errors, and the residual relative to one.
+            let step = 2.0 * cluster.multiplicity as f64 * modulus(pair.newton);
             pair.condition = f64::INFINITY;
             pair.error = (2.0 * cluster.spread)
-                .max(size * relative.powf(1.0 / block as f64))
-                .max(2.0 * cluster.multiplicity as f64 * modulus(pair.newton))
+                .max(of_block(relative))
+                .max(step.min(of_block(pair.residual)))
                 .min(size * relative.powf(0.5 / n as f64));
         }
         pair.merged = true;

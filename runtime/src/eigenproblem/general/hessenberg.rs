@@ -1,6 +1,9 @@
 //! Balancing and Hessenberg form of a real square matrix.
 
 use super::powers::{exponent, power_of_two};
+use super::shifted::Parts;
+use crate::eigenproblem::dense::{add, dot};
+use crate::scalar::Real;
 
 /// Maximum number of balancing sweeps; the remaining imbalance is small.
 const SWEEPS: usize = 8;
@@ -44,48 +47,204 @@ pub(super) fn balance(n: usize, a: &mut [f64], scales: &mut [f64]) {
     }
 }
 
-/// Reduces `a` to Hessenberg form by Householder reflections.
-pub(super) fn reduce(n: usize, a: &mut [f64], v: &mut [f64]) {
-    for k in 0..n.saturating_sub(2) {
-        let mut size = 0.0_f64;
-        for i in k + 2..n {
-            size = size.max(a[i * n + k].abs());
-        }
-        if size == 0.0 {
-            continue;
-        }
-        let size = size.max(a[(k + 1) * n + k].abs());
-        let mut square = 0.0;
-        for i in k + 1..n {
-            v[i] = a[i * n + k] / size;
-            square += v[i] * v[i];
-        }
-        let norm = square.sqrt().copysign(v[k + 1]);
-        a[(k + 1) * n + k] = -norm * size;
-        for i in k + 2..n {
-            a[i * n + k] = 0.0;
-        }
-        // H = I - tau v v^T
-        let tau = 1.0 / (square + norm * v[k + 1]);
-        v[k + 1] += norm;
-        for j in k + 1..n {
-            let mut sum = 0.0;
-            for i in k + 1..n {
-                sum += v[i] * a[i * n + j];
+/// `H = Q^T A Q` in Hessenberg form.
+pub(super) struct Hessenberg<'a> {
+    pub(super) n: usize,
+    pub(super) h: &'a [f64],
+    /// Row `k` holds the reflection `I - tau v v^T` that zeroed column `k`: `tau` in place `k`, `v` behind it.
+    reflections: &'a [f64],
+    /// The row and column of `A` at each place.
+    order: Vec<usize>,
+}
+
+/// Rows whose products with a vector are formed side by side.
+const ROWS: usize = 4;
+
+/// Reduces `a` to Hessenberg form by reflections, which take `n^2` numbers. `work` needs `n`.
+pub(super) fn reduce<'a>(
+    n: usize,
+    a: &'a mut [f64],
+    reflections: &'a mut [f64],
+    work: &mut [f64],
+) -> Hessenberg<'a> {
+    f64::run(
+        #[inline(always)]
+        || {
+            for (k, v) in reflections.chunks_exact_mut(n).enumerate() {
+                reflect_column(n, k, a, v, work);
             }
-            sum *= tau;
-            for i in k + 1..n {
-                a[i * n + j] -= sum * v[i];
+        },
+    );
+    Hessenberg {
+        n,
+        h: a,
+        reflections,
+        order: (0..n).collect(),
+    }
+}
+
+/// Like [`reduce`], with rows and columns sorted before.
+pub(super) fn reduce_graded<'a>(
+    n: usize,
+    a: &'a mut [f64],
+    reflections: &'a mut [f64],
+    work: &mut [f64],
+) -> Hessenberg<'a> {
+    let order = grade(n, a);
+    Hessenberg {
+        order,
+        ..reduce(n, a, reflections, work)
+    }
+}
+
+/// Sorts rows and columns by size, great ones first: QR then finds small eigenvalues of graded matrices to their own
+/// accuracy (G. W. Stewart, Matrix Algorithms II, section 2.4). Empty columns, whose eigenvalues are known, come before
+/// all others. Returns the former places.
+fn grade(n: usize, a: &mut [f64]) -> Vec<usize> {
+    /// Sizes within this many powers of two of the largest are in the first class, and so on.
+    const CLASS: i32 = 8;
+    let size = |i: usize| {
+        let own = (0..n).map(|j| a[i * n + j].abs().max(a[j * n + i].abs()));
+        exponent(own.fold(0.0, f64::max))
+    };
+    let sizes: Vec<i32> = (0..n).map(size).collect();
+    let most = sizes.iter().copied().max().unwrap_or(0);
+    let key = |i: usize| {
+        let empty = (0..n).all(|j| j == i || a[j * n + i] == 0.0);
+        (!empty, (most - sizes[i]) / CLASS)
+    };
+    let keys: Vec<_> = (0..n).map(key).collect();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by_key(|&i| keys[i]);
+    let elements = (0..n * n).map(|k| a[order[k / n] * n + order[k % n]]);
+    let sorted: Vec<f64> = elements.collect();
+    a.copy_from_slice(&sorted);
+    order
+}
+
+/// Zeros column `k` below the subdiagonal.
+#[inline(always)]
+fn reflect_column(n: usize, k: usize, a: &mut [f64], v: &mut [f64], work: &mut [f64]) {
+    v[k] = 0.0;
+    let mut size = 0.0_f64;
+    for i in k + 2..n {
+        size = size.max(a[i * n + k].abs());
+    }
+    if size == 0.0 {
+        return;
+    }
+    let size = size.max(a[(k + 1) * n + k].abs());
+    let mut square = 0.0;
+    for i in k + 1..n {
+        v[i] = a[i * n + k] / size;
+        square += v[i] * v[i];
+    }
+    let norm = square.sqrt().copysign(v[k + 1]);
+    a[(k + 1) * n + k] = -norm * size;
+    for i in k + 2..n {
+        a[i * n + k] = 0.0;
+    }
+    let tau = 1.0 / (square + norm * v[k + 1]);
+    v[k + 1] += norm;
+    v[k] = tau;
+    let (v, sums) = (&v[k + 1..], &mut work[k + 1..n]);
+    sums.fill(0.0);
+    for (row, v) in a[(k + 1) * n..].chunks_exact(n).zip(v) {
+        add(*v, &row[k + 1..], sums);
+    }
+    sums.iter_mut().for_each(|sum| *sum *= tau);
+    for (row, v) in a[(k + 1) * n..].chunks_exact_mut(n).zip(v) {
+        add(-v, sums, &mut row[k + 1..]);
+    }
+    let mut blocks = a.chunks_exact_mut(ROWS * n);
+    for rows in &mut blocks {
+        reflect_rows::<ROWS>(n, tau, v, rows);
+    }
+    for row in blocks.into_remainder().chunks_exact_mut(n) {
+        reflect_rows::<1>(n, tau, v, row);
+    }
+}
+
+/// Applies a reflection to the last columns of `R` rows.
+#[inline(always)]
+fn reflect_rows<const R: usize>(n: usize, tau: f64, v: &[f64], rows: &mut [f64]) {
+    let first = n - v.len();
+    let mut sums = [0.0; R];
+    for (j, v) in v.iter().enumerate() {
+        for r in 0..R {
+            sums[r] += rows[r * n + first + j] * v;
+        }
+    }
+    for (row, sum) in rows.chunks_exact_mut(n).zip(sums) {
+        add(-(sum * tau), v, &mut row[first..]);
+    }
+}
+
+impl Hessenberg<'_> {
+    fn reflection(&self, k: usize) -> (f64, &[f64]) {
+        let row = &self.reflections[k * self.n..(k + 1) * self.n];
+        (row[k], &row[k + 1..])
+    }
+
+    /// `Q X` in place, for `X` with rows of length `columns`. `sums` needs as many numbers.
+    pub(super) fn rotate_columns(&self, columns: usize, x: &mut [f64], sums: &mut [f64]) {
+        f64::run(
+            #[inline(always)]
+            || {
+                for k in (0..self.n).rev() {
+                    let (tau, v) = self.reflection(k);
+                    if tau == 0.0 {
+                        continue;
+                    }
+                    let x = &mut x[(k + 1) * columns..];
+                    sums.fill(0.0);
+                    for (row, v) in x.chunks_exact(columns).zip(v) {
+                        add(*v, row, sums);
+                    }
+                    for (row, v) in x.chunks_exact_mut(columns).zip(v) {
+                        add(-tau * v, sums, row);
+                    }
+                }
+            },
+        );
+        let sorted = x.to_vec();
+        for (row, &place) in sorted.chunks_exact(columns).zip(&self.order) {
+            x[place * columns..(place + 1) * columns].copy_from_slice(row);
+        }
+    }
+
+    /// `Q x` in place.
+    pub(super) fn rotate(&self, x: &mut Parts) {
+        f64::run(
+            #[inline(always)]
+            || (0..self.n).rev().for_each(|k| self.reflect(k, x)),
+        );
+        for part in x.both() {
+            let sorted = part.to_vec();
+            for (&place, x) in self.order.iter().zip(sorted) {
+                part[place] = x;
             }
         }
-        for row in a.chunks_exact_mut(n) {
-            let mut sum = 0.0;
-            for j in k + 1..n {
-                sum += row[j] * v[j];
-            }
-            sum *= tau;
-            for j in k + 1..n {
-                row[j] -= sum * v[j];
+    }
+
+    /// `Q^T x` in place.
+    pub(super) fn rotate_back(&self, x: &mut Parts) {
+        for part in x.both() {
+            let sorted: Vec<f64> = self.order.iter().map(|&place| part[place]).collect();
+            part.copy_from_slice(&sorted);
+        }
+        f64::run(
+            #[inline(always)]
+            || (0..self.n).for_each(|k| self.reflect(k, x)),
+        );
+    }
+
+    #[inline(always)]
+    fn reflect(&self, k: usize, x: &mut Parts) {
+        let (tau, v) = self.reflection(k);
+        if tau != 0.0 {
+            for part in [&mut x.re[k + 1..], &mut x.im[k + 1..]] {
+                add(-tau * dot(v, part), v, part);
             }
         }
     }

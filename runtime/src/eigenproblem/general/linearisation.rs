@@ -4,13 +4,14 @@ use num_complex::Complex64;
 
 use super::hessenberg;
 use super::pencil::{Degree, Pencil, modulus};
-
+use super::shifted::Parts;
+use crate::eigenproblem::dense;
 use crate::eigenproblem::symmetric::{Trouble, factor_into};
 
 /// `x' = A x` for `x = D^-1 (y, s y)`, `phi = L^-T y`, `M = L L^T`, with
 /// `A = D^-1 [[0, I], [-L^-1 K L^-T, -L^-1 C L^-T]] D`; for a first-order pencil `A = -K`, which is already balanced.
 pub(super) struct Linearisation<'a> {
-    n: usize,
+    pub(super) n: usize,
     degree: Degree,
     lower: &'a [f64],
     /// `L^-1 C L^-T` and `L^-1 K L^-T`.
@@ -20,6 +21,13 @@ pub(super) struct Linearisation<'a> {
     scales: &'a [f64],
     /// Frobenius norm of `A`.
     pub(super) size: f64,
+}
+
+/// Which vectors of a pencil: those it maps to zero, or those that map it to zero.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Side {
+    Right,
+    Left,
 }
 
 impl<'a> Linearisation<'a> {
@@ -84,8 +92,94 @@ impl<'a> Linearisation<'a> {
         -(0..self.n).map(|i| matrix[i * (self.n + 1)]).sum::<f64>()
     }
 
+    /// Vectors of the pencil from those of `A`: columns in fours, real and imaginary parts of a right vector, then of
+    /// a left one.
+    pub(super) fn shapes(&self, columns: usize, block: &[f64], shapes: &mut [f64]) {
+        let n = self.n;
+        if self.degree == Degree::One {
+            shapes.copy_from_slice(block);
+            return;
+        }
+        let (upper, lower) = block.split_at(n * columns);
+        let (up, down) = self.scales.split_at(n);
+        for q in (0..columns).step_by(4) {
+            let size = |half: &[f64]| {
+                let rows = half.chunks_exact(columns);
+                rows.map(|row| row[q] * row[q] + row[q + 1] * row[q + 1])
+                    .sum::<f64>()
+            };
+            // Both halves hold the right vector; the larger one is better known.
+            let (half, scales) = match size(upper) >= size(lower) {
+                true => (upper, up),
+                false => (lower, down),
+            };
+            for i in 0..n {
+                let (from, to) = (i * columns + q, &mut shapes[i * columns + q..]);
+                for part in 0..2 {
+                    to[part] = half[from + part] * scales[i];
+                    to[part + 2] = lower[from + part + 2] / down[i];
+                }
+            }
+        }
+        dense::solve_lower_transposed(n, self.lower, columns, shapes);
+    }
+
+    /// The right-hand side of the system for `A - s` in place of `Q(s) d = -rest`.
+    pub(super) fn load(&self, side: Side, rest: &[Complex64], into: &mut Parts) {
+        let n = self.n;
+        let [filled, empty] = match (self.degree, side) {
+            (Degree::One, _) => [0..n, 0..0],
+            (Degree::Two, Side::Right) => [n..2 * n, 0..n],
+            (Degree::Two, Side::Left) => [0..n, n..2 * n],
+        };
+        for (into, part) in into
+            .both()
+            .into_iter()
+            .zip([|x: &Complex64| x.re, |x: &Complex64| x.im])
+        {
+            into[empty.clone()].fill(0.0);
+            let into = &mut into[filled.clone()];
+            for (into, x) in into.iter_mut().zip(rest) {
+                *into = part(x);
+            }
+            if self.degree == Degree::Two {
+                dense::solve_lower(n, self.lower, 1, into);
+                for (i, x) in into.iter_mut().enumerate() {
+                    *x *= match side {
+                        Side::Right => 1.0 / self.scales[n + i],
+                        Side::Left => self.scales[i],
+                    };
+                }
+            }
+        }
+    }
+
+    /// The vector `d` of the pencil from a solution of that system, which is destroyed.
+    pub(super) fn unload(&self, side: Side, solution: &mut Parts, into: &mut [Complex64]) {
+        let n = self.n;
+        let half = match (self.degree, side) {
+            (Degree::Two, Side::Left) => n..2 * n,
+            _ => 0..n,
+        };
+        let [re, im] = solution.both().map(|part| &mut part[half.clone()]);
+        if self.degree == Degree::Two {
+            for part in [&mut *re, &mut *im] {
+                for (i, x) in part.iter_mut().enumerate() {
+                    *x *= match side {
+                        Side::Right => self.scales[i],
+                        Side::Left => 1.0 / self.scales[n + i],
+                    };
+                }
+                dense::solve_lower_transposed(n, self.lower, 1, part);
+            }
+        }
+        for (into, (re, im)) in into.iter_mut().zip(re.iter().zip(im)) {
+            *into = Complex64::new(*re, *im);
+        }
+    }
+
     /// Condition number of `s` as an eigenvalue of `A`, from the vectors of the pencil and
-    /// `slope = psi^T (2 s M + C) phi`. `work` needs `n` numbers.
+    /// `slope = psi^T (2 s M + C) phi`. `work` needs `2 n` numbers.
     pub(super) fn condition(
         &self,
         s: Complex64,
@@ -101,35 +195,34 @@ impl<'a> Linearisation<'a> {
         }
         let s_square = s.norm_sqr();
         let (mut x, mut w) = (0.0, 0.0);
-        let transformed = |phi: &[Complex64], j: usize| {
-            let mut sum = Complex64::ZERO;
-            for i in j..n {
-                sum += phi[i] * self.lower[i * n + j];
-            }
-            sum
-        };
+        let (up, down) = self.scales.split_at(n);
+        transformed(n, self.lower, right, work);
         for j in 0..n {
-            let (up, down) = (self.scales[j], self.scales[n + j]);
-            let y = transformed(right, j).norm_sqr();
-            x += y / (up * up) + s_square * y / (down * down);
-            let w2 = transformed(left, j);
-            work[j] = w2;
-            w += w2.norm_sqr() * (down * down);
+            let y = work[j].norm_sqr();
+            x += y / (up[j] * up[j]) + s_square * y / (down[j] * down[j]);
+        }
+        let (work, product) = work.split_at_mut(n);
+        transformed(n, self.lower, left, work);
+        for j in 0..n {
+            w += work[j].norm_sqr() * (down[j] * down[j]);
         }
         // The upper half of the left vector is (s + C^T) w2 = -K^T w2 / s; use the form with less cancellation.
         let small = s_square < 1e-2;
         let matrix = if small { self.damping } else { self.stiffness };
-        for j in 0..n {
-            let mut sum = Complex64::ZERO;
-            for i in 0..n {
-                sum += work[i] * matrix[i * n + j];
+        let product = &mut product[..n];
+        product.fill(Complex64::ZERO);
+        for (x, row) in work.iter().zip(matrix.chunks_exact(n)) {
+            for (sum, element) in product.iter_mut().zip(row) {
+                *sum += x * element;
             }
+        }
+        for j in 0..n {
             let square = if small {
-                (sum + s * work[j]).norm_sqr()
+                (product[j] + s * work[j]).norm_sqr()
             } else {
-                sum.norm_sqr() / s_square
+                product[j].norm_sqr() / s_square
             };
-            w += square * (self.scales[j] * self.scales[j]);
+            w += square * (up[j] * up[j]);
         }
         at_least_one((x * w).sqrt() / modulus(slope))
     }
@@ -147,25 +240,20 @@ fn frobenius(matrix: &[f64]) -> f64 {
     matrix.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// `L^-1 matrix L^-T` in place.
-fn reduce(n: usize, lower: &[f64], matrix: &mut [f64]) {
-    for i in 0..n {
-        for k in 0..i {
-            let factor = lower[i * n + k];
-            for j in 0..n {
-                matrix[i * n + j] -= factor * matrix[k * n + j];
-            }
-        }
-        for j in 0..n {
-            matrix[i * n + j] /= lower[i * n + i];
+/// `L^T x`.
+fn transformed(n: usize, lower: &[f64], x: &[Complex64], into: &mut [Complex64]) {
+    into[..n].fill(Complex64::ZERO);
+    for (i, x) in x.iter().enumerate() {
+        for (sum, element) in into.iter_mut().zip(&lower[i * n..=i * (n + 1)]) {
+            *sum += x * element;
         }
     }
-    for row in matrix.chunks_exact_mut(n) {
-        for i in 0..n {
-            for k in 0..i {
-                row[i] -= lower[i * n + k] * row[k];
-            }
-            row[i] /= lower[i * n + i];
-        }
+}
+
+/// `L^-1 matrix L^-T` in place.
+fn reduce(n: usize, lower: &[f64], matrix: &mut [f64]) {
+    for _ in 0..2 {
+        dense::solve_lower(n, lower, n, matrix);
+        dense::transpose(n, matrix);
     }
 }

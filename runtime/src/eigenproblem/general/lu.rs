@@ -3,8 +3,10 @@
 
 use num_complex::Complex64;
 
+use super::census;
 use super::pencil::bound;
 use crate::algebra::for_size;
+use crate::scalar::Real;
 
 pub(super) struct Lu<'a> {
     n: usize,
@@ -20,11 +22,17 @@ pub(super) struct Lu<'a> {
 impl<'a> Lu<'a> {
     /// Factors `matrix` in place; `order` needs `2 n` indices.
     pub(super) fn new(n: usize, matrix: &'a mut [Complex64], order: &'a mut [usize]) -> Self {
+        census::note(|census| census.factors += 1);
         let (rows, columns) = order.split_at_mut(n);
-        let unit = for_size(
-            n,
+        let unit = f64::run(
             #[inline(always)]
-            |n| eliminate(n, &mut matrix[..n * n], &mut rows[..n], &mut columns[..n]),
+            || {
+                for_size(
+                    n,
+                    #[inline(always)]
+                    |n| eliminate(n, &mut matrix[..n * n], &mut rows[..n], &mut columns[..n]),
+                )
+            },
         );
         Self {
             n,
@@ -101,6 +109,41 @@ impl<'a> Lu<'a> {
         }
     }
 
+    /// The trace of `matrix^-1 right`, given row by row; `work` needs `n^2` numbers.
+    pub(super) fn trace_of_quotient(
+        &self,
+        right: &[Complex64],
+        work: &mut [Complex64],
+    ) -> Complex64 {
+        let n = self.n;
+        for (row, &from) in work.chunks_exact_mut(n).zip(self.rows) {
+            for (x, b) in row.iter_mut().zip(&right[from * n..]) {
+                *x = b / self.unit;
+            }
+        }
+        for i in 0..n {
+            let (done, row) = work.split_at_mut(i * n);
+            for (done, &factor) in done.chunks_exact(n).zip(&self.factors[i * n..]) {
+                subtract(&mut row[..n], factor, done);
+            }
+        }
+        for i in (0..n).rev() {
+            let (row, done) = work[i * n..].split_at_mut(n);
+            let factors = &self.factors[i * (n + 1)..(i + 1) * n];
+            for (done, &factor) in done.chunks_exact(n).zip(&factors[1..]) {
+                subtract(row, factor, done);
+            }
+            let pivot = pivot(factors[0]);
+            row.iter_mut().for_each(|x| *x /= pivot);
+        }
+        let mut trace = Complex64::ZERO;
+        for column in 0..n {
+            let row = self.columns.iter().position(|&place| place == column);
+            trace += row.map_or(Complex64::ZERO, |row| work[row * n + column]);
+        }
+        trace
+    }
+
     /// Solves `matrix^T x = b` in the same way.
     pub(super) fn solve_transposed(
         &self,
@@ -147,50 +190,65 @@ fn eliminate(n: usize, matrix: &mut [Complex64], rows: &mut [usize], columns: &m
     for (i, (row, column)) in rows.iter_mut().zip(columns.iter_mut()).enumerate() {
         (*row, *column) = (i, i);
     }
-    let mut unit = 0.0;
+    let (size, mut place) = largest(n, 0, matrix);
+    let unit = if size > NOTHING { size } else { 1.0 };
+    let inverse = 1.0 / unit;
+    matrix.iter_mut().for_each(|x| *x *= inverse);
     for k in 0..n {
-        let (mut most, mut i_most, mut j_most) = (-1.0, k, k);
-        for i in k..n {
-            for j in k..n {
-                let size = bound(matrix[i * n + j]);
-                if size > most {
-                    (most, i_most, j_most) = (size, i, j);
-                }
-            }
-        }
-        if k == 0 {
-            unit = if most > NOTHING { most } else { 1.0 };
-            let inverse = 1.0 / unit;
-            matrix.iter_mut().for_each(|x| *x *= inverse);
-        }
-        if i_most != k {
-            rows.swap(k, i_most);
+        let (row, column) = place;
+        if row != k {
+            rows.swap(k, row);
             for j in 0..n {
-                matrix.swap(k * n + j, i_most * n + j);
+                matrix.swap(k * n + j, row * n + j);
             }
         }
-        if j_most != k {
-            columns.swap(k, j_most);
+        if column != k {
+            columns.swap(k, column);
             for i in 0..n {
-                matrix.swap(i * n + k, i * n + j_most);
+                matrix.swap(i * n + k, i * n + column);
             }
         }
         if k + 1 == n {
             break;
         }
-        let inverse = 1.0 / pivot(matrix[k * n + k]);
-        for i in k + 1..n {
-            let factor = matrix[i * n + k] * inverse;
-            matrix[i * n + k] = factor;
+        let (above, below) = matrix.split_at_mut((k + 1) * n);
+        let pivot_row = &above[k * n..];
+        let inverse = 1.0 / pivot(pivot_row[k]);
+        for row in below.chunks_exact_mut(n) {
+            let factor = row[k] * inverse;
+            row[k] = factor;
             if factor != Complex64::ZERO {
-                for j in k + 1..n {
-                    let product = factor * matrix[k * n + j];
-                    matrix[i * n + j] -= product;
-                }
+                subtract(&mut row[k + 1..], factor, &pivot_row[k + 1..]);
             }
         }
+        (_, place) = largest(n, k + 1, matrix);
     }
     unit
+}
+
+#[inline(always)]
+fn subtract(from: &mut [Complex64], factor: Complex64, row: &[Complex64]) {
+    for (x, y) in from.iter_mut().zip(row) {
+        *x -= factor * y;
+    }
+}
+
+/// The largest element from row and column `k` on, the first of equal ones, and its place.
+#[inline(always)]
+fn largest(n: usize, k: usize, matrix: &[Complex64]) -> (f64, (usize, usize)) {
+    let (mut most, mut place) = (-1.0, (k, k));
+    for (i, row) in matrix.chunks_exact(n).enumerate().skip(k) {
+        let mut own = -1.0;
+        for z in &row[k..] {
+            let size = bound(*z);
+            own = if size > own { size } else { own };
+        }
+        if own > most {
+            let column = row[k..].iter().position(|&z| bound(z) == own);
+            (most, place) = (own, (i, k + column.unwrap_or(0)));
+        }
+    }
+    (most, place)
 }
 
 /// A matrix without larger elements counts as zero.

@@ -14,16 +14,20 @@
 
 mod aberth;
 mod accuracy;
+mod census;
 mod cluster;
 mod driver;
 mod eigenspaces;
+mod gyroscopic;
 mod hessenberg;
+mod iteration;
 mod linearisation;
 mod lu;
 mod measure;
 mod order;
 mod pair;
 mod pencil;
+mod polished;
 mod powers;
 mod prediction;
 mod reference;
@@ -31,6 +35,8 @@ mod scaled_pencil;
 mod scaling;
 mod schur;
 mod scratch;
+mod search;
+mod shifted;
 mod solver;
 #[cfg(test)]
 pub(crate) mod tests;

@@ -82,14 +82,8 @@ impl Solver<'_> {
                 }
             }
         }
-        if start.im == 0.0 && pair.s.norm_sqr() < ZERO * ZERO && pair.s != Complex64::ZERO {
-            let zero = self.measure(Complex64::ZERO, left);
-            if zero.residual < pair.residual {
-                pair = Pair {
-                    second: pair.second,
-                    ..zero
-                };
-            }
+        if start.im == 0.0 {
+            pair = self.or_zero(pair, left);
         }
         if pair.residual > INACCURATE {
             pair = self.inverse_iteration(pair, right, left);
@@ -98,6 +92,20 @@ impl Solver<'_> {
             pair.conjugate = true;
         }
         pair.condition = self.condition(&pair, right, left);
+        pair
+    }
+
+    /// The pair, or exactly zero with the same vectors if that is close and better.
+    pub(super) fn or_zero(&self, pair: Pair, left: &[Complex64]) -> Pair {
+        if pair.s.norm_sqr() < ZERO * ZERO && pair.s != Complex64::ZERO {
+            let zero = self.measure(Complex64::ZERO, left);
+            if zero.residual < pair.residual {
+                return Pair {
+                    second: pair.second,
+                    ..zero
+                };
+            }
+        }
         pair
     }
 

@@ -4,16 +4,19 @@
 
 use num_complex::Complex64;
 
+use super::scaling::largest;
+
 const ULP: f64 = f64::EPSILON;
 /// Number of steps without deflation from one exceptional shift to the next.
 const EXCEPTIONAL: usize = 10;
 
 /// Eigenvalues of an upper Hessenberg matrix, which is destroyed; conjugate pairs are adjacent, the one with positive
-/// imaginary part first. `false` if the iteration did not converge.
-pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> bool {
-    let small = f64::MIN_POSITIVE * (n as f64 / ULP);
+/// imaginary part first. Returns the number of steps; `None` if the iteration did not converge.
+pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> Option<usize> {
+    let small = negligible(n, h);
     let most_steps = 30 * n.max(10);
     let mut end = n;
+    let mut steps = 0;
     while end > 0 {
         let last = end - 1;
         let mut first = 0;
@@ -27,11 +30,12 @@ pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> 
                 converged = true;
                 break;
             }
+            steps += 1;
             let shifts = shifts(n, h, first, last, step);
             sweep(n, h, first, last, shifts);
         }
         if !converged {
-            return false;
+            return None;
         }
         if first == last {
             values[last] = Complex64::new(h[last * n + last], 0.0);
@@ -46,7 +50,13 @@ pub(super) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> 
         }
         end = first;
     }
-    true
+    Some(steps)
+}
+
+/// Size below which an element of `h` is zero. On a diagonal that is exactly zero no other criterion can find it
+/// small; its square must not underflow before it does.
+fn negligible(n: usize, h: &[f64]) -> f64 {
+    f64::MIN_POSITIVE.sqrt() * (n as f64 / ULP) * largest(&h[..n * n])
 }
 
 /// First row of the unreduced block that ends in row `last`.
@@ -211,11 +221,8 @@ fn sweep(n: usize, h: &mut [f64], first: usize, last: usize, [one, two]: [Comple
 fn reflector([a, b, c]: [f64; 3]) -> (f64, f64, f64, f64) {
     let below = b * b + c * c;
     let square = a * a + below;
-    if !(SAFE..1.0 / SAFE).contains(&square) {
+    if !(SAFE..1.0 / SAFE).contains(&square) || below < SAFE {
         return scaled_reflector([a, b, c]);
-    }
-    if below == 0.0 {
-        return (a, 0.0, 0.0, 0.0);
     }
     let beta = -square.sqrt().copysign(a);
     let divisor = a - beta;
@@ -279,5 +286,50 @@ fn two([a, b, c, d]: [f64; 4]) -> [Complex64; 2] {
         real(mean + root, mean - root)
     } else {
         pair(mean, root)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What QR leaves of a matrix whose diagonal is exactly zero: the element between its two blocks has a square that
+    /// underflows.
+    const LEFT_OVER: f64 = -2.17e-165;
+
+    fn two_blocks() -> [f64; 16] {
+        let mut h = [0.0; 16];
+        for (place, value) in [(1, 3.0), (4, -3.0), (11, 2.0), (14, -2.0)] {
+            h[place] = value;
+        }
+        h[9] = LEFT_OVER;
+        h
+    }
+
+    #[test]
+    fn what_is_left_of_a_zero_diagonal_is_negligible() {
+        let h = two_blocks();
+        assert_eq!(active_start(4, &h, 0, 3, negligible(4, &h)), 2);
+        let mut values = [Complex64::ZERO; 4];
+        assert!(eigenvalues(4, &mut two_blocks(), &mut values).is_some());
+        for (value, exact) in values.into_iter().zip([3.0, -3.0, 2.0, -2.0]) {
+            assert!(value.re == 0.0 && (value.im - exact).abs() < 4.0 * ULP);
+        }
+    }
+
+    /// `H x = (beta, 0, 0)`, however small the other components are beside the first.
+    #[test]
+    fn reflector_maps_small_components_to_zero() {
+        for b in [LEFT_OVER, 1e-300, 1e-110, 1e-20, 0.5] {
+            for (x, c) in [(1.0, 0.0), (-3.0, b), (2e-165, 3.0 * b), (0.0, b)] {
+                let (beta, tau, v2, v3) = reflector([x, b, c]);
+                let along = x + v2 * b + v3 * c;
+                let size = beta.abs();
+                assert!(((x - tau * along) / size - beta / size).abs() < 4.0 * ULP);
+                assert!((b - tau * v2 * along).abs() <= 4.0 * ULP * b.abs());
+                assert!((c - tau * v3 * along).abs() <= 4.0 * ULP * c.abs());
+            }
+        }
+        assert_eq!(reflector([7.0, 0.0, 0.0]), (7.0, 0.0, 0.0, 0.0));
     }
 }

@@ -17,8 +17,8 @@ impl Work {
     /// The workspace for `n` coordinates.
     pub(super) fn new(n: usize) -> Self {
         Self {
-            real: vec![0.0; (13 * n + 12) * n],
-            complex: vec![Complex64::ZERO; (12 * n + 10) * n],
+            real: vec![0.0; (17 * n + 18) * n],
+            complex: vec![Complex64::ZERO; (12 * n + 11) * n],
             indices: vec![0; 6 * n],
             flags: vec![false; 4 * n],
             pairs: vec![Pair::NONE; 2 * n],

@@ -2,6 +2,7 @@
 
 use num_complex::Complex64;
 
+use super::iteration::Iteration;
 use super::linearisation::Linearisation;
 use super::pencil::{Pencil, Products};
 
@@ -17,4 +18,6 @@ pub(super) struct Solver<'a> {
     pub(super) basis_right: &'a mut [Complex64],
     pub(super) basis_left: &'a mut [Complex64],
     pub(super) cross: &'a mut [Complex64],
+    /// For pencils that are not small.
+    pub(super) iteration: Option<Iteration<'a>>,
 }

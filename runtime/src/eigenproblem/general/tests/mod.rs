@@ -2,10 +2,14 @@
 
 mod checks;
 mod closed_forms;
+mod conservative;
+mod families;
 mod hard;
 mod known;
 pub(crate) mod near;
 mod parts;
+mod scale;
+mod stored;
 pub(crate) mod torture;
 
 use num_complex::Complex64;

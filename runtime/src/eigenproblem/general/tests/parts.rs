@@ -27,11 +27,10 @@ fn qr_converges_on_small_integer_companions() {
         let mut values = vec![Complex64::ZERO; n];
         let mut work = vec![0.0; n];
         hessenberg::balance(n, &mut matrix, &mut work);
-        hessenberg::reduce(n, &mut matrix, &mut work);
-        assert!(
-            schur::eigenvalues(n, &mut matrix, &mut values),
-            "{coefficients:?}"
-        );
+        let mut reflections = vec![0.0; n * n];
+        hessenberg::reduce(n, &mut matrix, &mut reflections, &mut work);
+        let steps = schur::eigenvalues(n, &mut matrix, &mut values);
+        assert!(steps.is_some(), "{coefficients:?}");
         let sum: Complex64 = values.iter().sum();
         assert!((sum - coefficients[0]).norm() < 1e-12, "{coefficients:?}");
     }
@@ -47,7 +46,7 @@ fn qr_converges_on_cyclic_permutations() {
             matrix[i * n + i - 1] = 1.0;
         }
         let mut values = vec![Complex64::ZERO; n];
-        assert!(schur::eigenvalues(n, &mut matrix, &mut values));
+        assert!(schur::eigenvalues(n, &mut matrix, &mut values).is_some());
         for value in values {
             assert!((value.powu(n as u32) - 1.0).norm() < 1e-12);
         }

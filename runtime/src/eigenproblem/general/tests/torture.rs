@@ -158,12 +158,15 @@ fn one(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Result<(), String> {
     }
 }
 
-fn torture(count: u64) {
+/// Pencils of these sizes, in turn.
+fn torture(count: u64, sizes: core::ops::RangeInclusive<u64>) {
+    let different = sizes.end() - sizes.start() + 1;
     let mut failures = Vec::new();
     for case in 0..count {
         let mut rng = ChaCha8Rng::seed_from_u64(case);
         let kind = (case % 12) as u32;
-        let outcome = one(1 + (case / 12 % 8) as usize, &mut rng, kind);
+        let n = sizes.start() + case / 12 % different;
+        let outcome = one(n as usize, &mut rng, kind);
         if let Err(what) = outcome {
             failures.push(format!("case {case}, kind {kind}: {what}"));
         }
@@ -174,12 +177,18 @@ fn torture(count: u64) {
 
 #[test]
 fn hard_pencils_in_number() {
-    torture(6_000);
+    torture(6_000, 1..=8);
+}
+
+/// Those whose pairs come from one Hessenberg form.
+#[test]
+fn hard_pencils_that_are_not_small() {
+    torture(300, 9..=16);
 }
 
 /// Takes ten seconds with optimisation: `cargo test --release -p eigentol -- --ignored hard_pencils`.
 #[test]
 #[ignore = "takes minutes without optimisation"]
 fn hard_pencils_in_great_number() {
-    torture(100_000);
+    torture(100_000, 1..=8);
 }
