@@ -8,8 +8,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use eigentol::Error;
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, report,
-    sample, sensitivities, sweep, tolerance,
+    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, probability,
+    report, sample, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -126,6 +126,7 @@ enum Command {
     Modes(modes::Modes),
     Sensitivities(sensitivities::Sensitivities),
     Tolerance(tolerance::Tolerance),
+    Probability(probability::Probability),
     Campbell(campbell::Campbell),
     Sweep(sweep::Follow),
     Branches(branches::Branches),
@@ -174,6 +175,7 @@ impl Command {
             Self::Modes(own) => own.run(),
             Self::Sensitivities(own) => own.run(),
             Self::Tolerance(own) => own.run(),
+            Self::Probability(own) => own.run(),
             Self::Campbell(own) => own.run(),
             Self::Sweep(own) => own.run(),
             Self::Branches(own) => own.run(),

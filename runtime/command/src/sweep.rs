@@ -176,7 +176,7 @@ pub(crate) fn multiple(
 }
 
 /// Lets the low end of a range take its unit from the high end.
-fn with_unit_of(low: &str, high: &str) -> String {
+pub(crate) fn with_unit_of(low: &str, high: &str) -> String {
     if low.trim().parse::<f64>().is_err() {
         return low.to_owned();
     }
