@@ -58,7 +58,7 @@
 //! | Which variables does the scatter come from? | [`influence`](Study::influence) | [`propagation::influence`] |
 //! | How bad can it get within the limits? | [`worst_case`](Study::worst_case) | [`propagation::worst_case`] |
 //! | How probable is a forbidden band, or instability? | [`margin`](Study::margin), [`margin_of`](Study::margin_of) | [`second_order::mode_margin`] |
-//! | How probable is it that requirements are met, and what changes that? | [`chances`](Study::chances), [`reliability`](Study::reliability), [`rare_failure`](Study::rare_failure) | [`requirement::Requirements`] |
+//! | How probable is it that requirements are met, and what changes that? | [`probability`](Study::probability), [`chances`](Study::chances), [`reliability`](Study::reliability), [`rare_failure`](Study::rare_failure) | [`requirement::Requirements`] |
 //! | Which tolerances are the cheapest that meet them? | [`allocation`](Study::allocation) | [`allocation::allocate`] |
 //! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
 //! | Where is it critical, and how far do tolerances move that point? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance), [`critical_curvature`](Study::critical_curvature) | [`sweep::critical_state`], [`sweep::critical_tolerance`], [`second_order::critical_curvature`] |

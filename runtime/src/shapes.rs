@@ -5,13 +5,14 @@
 //! `alpha (Q' phi) c^H` added to `Q`, which changes only the component of the solution along `phi`; that component
 //! follows from the normalisation: `c = Mhat phi`, or the unit vector of the component that is one (`Normalisation`).
 
-use crate::algebra::{Lu, Matrix, Values, Vector, dot_complex, greater, largest, times_complex};
+use crate::algebra::{Field, Lu, Matrix, Vector, greater, largest, times, times_complex};
 use crate::constraints::Structure;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{
     CLUSTER_GAP, Family, Normalisation, clusters, lead, pencil_slope_times, pencil_times,
     transposed,
 };
+use crate::scalar::Real as _;
 use crate::sensitivity::{Rate, check_modes, directions, outside_domain};
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
@@ -69,13 +70,20 @@ pub fn shape_sensitivity(
 /// Derivatives of the eigenvalue and the shapes of one mode with respect to its matrices.
 pub(super) struct Shapes<'a> {
     linear: &'a Linear,
-    family: Family,
     mode: &'a Mode,
-    right: Side,
-    /// `None` if it equals the right one.
-    left: Option<Side>,
+    sides: Sides,
     /// Derivative of the eigenvalue: of `lambda` for undamped modes, of `s` for general ones.
     pub(super) rate: Rate<'a>,
+}
+
+/// The deflated pencil of a mode.
+enum Sides {
+    /// Real, and the same on both sides.
+    Undamped(Side<f64>),
+    General {
+        right: Side<Complex>,
+        left: Side<Complex>,
+    },
 }
 
 impl<'a> Shapes<'a> {
@@ -99,30 +107,38 @@ impl<'a> Shapes<'a> {
         let linear = &at.linear;
         let motions = Structure::of(&at.description).motions();
         let (size, leading) = Normalisation::of(&at.description);
-        let normalised = (size, leading.right);
-        let right = Side::new((linear, motions), family, mode, &mode.shape, normalised)
-            .ok_or(clustered.clone())?;
-        let left = match family {
-            Family::Undamped => None,
+        let scale = scale(linear, motions, mode);
+        let first_of = |shape: &[Complex], leading: usize| lead(&shape[..leading.min(shape.len())]);
+        let sides = match family {
+            Family::Undamped => {
+                let shape = mode.real_shape();
+                let pencil =
+                    |i: usize, j: usize| linear.stiffness[i][j] - mode.lambda * linear.mass[i][j];
+                let slope = times(&linear.mass, &shape).iter().map(|own| -own).collect();
+                let normalised = (size, first_of(&mode.shape, leading.right));
+                Side::new(linear, pencil, (&shape, slope), scale, normalised).map(Sides::Undamped)
+            }
             Family::General => {
-                let normalised = (size, leading.left);
-                let transposed = transposed(linear);
-                let side = Side::new(
-                    (&transposed, motions),
-                    family,
-                    mode,
-                    mode.left(),
-                    normalised,
-                );
-                Some(side.ok_or(clustered)?)
+                let side = |linear: &Linear, shape: &[Complex], leading: usize| {
+                    let pencil = |i: usize, j: usize| {
+                        let (m, c) = (linear.mass[i][j], linear.damping[i][j]);
+                        mode.s * (mode.s * m + c) + linear.stiffness[i][j]
+                    };
+                    let slope = pencil_slope_times(linear, mode.s, shape);
+                    let normalised = (size, first_of(shape, leading));
+                    Side::new(linear, pencil, (shape, slope), scale, normalised)
+                };
+                let right = side(linear, &mode.shape, leading.right);
+                let left = side(&transposed(linear), mode.left(), leading.left);
+                right
+                    .zip(left)
+                    .map(|(right, left)| Sides::General { right, left })
             }
         };
         Ok(Self {
             linear,
-            family,
             mode,
-            right,
-            left,
+            sides: sides.ok_or(clustered)?,
             rate: Rate::of(at, family, mode),
         })
     }
@@ -134,106 +150,170 @@ impl<'a> Shapes<'a> {
         rate: Complex,
     ) -> (Vector<Complex>, Vector<Complex>) {
         let mode = self.mode;
-        let moved = |linear: &Linear, change: &Linear, shape: &[Complex]| {
-            let direct = match self.family {
-                Family::Undamped => {
-                    let k = times_complex(&change.stiffness, shape);
-                    let m = times_complex(&change.mass, shape);
-                    Vector::from_fn(shape.len(), |i| k[i] - mode.lambda * m[i])
-                }
-                Family::General => pencil_times(change, mode.s, shape),
-            };
-            let slope = eigenvalue_slope_times(linear, self.family, mode, shape);
-            Vector::from_fn(shape.len(), |i| -direct[i] - rate * slope[i])
+        match &self.sides {
+            Sides::Undamped(side) => {
+                let shape = &mode.real_shape();
+                let [k, m] = [&change.stiffness, &change.mass].map(|matrix| times(matrix, shape));
+                let right = side.solve(&self.moved((&k, &m), rate.re), &m);
+                let right: Vector<Complex> = right.iter().map(|value| (*value).into()).collect();
+                (right.clone(), right)
+            }
+            Sides::General { right, left } => {
+                let moved = |linear: &Linear, change: &Linear, shape: &[Complex]| {
+                    let direct = pencil_times(change, mode.s, shape);
+                    let slope = pencil_slope_times(linear, mode.s, shape);
+                    Vector::from_fn(shape.len(), |i| -direct[i] - rate * slope[i])
+                };
+                let right = right.solve(
+                    &moved(self.linear, change, &mode.shape),
+                    &times_complex(&change.mass, &mode.shape),
+                );
+                let left = left.solve(
+                    &moved(&transposed(self.linear), &transposed(change), mode.left()),
+                    &times_complex(&change.mass, mode.left()),
+                );
+                (right, left)
+            }
+        }
+    }
+
+    /// Derivatives of an undamped shape along several directions, given for each the products of the changes of
+    /// stiffness and mass with the shape, and the change of `lambda`; `None` for a general mode.
+    pub(super) fn undamped_along(
+        &self,
+        products: &[(Vector, Vector)],
+        rates: &[f64],
+    ) -> Option<Vec<Vector>> {
+        let Sides::Undamped(side) = &self.sides else {
+            return None;
         };
-        let right = self.right.solve(
-            &moved(self.linear, change, &mode.shape),
-            &times_complex(&change.mass, &mode.shape),
+        let right = products.iter().zip(rates);
+        let right = right.map(|((k, m), rate)| self.moved((k, m), *rate));
+        let right: Vec<Vector> = right.collect();
+        let right = Matrix::from_fn(side.shape.len(), right.len(), |i, j| right[j][i]);
+        let across = f64::run(
+            #[inline(always)]
+            || side.factors.solve_columns(&right),
         );
-        let left = match &self.left {
-            None => right.clone(),
-            Some(side) => side.solve(
-                &moved(&transposed(self.linear), &transposed(change), mode.left()),
-                &times_complex(&change.mass, mode.left()),
-            ),
+        let each = products.iter().enumerate();
+        Some(
+            each.map(|(j, (_, m))| side.complete(&across.column(j), m))
+                .collect(),
+        )
+    }
+
+    /// `-(dQ + Q' dlambda) phi` of an undamped mode.
+    fn moved(&self, (k, m): (&[f64], &[f64]), rate: f64) -> Vector {
+        let lambda = self.mode.lambda;
+        let slope = match &self.sides {
+            Sides::Undamped(side) => &side.slope[..],
+            Sides::General { .. } => &[],
         };
-        (right, left)
+        Vector::from_fn(k.len(), |i| -(k[i] - lambda * m[i]) - rate * slope[i])
     }
 }
 
-/// `Q' phi`: derivative of the pencil with respect to its eigenvalue (`lambda` or `s`), times a shape.
-fn eigenvalue_slope_times(
-    linear: &Linear,
-    family: Family,
-    mode: &Mode,
-    shape: &[Complex],
-) -> Vector<Complex> {
-    match family {
-        Family::Undamped => times_complex(&linear.mass, shape).map(|value| -value),
-        Family::General => pencil_slope_times(linear, mode.s, shape),
+/// Size of the elements of the pencil; constraints are no stiffness.
+fn scale(linear: &Linear, motions: usize, mode: &Mode) -> f64 {
+    let largest = |matrix: &Matrix| {
+        let moving = matrix
+            .iter()
+            .take(motions)
+            .map(|row| largest(&row[..motions]));
+        moving.fold(0.0, greater)
+    };
+    let s = mode.s.norm();
+    let scale =
+        largest(&linear.stiffness) + s * (largest(&linear.damping) + s * largest(&linear.mass));
+    if scale > 0.0 { scale } else { 1.0 }
+}
+
+/// Real or complex components of a shape.
+trait Component: Field + core::iter::Sum {
+    fn conj(self) -> Self;
+    fn modulus(self) -> f64;
+    fn parts(self) -> (f64, f64);
+    fn from_parts(re: f64, im: f64) -> Self;
+    fn scaled(self, factor: f64) -> Self;
+}
+
+impl Component for f64 {
+    fn conj(self) -> Self {
+        self
+    }
+    fn modulus(self) -> f64 {
+        self.abs()
+    }
+    fn parts(self) -> (f64, f64) {
+        (self, 0.0)
+    }
+    fn from_parts(re: f64, _: f64) -> Self {
+        re
+    }
+    fn scaled(self, factor: f64) -> Self {
+        self * factor
+    }
+}
+
+impl Component for Complex {
+    fn conj(self) -> Self {
+        Complex::conj(&self)
+    }
+    fn modulus(self) -> f64 {
+        self.norm()
+    }
+    fn parts(self) -> (f64, f64) {
+        (self.re, self.im)
+    }
+    fn from_parts(re: f64, im: f64) -> Self {
+        Complex::new(re, im)
+    }
+    fn scaled(self, factor: f64) -> Self {
+        self * factor
     }
 }
 
 /// The deflated pencil on one side of a mode.
-struct Side {
-    shape: Vector<Complex>,
+struct Side<T> {
+    shape: Vector<T>,
+    /// `Q' phi`.
+    slope: Vector<T>,
     size: Normalisation,
     /// The vector `c`.
-    weighted: Vector<Complex>,
+    weighted: Vector<T>,
     lead: usize,
-    factors: Lu<Complex>,
+    factors: Lu<T>,
 }
 
-impl Side {
+impl<T: Component> Side<T> {
     fn new(
-        (linear, motions): (&Linear, usize),
-        family: Family,
-        mode: &Mode,
-        shape: &[Complex],
-        (normalisation, leading): (Normalisation, usize),
+        linear: &Linear,
+        pencil: impl Fn(usize, usize) -> T,
+        (shape, slope): (&[T], Vector<T>),
+        scale: f64,
+        (normalisation, lead): (Normalisation, usize),
     ) -> Option<Self> {
         let n = shape.len();
-        let lead = lead(&shape[..leading.min(n)]);
         let weighted = match normalisation {
-            Normalisation::Mass => times_complex(&linear.mass, shape),
+            Normalisation::Mass => {
+                let row = |row: &[f64]| row.iter().zip(shape).map(|(m, x)| x.scaled(*m)).sum();
+                linear.mass.iter().map(row).collect()
+            }
             Normalisation::Largest => {
-                Vector::from_fn(n, |i| if i == lead { 1.0 } else { 0.0 }.into())
+                Vector::from_fn(n, |i| T::from_parts(if i == lead { 1.0 } else { 0.0 }, 0.0))
             }
         };
-        let slope = eigenvalue_slope_times(linear, family, mode, shape);
-        let (s, lambda) = (mode.s, mode.lambda);
-        let pencil: Matrix<Complex> = Matrix::from_fn(n, n, |i, j| {
-            let (m, c, k) = (
-                linear.mass[i][j],
-                linear.damping[i][j],
-                linear.stiffness[i][j],
-            );
-            match family {
-                Family::Undamped => (k - lambda * m).into(),
-                Family::General => s * (s * m + c) + k,
-            }
-        });
-        let size = |vector: &[Complex]| {
-            vector
-                .iter()
-                .fold(0.0, |most: f64, value| most.max(value.norm()))
+        let size = |vector: &[T]| {
+            let sizes = vector.iter().map(|value| value.modulus());
+            sizes.fold(0.0, f64::max)
         };
-        // The constraints are no stiffness.
-        let largest = |matrix: &Matrix| {
-            let moving = matrix
-                .iter()
-                .take(motions)
-                .map(|row| largest(&row[..motions]));
-            moving.fold(0.0, greater)
-        };
-        let scale = largest(&linear.stiffness)
-            + s.norm() * (largest(&linear.damping) + s.norm() * largest(&linear.mass));
-        let added = if scale > 0.0 { scale } else { 1.0 } / (size(&slope) * size(&weighted));
+        let added = T::from_parts(scale / (size(&slope) * size(&weighted)), 0.0);
         let deflated = Matrix::from_fn(n, n, |i, j| {
-            pencil[i][j] + added * slope[i] * weighted[j].conj()
+            pencil(i, j) + added * slope[i] * weighted[j].conj()
         });
         Some(Self {
             shape: shape.into(),
+            slope,
             size: normalisation,
             weighted,
             lead,
@@ -242,18 +322,23 @@ impl Side {
     }
 
     /// The derivative of the shape, from the right-hand side and `dMhat phi`.
-    fn solve(&self, right: &[Complex], mass_change: &[Complex]) -> Vector<Complex> {
-        let n = right.len();
-        let conj = |vector: &[Complex]| vector.map(|value| value.conj());
-        let across = self.factors.solve(right);
-        if self.size == Normalisation::Largest {
-            let part = -across[self.lead] / self.shape[self.lead];
-            return Vector::from_fn(n, |i| across[i] + part * self.shape[i]);
-        }
-        let size_change = dot_complex(&conj(&self.shape), mass_change).re;
-        let along = -0.5 * size_change - dot_complex(&conj(&self.weighted), &across).re;
-        let turn = -across[self.lead].im / self.shape[self.lead].re;
-        let part = Complex::new(along, turn);
-        Vector::from_fn(n, |i| across[i] + part * self.shape[i])
+    fn solve(&self, right: &[T], mass_change: &[T]) -> Vector<T> {
+        self.complete(&self.factors.solve(right), mass_change)
+    }
+
+    /// Adds the component along the shape that keeps its normalisation.
+    fn complete(&self, across: &[T], mass_change: &[T]) -> Vector<T> {
+        let product = |x: &[T], y: &[T]| x.iter().zip(y).map(|(x, y)| x.conj() * *y).sum::<T>();
+        let part = match self.size {
+            Normalisation::Largest => T::default() - across[self.lead] / self.shape[self.lead],
+            Normalisation::Mass => {
+                let (size_change, _) = product(&self.shape, mass_change).parts();
+                let (along, _) = product(&self.weighted, across).parts();
+                let ((_, turned), (lead, _)) =
+                    (across[self.lead].parts(), self.shape[self.lead].parts());
+                T::from_parts(-0.5 * size_change - along, -turned / lead)
+            }
+        };
+        Vector::from_fn(across.len(), |i| across[i] + part * self.shape[i])
     }
 }

@@ -147,7 +147,7 @@ impl Risk {
             .modes
             .iter()
             .filter_map(|mode| mode.damping_ratio.as_ref());
-        let models = models.map(|spread| &spread.model);
+        let models = models.map(|spread| &*spread.model);
         let least = models.min_by(|a, b| a.value.total_cmp(&b.value));
         let negative = (f64::NEG_INFINITY, 0.0);
         let first = |model: &Quadratic| model.probability_first_order(tolerances, negative).ok();

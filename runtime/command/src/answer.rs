@@ -46,6 +46,20 @@ impl Answer {
         }
     }
 
+    /// Which of the results of a question [`Self::written`] will show: only those need to be computed. `kinds` are all
+    /// results that there can be, in order, each with whether it is set aside.
+    pub(crate) fn shown(
+        &self,
+        kinds: &[(&str, bool)],
+        kind: Option<&str>,
+    ) -> Result<Vec<bool>, Failure> {
+        if self.form == Form::Text && kind.is_none() {
+            return Ok(kinds.iter().map(|(_, aside)| !aside).collect());
+        }
+        let wanted = named("result", kinds, kind, |own| own.0)?.0;
+        Ok(kinds.iter().map(|(own, _)| *own == wanted).collect())
+    }
+
     /// Adds a result.
     pub(crate) fn add<R: Display + eigentol_tables::Answer>(
         &mut self,

@@ -9,7 +9,7 @@ use eigentol::Error;
 
 use crate::commands::{
     allocate, branches, campbell, check, completions, equilibria, expand, import, merge, modes,
-    new, report, sample, sensitivities, sweep, tolerance,
+    new, probability, report, sample, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -127,6 +127,7 @@ enum Command {
     Equilibria(equilibria::Equilibria),
     Sensitivities(sensitivities::Sensitivities),
     Tolerance(tolerance::Tolerance),
+    Probability(probability::Probability),
     Campbell(campbell::Campbell),
     Sweep(sweep::Follow),
     Branches(branches::Branches),
@@ -176,6 +177,7 @@ impl Command {
             Self::Equilibria(own) => own.run(),
             Self::Sensitivities(own) => own.run(),
             Self::Tolerance(own) => own.run(),
+            Self::Probability(own) => own.run(),
             Self::Campbell(own) => own.run(),
             Self::Sweep(own) => own.run(),
             Self::Branches(own) => own.run(),

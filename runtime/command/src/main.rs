@@ -16,6 +16,7 @@ mod picture;
 mod place;
 mod point;
 mod progress;
+mod requirements;
 mod rows;
 mod study_file;
 mod sweep;

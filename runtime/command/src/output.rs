@@ -94,6 +94,11 @@ impl Output {
         Answer::new(self.form())
     }
 
+    /// Which of the results that a question can have will be shown ([`Answer::shown`]).
+    pub(crate) fn shown(&self, kinds: &[(&str, bool)]) -> Result<Vec<bool>, Failure> {
+        self.answer().shown(kinds, self.result.as_deref())
+    }
+
     /// Whether the table of this name is the only one requested.
     pub(crate) fn wants_table(&self, name: &str) -> bool {
         self.form().has_rows() && self.table.as_deref() == Some(name)

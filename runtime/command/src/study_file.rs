@@ -94,7 +94,7 @@ pub(crate) enum FrequencyUnit {
 }
 
 /// A requirement: a mode quantity, an output, or the input value of an event must lie within limits or outside a band.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table `[[require]]`")]
 pub(crate) struct Require {
     /// Counted from 1.
@@ -117,7 +117,7 @@ pub(crate) struct Require {
     pub(crate) at_most: Option<Written>,
     pub(crate) outside: Option<[Written; 2]>,
     /// Maximum probability of violating the requirement.
-    pub(crate) failure: f64,
+    pub(crate) failure: Option<f64>,
 }
 
 /// The required quantity of a mode.
@@ -128,6 +128,19 @@ pub(crate) enum Quantity {
     NaturalFrequency,
     DampingRatio,
     Growth,
+}
+
+impl Quantity {
+    /// The quantity of this name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "frequency" => Self::Frequency,
+            "natural_frequency" => Self::NaturalFrequency,
+            "damping_ratio" => Self::DampingRatio,
+            "growth" => Self::Growth,
+            _ => return None,
+        })
+    }
 }
 
 /// A half-width or a nominal value that may be chosen between limits.

@@ -144,8 +144,19 @@ pub(crate) fn invalid(py: Python<'_>, message: String) -> PyErr {
     new(py, Kind::InvalidValue, message)
 }
 
+/// A failure of the solvers, with what may be to blame for it.
+pub(crate) fn with_note(py: Python<'_>, error: Error, note: &str) -> PyErr {
+    let message = format!("{error}; {note}");
+    raised(py, error, message)
+}
+
 /// A failure of the solvers.
 pub(crate) fn raise(py: Python<'_>, error: Error) -> PyErr {
+    let message = error.to_string();
+    raised(py, error, message)
+}
+
+fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
     let kind = match &error {
         Error::NotFinite { .. }
         | Error::WrongLength { .. }
@@ -184,12 +195,10 @@ pub(crate) fn raise(py: Python<'_>, error: Error) -> PyErr {
         Error::NoEquilibrium { coordinates, .. }
         | Error::UnboundedReactions { coordinates, .. }
         | Error::BranchLost { coordinates, .. }
-        | Error::NotAssembled { coordinates, .. } => {
-            with(py, raised(error.to_string()), |exception| {
-                exception.setattr("coordinates", coordinates.clone())
-            })
-        }
-        _ => raised(error.to_string()),
+        | Error::NotAssembled { coordinates, .. } => with(py, raised(message), |exception| {
+            exception.setattr("coordinates", coordinates.clone())
+        }),
+        _ => raised(message),
     }
 }
 

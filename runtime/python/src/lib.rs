@@ -46,7 +46,7 @@ mod module {
     #[pymodule_export]
     use crate::parts::Part;
     #[pymodule_export]
-    use crate::requirements::{Chances, RareFailure, Reliability};
+    use crate::requirements::{Chances, Probabilities, RareFailure, Reliability};
     #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]

@@ -92,7 +92,20 @@ impl Study {
         found.map(Chances)
     }
 
-    /// Reliability by way of design points (FORM and SORM); requirements as `chances` takes them.
+    /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
+    /// of designs, or samples; requirements as `chances` takes them.
+    fn probability(
+        &self,
+        py: Python<'_>,
+        requirements: Vec<Bound<'_, PyAny>>,
+    ) -> PyResult<Probabilities> {
+        let wanted = self.requirements(&requirements)?;
+        self.ask_stoppably(py, |study| study.probability(&wanted))
+            .map(Probabilities)
+    }
+
+    /// Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
+    /// takes them.
     fn reliability(
         &self,
         py: Python<'_>,
@@ -121,6 +134,68 @@ impl Study {
     pub(crate) fn requirements(&self, given: &[Bound<'_, PyAny>]) -> PyResult<Vec<Requirement>> {
         let one = |given| requirement(&self.inner, given);
         given.iter().map(one).collect()
+    }
+}
+
+result! {
+    /// Probabilities of failing requirements. `k` is their number. No model is behind them: every design is solved anew.
+    Probabilities(requirement::Probabilities)
+}
+
+#[pymethods]
+impl Probabilities {
+    /// Probability of failing each requirement, shape (k,).
+    #[getter]
+    fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.each.iter().map(|own| own.value))
+    }
+
+    /// Lower ends of their 95 % intervals, shape (k,).
+    #[getter]
+    fn lower<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.each.iter().map(|own| own.interval.lower))
+    }
+
+    /// Upper ends, shape (k,).
+    #[getter]
+    fn upper<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.each.iter().map(|own| own.interval.upper))
+    }
+
+    /// Probabilities that a design lacks the response needed to tell, shape (k,).
+    #[getter]
+    fn untold<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.each.iter().map(|own| own.untold))
+    }
+
+    /// How each was found: "design point", "lines" or "samples".
+    #[getter]
+    fn found_by(&self) -> Vec<&'static str> {
+        let all = self.0.each.iter();
+        all.map(|own| match own.by {
+            requirement::Found::DesignPoint => "design point",
+            requirement::Found::Lines => "lines",
+            _ => "samples",
+        })
+        .collect()
+    }
+
+    /// Probability of failing any requirement.
+    #[getter]
+    fn any_failure(&self) -> f64 {
+        self.0.any.value
+    }
+
+    /// Its 95 % interval.
+    #[getter]
+    fn any_interval(&self) -> (f64, f64) {
+        (self.0.any.interval.lower, self.0.any.interval.upper)
+    }
+
+    /// The design points, or None: what changes the probabilities.
+    #[getter]
+    fn reliability(&self) -> Option<Reliability> {
+        self.0.reliability.clone().map(Reliability)
     }
 }
 
@@ -178,7 +253,33 @@ impl Reliability {
         optional(py, all.map(requirement::LimitReliability::beta))
     }
 
-    /// Probability that any limit is passed; None where it is not known.
+    /// Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
+    /// where that was not done.
+    #[getter]
+    fn solved_anew<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        let judged = self.0.limits.iter().map(|own| own.judgement.judged());
+        optional(py, judged.map(|own| own.map(|own| own.probability.value)))
+    }
+
+    /// Half-widths of their 95 % intervals, shape (l,).
+    #[getter]
+    fn error<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        let judged = self.0.limits.iter().map(|own| own.judgement.judged());
+        let half = |own: &eigentol::judge::Judged| {
+            let interval = own.interval();
+            0.5 * (interval.upper - interval.lower)
+        };
+        optional(py, judged.map(|own| own.map(half)))
+    }
+
+    /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
+    #[getter]
+    fn verified(&self) -> Vec<bool> {
+        let all = self.0.limits.iter();
+        all.map(requirement::LimitReliability::verified).collect()
+    }
+
+    /// Probability that any limit is passed, to first order; None where it is not known.
     #[getter]
     fn any_failure(&self) -> Option<f64> {
         self.0.system.as_ref().map(|own| own.probability.value)
@@ -198,7 +299,13 @@ impl RareFailure {
         self.0.failure.probability.value
     }
 
-    /// Its standard error.
+    /// Whether the samples reached their target and lines of designs do not contradict them.
+    #[getter]
+    fn trusted(&self) -> bool {
+        self.0.trusted()
+    }
+
+    /// Standard error of `failure`.
     #[getter]
     fn standard_error(&self) -> f64 {
         self.0.failure.probability.standard_error

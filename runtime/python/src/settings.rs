@@ -115,6 +115,27 @@ pub(crate) fn study(
     }
 }
 
+/// Names of the inputs that are given no value.
+pub(crate) fn unset_inputs(
+    study: &Study<Interpreted>,
+    settings: &Bound<'_, PyDict>,
+) -> Vec<String> {
+    let given = settings.get_item("inputs").ok().flatten();
+    let named = match &given {
+        None => None,
+        Some(given) if given.is_none() => None,
+        Some(given) => match given.cast::<PyDict>() {
+            Ok(named) => Some(named),
+            // A list has a value for each.
+            Err(_) => return Vec::new(),
+        },
+    };
+    let inputs = study.description().inputs.iter();
+    let names = inputs.map(|info| info.name.to_string());
+    let unset = |name: &String| !named.is_some_and(|own| own.contains(name).unwrap_or(true));
+    names.filter(unset).collect()
+}
+
 /// The settings of a study updated with others; dictionaries are merged by name.
 pub(crate) fn merged<'py>(
     settings: &Bound<'py, PyDict>,

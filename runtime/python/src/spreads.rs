@@ -1,5 +1,6 @@
 //! The effect of tolerances: results of first order, second order, sampling and propagation.
 
+use eigentol::judge::Doubt;
 use eigentol::propagation::{self, Estimated, QUANTILES};
 use eigentol::second_order::{ModeSecondOrder, SecondOrderSpread};
 use eigentol::tolerance::{ModeTolerance, Sample, Spread, Statistics};
@@ -85,7 +86,15 @@ impl FirstOrder {
         vector(py, self.0.modes.iter().map(|own| own.distance_to_critical))
     }
 
-    /// Whether the critical state and neighbouring modes are far enough away for first order to be trusted.
+    /// For each mode the doubts that distances raise about its standard deviations: texts, none where they are large.
+    /// They do not tell how large an error is; `summary` lets samples decide.
+    #[getter]
+    fn doubts(&self) -> Vec<Vec<String>> {
+        let all = 0..self.0.modes.len();
+        all.map(|mode| texts(&self.0.doubts(mode))).collect()
+    }
+
+    /// Whether distances leave no doubt about any mode. Where they do, `summary` lets samples decide.
     #[getter]
     fn trusted(&self) -> bool {
         self.0.trusted()
@@ -139,6 +148,12 @@ impl SecondOrder {
         self.each(py, quantity, |own| own.moments.skewness)
     }
 
+    /// For each mode the doubts that distances raise, as those of first order.
+    #[getter]
+    fn doubts(&self) -> Vec<Vec<String>> {
+        self.0.doubts.iter().map(|own| texts(own)).collect()
+    }
+
     /// Why a mode has no second order: a text for each mode, or None.
     #[getter]
     fn failures(&self) -> Vec<Option<String>> {
@@ -176,9 +191,7 @@ impl Summary {
     /// For each mode why its standard deviation is in doubt: texts, none where it can be trusted.
     #[getter]
     fn doubts(&self) -> Vec<Vec<String>> {
-        let all = self.0.trust.iter();
-        all.map(|own| own.doubts.iter().map(ToString::to_string).collect())
-            .collect()
+        self.0.trust.iter().map(|own| texts(&own.doubts)).collect()
     }
 }
 
@@ -264,10 +277,22 @@ impl MonteCarlo {
         self.statistics(py, quantity, |own| own.sigma)
     }
 
-    /// Standard errors of the standard deviations or means as the report shows them, shape (m,).
+    /// Standard errors of the means, shape (m,); those of the standard deviations are `sigma_error`.
     #[pyo3(signature = (quantity="frequency"))]
     fn standard_error<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array1<'py>> {
         self.statistics(py, quantity, |own| own.standard_error)
+    }
+
+    /// Standard errors of the standard deviations, shape (m,), for any distribution.
+    #[pyo3(signature = (quantity="frequency"))]
+    fn sigma_error<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array1<'py>> {
+        self.statistics(py, quantity, |own| own.sigma_error)
+    }
+
+    /// How many stable samples lie on another branch of equilibria than the nominal one.
+    #[getter]
+    fn on_another_branch(&self) -> usize {
+        self.0.left_nominal_branch
     }
 
     /// Design variables of the samples, SI, shape (N, design). The samples have to be kept (`keep_samples=True`).
@@ -355,7 +380,7 @@ impl ModeMargin {
         self.0.margin.corrected.value
     }
 
-    /// Bound of the numerical error of that.
+    /// Error of that: of the integration, and of the model where designs were solved anew.
     #[getter]
     fn error(&self) -> f64 {
         self.0.margin.corrected.error
@@ -367,8 +392,26 @@ impl ModeMargin {
         self.0.margin.first_order
     }
 
-    /// Positions of the other modes that tolerances mix with this one. If there are any, neither probability can be
-    /// relied on.
+    /// Probability by designs solved anew, which judges the other two; None where that is too dear.
+    #[getter]
+    fn solved_anew(&self) -> Option<f64> {
+        self.0.judgement.judged().map(|own| own.probability.value)
+    }
+
+    /// 95 % interval of that.
+    #[getter]
+    fn interval(&self) -> Option<(f64, f64)> {
+        let interval = self.0.judgement.judged().map(|own| own.interval());
+        interval.map(|own| (own.lower, own.upper))
+    }
+
+    /// Whether designs solved anew confirm the probability of the second-order model.
+    #[getter]
+    fn verified(&self) -> bool {
+        self.0.verified()
+    }
+
+    /// Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on.
     #[getter]
     fn mixed_with(&self) -> Vec<usize> {
         self.0.mixed_with.clone()
@@ -401,6 +444,10 @@ impl Propagation {
         let all = self.0.spreads.iter();
         optional(py, all.map(|own| own.as_ref().and_then(&of)))
     }
+}
+
+fn texts(doubts: &[Doubt]) -> Vec<String> {
+    doubts.iter().map(ToString::to_string).collect()
 }
 
 fn value(of: Option<Estimated>) -> Option<f64> {

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::{Array1, vector};
-use crate::errors::raise;
+use crate::errors::{raise, with_note};
 use crate::mechanism::Mechanism;
 use crate::motion::Motion;
 use crate::settings;
@@ -61,7 +61,40 @@ impl Study {
         question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
         let found = py.detach(|| question(&self.inner));
-        found.map_err(|error| raise(py, error))
+        found.map_err(|error| self.explain(py, error))
+    }
+
+    /// The exception for a failure. Where values may be to blame, it names the inputs that were never given any.
+    fn explain(&self, py: Python<'_>, error: Error) -> PyErr {
+        let by_values = matches!(
+            error,
+            Error::Unphysical { .. }
+                | Error::OutsideDomain { .. }
+                | Error::InfiniteOutput { .. }
+                | Error::SingularMass { .. }
+                | Error::NoEquilibrium { .. }
+                | Error::NotAssembled { .. }
+        );
+        let names = match by_values {
+            true => settings::unset_inputs(&self.inner, self.settings.bind(py)),
+            false => Vec::new(),
+        };
+        match &names[..] {
+            [] => raise(py, error),
+            [name] => with_note(
+                py,
+                error,
+                &format!("the input `{name}` was given no value and counts as 0"),
+            ),
+            names => with_note(
+                py,
+                error,
+                &format!(
+                    "the inputs `{}` were given no values and count as 0",
+                    names.join("`, `")
+                ),
+            ),
+        }
     }
 
     /// Runs a long analysis like [`Self::ask`]; Ctrl-C ends it and is raised.
@@ -71,7 +104,7 @@ impl Study {
         question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
         let found = self.stoppably(py, question)?;
-        found.map_err(|error| raise(py, error))
+        found.map_err(|error| self.explain(py, error))
     }
 
     /// Runs an analysis; Ctrl-C ends it and is raised.

@@ -111,6 +111,33 @@ impl<T: Field> Lu<T> {
         x
     }
 
+    /// Solves for several right-hand sides at once, the columns of a matrix; each has the bits of [`Self::solve`].
+    #[inline(always)]
+    pub(crate) fn solve_columns(&self, right: &Matrix<T>) -> Matrix<T> {
+        let (n, count) = (right.row_count(), right.column_count());
+        let (factors, order) = (&self.factors.as_flattened()[..n * n], &self.order[..n]);
+        let mut x = Matrix::from_fn(n, count, |i, j| right[order[i]][j]);
+        let entries = x.as_flattened_mut();
+        for i in 0..n {
+            let (done, rest) = entries.split_at_mut(i * count);
+            let row = &mut rest[..count];
+            for k in 0..i {
+                subtract_row(row, factors[i * n + k], &done[k * count..(k + 1) * count]);
+            }
+        }
+        for i in (0..n).rev() {
+            let (open, done) = entries.split_at_mut((i + 1) * count);
+            let row = &mut open[i * count..];
+            for k in i + 1..n {
+                let own = &done[(k - i - 1) * count..(k - i) * count];
+                subtract_row(row, factors[i * n + k], own);
+            }
+            let pivot = factors[i * n + i];
+            row.iter_mut().for_each(|value| *value = *value / pivot);
+        }
+        x
+    }
+
     #[inline(always)]
     fn solve_into(&self, n: usize, right: &[T], x: &mut [T]) {
         let (factors, order) = (&self.factors.as_flattened()[..n * n], &self.order[..n]);
@@ -129,6 +156,14 @@ impl<T: Field> Lu<T> {
             }
             x[i] = x[i] / factors[i * n + i];
         }
+    }
+}
+
+/// `row - factor other`.
+#[inline(always)]
+fn subtract_row<T: Field>(row: &mut [T], factor: T, other: &[T]) {
+    for (value, other) in row.iter_mut().zip(other) {
+        *value = *value - factor * *other;
     }
 }
 

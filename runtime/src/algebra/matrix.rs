@@ -211,6 +211,22 @@ pub(crate) fn times(matrix: &Matrix, x: &[f64]) -> Vector {
     matrix.iter().map(|row| dot(row, x)).collect()
 }
 
+/// `matrix x` for several vectors at once, the columns of `x`; each has the bits of [`times`].
+#[inline(always)]
+pub(crate) fn times_columns(matrix: &Matrix, x: &Matrix) -> Matrix {
+    let count = x.column_count();
+    let mut product = Matrix::zeros(matrix.row_count(), count);
+    for (row, sums) in matrix.iter().zip(product.iter_mut()) {
+        sums.fill(-0.0);
+        for (factor, values) in row.iter().zip(x.iter()) {
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum += factor * value;
+            }
+        }
+    }
+    product
+}
+
 /// `matrix x` for a complex vector.
 pub(crate) fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
     let row = |row: &[f64]| {

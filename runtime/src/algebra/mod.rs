@@ -19,9 +19,10 @@ pub use matrix::Matrix;
 pub use vector::Vector;
 
 pub(crate) use cholesky::{Cholesky, factor_rows, solve_rows};
-pub(crate) use lu::Lu;
+pub(crate) use lu::{Field, Lu};
 pub(crate) use matrix::{
-    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, times, times_complex,
+    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, times, times_columns,
+    times_complex,
 };
 pub(crate) use vector::{
     Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,

@@ -114,7 +114,7 @@ pub fn allocate(
         });
     }
     let moved = deviations.moved(&nominal, &half_widths);
-    judge(requirements, &moved, 0, &mut reliability)?;
+    judge(requirements, &moved, &mut reliability)?;
     let chances = chances_of(requirements, &moved, sampling)?;
     let mut refuted = Vec::new();
     for (k, (tally, allowed)) in chances.each.iter().zip(&choices.failure).enumerate() {

@@ -2,10 +2,12 @@
 //! (nearly) equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997,
 //! Dailey 1989).
 
-use crate::algebra::{Matrix, Vector, dot_complex, times_complex};
+use crate::algebra::{Matrix, Vector, dot_complex, times_columns};
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, pencil_times};
+use crate::scalar::Real as _;
 use crate::sensitivity::{check_modes, directions, normaliser};
+use crate::tolerance::Tolerances;
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
 /// First-order motion of several modes together: for a change `db` their eigenvalues are those of
@@ -134,63 +136,166 @@ pub fn modal_couplings(
     }
     check_modes(at, modes)?;
     let members: Vec<&Mode> = positions.iter().map(|&r| &modes.modes[r]).collect();
+    let undamped = Undamped::new(&members);
     let mut matrices = directions(mechanism, at)?.map(|along| {
         let change = along.linear(mechanism, at);
         match modes.family {
-            Family::Undamped => undamped(&members, &change),
+            Family::Undamped => undamped.couplings(&change).map(Complex::from),
             Family::General => general(at, &members, &change),
         }
     });
     let by_input: Vec<_> = matrices.by_ref().take(at.inputs.len()).collect();
     let by_design: Vec<_> = matrices.collect();
-    let eigenvalue = |mode: &&Mode| match (modes.family, mode.behaviour) {
-        // Zero up to rounding, whose sign must not count as growth.
-        (_, Behaviour::Free | Behaviour::Neutral) => Complex::ZERO,
-        (Family::Undamped, _) => mode.lambda.into(),
-        (Family::General, _) => mode.s,
-    };
     Ok(ModalCouplings {
         modes: positions.to_vec(),
         family: modes.family,
-        eigenvalues: members.iter().map(eigenvalue).collect(),
+        eigenvalues: (positions.iter().map(|&r| coupled_eigenvalue(modes, r))).collect(),
         by_input,
         by_design,
     })
 }
 
-/// `phi_i^T (dK - lambda dM) phi_j`, with the mean of the two eigenvalues to keep it symmetric.
-fn undamped(members: &[&Mode], change: &Linear) -> Matrix<Complex> {
-    matrix(members, |b| {
-        let k = times_complex(&change.stiffness, &b.shape);
-        let m = times_complex(&change.mass, &b.shape);
-        move |a| {
-            let lambda = 0.5 * (a.lambda + b.lambda);
-            dot_complex(a.left(), &k) - lambda * dot_complex(a.left(), &m)
+/// The eigenvalue that couplings move: `lambda` for undamped modes, `s` for general ones.
+pub(super) fn coupled_eigenvalue(modes: &Modes, position: usize) -> Complex {
+    let mode = &modes.modes[position];
+    match (modes.family, mode.behaviour) {
+        // Zero up to rounding, whose sign must not count as growth.
+        (_, Behaviour::Free | Behaviour::Neutral) => Complex::ZERO,
+        (Family::Undamped, _) => mode.lambda.into(),
+        (Family::General, _) => mode.s,
+    }
+}
+
+/// Undamped modes whose couplings are formed by products of matrices.
+struct Undamped {
+    lambda: Vec<f64>,
+    /// One shape per row.
+    rows: Matrix,
+    /// One shape per column.
+    columns: Matrix,
+}
+
+impl Undamped {
+    fn new(members: &[&Mode]) -> Self {
+        let shapes: Vec<Vector> = members.iter().map(|mode| mode.real_shape()).collect();
+        let n = shapes.first().map_or(0, |shape| shape.len());
+        let rows = Matrix::from_fn(shapes.len(), n, |r, i| shapes[r][i]);
+        Self {
+            lambda: members.iter().map(|mode| mode.lambda).collect(),
+            columns: rows.transpose(),
+            rows,
         }
-    })
+    }
+
+    /// `phi_i^T (dK - lambda dM) phi_j`, with the mean of the two eigenvalues to keep it symmetric.
+    fn couplings(&self, change: &Linear) -> Matrix {
+        let [mut k, m] = [&change.stiffness, &change.mass].map(|matrix| {
+            f64::run(
+                #[inline(always)]
+                || upper_product(&self.rows, &times_columns(matrix, &self.columns)),
+            )
+        });
+        let count = self.lambda.len();
+        for i in 0..count {
+            for j in i..count {
+                k[i][j] -= 0.5 * (self.lambda[i] + self.lambda[j]) * m[i][j];
+                k[j][i] = k[i][j];
+            }
+        }
+        k
+    }
+}
+
+/// The product of two matrices on and above its diagonal.
+#[inline(always)]
+fn upper_product(rows: &Matrix, columns: &Matrix) -> Matrix {
+    let mut product = Matrix::zeros(rows.row_count(), columns.column_count());
+    for (i, (row, sums)) in rows.iter().zip(product.iter_mut()).enumerate() {
+        for (factor, values) in row.iter().zip(columns.iter()) {
+            for (sum, value) in sums[i..].iter_mut().zip(&values[i..]) {
+                *sum += factor * value;
+            }
+        }
+    }
+    product
 }
 
 /// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system
 /// between its left and right vectors.
 fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Matrix<Complex> {
-    matrix(members, |b| {
-        let moved = pencil_times(change, b.s, &b.shape);
-        move |a| -dot_complex(a.left(), &moved) / normaliser(at, a)
+    let moved = members.iter().map(|b| pencil_times(change, b.s, &b.shape));
+    let moved: Vec<_> = moved.collect();
+    let normalisers: Vec<Complex> = members.iter().map(|a| normaliser(at, a)).collect();
+    let count = members.len();
+    Matrix::from_fn(count, count, |i, j| {
+        -dot_complex(members[i].left(), &moved[j]) / normalisers[i]
     })
 }
 
-/// Builds a matrix; `column` precomputes, for one right vector, what all left vectors share.
-fn matrix<'a, F: Fn(&Mode) -> Complex>(
-    members: &[&'a Mode],
-    column: impl Fn(&'a Mode) -> F,
-) -> Matrix<Complex> {
-    let count = members.len();
-    let mut matrix = Matrix::zeros(count, count);
-    for (j, b) in members.iter().enumerate() {
-        let element = column(b);
-        for (i, a) in members.iter().enumerate() {
-            matrix[i][j] = element(a);
-        }
-    }
-    matrix
+/// Standard deviations of what moves and mixes each pair of modes.
+pub(super) struct PairSpreads {
+    /// Of the difference of their eigenvalues, as if each mode stood alone.
+    pub(super) apart: Matrix,
+    /// Of their couplings.
+    pub(super) coupling: Matrix,
 }
+
+impl PairSpreads {
+    /// From the couplings of all modes, of which only sums are kept; `None` if variables are correlated or a sum
+    /// exceeds the range of a double.
+    pub(super) fn of_independent(
+        mechanism: &dyn DirectionalKernels,
+        at: &Equilibrium,
+        modes: &Modes,
+        tolerances: &Tolerances,
+    ) -> Result<Option<Self>, Error> {
+        check_modes(at, modes)?;
+        if tolerances.correlation().is_some() {
+            return Ok(None);
+        }
+        let members: Vec<&Mode> = modes.modes.iter().collect();
+        let count = members.len();
+        let undamped = Undamped::new(&members);
+        let zeros = || Matrix::zeros(count, count);
+        let (mut apart, mut coupling) = (zeros(), zeros());
+        let directions = directions(mechanism, at)?.skip(at.inputs.len());
+        for (along, sigma) in directions.zip(tolerances.sigmas()) {
+            if *sigma == 0.0 {
+                continue;
+            }
+            let change = along.linear(mechanism, at);
+            let variance = sigma * sigma;
+            match modes.family {
+                Family::Undamped => {
+                    let own = undamped.couplings(&change);
+                    for i in 0..count {
+                        for j in 0..count {
+                            apart[i][j] += variance * (own[i][i] - own[j][j]).powi(2);
+                            coupling[i][j] += variance * own[i][j].powi(2);
+                        }
+                    }
+                }
+                Family::General => {
+                    let own = general(at, &members, &change);
+                    for i in 0..count {
+                        for j in 0..count {
+                            apart[i][j] += variance * (own[i][i] - own[j][j]).norm_sqr();
+                            coupling[i][j] += variance * own[i][j].norm_sqr();
+                        }
+                    }
+                }
+            }
+        }
+        let ordinary = |sum: &f64| *sum == 0.0 || (SMALLEST..LARGEST).contains(sum);
+        let sums = apart.as_flattened().iter().chain(coupling.as_flattened());
+        let usable = sums.into_iter().all(ordinary);
+        Ok(usable.then(|| Self {
+            apart: apart.map(f64::sqrt),
+            coupling: coupling.map(f64::sqrt),
+        }))
+    }
+}
+
+/// Sums of squares that neither overflow nor lose digits.
+const SMALLEST: f64 = 1e-200;
+const LARGEST: f64 = 1e200;

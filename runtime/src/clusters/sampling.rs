@@ -3,9 +3,11 @@
 
 use eigentol_statistics::summary::{CHUNK, Moments};
 
+use core::ops::{AddAssign, Mul};
+
 use super::couplings::ModalCouplings;
 use crate::algebra::{Matrix, Vector};
-use crate::eigenproblem::diagonalise;
+use crate::eigenproblem::{Tridiagonal, diagonalise};
 use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
 use crate::sensitivity::eigenvalues;
@@ -112,7 +114,8 @@ pub fn sample_cluster(
     check(couplings, tolerances)?;
     let family = couplings.family;
     let m = couplings.eigenvalues.len();
-    let mut work = Work::new(m);
+    let mut work = Work::new(couplings);
+    let mut values = vec![Complex::default(); m];
     let mut frequency = Sorted::new(m);
     let mut parts = [Sorted::new(m), Sorted::new(m)];
     let (mut unstable, mut unsolved) = (0, 0);
@@ -120,17 +123,14 @@ pub fn sample_cluster(
     let nominal = Vector::zeros(couplings.by_design.len());
     let mut draw = Draw::from(sequence, 0, &nominal, tolerances);
     for _ in 0..sampling.samples {
-        work.fill(couplings, draw.next());
-        let size = |most: f64, value: &Complex| most.max(value.l1_norm());
-        let size = work.matrix.iter().fold(0.0, size);
-        if !work.matrix.iter().all(|value| value.l1_norm() < LARGEST) {
+        let Some(size) = work.fill(draw.next()) else {
             return Err(refuse("a sample exceeds the range of a double".to_owned()));
-        }
-        if !work.solve(family) {
+        };
+        if !work.solve(&mut values) {
             unsolved += 1;
             continue;
         }
-        let values = work.values.as_slice();
+        let values = &values[..];
         unstable += usize::from(
             values
                 .iter()
@@ -238,53 +238,133 @@ fn refuse(reason: String) -> Error {
     }
 }
 
-/// Workspace for one sample.
-struct Work {
-    matrix: Vec<Complex>,
-    real: Vec<f64>,
-    values: Vec<Complex>,
+/// Members from which the reduction to tridiagonal form is cheaper than rotations.
+const MANY: usize = 8;
+
+/// The small matrices, and workspace for one sample of them.
+enum Work<'a> {
+    Undamped {
+        couplings: &'a ModalCouplings,
+        slopes: Vec<Vec<f64>>,
+        matrix: Vec<f64>,
+        room: Tridiagonal,
+    },
+    General {
+        couplings: &'a ModalCouplings,
+        matrix: Vec<Complex>,
+    },
 }
 
-impl Work {
-    fn new(m: usize) -> Self {
-        Self {
-            matrix: vec![Complex::default(); m * m],
-            real: vec![0.0; m * m],
-            values: vec![Complex::default(); m],
+impl<'a> Work<'a> {
+    fn new(couplings: &'a ModalCouplings) -> Self {
+        let m = couplings.eigenvalues.len();
+        match couplings.family {
+            Family::Undamped => {
+                let real = |matrix: &Matrix<Complex>| {
+                    matrix.as_flattened().iter().map(|own| own.re).collect()
+                };
+                Self::Undamped {
+                    couplings,
+                    slopes: couplings.by_design.iter().map(real).collect(),
+                    matrix: vec![0.0; m * m],
+                    room: Tridiagonal::new(m),
+                }
+            }
+            Family::General => Self::General {
+                couplings,
+                matrix: vec![Complex::default(); m * m],
+            },
         }
     }
 
-    /// `diag(eigenvalues) + sum_k x_k by_design[k]`.
-    fn fill(&mut self, couplings: &ModalCouplings, x: &[f64]) {
-        let m = self.values.len();
-        self.matrix.fill(Complex::default());
-        for (i, &value) in couplings.eigenvalues.iter().enumerate() {
-            self.matrix[i * m + i] = value;
-        }
-        for (slopes, &x) in couplings.by_design.iter().zip(x) {
-            if x == 0.0 {
-                continue;
+    /// Sets the matrix `diag(eigenvalues) + sum_k x_k by_design[k]` and returns the size of its largest element, unless
+    /// that is beyond [`LARGEST`].
+    fn fill(&mut self, x: &[f64]) -> Option<f64> {
+        match self {
+            Self::Undamped {
+                couplings,
+                slopes,
+                matrix,
+                ..
+            } => {
+                let values = couplings.eigenvalues.iter().map(|value| value.re);
+                combine(matrix, values, slopes, x);
+                below_largest(matrix.iter().map(|value| value.abs()))
             }
-            for (sum, slope) in self.matrix.iter_mut().zip(slopes.as_flattened()) {
-                *sum += slope * x;
+            Self::General { couplings, matrix } => {
+                let slopes: Vec<&[Complex]> = couplings
+                    .by_design
+                    .iter()
+                    .map(Matrix::as_flattened)
+                    .collect();
+                combine(matrix, couplings.eigenvalues.iter().copied(), &slopes, x);
+                below_largest(matrix.iter().map(|value| value.l1_norm()))
             }
         }
     }
 
     /// Computes the eigenvalues; `false` if they were not found.
-    fn solve(&mut self, family: Family) -> bool {
-        if family == Family::General {
-            return eigenvalues(&mut self.matrix, &mut self.values);
+    fn solve(&mut self, values: &mut [Complex]) -> bool {
+        let m = values.len();
+        match self {
+            Self::Undamped { matrix, .. } if m < MANY => {
+                diagonalise(matrix, m, &mut []);
+                for (i, value) in values.iter_mut().enumerate() {
+                    *value = matrix[i * m + i].into();
+                }
+                true
+            }
+            Self::Undamped { matrix, room, .. } => {
+                let Some(found) = room.eigenvalues(matrix) else {
+                    return false;
+                };
+                for (value, found) in values.iter_mut().zip(found) {
+                    *value = (*found).into();
+                }
+                true
+            }
+            Self::General { matrix, .. } => eigenvalues(matrix, values),
         }
-        let m = self.values.len();
-        for (real, value) in self.real.iter_mut().zip(&self.matrix) {
-            *real = value.re;
+    }
+}
+
+/// The largest of these sizes; `None` if one of them is not below [`LARGEST`].
+fn below_largest(mut sizes: impl Iterator<Item = f64>) -> Option<f64> {
+    sizes.try_fold(0.0, |most: f64, size| {
+        (size < LARGEST).then(|| most.max(size))
+    })
+}
+
+/// `diag(values) + sum_k x_k slopes[k]`.
+fn combine<T, S: AsRef<[T]>>(
+    matrix: &mut [T],
+    values: impl ExactSizeIterator<Item = T>,
+    slopes: &[S],
+    x: &[f64],
+) where
+    T: Copy + Default + AddAssign + Mul<f64, Output = T>,
+{
+    let m = values.len();
+    matrix.fill(T::default());
+    for (i, value) in values.enumerate() {
+        matrix[i * m + i] = value;
+    }
+    for (slopes, x) in slopes.iter().zip(x).filter(|(_, x)| **x != 0.0) {
+        for (sum, slope) in matrix.iter_mut().zip(slopes.as_ref()) {
+            *sum += *slope * *x;
         }
-        diagonalise(&mut self.real, m, &mut []);
-        for (i, value) in self.values.iter_mut().enumerate() {
-            *value = self.real[i * m + i].into();
-        }
-        true
+    }
+}
+
+/// Operations of one sample: the matrix, and its eigenvalues.
+pub(super) fn operations(couplings: &ModalCouplings, tolerances: &Tolerances) -> f64 {
+    let m = couplings.eigenvalues.len() as f64;
+    let varied = tolerances.sigmas().iter().filter(|sigma| **sigma > 0.0);
+    let (fill, solve) = (varied.count() as f64 * m * m, m * m * m);
+    match couplings.family {
+        Family::Undamped if m < MANY as f64 => 2.0 * fill + 20.0 * solve,
+        Family::Undamped => 2.0 * fill + 1.5 * solve + 60.0 * m * m,
+        Family::General => 4.0 * fill + 200.0 * solve,
     }
 }
 

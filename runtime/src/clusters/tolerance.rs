@@ -1,14 +1,18 @@
 //! Clusters of modes that mix within the tolerances, and their spread: the mean of the eigenvalues, which has
 //! derivatives, and the sorted members, by sampling.
 
-use super::couplings::{ModalCouplings, modal_couplings};
-use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
+use super::couplings::{ModalCouplings, PairSpreads, coupled_eigenvalue, modal_couplings};
+use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, operations, sample_cluster};
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::DirectionalKernels;
 use crate::modes::{CLUSTER_GAP, Family, merged};
 use crate::sensitivity::Quantity;
 use crate::tolerance::{Spread, TRUSTED_DISTANCE, Tolerances};
 use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
+
+/// Limit on the additions and multiplications spent on the samples of one cluster, and the smallest number of samples.
+const BUDGET: f64 = 1.5e8;
+const FEWEST: usize = 256;
 
 /// Modes that mix within the tolerances, or that rounding cannot tell apart.
 ///
@@ -29,7 +33,7 @@ pub struct ClusterTolerance {
     pub distance: f64,
     /// Mean of the eigenvalues with its derivatives; `None` for a defective cluster.
     pub mean: Option<MeanEigenvalue>,
-    /// Spread of the sorted members from 4096 samples with a fixed seed, or the reason why there is none:
+    /// Spread of the sorted members from up to 4096 samples with a fixed seed, or the reason why there is none:
     /// [`Error::Defective`], or [`Error::Setting`] for tolerances beyond the range of a double.
     pub spread: Result<ClusterSpread, Error>,
     /// Number of standard deviations that a tolerance and a band represent.
@@ -92,13 +96,19 @@ pub fn clusters(
     modes: &Modes,
     tolerances: &Tolerances,
 ) -> Result<Vec<ClusterTolerance>, Error> {
-    let Some((couplings, groups)) = grouped(mechanism, at, modes, tolerances)? else {
+    let groups = groups(mechanism, at, modes, tolerances)?;
+    let members: Vec<usize> = groups.iter().flatten().copied().collect();
+    if members.is_empty() {
         return Ok(Vec::new());
-    };
-    let each = groups.iter();
-    Ok(each
-        .map(|group| tolerance(&couplings.among(group), modes, tolerances))
-        .collect())
+    }
+    let couplings = modal_couplings(mechanism, at, modes, &members)?;
+    let mut first = 0;
+    let each = groups.iter().map(|group| {
+        let places: Vec<usize> = (first..first + group.len()).collect();
+        first += group.len();
+        tolerance(&couplings.among(&places), modes, tolerances)
+    });
+    Ok(each.collect())
 }
 
 /// The positions of the modes of each cluster, as [`clusters`] finds them.
@@ -108,30 +118,27 @@ pub(crate) fn groups(
     modes: &Modes,
     tolerances: &Tolerances,
 ) -> Result<Vec<Vec<usize>>, Error> {
-    let found = grouped(mechanism, at, modes, tolerances)?;
-    Ok(found.map_or_else(Vec::new, |(_, groups)| groups))
-}
-
-type Grouped = (ModalCouplings, Vec<Vec<usize>>);
-
-/// The couplings of all modes and the clusters among them; `None` if there cannot be any.
-fn grouped(
-    mechanism: &dyn DirectionalKernels,
-    at: &Equilibrium,
-    modes: &Modes,
-    tolerances: &Tolerances,
-) -> Result<Option<Grouped>, Error> {
     tolerances.check_count(at.design.len())?;
     let count = modes.modes.len();
     if count == 0 || count == 1 && !merged(modes, 0) {
-        return Ok(None);
+        return Ok(Vec::new());
     }
     let all: Vec<usize> = (0..count).collect();
-    let couplings = modal_couplings(mechanism, at, modes, &all)?;
+    let spreads = PairSpreads::of_independent(mechanism, at, modes, tolerances)?;
+    let stored = match &spreads {
+        Some(_) => None,
+        None => Some(modal_couplings(mechanism, at, modes, &all)?),
+    };
+    let pair = |(i, j): (usize, usize)| match (&spreads, &stored) {
+        (Some(spreads), _) => Some(Pair::of(spreads, modes, (i, j))),
+        (None, Some(couplings)) => Some(Pair::new(couplings, (i, j), tolerances)),
+        (None, None) => None,
+    };
     let mut label = all;
     for i in 0..count {
         for j in 0..i {
-            if label[i] != label[j] && together(&couplings, modes, (i, j), tolerances) {
+            let mixes = |own: Pair| together(&own, modes, (i, j));
+            if label[i] != label[j] && pair((i, j)).is_some_and(mixes) {
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
                 label
                     .iter_mut()
@@ -143,8 +150,7 @@ fn grouped(
     let members = |first| (0..count).filter(|&i| label[i] == first).collect();
     let wanted =
         |group: &Vec<usize>| group.len() > 1 || group.iter().any(|&mode| merged(modes, mode));
-    let groups = (0..count).map(members).filter(wanted).collect();
-    Ok(Some((couplings, groups)))
+    Ok((0..count).map(members).filter(wanted).collect())
 }
 
 /// The effects that change the difference of two modes.
@@ -157,6 +163,15 @@ struct Pair {
 }
 
 impl Pair {
+    fn of(spreads: &PairSpreads, modes: &Modes, (i, j): (usize, usize)) -> Self {
+        let coupled = |i: usize, j: usize| spreads.coupling[i][j].sqrt();
+        Self {
+            gap: (coupled_eigenvalue(modes, i) - coupled_eigenvalue(modes, j)).norm(),
+            apart: spreads.apart[i][j],
+            mixing: 2.0 * coupled(i, j) * coupled(j, i),
+        }
+    }
+
     fn new(couplings: &ModalCouplings, (i, j): (usize, usize), tolerances: &Tolerances) -> Self {
         let sigma = |slopes: &Vector<Complex>| {
             let part = |pick: fn(Complex) -> f64| tolerances.sigma(&slopes.map(pick));
@@ -191,24 +206,18 @@ impl Pair {
     }
 }
 
-fn together(
-    couplings: &ModalCouplings,
-    modes: &Modes,
-    (i, j): (usize, usize),
-    tolerances: &Tolerances,
-) -> bool {
-    let values = &couplings.eigenvalues;
-    let gap = (values[i] - values[j]).norm();
+fn together(pair: &Pair, modes: &Modes, (i, j): (usize, usize)) -> bool {
+    let values = [i, j].map(|r| coupled_eigenvalue(modes, r));
     let (a, b) = (&modes.modes[i], &modes.modes[j]);
-    if gap <= CLUSTER_GAP * values[i].norm().max(values[j].norm()) {
+    if pair.gap <= CLUSTER_GAP * values[0].norm().max(values[1].norm()) {
         return true;
     }
     if merged(modes, i) || merged(modes, j) {
         // Their couplings are meaningless: only rounding errors can be compared.
         let error = if a.error < b.error { b.error } else { a.error };
-        return error.is_finite() && gap <= error;
+        return error.is_finite() && pair.gap <= error;
     }
-    Pair::new(couplings, (i, j), tolerances).distance() < TRUSTED_DISTANCE
+    pair.distance() < TRUSTED_DISTANCE
 }
 
 fn tolerance(
@@ -237,7 +246,10 @@ fn tolerance(
         let modes = couplings.modes.clone();
         Err(Error::Defective { modes })
     } else {
-        sample_cluster(couplings, tolerances, &ClusterSampling::default())
+        let affordable = (BUDGET / operations(couplings, tolerances)) as usize;
+        let all = ClusterSampling::default();
+        let samples = affordable.clamp(FEWEST.min(all.samples), all.samples);
+        sample_cluster(couplings, tolerances, &all.samples(samples))
     };
     ClusterTolerance {
         modes: couplings.modes.clone(),

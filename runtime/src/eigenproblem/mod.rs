@@ -6,9 +6,11 @@ mod jacobi;
 mod refine;
 mod residual;
 pub(crate) mod symmetric;
+mod tridiagonal;
 
 pub(crate) use general::{
     Eigenproblem, Near, Reference, ReferencePair, Root, roots_near, roots_of,
 };
 pub(crate) use jacobi::diagonalise;
 pub(crate) use symmetric::{INACCURATE, Pairs, Trouble};
+pub(crate) use tridiagonal::Tridiagonal;

@@ -80,6 +80,13 @@ impl<T: ?Sized> From<&'static T> for Shared<T> {
 }
 
 #[cfg(feature = "std")]
+impl<T> From<T> for Shared<T> {
+    fn from(value: T) -> Self {
+        Self::Counted(value.into())
+    }
+}
+
+#[cfg(feature = "std")]
 impl From<String> for Text {
     fn from(value: String) -> Self {
         Self::Counted(value.into())

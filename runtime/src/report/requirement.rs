@@ -5,13 +5,14 @@ use core::fmt;
 use super::judgement::verdict;
 use super::margin::chance;
 use super::numbers::{counted, given_in, heading, in_unit, or_dash, rough, short, with_unit};
-use super::relevance::{BELOW, NOTHING_VARIES, names, relevant};
+use super::relevance::{BELOW, CHANCE, NOTHING_VARIES, names, relevant};
 use super::table::{Table, cells};
 use super::title::title;
-use crate::Description;
 use crate::requirement::{
-    Chances, DesignPoint, Edge, Limit, LimitReliability, RareFailure, Reliability, Tally,
+    Chances, DesignPoint, Edge, FailureProbability, Found, Limit, LimitReliability, Probabilities,
+    RareFailure, Reliability, Requirement, Tally,
 };
+use crate::{Description, Unit};
 
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
@@ -104,6 +105,76 @@ impl fmt::Display for Reliability {
     }
 }
 
+impl fmt::Display for Probabilities {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = &self.description;
+        writeln!(f, "{}: probability of failure", title(d, &self.inputs))?;
+        let mut table = Table::new(cells([
+            "requirement",
+            "P(failed)",
+            "95 % interval",
+            "found by",
+            "designs",
+        ]));
+        for (k, (wanted, own)) in self.wanted.iter().zip(&self.each).enumerate() {
+            table.row(found(format!("{}: {}", k + 1, wanted.text(d)), own));
+        }
+        if self.each.len() > 1 {
+            table.row(found("any".to_owned(), &self.any));
+        }
+        write!(f, "{table}")?;
+        let all = self.each.iter().chain([&self.any]);
+        let untold = all.fold(0.0, |most: f64, own| most.max(own.untold));
+        if untold > CHANCE {
+            writeln!(
+                f,
+                "  Designs with a probability of up to {} lack the response needed to tell; they do not count as failures.",
+                rough(untold)
+            )?;
+        }
+        let Some(reliability) = &self.reliability else {
+            return Ok(());
+        };
+        for own in &reliability.limits {
+            let described = own
+                .design_points
+                .iter()
+                .flatten()
+                .filter(|point| point.verified);
+            if let Some(nearest) = described.into_iter().next() {
+                writeln!(
+                    f,
+                    "  Requirement {}: {}, most probably fails {} standard deviations from the mean, at",
+                    own.limit.requirement + 1,
+                    text(&own.limit, d),
+                    rough(nearest.beta().abs())
+                )?;
+                variables(f, nearest, d)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn found(name: String, own: &FailureProbability) -> Vec<String> {
+    let by = match own.by {
+        Found::DesignPoint => "design point",
+        Found::Lines => "lines",
+        Found::Samples => "samples",
+    };
+    vec![
+        name,
+        chance(own.value, 0.0),
+        format!(
+            "{} to {}",
+            chance(own.interval.lower, 0.0),
+            chance(own.interval.upper, 0.0)
+        ),
+        by.to_owned(),
+        own.designs.to_string(),
+    ]
+}
+
 fn limit(f: &mut fmt::Formatter<'_>, own: &LimitReliability, d: &Description) -> fmt::Result {
     write!(
         f,
@@ -143,6 +214,10 @@ fn point(
         or_dash(at.second_order, |value| chance(value, 0.0)),
         verdict
     )?;
+    variables(f, at, d)
+}
+
+fn variables(f: &mut fmt::Formatter<'_>, at: &DesignPoint, d: &Description) -> fmt::Result {
     let mut table = Table::new(cells([
         "variable",
         "design point",
@@ -178,14 +253,32 @@ fn point(
     }
 }
 
-/// `frequency 1 at least 4.00000 rad/s`.
+impl Requirement {
+    /// In words, with the units of a mechanism: `frequency 1 at least 4 rad/s`.
+    #[must_use]
+    pub fn text(&self, of: &Description) -> String {
+        let Some(response) = self.response() else {
+            return "stable".to_owned();
+        };
+        let unit = response.unit(of);
+        let limits = self.edges();
+        let limits: Vec<String> = limits.iter().map(|edge| edge_text(edge, &unit)).collect();
+        format!("{} {}", response.name(of), limits.join(", "))
+    }
+}
+
+/// `frequency 1 at least 4 rad/s`.
 fn text(limit: &Limit, d: &Description) -> String {
-    let (name, unit) = (limit.response.name(d), limit.response.unit(d));
-    let one = |end: f64| with_unit(given_in(end, &unit), &unit);
-    match limit.edge {
-        Edge::AtLeast(low) => format!("{name} at least {}", one(low)),
-        Edge::AtMost(high) => format!("{name} at most {}", one(high)),
-        Edge::Outside { low, high } => format!("{name} outside {} to {}", one(low), one(high)),
+    let edge = edge_text(&limit.edge, &limit.response.unit(d));
+    format!("{} {edge}", limit.response.name(d))
+}
+
+fn edge_text(edge: &Edge, unit: &Unit) -> String {
+    let one = |end: f64| with_unit(given_in(end, unit), unit);
+    match *edge {
+        Edge::AtLeast(low) => format!("at least {}", one(low)),
+        Edge::AtMost(high) => format!("at most {}", one(high)),
+        Edge::Outside { low, high } => format!("outside {} to {}", one(low), one(high)),
     }
 }
 

@@ -154,7 +154,11 @@ impl FirstOrder {
             if let Some(own) = grows {
                 let verb = if own.mean > 0.0 { "grows" } else { "decays" };
                 let (rate, sigma) = (number(own.mean.abs()), rough(own.sigma));
-                writeln!(f, "  Mode {} {verb} at {rate} 1/s, sigma {sigma} 1/s.", r + 1)?;
+                writeln!(
+                    f,
+                    "  Mode {} {verb} at {rate} 1/s, sigma {sigma} 1/s.",
+                    r + 1
+                )?;
             }
         }
         Ok(())

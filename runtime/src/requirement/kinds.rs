@@ -96,7 +96,7 @@ impl Requirement {
     }
 
     /// The limits at which the requirement fails.
-    pub(super) fn edges(&self) -> Vec<Edge> {
+    pub(crate) fn edges(&self) -> Vec<Edge> {
         let (low, high) = match *self {
             Self::Stable => return Vec::new(),
             Self::Within { low, high, .. } => (Edge::AtLeast(low), Edge::AtMost(high)),

@@ -9,6 +9,7 @@
 mod chances;
 mod design_point;
 mod kinds;
+mod probability;
 mod rare;
 mod reliability;
 mod requirements;
@@ -20,6 +21,7 @@ pub use eigentol_statistics::reliability::sampling::{
 };
 pub use eigentol_statistics::reliability::{FormSensitivity, FormSettings};
 pub use kinds::Requirement;
+pub use probability::{FailureProbability, Found, Probabilities};
 pub use rare::RareFailure;
 pub use reliability::{LimitReliability, Reliability, SystemFailure};
 pub use requirements::{Limit, Requirements};

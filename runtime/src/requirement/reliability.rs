@@ -155,8 +155,9 @@ impl Requirements<'_> {
     /// [`Error::Setting`] if no requirement sets a limit on a response, if nothing varies, or for variables without a
     /// density. A limit without a design point carries its own error.
     pub fn reliability(&self, settings: &FormSettings) -> Result<Reliability, Error> {
+        check(self, self.deviations())?;
         let mut found = reliability_of(self, self.deviations(), settings)?;
-        judge(self, self.deviations(), 0, &mut found)?;
+        judge(self, self.deviations(), &mut found)?;
         Ok(found)
     }
 }
@@ -169,7 +170,6 @@ pub(crate) fn reliability_of(
 ) -> Result<Reliability, Error> {
     let state = requirements.responses().nominal();
     let limits = requirements.limits();
-    check(requirements, deviations)?;
     let found = limits.iter().map(|(place, limit)| LimitReliability {
         limit: *limit,
         design_points: design_points(requirements, deviations, (*place, limit), settings),
@@ -277,50 +277,129 @@ const EFFORT: f64 = 10.0;
 /// Number of modes whose way to instability is searched.
 const LEAST_STABLE: usize = 3;
 
-/// Judges design points by designs solved anew, at least `worth` of them for each limit.
+/// Judges design points by designs solved anew.
 pub(crate) fn judge(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
-    worth: u64,
     found: &mut Reliability,
 ) -> Result<(), Error> {
-    let responses = requirements.responses();
-    let mut all = Lines {
-        directions: Vec::new(),
-        expected: 0.0,
-        worth,
-        effort: EFFORT,
+    let about = About {
+        requirements,
+        deviations,
+        worth: 0,
     };
-    for (own, (place, limit)) in found.limits.iter_mut().zip(requirements.limits()) {
-        let lines = Lines {
-            worth,
-            effort: EFFORT,
-            ..lines(requirements, deviations, place, own)
-        };
-        let distance = |_: &[f64], found: &Realisation| {
-            let value = found.values.get(place).copied().flatten();
-            (limit.edge).distance_of(found.outcome, limit.response, value)
-        };
-        own.judgement = Event::new(responses, deviations, &distance).judge(&lines)?;
-        let described = own.described();
-        for point in own.design_points.iter_mut().flatten() {
-            point.verified &= described;
-        }
-        all.directions.extend(lines.directions);
-        all.expected = all.expected.max(lines.expected);
-    }
+    let all = about.judge_limits(found)?;
     found.judgement = match (&found.limits[..], &found.left_out[..]) {
         ([only], []) => only.judgement,
-        _ => {
-            if !found.left_out.is_empty() {
-                all.directions
-                    .extend(ways_to_instability(requirements, deviations));
-            }
-            let distance = |_: &[f64], found: &Realisation| least(&requirements.distances(found));
-            Event::new(responses, deviations, &distance).judge(&all)?
-        }
+        _ => about.judge_any(found, all)?,
     };
     Ok(())
+}
+
+/// Judges design points, each requirement, and all of them together, by designs solved anew, at least `worth` of them
+/// for each. Returns the judgement of each requirement, then that of all, each with whether design points describe the
+/// failure.
+pub(super) fn judge_requirements(
+    requirements: &Requirements<'_>,
+    worth: u64,
+    found: &mut Reliability,
+) -> Result<Vec<(Judgement, bool)>, Error> {
+    let about = About {
+        requirements,
+        deviations: requirements.deviations(),
+        worth,
+    };
+    let all = about.judge_limits(found)?;
+    let count = requirements.wanted().len();
+    let mut judgements = Vec::with_capacity(count + 1);
+    for k in 0..count {
+        let limits = found.limits.iter().zip(&all);
+        let own: Vec<_> = limits
+            .filter(|(own, _)| own.limit.requirement == k)
+            .collect();
+        let described = !own.is_empty() && own.iter().all(|(own, _)| own.described());
+        let judgement = match &own[..] {
+            [(only, _)] => only.judgement,
+            _ => {
+                let lines = about.together(own.iter().map(|(_, lines)| *lines), own.is_empty());
+                about.event(&lines, &|found| requirements.distances(found)[k])?
+            }
+        };
+        judgements.push((judgement, described));
+    }
+    found.judgement = match &judgements[..] {
+        [(only, _)] => *only,
+        _ => about.judge_any(found, all)?,
+    };
+    let described = judgements.iter().all(|(_, described)| *described);
+    judgements.push((found.judgement, described));
+    Ok(judgements)
+}
+
+/// What is judged.
+struct About<'a> {
+    requirements: &'a Requirements<'a>,
+    deviations: &'a Deviations<'a>,
+    worth: u64,
+}
+
+impl About<'_> {
+    /// Judges every limit; returns along which lines.
+    fn judge_limits(&self, found: &mut Reliability) -> Result<Vec<Lines>, Error> {
+        let mut all = Vec::new();
+        let limits = self.requirements.limits();
+        for (own, (place, limit)) in found.limits.iter_mut().zip(limits) {
+            let lines = Lines {
+                worth: self.worth,
+                effort: EFFORT,
+                ..lines(self.requirements, self.deviations, place, own)
+            };
+            own.judgement = self.event(&lines, &|found| {
+                let value = found.values.get(place).copied().flatten();
+                (limit.edge).distance_of(found.outcome, limit.response, value)
+            })?;
+            let described = own.described();
+            for point in own.design_points.iter_mut().flatten() {
+                point.verified &= described;
+            }
+            all.push(lines);
+        }
+        Ok(all)
+    }
+
+    /// Judges all requirements together.
+    fn judge_any(&self, found: &Reliability, all: Vec<Lines>) -> Result<Judgement, Error> {
+        let lines = self.together(all.iter(), !found.left_out.is_empty());
+        self.event(&lines, &|found| least(&self.requirements.distances(found)))
+    }
+
+    fn event(
+        &self,
+        lines: &Lines,
+        distance: &dyn Fn(&Realisation) -> Option<f64>,
+    ) -> Result<Judgement, Error> {
+        let of_design = |_: &[f64], found: &Realisation| distance(found);
+        Event::new(self.requirements.responses(), self.deviations, &of_design).judge(lines)
+    }
+
+    /// Lines along all these directions, and towards instability if that matters too.
+    fn together<'l>(&self, all: impl Iterator<Item = &'l Lines>, stability: bool) -> Lines {
+        let mut lines = Lines {
+            directions: Vec::new(),
+            expected: 0.0,
+            worth: self.worth,
+            effort: EFFORT,
+        };
+        for own in all {
+            lines.directions.extend(own.directions.iter().cloned());
+            lines.expected = lines.expected.max(own.expected);
+        }
+        if stability {
+            let ways = ways_to_instability(self.requirements, self.deviations);
+            lines.directions.extend(ways);
+        }
+        lines
+    }
 }
 
 /// Where to look for failure: towards the design points, or else along the gradient at the centre.

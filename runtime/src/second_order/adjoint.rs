@@ -1,7 +1,8 @@
 //! Accounts for the motion of the equilibrium in a gradient and in its derivative along a direction.
 
-use crate::algebra::{Lu, Vector};
+use crate::algebra::{Lu, Matrix, Vector, times_columns};
 use crate::kernels::{CurvatureKernels, Gradient, Kernels};
+use crate::scalar::Real as _;
 use crate::sensitivity::{Direction, subtract};
 use crate::{Equilibrium, Error};
 
@@ -36,6 +37,37 @@ impl<'a> Adjoint<'a> {
         free.add_to_gradient(&w, &mut room.inputs, &mut room.design);
         subtract(gradient, room);
         w
+    }
+
+    /// Like [`Self::total_along`], for several directions at once, which are among `all` directions of inputs and design:
+    /// these hold the shift of the equilibrium, `(dg)^T Khat^-T y = -(dq*)^T y`.
+    pub(super) fn total_along_each(
+        &self,
+        changes: &mut [Gradient],
+        w: &[f64],
+        directions: &[Direction],
+        (shift, room): (&Matrix, &mut Gradient),
+    ) {
+        let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
+        let still = Vector::zeros(q.len());
+        for (change, direction) in changes.iter_mut().zip(directions) {
+            let [dq, du, db] = direction.parts();
+            let direction = [dq, du, db, &still];
+            self.mechanism
+                .residual_gradient_along_into(q, u, b, w, direction, room);
+            subtract(change, room);
+        }
+        let right = Matrix::from_fn(q.len(), changes.len(), |i, j| changes[j].coordinates[i]);
+        let moved = f64::run(
+            #[inline(always)]
+            || times_columns(shift, &right),
+        );
+        for (j, change) in changes.iter_mut().enumerate() {
+            let all = change.inputs.iter_mut().chain(change.design.iter_mut());
+            for (value, moved) in all.zip(moved.iter()) {
+                *value += moved[j];
+            }
+        }
     }
 
     /// Turns the derivative of a partial gradient along a direction into that of the total gradient; `w` is the result

@@ -2,11 +2,14 @@
 //! equilibrium, the shapes and the eigenvalue with each variable, so the number of gradient evaluations equals the
 //! number of variables.
 
+use core::ops::Range;
+
 use super::adjoint::Adjoint;
 use super::derivatives::{SecondDerivatives, symmetric};
-use crate::algebra::{Vector, dot_complex, times_complex};
+use crate::algebra::{Matrix, Vector, dot, dot_complex, times_columns, times_complex};
 use crate::kernels::{CurvatureKernels, Gradient, Kernels, Linear};
 use crate::modes::{Family, pencil_slope_times};
+use crate::scalar::Real as _;
 use crate::sensitivity::{
     ComplexGradient, Direction, Form, ModeSensitivity, Quantity, Slopes, directions,
     eigenvalue_curvature, eigenvalue_slope, form_gradient, form_gradient_along, normaliser,
@@ -75,51 +78,178 @@ pub fn mode_curvature(
     modes: &Modes,
     mode: usize,
 ) -> Result<ModeCurvature, Error> {
-    let position = mode;
-    if (modes.modes.get(position)).is_some_and(|mode| mode.behaviour == Behaviour::Free) {
-        return Ok(ModeCurvature::of_free(at, position));
-    }
-    let shapes = Shapes::new(at, modes, position)?;
-    let mode = &modes.modes[position];
-    let gradient = AdjointGradient::new(mechanism, at, modes.family, mode)?;
-    let rows: Vec<_> = directions(mechanism, at)?
-        .map(|direction| gradient.along(&direction, &shapes))
+    let mut found = mode_curvatures(mechanism, at, modes, mode..mode + 1);
+    found.pop().unwrap_or(Err(Error::NoSuchMode {
+        mode,
+        count: modes.modes.len(),
+    }))
+}
+
+/// Directions along which the gradients of several modes are differentiated together.
+const TOGETHER: usize = 8;
+
+/// Like [`mode_curvature`], for several modes, which share the motion of the state.
+pub(super) fn mode_curvatures(
+    mechanism: &dyn CurvatureKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    positions: Range<usize>,
+) -> Vec<Result<ModeCurvature, Error>> {
+    let mut own: Vec<Result<Own<'_>, Error>> = positions
+        .clone()
+        .map(|mode| match is_free(modes, mode) {
+            true => Err(Error::NotOscillating { mode, lambda: 0.0 }),
+            false => Own::new(mechanism, at, modes, mode),
+        })
         .collect();
-    let slopes = gradient.slopes();
-    let (second, asymmetry) = symmetric(&rows, at.inputs.len(), Complex::norm);
-    let mut first = ModeSensitivity::blank();
-    first.set(mode, modes.family, &slopes);
-    let (lambda, eigenvalue) = match modes.family {
-        Family::Undamped => {
-            let lambda = second.combine(&slopes, |_, _, value| value.re);
-            let moves = mode.s != Complex::new(0.0, 0.0);
-            let eigenvalue = moves.then(|| {
-                let ds = slopes.map(|value| eigenvalue_slope(mode.s, value.re));
-                lambda.combine(&ds, |a, b, value| eigenvalue_curvature(mode.s, a, b, value))
-            });
-            (lambda, eigenvalue)
+    if own.iter().any(Result::is_ok) {
+        match directions(mechanism, at) {
+            Ok(directions) => {
+                let all: Vec<Direction> = directions.collect();
+                let n = at.coordinates.len();
+                let shift = Matrix::from_fn(all.len(), n, |k, i| all[k].coordinates[i]);
+                let mut ready: Vec<&mut Own<'_>> = own.iter_mut().flatten().collect();
+                for directions in all.chunks(TOGETHER) {
+                    let changes = directions.iter().map(|own| own.linear(mechanism, at));
+                    let changes: Vec<Linear> = changes.collect();
+                    match modes.family {
+                        Family::Undamped => {
+                            undamped_along(&mut ready, (directions, &shift), &changes);
+                        }
+                        Family::General => {
+                            for own in &mut ready {
+                                let each = directions.iter().zip(&changes);
+                                let rows = each.map(|(direction, change)| {
+                                    own.gradient.along(direction, change, &own.shapes)
+                                });
+                                own.rows.extend(rows);
+                            }
+                        }
+                    }
+                }
+            }
+            Err(error) => own
+                .iter_mut()
+                .filter(|own| own.is_ok())
+                .for_each(|own| *own = Err(error.clone())),
         }
-        Family::General => {
-            let lambda = second.combine(&slopes, |a, b, ab| -2.0 * (a * b + mode.s * ab).re);
-            (lambda, Some(second))
-        }
-    };
-    let of_s = eigenvalue.as_ref();
-    let finite = lambda.iter().all(|value| value.is_finite())
-        && of_s.is_none_or(|of_s| of_s.iter().all(|value| value.is_finite()))
-        && first.finite();
-    if !finite {
-        return Err(outside_domain(at));
     }
-    Ok(ModeCurvature {
-        mode: position,
-        s: mode.s,
-        first,
-        lambda,
-        eigenvalue,
-        asymmetry,
-        description: modes.description.clone(),
+    let each = own.into_iter().zip(positions);
+    each.map(|(own, position)| match is_free(modes, position) {
+        true => Ok(ModeCurvature::of_free(at, position)),
+        false => own?.curvature(at, modes),
     })
+    .collect()
+}
+
+fn is_free(modes: &Modes, position: usize) -> bool {
+    let mode = modes.modes.get(position);
+    mode.is_some_and(|mode| mode.behaviour == Behaviour::Free)
+}
+
+/// A mode whose curvature is being computed.
+struct Own<'a> {
+    position: usize,
+    mode: &'a Mode,
+    gradient: AdjointGradient<'a>,
+    shapes: Shapes<'a>,
+    /// The derivatives of its gradient along each direction so far.
+    rows: Vec<Slopes<Complex>>,
+}
+
+impl<'a> Own<'a> {
+    fn new(
+        mechanism: &'a dyn CurvatureKernels,
+        at: &'a Equilibrium,
+        modes: &'a Modes,
+        position: usize,
+    ) -> Result<Self, Error> {
+        let shapes = Shapes::new(at, modes, position)?;
+        let mode = &modes.modes[position];
+        Ok(Self {
+            position,
+            mode,
+            gradient: AdjointGradient::new(mechanism, at, modes.family, mode)?,
+            shapes,
+            rows: Vec::new(),
+        })
+    }
+
+    fn curvature(self, at: &Equilibrium, modes: &Modes) -> Result<ModeCurvature, Error> {
+        let (mode, slopes) = (self.mode, self.gradient.slopes());
+        let (second, asymmetry) = symmetric(&self.rows, at.inputs.len(), Complex::norm);
+        let mut first = ModeSensitivity::blank();
+        first.set(mode, modes.family, &slopes);
+        let (lambda, eigenvalue) = match modes.family {
+            Family::Undamped => {
+                let lambda = second.combine(&slopes, |_, _, value| value.re);
+                let moves = mode.s != Complex::new(0.0, 0.0);
+                let eigenvalue = moves.then(|| {
+                    let ds = slopes.map(|value| eigenvalue_slope(mode.s, value.re));
+                    lambda.combine(&ds, |a, b, value| eigenvalue_curvature(mode.s, a, b, value))
+                });
+                (lambda, eigenvalue)
+            }
+            Family::General => {
+                let lambda = second.combine(&slopes, |a, b, ab| -2.0 * (a * b + mode.s * ab).re);
+                (lambda, Some(second))
+            }
+        };
+        let of_s = eigenvalue.as_ref();
+        let finite = lambda.iter().all(|value| value.is_finite())
+            && of_s.is_none_or(|of_s| of_s.iter().all(|value| value.is_finite()))
+            && first.finite();
+        if !finite {
+            return Err(outside_domain(at));
+        }
+        Ok(ModeCurvature {
+            mode: self.position,
+            s: mode.s,
+            first,
+            lambda,
+            eigenvalue,
+            asymmetry,
+            description: modes.description.clone(),
+        })
+    }
+}
+
+/// The derivatives of the gradients of undamped modes along several directions, with the products of all matrices and
+/// shapes, and the solutions for all directions, formed together.
+fn undamped_along(
+    modes: &mut [&mut Own<'_>],
+    (directions, shift): (&[Direction], &Matrix),
+    changes: &[Linear],
+) {
+    let shapes: Vec<Vector> = modes.iter().map(|own| own.mode.real_shape()).collect();
+    let n = shapes.first().map_or(0, |own| own.len());
+    let columns = Matrix::from_fn(n, shapes.len(), |i, r| shapes[r][i]);
+    let products = changes.iter().map(|change| {
+        let moved = |matrix: &Matrix| {
+            f64::run(
+                #[inline(always)]
+                || times_columns(matrix, &columns),
+            )
+        };
+        [&change.stiffness, &change.mass].map(moved)
+    });
+    let products: Vec<[Matrix; 2]> = products.collect();
+    for (r, (own, phi)) in modes.iter_mut().zip(&shapes).enumerate() {
+        let each = products.iter();
+        let each = each.map(|[k, m]| (k.column(r), m.column(r)));
+        let each: Vec<(Vector, Vector)> = each.collect();
+        let rates = each
+            .iter()
+            .map(|(k, m)| dot(phi, k) - own.mode.lambda * dot(phi, m));
+        let rates: Vec<f64> = rates.collect();
+        let Some(moved) = own.shapes.undamped_along(&each, &rates) else {
+            continue;
+        };
+        let rows = own
+            .gradient
+            .undamped_along((directions, shift), &moved, &rates);
+        own.rows.extend(rows);
+    }
 }
 
 /// The adjoint gradient of a mode, prepared for differentiation. For an undamped mode `dlambda = n`, where `n` is the
@@ -181,43 +311,71 @@ impl<'a> AdjointGradient<'a> {
         }
     }
 
-    /// The derivatives of [`Self::slopes`] along a direction.
-    fn along(&self, direction: &Direction, shapes: &Shapes<'_>) -> Slopes<Complex> {
+    /// The derivatives of [`Self::slopes`] of an undamped mode along directions, along which its shape and its `lambda`
+    /// move as given.
+    fn undamped_along(
+        &self,
+        (directions, shift): (&[Direction], &Matrix),
+        moved: &[Vector],
+        rates: &[f64],
+    ) -> Vec<Slopes<Complex>> {
         let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-        let [dq, du, db] = direction.parts();
-        let change = direction.linear(mechanism, at);
-        let rate = shapes.rate.along(&change);
-        let (dphi, dpsi) = shapes.along(&change, rate);
-        let (mut total, mut room) = gradients(mechanism);
-        match self.family {
-            Family::Undamped => mechanism.mode_gradient_along_into(
+        let phi = mode.real_shape();
+        let mut room = Gradient::zeros(mechanism.sizes());
+        let each = directions.iter().zip(moved).zip(rates);
+        let changes = each.map(|((direction, dphi), rate)| {
+            let mut change = Gradient::zeros(mechanism.sizes());
+            let [dq, du, db] = direction.parts();
+            let direction = [dq, du, db, dphi];
+            let lambda = mode.lambda;
+            mechanism.mode_gradient_along_into(
                 q,
                 u,
                 b,
-                &mode.real_shape(),
-                mode.lambda,
-                [dq, du, db, &dphi.map(|value| value.re)],
-                rate.re,
-                &mut total[0],
-            ),
-            Family::General => {
-                let moved = Form::along(mode, &dpsi, rate, &dphi);
-                let forms = (&form(mode), &moved);
-                form_gradient_along(mechanism, at, forms, direction, &mut room, &mut total);
-            }
+                &phi,
+                lambda,
+                direction,
+                *rate,
+                &mut change,
+            );
+            change
+        });
+        let mut changes: Vec<Gradient> = changes.collect();
+        for w in &self.w {
+            self.adjoint
+                .total_along_each(&mut changes, w, directions, (shift, &mut room));
         }
+        let slopes = |change: Gradient| Slopes {
+            by_input: change.inputs.iter().map(|own| (*own).into()).collect(),
+            by_design: change.design.iter().map(|own| (*own).into()).collect(),
+        };
+        changes.into_iter().map(slopes).collect()
+    }
+
+    /// The derivatives of [`Self::slopes`] of a general mode along a direction in which the matrices change by `change`.
+    fn along(
+        &self,
+        direction: &Direction,
+        change: &Linear,
+        shapes: &Shapes<'_>,
+    ) -> Slopes<Complex> {
+        let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
+        let rate = shapes.rate.along(change);
+        let (dphi, dpsi) = shapes.along(change, rate);
+        let (mut total, mut room) = gradients(mechanism);
+        let moved = Form::along(mode, &dpsi, rate, &dphi);
+        let forms = (&form(mode), &moved);
+        form_gradient_along(mechanism, at, forms, direction, &mut room, &mut total);
         for (part, w) in total.iter_mut().zip(&self.w) {
             self.adjoint.total_along(part, w, direction, &mut room);
         }
         let mut slopes = joined(&total);
-        if self.family == Family::General {
-            let ratio = self.denominator_along(&change, rate, &dphi, &dpsi) / self.denominator;
-            let n = &self.numerator;
-            let inputs = slopes.by_input.iter_mut().zip(&n.by_input);
-            for (dn, n) in inputs.chain(slopes.by_design.iter_mut().zip(&n.by_design)) {
-                *dn = (ratio * n - *dn) / self.denominator;
-            }
+        let ratio = self.denominator_along(change, rate, &dphi, &dpsi) / self.denominator;
+        let n = &self.numerator;
+        let inputs = slopes.by_input.iter_mut().zip(&n.by_input);
+        for (dn, n) in inputs.chain(slopes.by_design.iter_mut().zip(&n.by_design)) {
+            *dn = (ratio * n - *dn) / self.denominator;
         }
         slopes
     }

@@ -1,6 +1,6 @@
 //! Whether first order can be trusted: its error, estimated by the second-order model.
 
-use super::quadratic::Quadratic;
+use super::quadratic::{ModelMoments, Quadratic};
 use crate::Error;
 use crate::tolerance::Tolerances;
 
@@ -47,17 +47,24 @@ impl Quadratic {
     /// # Errors
     /// As [`moments`](Self::moments).
     pub fn nonlinearity(&self, tolerances: &Tolerances) -> Result<Nonlinearity, Error> {
-        let moments = self.moments(tolerances)?;
+        Ok(self.moments(tolerances)?.nonlinearity())
+    }
+}
+
+impl ModelMoments {
+    /// Second-order terms relative to first order ([`Quadratic::nonlinearity`]).
+    #[must_use]
+    pub fn nonlinearity(&self) -> Nonlinearity {
         let ratio = |part: f64| {
             if part == 0.0 {
                 0.0
             } else {
-                part.abs() / moments.first_order_sigma
+                part.abs() / self.first_order_sigma
             }
         };
-        Ok(Nonlinearity {
-            mean_shift: ratio(moments.mean_shift),
-            spread: ratio(moments.curvature_sigma),
-        })
+        Nonlinearity {
+            mean_shift: ratio(self.mean_shift),
+            spread: ratio(self.curvature_sigma),
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! Spread to second order: what the curvature of a frequency adds to its first-order spread, and whether first order
 //! holds.
 
-use super::curvature::{ModeCurvature, mode_curvature};
+use super::curvature::{ModeCurvature, mode_curvatures};
 use super::nonlinearity::Nonlinearity;
 use super::quadratic::{ModelMoments, Quadratic};
 use crate::algebra::Vector;
 use crate::judge::Doubt;
 use crate::kernels::CurvatureKernels;
+use crate::modes::Family;
 use crate::sensitivity::{Quantity, sensitivities};
 use crate::tolerance::{Tolerances, first_order};
 use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
@@ -17,7 +18,7 @@ use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SecondOrderSpread {
     /// Value, gradient and Hessian with respect to the design variables.
-    pub model: Quadratic,
+    pub model: Shared<Quadratic>,
     /// Mean, standard deviation, skewness and kurtosis of that model.
     pub moments: ModelMoments,
     /// The contributions of curvature to mean and standard deviation, relative to the first-order standard deviation.
@@ -77,9 +78,8 @@ pub fn second_order(
     modes: &Modes,
     tolerances: &Tolerances,
 ) -> SecondOrder {
-    let one = |mode: usize| mode_second_order(mechanism, at, modes, mode, tolerances);
-    let all = (0..modes.modes.len()).map(one).collect();
-    of_each(mechanism, (at, modes), all, tolerances)
+    let all = blocks(mechanism, (at, modes), tolerances).flatten();
+    of_each(mechanism, (at, modes), all.collect(), tolerances)
 }
 
 /// Like [`second_order`], but `watch` can stop it.
@@ -89,12 +89,34 @@ pub(crate) fn second_order_watched(
     tolerances: &Tolerances,
     watch: Watch<'_>,
 ) -> Result<SecondOrder, Error> {
-    let one = |mode: usize| match watch.stopped() {
-        true => Err(Error::Stopped),
-        false => Ok(mode_second_order(mechanism, at, modes, mode, tolerances)),
-    };
-    let all = (0..modes.modes.len()).map(one).collect::<Result<_, _>>()?;
+    let mut all = Vec::new();
+    for block in blocks(mechanism, (at, modes), tolerances) {
+        all.extend(block);
+        if watch.stopped() {
+            return Err(Error::Stopped);
+        }
+    }
     Ok(of_each(mechanism, (at, modes), all, tolerances))
+}
+
+/// Modes whose curvature is computed together, sharing the motion of the state.
+const TOGETHER: usize = 32;
+
+/// The spreads of all modes, block by block.
+fn blocks<'a>(
+    mechanism: &'a dyn CurvatureKernels,
+    (at, modes): (&'a Equilibrium, &'a Modes),
+    tolerances: &'a Tolerances,
+) -> impl Iterator<Item = Vec<Result<ModeSecondOrder, Error>>> + 'a {
+    let count = modes.modes.len();
+    let starts = (0..count).step_by(TOGETHER);
+    let mut undamped = None;
+    starts.map(move |start| {
+        let block = start..count.min(start + TOGETHER);
+        let found = mode_curvatures(mechanism, at, modes, block).into_iter();
+        let each = found.map(|own| mode_second_order(&own?, modes, tolerances, &mut undamped));
+        each.collect()
+    })
 }
 
 fn of_each(
@@ -121,23 +143,36 @@ fn of_each(
     }
 }
 
+/// The quantities of one mode to second order; `undamped` keeps what all undamped modes share.
 fn mode_second_order(
-    mechanism: &dyn CurvatureKernels,
-    at: &Equilibrium,
+    curvature: &ModeCurvature,
     modes: &Modes,
-    mode: usize,
     tolerances: &Tolerances,
+    undamped: &mut Option<SecondOrderSpread>,
 ) -> Result<ModeSecondOrder, Error> {
-    let curvature = mode_curvature(mechanism, at, modes, mode)?;
+    let mode = curvature.mode;
     let lambda = modes.modes[mode].lambda;
     let spread = |quantity| {
-        let found = second_order_spread(&curvature, quantity, tolerances).transpose();
+        let found = second_order_spread(curvature, quantity, tolerances).transpose();
         found.unwrap_or(Err(Error::NotOscillating { mode, lambda }))
     };
+    let frequency = spread(Quantity::Frequency)?;
+    if modes.family == Family::General {
+        return Ok(ModeSecondOrder {
+            frequency,
+            natural_frequency: spread(Quantity::NaturalFrequency)?,
+            damping_ratio: spread(Quantity::DampingRatio)?,
+        });
+    }
+    // Without damping, the two frequencies are one, and all damping ratios are zero.
+    let damping_ratio = match undamped {
+        Some(known) => known.clone(),
+        None => undamped.insert(spread(Quantity::DampingRatio)?).clone(),
+    };
     Ok(ModeSecondOrder {
-        frequency: spread(Quantity::Frequency)?,
-        natural_frequency: spread(Quantity::NaturalFrequency)?,
-        damping_ratio: spread(Quantity::DampingRatio)?,
+        natural_frequency: frequency.clone(),
+        frequency,
+        damping_ratio,
     })
 }
 
@@ -150,9 +185,10 @@ fn second_order_spread(
     let Some(model) = curvature.quadratic(quantity) else {
         return Ok(None);
     };
+    let moments = model.moments(tolerances)?;
     Ok(Some(SecondOrderSpread {
-        moments: model.moments(tolerances)?,
-        nonlinearity: model.nonlinearity(tolerances)?,
-        model,
+        nonlinearity: moments.nonlinearity(),
+        moments,
+        model: model.into(),
     }))
 }

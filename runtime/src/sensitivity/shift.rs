@@ -81,12 +81,11 @@ fn unit(size: usize, k: usize) -> Vector {
 
 /// `-Khat^-1 partials`.
 fn solve_columns(factors: &Lu<f64>, mut partials: Matrix) -> Matrix {
-    for j in 0..partials.column_count() {
-        let solution = factors.solve(&partials.column(j));
-        for (row, value) in partials.iter_mut().zip(&solution) {
-            row[j] = -value;
-        }
-    }
+    partials = factors.solve_columns(&partials);
+    partials
+        .as_flattened_mut()
+        .iter_mut()
+        .for_each(|value| *value = -*value);
     partials
 }
 

@@ -6,11 +6,35 @@ use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
 use crate::kernels::DirectionalKernels;
 use crate::requirement::{
-    Chances, FormSettings, RareFailure, Reliability, Requirement, Requirements, SamplingSettings,
+    Chances, FormSettings, Probabilities, RareFailure, Reliability, Requirement, Requirements,
+    SamplingSettings,
 };
 use crate::tolerance::Sampling;
 
 impl<M: DirectionalKernels> Solved<'_, M> {
+    /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points,
+    /// lines of designs, or the study's number of samples ([`Requirements::probabilities`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::requirement::Requirement;
+    /// use eigentol::response::Response;
+    /// use eigentol::Quantity;
+    ///
+    /// let first = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// let found = study.solve()?.probability(&[Requirement::at_least(first, 3.9)])?;
+    /// assert!(found.each[0].value < 1e-6 && found.each[0].interval.upper < 1e-6);
+    /// println!("{found}");
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::tolerances`], [`Requirements::new`] and [`Requirements::probabilities`].
+    pub fn probability(&self, wanted: &[Requirement]) -> Result<Probabilities, Error> {
+        self.subject::<dyn DirectionalKernels>(&self.study.mechanism)
+            .probability(wanted)
+    }
+
     /// Probabilities of meeting the requirements, jointly and individually, from the study's number of samples
     /// ([`Requirements::chances`]).
     ///
@@ -142,6 +166,14 @@ impl<M: DirectionalKernels> Solved<'_, M> {
 }
 
 impl<M: DirectionalKernels> Study<M> {
+    /// How probable it is that requirements are failed; see [`Solved::probability`].
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Solved::probability`].
+    pub fn probability(&self, wanted: &[Requirement]) -> Result<Probabilities, Error> {
+        self.solve()?.probability(wanted)
+    }
+
     /// Probabilities of meeting requirements; see [`Solved::chances`].
     ///
     /// # Errors
@@ -196,6 +228,16 @@ impl<M: DirectionalKernels> Study<M> {
 }
 
 impl SolvedSubject<'_, dyn DirectionalKernels + '_> {
+    fn probability(&self, wanted: &[Requirement]) -> Result<Probabilities, Error> {
+        self.deviating(|own| {
+            let watch = own.settings.watch();
+            let requirements = own.requirements(wanted)?.watched(watch);
+            // The designs report themselves.
+            let sampling = own.settings.sampling().progress(None);
+            requirements.probabilities(&sampling.stop(watch.stop))
+        })
+    }
+
     fn chances_by(
         &self,
         wanted: &[Requirement],

@@ -61,7 +61,7 @@ impl<'a> Judge<'a> {
             size,
             sigma: first.of(quantity).map_or(0.0, |spread| spread.sigma),
             slopes: first.of(quantity).map(|spread| spread.by_design),
-            second: second.map(|second| &second_spread_of(second, quantity).model),
+            second: second.map(|second| &*second_spread_of(second, quantity).model),
             doubtful: distance < DOUBTFUL_DISTANCE || self.cluster(mode).is_some(),
         };
         quantities(own).into_iter().map(prediction).collect()

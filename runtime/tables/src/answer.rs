@@ -7,7 +7,7 @@ use eigentol::clusters::{ClusterTolerance, DirectionalDerivatives};
 use eigentol::equilibrium::{Assembly, Equilibria};
 use eigentol::modes::Whirl;
 use eigentol::propagation::{Controlled, Influence, Propagation, WorstCase};
-use eigentol::requirement::{Chances, RareFailure, Reliability};
+use eigentol::requirement::{Chances, Probabilities, RareFailure, Reliability};
 use eigentol::second_order::{
     EventCurvature, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder,
 };
@@ -84,6 +84,7 @@ at_one_point! {
     "Monte Carlo": MonteCarlo;
     "output sensitivities": OutputSensitivities;
     "output tolerances": OutputTolerances;
+    "probabilities of failure": Probabilities;
     "rare failure": RareFailure;
     "reliability": Reliability;
     "second-order tolerances": SecondOrder;

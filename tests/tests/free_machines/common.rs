@@ -38,7 +38,6 @@ pub(crate) fn designs(truth: &Value, units: &[(&str, &str)]) -> String {
 }
 
 pub(crate) fn machine(text: &str) -> Interpreted {
-    let text = &text.replacen('{', "{ kernels only;", 1);
     match Interpreted::from_text(text) {
         Ok(machine) => machine,
         Err(error) => panic!("{error}\n{text}"),

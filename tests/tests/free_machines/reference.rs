@@ -144,7 +144,6 @@ fn trains(truth: &Value, extra: &str) -> Vec<(&'static str, String)> {
 }
 
 #[test]
-#[ignore = "absolute coordinates are not recognised yet"]
 fn a_geared_train_in_any_coordinates() {
     let truth = truth("N1_geared_train");
     let mut all = Vec::new();

@@ -11,6 +11,7 @@ pub(crate) mod import;
 pub(crate) mod merge;
 pub(crate) mod modes;
 pub(crate) mod new;
+pub(crate) mod probability;
 pub(crate) mod report;
 pub(crate) mod sample;
 pub(crate) mod sensitivities;

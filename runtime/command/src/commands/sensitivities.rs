@@ -1,6 +1,8 @@
 //! Derivatives with respect to inputs and design variables.
 
 use clap::Args;
+use eigentol::sensitivity::{EquilibriumShift, OutputSensitivities};
+use eigentol_tables::Answer as _;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -20,11 +22,25 @@ impl Sensitivities {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
+        let has_outputs = !question.study.description().outputs.is_empty();
+        let kinds = [
+            eigentol::Sensitivities::KIND,
+            EquilibriumShift::KIND,
+            OutputSensitivities::KIND,
+        ];
+        let kinds = kinds.map(|kind| (kind, false));
+        let shown = self
+            .output
+            .shown(&kinds[..if has_outputs { 3 } else { 2 }])?;
         let solved = question.study.solve()?;
         let mut answer = self.output.answer();
-        answer.add(&solved.sensitivities()?)?;
-        answer.add(&solved.equilibrium_shift()?)?;
-        if !question.study.description().outputs.is_empty() {
+        if shown[0] {
+            answer.add(&solved.sensitivities()?)?;
+        }
+        if shown[1] {
+            answer.add(&solved.equilibrium_shift()?)?;
+        }
+        if shown.get(2) == Some(&true) {
             answer.add(&solved.outputs()?)?;
         }
         self.output.write(&answer)?;

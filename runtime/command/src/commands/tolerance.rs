@@ -1,8 +1,11 @@
 //! The effect of tolerances at one operating point.
 
 use clap::Args;
-use eigentol::Error;
+use eigentol::summary::Summary;
+use eigentol::tolerance::OutputTolerances;
+use eigentol::{Error, FirstOrder};
 use eigentol_figures::shares_of_all;
+use eigentol_tables::Answer as _;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -30,27 +33,50 @@ impl Tolerance {
         let bar = progress::bar("samples", None);
         question.study = progress::watched(question.study, &bar);
         let study = &question.study;
+        let has_outputs = !study.description().outputs.is_empty();
+        let kinds = [
+            // The text of the summary includes it.
+            (FirstOrder::KIND, true),
+            (Summary::KIND, false),
+            (OutputTolerances::KIND, false),
+        ];
+        let kinds = &kinds[..if has_outputs { 3 } else { 2 }];
+        let shown = self.output.shown(kinds)?;
+        let of = |kind: &str| {
+            kinds
+                .iter()
+                .zip(&shown)
+                .any(|(own, shown)| own.0 == kind && *shown)
+        };
         let solved = study.solve()?;
         let mut answer = self.output.answer();
-        let first = solved.first_order()?;
-        let summary = solved.summary();
+        let summary = of(Summary::KIND).then(|| solved.summary());
         bar.finish_and_clear();
-        let stopped = matches!(summary, Err(Error::Stopped));
-        if stopped {
-            answer.add(&first)?;
-        } else {
-            answer.add_aside(&first)?;
+        let stopped = matches!(summary, Some(Err(Error::Stopped)));
+        let first = match of(FirstOrder::KIND) || stopped || self.picture.is_wanted() {
+            true => Some(solved.first_order()?),
+            false => None,
+        };
+        if let Some(first) = &first {
+            match stopped {
+                true => answer.add(first)?,
+                false => answer.add_aside(first)?,
+            }
+        }
+        if let Some(summary) = summary.filter(|_| !stopped) {
             answer.add(&summary?)?;
         }
         let mut without_outputs = None;
-        if !study.description().outputs.is_empty() {
+        if of(OutputTolerances::KIND) {
             match solved.output_tolerances() {
                 Ok(outputs) => answer.add(&outputs)?,
                 Err(error) => without_outputs = Some(error),
             }
         }
-        let style = self.picture.style(&question, solved.modes.modes.len())?;
-        self.picture.draw(|| shares_of_all(&first, &style))?;
+        if let Some(first) = &first {
+            let style = self.picture.style(&question, solved.modes.modes.len())?;
+            self.picture.draw(|| shares_of_all(first, &style))?;
+        }
         self.output.write(&answer)?;
         if let Some(error) = without_outputs {
             return Err(error.into());

@@ -1,6 +1,7 @@
 //! The second-order model in independent standard normal variables, scaled so that its largest coefficient is about 1.
 
 use crate::Error;
+use crate::scalar::Real as _;
 use crate::second_order::quadratic::{ModelMoments, Quadratic, beyond_range};
 use crate::tolerance::Tolerances;
 
@@ -82,7 +83,10 @@ impl Standard {
         let n = self.linear.len();
         let (a, b) = (&self.linear, &self.quadratic);
         let bent = times(b, a);
-        let squared = transposed_product(b, b, n);
+        let squared = f64::run(
+            #[inline(always)]
+            || square(b, n),
+        );
         let trace: f64 = (0..n).map(|i| b[i * n + i]).sum();
         let (slope, curvature) = (dot(a, a), 0.5 * dot(b, b));
         let variance = slope + curvature;
@@ -125,6 +129,29 @@ fn times(matrix: &[f64], x: &[f64]) -> Vec<f64> {
 
 fn transposed(matrix: &[f64], n: usize) -> Vec<f64> {
     (0..n * n).map(|e| matrix[(e % n) * n + e / n]).collect()
+}
+
+/// `B^2` of a symmetric matrix.
+#[inline(always)]
+fn square(b: &[f64], n: usize) -> Vec<f64> {
+    let mut result = vec![0.0; n * n];
+    for k in 0..n {
+        let row = &b[k * n..(k + 1) * n];
+        for i in 0..n {
+            let factor = row[i];
+            if factor != 0.0 {
+                for (sum, value) in result[i * n + i..(i + 1) * n].iter_mut().zip(&row[i..]) {
+                    *sum += factor * value;
+                }
+            }
+        }
+    }
+    for i in 0..n {
+        for j in 0..i {
+            result[i * n + j] = result[j * n + i];
+        }
+    }
+    result
 }
 
 /// `A^T B`.

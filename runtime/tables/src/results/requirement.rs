@@ -1,5 +1,7 @@
+use eigentol::judge::Judgement;
 use eigentol::requirement::{
-    Chances, DesignPoint, LimitReliability, RareFailure, Reliability, Tally,
+    Chances, DesignPoint, FailureProbability, Found, LimitReliability, Probabilities, RareFailure,
+    Reliability, Tally,
 };
 
 use super::Tables;
@@ -45,6 +47,66 @@ impl Tables for Chances {
     }
 }
 
+/// The probability by designs solved anew, for rows that each have a judgement; empty where there is none.
+pub(super) fn judged<'a>(table: &mut Table, all: impl Iterator<Item = &'a Judgement> + Clone) {
+    let each = || all.clone().map(Judgement::judged);
+    table.numbers(
+        "probability, solved anew",
+        "",
+        each().map(|own| Some(own?.probability.value)),
+    );
+    let intervals = || each().map(|own| own.map(|own| own.interval()));
+    table.numbers("95 % from", "", intervals().map(|own| Some(own?.lower)));
+    table.numbers("95 % to", "", intervals().map(|own| Some(own?.upper)));
+    table.numbers(
+        "probability without response",
+        "",
+        each().map(|own| Some(own?.untold.value)),
+    );
+    table.flags("settled", each().map(|own| Some(own?.settled)));
+    let designs = each().map(|own| usize::try_from(own?.designs).ok());
+    table.whole("designs", designs);
+}
+
+/// `probabilities of failure`: a row for each requirement and one for any of them; the tables of design points and
+/// samples, if there are any.
+impl Tables for Probabilities {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let mut table = Table::new("probabilities of failure");
+        let names = self.wanted.iter().map(|own| own.text(d));
+        let names = names.chain(["any".to_owned()]);
+        table.texts("requirement", names.map(Some));
+        let all = || self.each.iter().chain([&self.any]);
+        let numbers = |of: fn(&FailureProbability) -> f64| all().map(of);
+        table.numbers("probability of failure", "", numbers(|own| own.value));
+        table.numbers("95 % from", "", numbers(|own| own.interval.lower));
+        table.numbers("95 % to", "", numbers(|own| own.interval.upper));
+        table.numbers(
+            "probability without response",
+            "",
+            numbers(|own| own.untold),
+        );
+        let by = all().map(|own| {
+            Some(match own.by {
+                Found::DesignPoint => "design point".to_owned(),
+                Found::Lines => "lines".to_owned(),
+                _ => "samples".to_owned(),
+            })
+        });
+        table.texts("found by", by);
+        table.whole(
+            "designs",
+            all().map(|own| usize::try_from(own.designs).ok()),
+        );
+        operating_point(&mut table, d, &self.inputs, None);
+        let mut tables = vec![table];
+        tables.extend(self.reliability.iter().flat_map(Tables::tables));
+        tables.extend(self.chances.iter().flat_map(Tables::tables));
+        tables
+    }
+}
+
 /// `design points`: a row for each, or one with the error if there are none; `design point variables`: a row for each
 /// design variable of each; `system`: one row.
 impl Tables for Reliability {
@@ -83,6 +145,7 @@ impl Tables for Reliability {
             "verified",
             each.clone().map(|(_, own)| Some(own.as_ref()?.verified)),
         );
+        judged(&mut table, each.clone().map(|(own, _)| &own.judgement));
         let errors = each.map(|(own, _)| Some(own.design_points.as_ref().err()?.to_string()));
         table.texts("error", errors);
         operating_point(&mut table, d, &self.inputs, None);
@@ -140,6 +203,7 @@ impl Tables for RareFailure {
         table.whole("without value", [whole(found.without_value)]);
         table.whole("design points", [self.centres]);
         table.numbers("unseen", "", [self.unseen]);
+        table.flags("trusted", [Some(self.trusted())]);
         operating_point(&mut table, &self.description, &self.inputs, None);
         vec![table]
     }

@@ -2,6 +2,7 @@ use eigentol::second_order::{Margin, ModeMargin, SecondOrder};
 
 use super::Tables;
 use super::names::{by, operating_point, per_unit};
+use super::requirement::judged;
 use crate::Table;
 
 /// `second-order tolerances`: a row for each mode, empty and with the reason if the mode has no second-order result.
@@ -44,6 +45,11 @@ impl Tables for SecondOrder {
             .iter()
             .map(|mode| Some(mode.as_ref().err()?.to_string()));
         table.texts("error", reasons);
+        let doubts = self.doubts.iter().map(|own| {
+            let own: Vec<String> = own.iter().map(ToString::to_string).collect();
+            (!own.is_empty()).then(|| own.join(" "))
+        });
+        table.texts("doubts", doubts);
         operating_point(&mut table, d, &self.inputs, None);
         vec![table]
     }
@@ -70,6 +76,7 @@ impl Tables for ModeMargin {
         table.whole("mode", [self.mode + 1]);
         table.texts("quantity", [Some(self.quantity.to_string())]);
         margin(&mut table, &self.margin, &self.quantity.unit().symbol);
+        judged(&mut table, [&self.judgement].into_iter());
         operating_point(&mut table, d, &self.inputs, None);
         let mut tables = vec![table];
         if let Some(slopes) = &self.margin.derivatives {

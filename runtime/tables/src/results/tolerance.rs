@@ -67,6 +67,12 @@ impl Tables for FirstOrder {
         table.numbers("distance to instability", "sigma", instability);
         let neighbour = distance(|mode| mode.distance_to_neighbour);
         table.numbers("distance to neighbour", "sigma", neighbour);
+        let doubts = (0..rows).map(|mode| {
+            let own = self.doubts(mode);
+            let own: Vec<String> = own.iter().map(ToString::to_string).collect();
+            (!own.is_empty()).then(|| own.join(" "))
+        });
+        table.texts("doubts", doubts);
         table.numbers("sigma level", "", vec![self.sigma_level; rows]);
         let share = modes.map(|mode| (!mode.clustered).then(|| mode.variance_shares()));
         shares(&mut table, d, share);
@@ -164,6 +170,10 @@ impl Tables for MonteCarlo {
         statistics(&mut table, "damping ratio", "", damping);
         origin(&mut table, self);
         let mut outcomes = outcomes(&self.counts);
+        // Of the stable samples, which come first.
+        let elsewhere =
+            (0..outcomes.rows()).map(|row| (row == 0).then_some(self.left_nominal_branch));
+        outcomes.whole("on another branch", elsewhere);
         origin(&mut outcomes, self);
         let mut tables = vec![table, outcomes];
         if let Some(all) = &self.all {

@@ -1,0 +1,93 @@
+//! How probable it is that requirements are failed.
+
+use clap::Args;
+use eigentol::requirement::Probabilities;
+
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::point::{Point, Question, exact, samples, whole};
+use crate::progress;
+use crate::requirements::{HELP, parsed, require_keys, requirements};
+use crate::study_file::Require;
+use crate::verdict::Verdict;
+
+/// How requirements may be stated.
+const KEYS: &str = concat!(
+    "On the command line, each requirement is one text:\n",
+    "  --require 'frequency 1 >= 20 Hz'      also <=; natural_frequency, damping_ratio, growth; modes count from 1\n",
+    "  --require 'frequency 1 outside 4..5 Hz'   or within 4..5 Hz\n",
+    "  --require 'angle <= 5 deg'            an output of the declaration\n",
+    "  --require 'critical speed=0..6000rpm >= 3000 rpm'   also 'resonance 1 ..', 'flutter 1 ..'\n",
+    "  --require stable\n\n",
+    "Or in a study file; `failure`, which may be left out, is compared with what is found:\n",
+    require_keys!(),
+    "\n\nOther keys: mechanism, set, start, guess, tolerance, correlation, sigma_level, samples, seed, stream"
+);
+
+/// How probable it is that requirements are failed, with nothing to choose: by design points, lines of designs, or samples
+#[derive(Args, Debug)]
+#[command(after_long_help = KEYS)]
+pub(crate) struct Probability {
+    #[command(flatten)]
+    point: Point,
+    /// A requirement: `frequency 1 >= 20 Hz`; may be given several times, in place of those of a study file
+    #[arg(long, value_name = "REQUIREMENT", value_parser = parsed)]
+    require: Vec<Require>,
+    /// Samples, where only samples can tell [default: 3000]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
+    samples: Option<usize>,
+    /// Seed of the samples [default: 0]
+    #[arg(long, value_name = "NUMBER", value_parser = exact::<u64>, allow_negative_numbers = true)]
+    seed: Option<u64>,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Probability {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.output.check()?;
+        let Question { study, file, .. } = self.point.question()?;
+        let required = match self.require.is_empty() {
+            true => &file.require,
+            false => &self.require,
+        };
+        if required.is_empty() {
+            let help =
+                format!("state one by `--require`: {HELP}; or by `[[require]]` in a study file");
+            return Err(Failure::usage("nothing is required", help));
+        }
+        let bar = progress::bar("designs", None);
+        let study = progress::watched(study, &bar)
+            .samples(samples(self.samples, &file)?)
+            .seed(self.seed.or(file.seed).unwrap_or(0))
+            .stream(file.stream.unwrap_or(0));
+        let wanted = requirements(&study, required)?;
+        let found = study.probability(&wanted);
+        bar.finish_and_clear();
+        let found = found?;
+        let mut answer = self.output.answer();
+        answer.add(&found)?;
+        if let Some(reliability) = &found.reliability {
+            answer.add_aside(reliability)?;
+        }
+        if let Some(chances) = &found.chances {
+            answer.add_aside(chances)?;
+        }
+        self.output.write(&answer)?;
+        Ok(verdict(required, &found))
+    }
+}
+
+/// No if a requirement fails more often than is allowed.
+fn verdict(required: &[Require], found: &Probabilities) -> Verdict {
+    let all = required.iter().zip(&found.each).enumerate();
+    let mut exceeded = all.filter_map(|(k, (own, found))| {
+        let allowed = own.failure.filter(|allowed| found.value > *allowed)?;
+        Some(format!(
+            "requirement {} fails with a probability of {:.3e}, and {allowed} is allowed",
+            k + 1,
+            found.value
+        ))
+    });
+    exceeded.next().map_or(Verdict::Yes, Verdict::No)
+}

@@ -1,0 +1,149 @@
+//! How probable it is that requirements are failed, by whatever finds it out.
+
+use eigentol_statistics::Distribution;
+use eigentol_statistics::reliability::FormSettings;
+use eigentol_statistics::reliability::sampling::Interval;
+
+use super::chances::{Chances, Tally, chances_of};
+use super::kinds::Requirement;
+use super::reliability::{Reliability, judge_requirements, reliability_of};
+use super::requirements::Requirements;
+use crate::algebra::Vector;
+use crate::judge::{Judged, Judgement};
+use crate::tolerance::Sampling;
+use crate::{Description, Error, Shared};
+
+/// Confidence of the intervals.
+const CONFIDENCE: f64 = 0.95;
+
+/// How a probability of failure was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Found {
+    /// By design points, which describe the failure as lines of designs confirm. The number is that of the lines; what
+    /// the design points say of it ([`Probabilities::reliability`]) can be relied on: importance and derivatives.
+    DesignPoint,
+    /// By lines of designs solved anew, where there are no design points or these do not describe the failure.
+    Lines,
+    /// By plain samples, where a variable takes discrete values or lines would not settle it.
+    Samples,
+}
+
+/// A probability of failure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FailureProbability {
+    /// The probability.
+    pub value: f64,
+    /// 95 % confidence interval. No model is behind it: every design is solved anew.
+    pub interval: Interval,
+    /// Probability that a design lacks the response needed to tell; such designs do not count as failures.
+    pub untold: f64,
+    /// How it was found.
+    pub by: Found,
+    /// Number of designs solved for it, those of the search for design points not counted.
+    pub designs: u64,
+}
+
+impl FailureProbability {
+    fn of_lines(judged: &Judged, described: bool) -> Self {
+        Self {
+            value: judged.probability.value,
+            interval: judged.interval(),
+            untold: judged.untold.value,
+            by: match described {
+                true => Found::DesignPoint,
+                false => Found::Lines,
+            },
+            designs: judged.designs,
+        }
+    }
+
+    fn of_samples(tally: &Tally) -> Result<Self, Error> {
+        let samples = tally.samples();
+        Ok(Self {
+            value: tally.failure(),
+            interval: tally.clopper_pearson(CONFIDENCE)?,
+            untold: tally.untold as f64 / samples as f64,
+            by: Found::Samples,
+            designs: samples as u64,
+        })
+    }
+}
+
+/// How probable it is that requirements are failed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Probabilities {
+    /// The requirements.
+    pub wanted: Vec<Requirement>,
+    /// Probability of failing each of them.
+    pub each: Vec<FailureProbability>,
+    /// Probability of failing any of them.
+    pub any: FailureProbability,
+    /// The design points, if there can be any: the most probable ways to fail, and what changes their probability.
+    pub reliability: Option<Reliability>,
+    /// The plain samples, if any were drawn.
+    pub chances: Option<Chances>,
+    /// The inputs of the operating point, SI.
+    pub inputs: Vector,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+impl Requirements<'_> {
+    /// How probable it is that each requirement, and that any, is failed: by design points and lines of designs along
+    /// them, which also settle small probabilities; by plain samples, with the settings of `sampling`, where these do
+    /// not. Nothing needs to be chosen: [`FailureProbability::by`] tells which way was taken.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] if no tolerance is declared; those of [`Self::chances`]; [`Error::Stopped`].
+    pub fn probabilities(&self, sampling: &Sampling<'_>) -> Result<Probabilities, Error> {
+        let (deviations, state) = (self.deviations(), self.responses().nominal());
+        let tolerances = deviations.tolerances();
+        if !tolerances.vary() {
+            return Err(Error::Setting {
+                setting: "tolerances",
+                reason: "no tolerance is declared, so nothing is left to chance".to_owned(),
+            });
+        }
+        let variables = tolerances.joint().map(|(joint, _)| joint.variables());
+        let continuous = variables.is_none_or(|all| all.iter().all(Distribution::is_continuous));
+        let mut reliability = None;
+        let mut judgements: Vec<(Judgement, bool)> = Vec::new();
+        if continuous {
+            let mut found = reliability_of(self, deviations, &FormSettings::default())?;
+            judgements = judge_requirements(self, sampling.samples as u64, &mut found)?;
+            reliability = (!found.limits.is_empty()).then_some(found);
+        }
+        let settled = |place: usize| {
+            let (judgement, described) = judgements.get(place)?;
+            let judged = judgement.judged().filter(|own| own.settled)?;
+            Some(FailureProbability::of_lines(judged, *described))
+        };
+        let count = self.wanted().len();
+        let chances = match (0..=count).all(|place| settled(place).is_some()) {
+            true => None,
+            false => Some(chances_of(self, deviations, sampling)?),
+        };
+        let one = |place: usize| match (settled(place), &chances) {
+            (Some(found), _) => Ok(found),
+            (None, Some(chances)) => {
+                FailureProbability::of_samples(chances.each.get(place).unwrap_or(&chances.all))
+            }
+            (None, None) => Err(Error::Stopped),
+        };
+        Ok(Probabilities {
+            wanted: self.wanted().to_vec(),
+            each: (0..count).map(one).collect::<Result<_, _>>()?,
+            any: one(count)?,
+            reliability,
+            chances,
+            inputs: state.inputs.clone(),
+            description: state.description.clone(),
+        })
+    }
+}
