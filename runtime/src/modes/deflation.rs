@@ -20,7 +20,7 @@
 
 use num_complex::Complex64;
 
-use crate::algebra::{Lu, Matrix, Vector, add_to, dot, greater, is_symmetric, times};
+use crate::algebra::{Lu, Matrix, Vector, add_to, dot, is_symmetric, times};
 use crate::eigenproblem::{Pairs, Root, Trouble, symmetric};
 use crate::free::{FreeDirections, NullSpace};
 use crate::kernels::Linear;
@@ -51,12 +51,14 @@ impl<'a> Deflated<'a> {
         if right.is_empty() {
             return None;
         }
-        let mass = product(&left, &linear.mass, &right);
-        let inverse = inverse(&mass)?;
-        let kept_right = others(&right);
+        let mass = &linear.mass;
+        let inverse = inverse(&product(&left, mass, &right))?;
+        let size = Vector::from_fn(mass.row_count(), |i| mass[i][i].abs().sqrt());
+        let weighted = |x: &Vector| x.iter().zip(&size).map(|(x, size)| x * size).collect();
+        let kept_right = others(right.iter().map(weighted));
         let kept_left = match left == right {
             true => kept_right.clone(),
-            false => others(&left),
+            false => others(left.iter().map(weighted)),
         };
         Some(Self {
             linear,
@@ -254,11 +256,11 @@ pub(crate) fn first_order_roots(
         return solve(matrix);
     }
     let (right, left) = (&space.right[..count], &space.left[..count]);
-    let rest = WithoutZeros::new(matrix, right);
+    let rest = WithoutZeros::new(matrix, &space, count);
     let drifting = count - NullSpace::rank(&products(left, right));
     let again = (drifting > 0).then(|| {
         let space = NullSpace::of(&rest.matrix, drifting);
-        WithoutZeros::new(&rest.matrix, &space.right[..drifting])
+        WithoutZeros::new(&rest.matrix, &space, drifting)
     });
     let innermost = again.as_ref().unwrap_or(&rest);
     let mut found: Vec<Root> = right
@@ -290,8 +292,10 @@ struct WithoutZeros {
 }
 
 impl WithoutZeros {
-    fn new(whole: &Matrix, zeros: &[Vector]) -> Self {
-        let kept = others(zeros);
+    /// Without the first `count` zeros of its null space.
+    fn new(whole: &Matrix, space: &NullSpace, count: usize) -> Self {
+        let zeros = &space.right[..count];
+        let kept = others(space.basis[..count].iter().cloned());
         let n = whole.row_count();
         let left_out: Vec<usize> = (0..n).filter(|i| !kept.contains(i)).collect();
         let at = Matrix::from_fn(left_out.len(), zeros.len(), |i, k| zeros[k][left_out[i]]);
@@ -450,29 +454,19 @@ fn restore_symmetry(matrix: &mut Matrix, like: &Matrix) {
 }
 
 /// The places outside those that independent vectors determine: of each vector the largest remaining component is left
-/// out.
-fn others(vectors: &[Vector]) -> Vec<usize> {
-    let n = vectors.first().map_or(0, |x| x.len());
-    let sizes = Vector::from_fn(n, |i| {
-        vectors
-            .iter()
-            .fold(0.0, |most, x| greater(most, x[i].abs()))
-    });
-    let mut rest = vectors.to_vec();
-    let mut kept: Vec<usize> = (0..n).collect();
+/// out, in units in which components compare.
+fn others(vectors: impl IntoIterator<Item = Vector>) -> Vec<usize> {
+    let mut rest: Vec<Vector> = vectors.into_iter().collect();
+    let mut kept: Vec<usize> = (0..rest.first().map_or(0, |x| x.len())).collect();
     for k in 0..rest.len() {
-        let weight = |i: usize| match sizes[i] > 0.0 {
-            true => rest[k][i].abs() / sizes[i],
-            false => 0.0,
-        };
+        let weight = |i: usize| rest[k][i].abs();
         // A margin makes the first of equal ones win, regardless of rounding.
-        let pivot = kept
-            .iter()
-            .copied()
-            .fold(None, |best: Option<usize>, i| match best {
-                Some(best) if weight(i) <= weight(best) * (1.0 + 1e-9) => Some(best),
-                _ => Some(i),
-            });
+        let pivot = (kept.iter().copied()).reduce(|best, i| {
+            match weight(i) > weight(best) * (1.0 + 1e-9) {
+                true => i,
+                false => best,
+            }
+        });
         let Some(pivot) = pivot else {
             return kept;
         };
