@@ -4,6 +4,8 @@
 mod common;
 #[path = "free_machines/families.rs"]
 mod families;
+#[path = "free_machines/random.rs"]
+mod random;
 #[path = "free_machines/reference.rs"]
 mod reference;
 #[path = "free_machines/unstable.rs"]
