@@ -249,7 +249,7 @@ impl<'a> Responses<'a> {
         crate::arguments::check_count("design variables", design, self.nominal.design.len())?;
         self.counted()?;
         solved.solve(self.mechanism, self.nominal, self.modes, design);
-        let stable = solved.outcome == Outcome::Stable;
+        let stable = solved.continues(self.nominal);
         let unstable = matches!(solved.outcome, Outcome::Divergent | Outcome::Flutter);
         let mut found = Realisation {
             outcome: solved.outcome,

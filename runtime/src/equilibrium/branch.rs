@@ -2,7 +2,7 @@
 
 use super::{OperatingPoint, Policy, SMALL_MOTION, solve};
 use crate::Equilibrium;
-use crate::algebra::{Lu, Vector};
+use crate::algebra::{Lu, Matrix, Vector};
 use crate::kernels::Kernels;
 
 /// Maximum number of bisections of the path between two designs: an equilibrium this close to a branch point counts as
@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// The branch of a nominal equilibrium.
 ///
-/// Two stable equilibria of neighbouring designs lie on one branch if each is in the basin of the other: `det Khat` of
+/// Two equilibria of neighbouring designs lie on one branch if each is in the basin of the other: `det Khat` of
 /// each design has the same sign at both, and a Newton step from either leads to the other. At a pitchfork the branch
 /// that ends and the one that begins fail the first test, however close they are; two valleys with a ridge between them
 /// fail the second. Where the tests fail, the path between the two designs is bisected. Branches that meet where two
@@ -33,7 +33,7 @@ impl<'a> Branch<'a> {
         Self { mechanism, nominal }
     }
 
-    /// Whether the stable equilibrium `q` of a design lies on it.
+    /// Whether the equilibrium `q` of a design, as stable as the nominal one, lies on it.
     pub(crate) fn holds(&self, design: &[f64], q: &[f64]) -> bool {
         let nominal = (&self.nominal.design[..], &self.nominal.coordinates[..]);
         self.connected(nominal, (design, q), HALVINGS)
@@ -48,7 +48,8 @@ impl<'a> Branch<'a> {
         }
         let design: Vector = a.0.iter().zip(b.0).map(|(a, b)| 0.5 * (a + b)).collect();
         let point = OperatingPoint::unchecked(self.mechanism, &self.nominal.inputs, &design);
-        solve(&point, a.1, Policy::Stable).is_ok_and(|middle| {
+        let point = point.asked(&[], self.nominal.free.held.clone());
+        solve(&point, a.1, Policy::about(self.nominal)).is_ok_and(|middle| {
             let middle = (&design[..], &middle.state.coordinates[..]);
             self.connected(a, middle, halvings - 1) && self.connected(middle, b, halvings - 1)
         })
@@ -59,9 +60,10 @@ impl<'a> Branch<'a> {
         let inputs = &self.nominal.inputs;
         let at = |q: &[f64]| self.mechanism.residual_and_stiffness(q, inputs, design);
         let negative = |factors: &Lu| factors.negative_determinant();
-        let here = Lu::new(&at(q).1);
+        let factors = |stiffness: &Matrix| Lu::new(&self.nominal.free.held(stiffness));
+        let here = factors(&at(q).1);
         let (residual, stiffness) = at(start);
-        let there = Lu::new(&stiffness);
+        let there = factors(&stiffness);
         if here.as_ref().map(negative) != there.as_ref().map(negative) {
             return false;
         }

@@ -63,6 +63,16 @@ pub enum Policy {
     Nearest,
 }
 
+impl Policy {
+    /// The policy for designs near that of a known equilibrium: about an unstable one, the equilibrium next to it.
+    pub(crate) fn about(known: &Equilibrium) -> Self {
+        match known.stability.holds() {
+            true => Self::Stable,
+            false => Self::Nearest,
+        }
+    }
+}
+
 /// Finds a dynamic equilibrium from the start value `start`.
 ///
 /// `u` are inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an

@@ -49,7 +49,7 @@ impl FirstOrder {
             doubts.push(Doubt::EqualNeighbours);
         }
         let distance = own.distance_to_critical;
-        let near_critical = near(distance);
+        let near_critical = near(distance.abs());
         if near_critical {
             doubts.push(Doubt::NearCritical { distance });
         } else if let Some((mode, distance)) = self.nearest_critical() {
@@ -86,7 +86,7 @@ impl FirstOrder {
         let distances = self.modes.iter().map(|own| own.distance_to_critical);
         let nearest = distances
             .enumerate()
-            .min_by(|(_, a), (_, b)| a.total_cmp(b));
-        nearest.filter(|(_, distance)| near(*distance))
+            .min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
+        nearest.filter(|(_, distance)| near(distance.abs()))
     }
 }

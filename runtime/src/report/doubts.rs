@@ -84,28 +84,18 @@ impl fmt::Display for Doubt {
                 f,
                 "the stiffness is zero within rounding: this is a critical state. Sigma is meaningless here."
             ),
-            Self::NearCritical { distance } if *distance < 0.0 => write!(
-                f,
-                "the equilibrium is not stable. Samples settle elsewhere, and sigma says nothing about them."
-            ),
             Self::NearCritical { distance } => write!(
                 f,
                 "the critical state is {} standard deviations away. Within {TRUSTED_DISTANCE} of them the error of sigma \
                  has no bound.",
-                short(*distance)
-            ),
-            Self::BranchNear { mode, distance } if *distance <= 0.0 => write!(
-                f,
-                "the equilibrium is not stable, or no longer, in mode {}. Samples settle elsewhere, and sigma says nothing \
-                 about them.",
-                mode + 1
+                short(distance.abs())
             ),
             Self::BranchNear { mode, distance } => write!(
                 f,
                 "the critical state of mode {} is {} standard deviations away, beyond which the equilibrium changes branch \
                  and all modes with it.",
                 mode + 1,
-                short(*distance)
+                short(distance.abs())
             ),
             Self::EqualNeighbours => {
                 write!(

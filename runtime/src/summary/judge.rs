@@ -157,9 +157,8 @@ impl<'a> Judge<'a> {
         let cluster = (self.cluster(mode)).filter(|_| !(said.separate && said.right));
         let mut doubts = self.first.doubts(mode);
         doubts.retain(|doubt| match doubt {
-            // Samples about an unstable state have left it.
             Doubt::NearCritical { distance } | Doubt::BranchNear { distance, .. } => {
-                !(said.right && *distance > 0.0)
+                !(said.right && *distance != 0.0)
             }
             Doubt::NearCriticalDamping { .. } => !said.right,
             // Clusters decide.
@@ -191,13 +190,11 @@ impl<'a> Judge<'a> {
             error.is_some_and(|error| finding(error) == Finding::Right)
         };
         let any = |kind: fn(&Doubt) -> bool| doubts.iter().any(kind);
-        let stays = self.first.distance_to_critical > 0.0;
         if doubts.is_empty() {
             Advice::FirstOrder
         } else if any(|doubt| matches!(doubt, Doubt::Clustered { defective, .. } if !defective)) {
             Advice::Cluster
-        } else if stays
-            && any(|doubt| matches!(doubt, Doubt::Inaccurate { .. }))
+        } else if any(|doubt| matches!(doubt, Doubt::Inaccurate { .. }))
             && checks.iter().all(confirmed)
         {
             Advice::SecondOrder

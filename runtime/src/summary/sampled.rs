@@ -163,7 +163,7 @@ impl About<'_> {
                 _ => &sample.frequencies,
             };
             let found = values.get(prediction.mode).copied().flatten();
-            let found = found.filter(|_| sample.outcome == Outcome::Stable);
+            let found = found.filter(|_| sample.outcome == Outcome::from(self.at.stability));
             let first = prediction.slopes.as_ref().map_or(0.0, |slopes| {
                 slopes.iter().zip(&change).map(|(slope, x)| slope * x).sum()
             });

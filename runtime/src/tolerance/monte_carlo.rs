@@ -103,7 +103,8 @@ impl Default for Sampling<'_> {
 /// frequencies.
 ///
 /// Each sample is re-solved from the nominal equilibrium, and its modes are matched to the nominal modes by shape.
-/// Samples settle on a stable equilibrium, whatever policy found the nominal one.
+/// Samples settle on a stable equilibrium; about an unstable one they stay at the equilibrium next to it, and statistics
+/// are those of the samples that are unstable in the same way.
 ///
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that is not one of the

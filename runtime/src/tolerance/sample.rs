@@ -104,11 +104,21 @@ impl Solution {
         if mechanism.violation(inputs, design).is_some() {
             return Err(Outcome::Unphysical);
         }
+        let held = nominal.free.held.clone();
         let point = OperatingPoint::unchecked(mechanism, inputs, design).near(modes);
+        let point = point.asked(&[], held);
         self.state.design.copy_from_slice(design);
         let start = &nominal.coordinates;
-        solve_into(&point, start, Policy::Stable, &mut self.state)
+        solve_into(&point, start, Policy::about(nominal), &mut self.state)
             .map_err(|failure| Outcome::from(&failure))
+    }
+
+    /// Whether the sample is as stable, or as unstable, as the nominal state.
+    pub(crate) fn continues(&self, nominal: &Equilibrium) -> bool {
+        match nominal.stability.holds() {
+            true => self.outcome == Outcome::Stable,
+            false => self.solved && self.state.stability == nominal.stability,
+        }
     }
 
     /// The mode that continues nominal mode `r`.

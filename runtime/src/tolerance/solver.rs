@@ -185,9 +185,9 @@ impl<'a> Solver<'a> {
         Ok(())
     }
 
-    /// Whether a stable equilibrium lies on the nominal branch, which is left from the start if it is not stable.
+    /// Whether an equilibrium lies on the nominal branch.
     fn stays(&self, design: &[f64], q: &[f64]) -> bool {
-        self.nominal.stability.holds() && Branch::of(self.mechanism, self.nominal).holds(design, q)
+        Branch::of(self.mechanism, self.nominal).holds(design, q)
     }
 
     /// Solves a sample on its own.
@@ -200,7 +200,7 @@ impl<'a> Solver<'a> {
         solved.solve(self.mechanism, self.nominal, self.modes, design);
         chunk.count(solved.outcome as usize, 1)?;
         let count = self.modes.modes.len();
-        if solved.outcome == Outcome::Stable {
+        if solved.continues(self.nominal) {
             let left = !self.stays(design, &solved.state.coordinates);
             chunk.count(LEFT_NOMINAL_BRANCH, u64::from(left))?;
             for r in 0..count {

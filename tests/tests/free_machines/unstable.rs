@@ -171,3 +171,41 @@ fn a_truss_between_its_folds() {
         close(shift.by_design[0][i], expected, 1e-10, name);
     }
 }
+
+/// Samples of an unstable equilibrium stay at it: their growth has the spread that its derivatives say.
+#[test]
+fn samples_stay_where_it_is_unstable() {
+    let text = "mechanism Balancer {
+        design l = 80 cm +/- 2%;
+        design m = 300 g +/- 5%;
+        gravity 9.81 m/s^2 along -z;
+        body cart: point(mass: 1 kg);
+        body pole: rod(mass: m, length: l, along: -z);
+        joint x: prismatic(x) from ground to cart;
+        joint q: revolute(y) from cart to pole;
+        force rail: spring(on: x, stiffness: 30 N/m);
+    }";
+    let study = study(text)
+        .start(Coordinate::new(1), HALF_TURN)
+        .samples(4000)
+        .keep_samples(true);
+    let solved = study.solve().expect("upright");
+    assert_eq!(solved.equilibrium.notes, [Note::Stays]);
+    let spread = solved.first_order().expect("a spread");
+    let found = solved.monte_carlo().expect("samples");
+    assert_eq!((found.counts.divergent, found.counts.stable), (4000, 0));
+    let rates: Vec<f64> = (found.all.iter().flatten())
+        .map(|sample| sample.eigenvalues[0].expect("found").re)
+        .collect();
+    let mean = rates.iter().sum::<f64>() / rates.len() as f64;
+    let square = rates.iter().map(|rate| (rate - mean).powi(2)).sum::<f64>();
+    let sigma = (square / (rates.len() - 1) as f64).sqrt();
+    let growth = spread.modes[0].growth().expect("a growth");
+    assert!((sigma / growth.sigma - 1.0).abs() < 0.04, "{sigma} {}", growth.sigma);
+    let swing = spread.modes[1].frequency().expect("a frequency");
+    let sampled = found.modes[1].as_ref().expect("statistics");
+    assert_eq!(sampled.count, 4000);
+    assert!((sampled.sigma.expect("a sigma") / swing.sigma - 1.0).abs() < 0.04);
+    let summary = solved.summary().expect("a summary");
+    assert!(summary.trust[1].trusted(), "{summary}");
+}
