@@ -8,7 +8,7 @@ use crate::kernels::DirectionalKernels;
 use crate::modes::{CLUSTER_GAP, Family, merged};
 use crate::sensitivity::Quantity;
 use crate::tolerance::{Spread, TRUSTED_DISTANCE, Tolerances};
-use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
+use crate::{Behaviour, Complex, Description, Equilibrium, Error, Modes, Shared};
 
 /// Limit on the additions and multiplications spent on the samples of one cluster, and the smallest number of samples.
 const BUDGET: f64 = 1.5e8;
@@ -138,6 +138,11 @@ pub(crate) fn groups(
     for i in 0..count {
         for j in 0..i {
             let mixes = |own: Pair| together(&own, modes, (i, j));
+            // Nothing mixes a free direction with another mode.
+            let free = |r: usize| modes.modes[r].behaviour == Behaviour::Free;
+            if free(i) || free(j) {
+                continue;
+            }
             if label[i] != label[j] && pair((i, j)).is_some_and(mixes) {
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
                 label

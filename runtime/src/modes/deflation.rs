@@ -44,10 +44,8 @@ struct Deflated<'a> {
 }
 
 impl<'a> Deflated<'a> {
-    /// `None` if nothing is to be deflated.
-    fn new(linear: &'a Linear, count: usize) -> Option<Self> {
-        let free = FreeDirections::of(&linear.stiffness, count);
-        let (right, left) = undamped(&linear.damping, &free.motions, &free.balances);
+    /// Without these directions; `None` if there are none, or if they move no mass.
+    fn new(linear: &'a Linear, (right, left): (Vec<Vector>, Vec<Vector>)) -> Option<Self> {
         if right.is_empty() {
             return None;
         }
@@ -161,10 +159,8 @@ struct Images {
 
 /// The pencil without the zeros of motions that drift; `None` if there are none.
 pub(crate) fn deflated(linear: &Linear, count: usize) -> Option<Linear> {
-    (count > 0)
-        .then(|| Deflated::new(linear, count))
-        .flatten()
-        .map(|own| own.pencil())
+    let split = Split::new(linear, count)?;
+    Deflated::new(linear, split.drifting).map(|own| own.pencil())
 }
 
 /// The roots of a pencil with `count` free directions, those of the motions that drift first; `solve` finds the roots
@@ -174,17 +170,30 @@ pub(crate) fn roots(
     count: usize,
     solve: impl FnOnce(&Linear) -> Result<Vec<Root>, Trouble>,
 ) -> Result<Vec<Root>, Trouble> {
-    let Some(deflated) = (count > 0).then(|| Deflated::new(linear, count)).flatten() else {
+    let Some(split) = Split::new(linear, count) else {
         return solve(linear);
     };
-    let mut found: Vec<Root> = (deflated.right.iter().zip(&deflated.left))
-        .map(|(z, w)| standing(z, w))
-        .collect();
-    for mut root in solve(&deflated.pencil())? {
-        root.right = deflated.right(root.s, &root.right);
-        root.left = deflated.left(root.s, &root.left);
-        found.push(root);
-    }
+    let standing = |(right, left): &(Vec<Vector>, Vec<Vector>)| -> Vec<Root> {
+        let pairs = right.iter().zip(left);
+        pairs.map(|(z, w)| standing(z, w)).collect()
+    };
+    let damped = standing(&split.damped);
+    let drifting = standing(&split.drifting);
+    let zeros = damped.len();
+    let (mut found, rest) = match Deflated::new(linear, split.drifting) {
+        Some(deflated) => {
+            let mut rest = solve(&deflated.pencil())?;
+            for root in rest.iter_mut().skip(zeros) {
+                root.right = deflated.right(root.s, &root.right);
+                root.left = deflated.left(root.s, &root.left);
+            }
+            (drifting, rest)
+        }
+        None => (Vec::new(), solve(linear)?),
+    };
+    found.extend(damped);
+    // The smallest of the others are the zeros of the damped motions, known exactly.
+    found.extend(rest.into_iter().skip(zeros));
     for root in &mut found {
         for vector in [&mut root.right, &mut root.left] {
             super::constrained::normalise_by_mass(vector, &linear.mass);
@@ -207,7 +216,10 @@ pub(crate) fn pairs(
         stiffness: stiffness.clone(),
     };
     let own = (count > 0).then(linear);
-    let Some(deflated) = own.as_ref().and_then(|own| Deflated::new(own, count)) else {
+    let split = own.as_ref().and_then(|own| Split::new(own, count));
+    let deflated =
+        (own.as_ref().zip(split)).and_then(|(own, split)| Deflated::new(own, split.drifting));
+    let Some(deflated) = deflated else {
         return symmetric::solve_into(stiffness, mass, pairs);
     };
     let pencil = deflated.pencil();
@@ -374,37 +386,65 @@ fn standing(motion: &[f64], balance: &[f64]) -> Root {
     }
 }
 
-/// The combinations of free directions without damping among themselves.
-fn undamped(damping: &Matrix, right: &[Vector], left: &[Vector]) -> (Vec<Vector>, Vec<Vector>) {
+/// Free directions, right and left, by whether damping acts on the motions among themselves.
+struct Split {
+    drifting: (Vec<Vector>, Vec<Vector>),
+    damped: (Vec<Vector>, Vec<Vector>),
+}
+
+impl Split {
+    /// `None` if there are none.
+    fn new(linear: &Linear, count: usize) -> Option<Self> {
+        let free = FreeDirections::of(&linear.stiffness, count);
+        if free.is_empty() {
+            return None;
+        }
+        let (right, left) = (&free.motions, &free.balances);
+        let coupled = damping_among(&linear.damping, right, left);
+        let space = NullSpace::of(&coupled, 0);
+        let both = |of_right: &[Vector], of_left: &[Vector]| {
+            (combined(right, of_right), combined(left, of_left))
+        };
+        let across = |space: &[Vector]| {
+            let rows = Matrix::from_fn(free.count(), free.count(), |i, j| {
+                space.get(i).map_or(0.0, |own| own[j])
+            });
+            NullSpace::of(&rows, 0).right
+        };
+        Some(Self {
+            drifting: both(&space.right, &space.left),
+            damped: both(&across(&space.right), &across(&space.left)),
+        })
+    }
+}
+
+/// `W^T C Z`, with what is rounding set to zero.
+fn damping_among(damping: &Matrix, right: &[Vector], left: &[Vector]) -> Matrix {
     let mut coupled = product(left, damping, right);
-    let size = |x: &Vector| x.map(f64::abs);
-    let sizes = |all: &[Vector]| all.iter().map(size).collect::<Vec<_>>();
+    let sizes = |all: &[Vector]| -> Vec<Vector> { all.iter().map(|x| x.map(f64::abs)).collect() };
     let terms = product(&sizes(left), &damping.map(f64::abs), &sizes(right));
-    for (own, terms) in coupled
+    let both = coupled
         .as_flattened_mut()
         .iter_mut()
-        .zip(terms.as_flattened())
-    {
+        .zip(terms.as_flattened());
+    for (own, terms) in both {
         if own.abs() <= UNDAMPED * terms {
             *own = 0.0;
         }
     }
-    let space = NullSpace::of(&coupled, 0);
-    let combined = |all: &[Vector], shares: &[Vector]| -> Vec<Vector> {
-        (shares.iter())
-            .map(|shares| {
-                let mut sum = Vector::zeros(all[0].len());
-                for (share, own) in shares.iter().zip(all) {
-                    add_to(&mut sum, *share, own);
-                }
-                sum
-            })
-            .collect()
+    coupled
+}
+
+/// Sums of vectors by their shares.
+fn combined(all: &[Vector], shares: &[Vector]) -> Vec<Vector> {
+    let sum = |shares: &Vector| {
+        let mut sum = Vector::zeros(all[0].len());
+        for (share, own) in shares.iter().zip(all) {
+            add_to(&mut sum, *share, own);
+        }
+        sum
     };
-    match right.is_empty() {
-        true => (Vec::new(), Vec::new()),
-        false => (combined(right, &space.right), combined(left, &space.left)),
-    }
+    shares.iter().map(sum).collect()
 }
 
 /// `W^T matrix Z`.

@@ -330,3 +330,45 @@ fn a_free_spacecraft() {
         );
     }
 }
+
+/// With a damper against the ground one zero remains, and the speed of coasting dies out.
+#[test]
+fn a_geared_train_with_drag() {
+    let truth = truth("N1_geared_train");
+    let drag = format!(
+        "design d_ = {} N*m*s/rad;\npoint far: w4;\nforce air: drag(at: far, turning_damping: d_);\n",
+        number(&truth["with_drag"]["d"])
+    );
+    let truth_of = &truth["with_drag"];
+    for (name, text) in trains(&truth, &drag) {
+        let study = study(&text);
+        let modes = study.modes().expect(name).modes;
+        assert_eq!(free(&study), 1, "{name}");
+        let moving: Vec<usize> = (0..modes.len())
+            .filter(|&r| modes[r].behaviour != Behaviour::Free)
+            .collect();
+        let expected = truth_of["eigenvalues"].as_array().expect("a list");
+        assert_eq!(moving.len(), expected.len(), "{name} {modes:?}");
+        let slopes = study.sensitivities().expect("derivatives");
+        for (k, &r) in moving.iter().enumerate() {
+            let own = numbers(&expected[k]);
+            let error = (modes[r].s.re - own[0]).hypot(modes[r].s.im - own[1]);
+            assert!(
+                error <= 1e-12 * own[0].hypot(own[1]),
+                "{name}: {} {own:?}",
+                modes[r].s
+            );
+            let s = slopes.modes[r].s().expect("derivatives").by_design;
+            for (i, info) in study.description().design.iter().enumerate() {
+                let name = info.name.trim_end_matches('_');
+                let own = numbers(&truth_of["first"][name][k]);
+                let error = (s[i].re - own[0]).hypot(s[i].im - own[1]);
+                assert!(
+                    error <= 1e-9 * own[0].hypot(own[1]),
+                    "{name}: {} {own:?}",
+                    s[i]
+                );
+            }
+        }
+    }
+}

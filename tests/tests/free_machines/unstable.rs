@@ -201,7 +201,11 @@ fn samples_stay_where_it_is_unstable() {
     let square = rates.iter().map(|rate| (rate - mean).powi(2)).sum::<f64>();
     let sigma = (square / (rates.len() - 1) as f64).sqrt();
     let growth = spread.modes[0].growth().expect("a growth");
-    assert!((sigma / growth.sigma - 1.0).abs() < 0.04, "{sigma} {}", growth.sigma);
+    assert!(
+        (sigma / growth.sigma - 1.0).abs() < 0.04,
+        "{sigma} {}",
+        growth.sigma
+    );
     let swing = spread.modes[1].frequency().expect("a frequency");
     let sampled = found.modes[1].as_ref().expect("statistics");
     assert_eq!(sampled.count, 4000);
