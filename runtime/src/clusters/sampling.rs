@@ -5,10 +5,9 @@ use eigentol_statistics::summary::{CHUNK, Moments};
 
 use super::couplings::ModalCouplings;
 use crate::algebra::{Matrix, Vector};
-use crate::eigenproblem::diagonalise;
+use crate::eigenproblem::{diagonalise, eigenvalues};
 use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
-use crate::sensitivity::eigenvalues;
 use crate::setters::setters;
 use crate::tolerance::{Draw, Statistics, Tolerances};
 use crate::{Complex, Error, Quantity};
