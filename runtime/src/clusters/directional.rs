@@ -3,9 +3,10 @@
 
 use super::couplings::modal_couplings;
 use crate::arguments::check_count;
+use crate::eigenproblem::eigenvalues;
 use crate::kernels::DirectionalKernels;
 use crate::modes::{Family, merged};
-use crate::sensitivity::{eigenvalues, outside_domain};
+use crate::sensitivity::outside_domain;
 use crate::{Complex, Description, Equilibrium, Error, Modes, Shared, Vector};
 
 /// Derivatives of the eigenvalues of a cluster along one direction.

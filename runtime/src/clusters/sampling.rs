@@ -7,10 +7,9 @@ use core::ops::{AddAssign, Mul};
 
 use super::couplings::ModalCouplings;
 use crate::algebra::{Matrix, Vector};
-use crate::eigenproblem::{Tridiagonal, diagonalise};
+use crate::eigenproblem::{Tridiagonal, diagonalise, eigenvalues};
 use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
-use crate::sensitivity::eigenvalues;
 use crate::setters::setters;
 use crate::tolerance::{Draw, Statistics, Tolerances};
 use crate::{Complex, Error, Quantity};

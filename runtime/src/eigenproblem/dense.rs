@@ -25,6 +25,23 @@ pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
     ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7])) + rest
 }
 
+/// The sum of the absolute terms in `x . y`.
+#[inline(always)]
+pub(super) fn dot_sizes(x: &[f64], y: &[f64]) -> f64 {
+    let (mut sums, mut rest) = ([0.0; PARTS], 0.0);
+    let (x, x_rest) = x.as_chunks::<PARTS>();
+    let (y, y_rest) = y.as_chunks::<PARTS>();
+    for (x, y) in x.iter().zip(y) {
+        for k in 0..PARTS {
+            sums[k] += (x[k] * y[k]).abs();
+        }
+    }
+    for (x, y) in x_rest.iter().zip(y_rest) {
+        rest += (x * y).abs();
+    }
+    ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7])) + rest
+}
+
 /// `y += factor x`.
 #[inline(always)]
 pub(super) fn add(factor: f64, x: &[f64], y: &mut [f64]) {
@@ -151,6 +168,7 @@ pub(super) fn cholesky(n: usize, matrix: &[f64], lower: &mut [f64]) -> Result<()
     )
 }
 
+/// Transposes a square matrix in place.
 pub(super) fn transpose(n: usize, matrix: &mut [f64]) {
     for i in 0..n {
         for j in 0..i {

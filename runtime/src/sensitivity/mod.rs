@@ -2,7 +2,6 @@
 //! including the shift of the equilibrium (eqs. 19-21 completed).
 
 mod adjoint;
-mod eigenvalues;
 mod explicit;
 mod finite_difference;
 mod gradients;
@@ -17,7 +16,6 @@ mod shift;
 pub(crate) use adjoint::Adjoint;
 pub(crate) use adjoint::normaliser;
 pub use adjoint::sensitivities;
-pub(crate) use eigenvalues::eigenvalues;
 pub(crate) use explicit::Rate;
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;

@@ -9,12 +9,12 @@ use super::linearisation::Linearisation;
 use super::order::{finish, sort};
 use super::pencil::Products;
 use super::prediction::{Near, predict};
-use super::scaled_pencil::{Eigenproblem, Scaled, not_found, scaled};
+use super::scaled_pencil::{Eigenproblem, Scaled, scaled};
 use super::scratch::{Work, take};
 use super::search::{Values, accepted, find, linear_values, second_values};
 use super::solver::Solver;
 use super::{Root, accuracy, census, hessenberg};
-use crate::eigenproblem::symmetric::Trouble;
+use crate::eigenproblem::symmetric::{Trouble, not_found};
 
 /// Up to this size, every pair is found by factors of its own.
 const DIRECT: usize = 8;

@@ -83,42 +83,44 @@ pub(super) fn reduce<'a>(
     }
 }
 
-/// Like [`reduce`], with rows and columns sorted before.
+/// Like [`reduce`], with rows and columns sorted by size before.
 pub(super) fn reduce_graded<'a>(
     n: usize,
     a: &'a mut [f64],
     reflections: &'a mut [f64],
     work: &mut [f64],
 ) -> Hessenberg<'a> {
-    let order = grade(n, a);
+    let order = by_size(n, a);
+    let elements = (0..n * n).map(|k| a[order[k / n] * n + order[k % n]]);
+    let sorted: Vec<f64> = elements.collect();
+    a.copy_from_slice(&sorted);
     Hessenberg {
         order,
         ..reduce(n, a, reflections, work)
     }
 }
 
-/// Sorts rows and columns by size, great ones first: QR then finds small eigenvalues of graded matrices to their own
-/// accuracy (G. W. Stewart, Matrix Algorithms II, section 2.4). Empty columns, whose eigenvalues are known, come before
-/// all others. Returns the former places.
-fn grade(n: usize, a: &mut [f64]) -> Vec<usize> {
-    /// Sizes within this many powers of two of the largest are in the first class, and so on.
-    const CLASS: i32 = 8;
+/// The places of rows and columns by their size, great ones first: QR then finds small eigenvalues of graded
+/// matrices to their own accuracy (G. W. Stewart, Matrix Algorithms II, section 2.4). Empty columns, whose
+/// eigenvalues are known, come before all others.
+fn by_size(n: usize, matrix: &[f64]) -> Vec<usize> {
+    /// Sizes within this factor of the largest are in the first class, and so on.
+    const CLASS: f64 = 1.0 / 256.0;
     let size = |i: usize| {
-        let own = (0..n).map(|j| a[i * n + j].abs().max(a[j * n + i].abs()));
-        exponent(own.fold(0.0, f64::max))
+        let (row, column) = (
+            &matrix[i * n..(i + 1) * n],
+            matrix.iter().skip(i).step_by(n),
+        );
+        let sizes = row.iter().chain(column).map(|x| x.abs());
+        sizes.fold(0.0, f64::max)
     };
-    let sizes: Vec<i32> = (0..n).map(size).collect();
-    let most = sizes.iter().copied().max().unwrap_or(0);
-    let key = |i: usize| {
-        let empty = (0..n).all(|j| j == i || a[j * n + i] == 0.0);
-        (!empty, (most - sizes[i]) / CLASS)
-    };
-    let keys: Vec<_> = (0..n).map(key).collect();
+    let sizes: Vec<f64> = (0..n).map(size).collect();
+    let most = sizes.iter().copied().fold(0.0, f64::max);
+    let class = |i: usize| (sizes[i] / most).log(CLASS) as i32;
+    let empty = |i: usize| (0..n).all(|j| j == i || matrix[j * n + i] == 0.0);
+    let keys: Vec<_> = (0..n).map(|i| (!empty(i), class(i))).collect();
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by_key(|&i| keys[i]);
-    let elements = (0..n * n).map(|k| a[order[k / n] * n + order[k % n]]);
-    let sorted: Vec<f64> = elements.collect();
-    a.copy_from_slice(&sorted);
     order
 }
 

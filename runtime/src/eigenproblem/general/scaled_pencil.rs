@@ -4,7 +4,7 @@ use super::pencil::{Degree, Pencil};
 use super::scaling::{largest, scale, scale_first_order};
 use super::scratch::take;
 use crate::algebra::Matrix;
-use crate::eigenproblem::symmetric::Trouble;
+use crate::eigenproblem::symmetric::{Trouble, not_found};
 use crate::kernels::Linear;
 
 /// An eigenproblem.
@@ -98,12 +98,4 @@ pub(crate) fn scaled<'a>(
         left,
         rate,
     })
-}
-
-/// The error for a spectrum that was not found.
-pub(super) fn not_found() -> Trouble {
-    Trouble::Inaccurate {
-        mode: 0,
-        residual: f64::INFINITY,
-    }
 }

@@ -1,4 +1,4 @@
-//! Eigenvalues of a small complex matrix, in place, with bounded effort and no allocation.
+//! Eigenvalues of a small complex matrix, in place, with bounded effort and no allocation: QR with one shift at a time.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"

@@ -29,8 +29,7 @@ impl Matrices<'_> {
         most <= of_elements(self.n) * matrices * largest(phi)
     }
 
-    /// Error of an eigenvalue caused by components of other modes in its shape `r`: of second order, twice the sum of
-    /// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`.
+    /// Error of an eigenvalue caused by components of other modes in its shape `r`.
     #[cold]
     pub(super) fn error_of_shape(&self, lambda: &[f64], shapes: &[f64], r: usize) -> f64 {
         let n = self.n;
@@ -42,17 +41,8 @@ impl Matrices<'_> {
             };
             row(self.k) - lambda[r] * row(self.m)
         });
-        let mut sum = 0.0;
-        for s in (0..n).filter(|&s| s != r) {
-            let own = &shapes[s * n..(s + 1) * n];
-            let part: f64 = own.iter().zip(&rest).map(|(a, b)| a * b).sum();
-            let part = part.abs();
-            if part > 0.0 {
-                // For equal eigenvalues the error is of first order.
-                sum += part * (part / greater(part, (lambda[s] - lambda[r]).abs()));
-            }
-        }
-        2.0 * sum
+        let part = |own: &[f64]| own.iter().zip(&rest).map(|(a, b)| a * b).sum();
+        second_order(lambda, r, shapes.chunks_exact(n).map(part))
     }
 
     /// The relative residual of a pair, for matrices of size `n`, and the error of its eigenvalue.
@@ -78,18 +68,29 @@ impl Matrices<'_> {
                 rest.most = f64::NAN;
                 return rest;
             }
-            rest.most = greater(rest.most, sum.abs());
-            rest.size = greater(rest.size, terms);
-            rest.along += phi[i] * sum;
-            rest.terms += phi[i].abs() * terms;
+            rest.add(phi[i], sum, terms);
         }
         rest
     }
 }
 
+/// Error of an eigenvalue `r` caused by components of other modes in its shape: of second order, twice the sum of
+/// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`, given by its `parts`.
+pub(super) fn second_order(lambda: &[f64], r: usize, parts: impl Iterator<Item = f64>) -> f64 {
+    let mut sum = 0.0;
+    for (s, part) in parts.enumerate().filter(|(s, _)| *s != r) {
+        let part: f64 = part.abs();
+        if part > 0.0 {
+            // For equal eigenvalues the error is of first order.
+            sum += part * (part / greater(part, (lambda[s] - lambda[r]).abs()));
+        }
+    }
+    2.0 * sum
+}
+
 /// `K phi - lambda M phi`, summarised.
 #[derive(Default)]
-struct Rest {
+pub(super) struct Rest {
     /// Largest component.
     most: f64,
     /// Largest sum of absolute terms in a row.
@@ -100,8 +101,17 @@ struct Rest {
 }
 
 impl Rest {
+    /// Adds a component: of the shape, of the residual, and the absolute terms in that.
     #[inline(always)]
-    fn relative(&self) -> f64 {
+    pub(super) fn add(&mut self, phi: f64, value: f64, terms: f64) {
+        self.most = greater(self.most, value.abs());
+        self.size = greater(self.size, terms);
+        self.along += phi * value;
+        self.terms += phi.abs() * terms;
+    }
+
+    #[inline(always)]
+    pub(super) fn relative(&self) -> f64 {
         if self.most == 0.0 {
             0.0
         } else {
@@ -111,7 +121,7 @@ impl Rest {
 
     /// Error of `lambda`: rounding of the elements plus twice its distance from the Rayleigh quotient of `phi`.
     #[inline(always)]
-    fn error(&self, n: usize) -> f64 {
+    pub(super) fn error(&self, n: usize) -> f64 {
         of_elements(n) * self.terms + 2.0 * self.along.abs()
     }
 }

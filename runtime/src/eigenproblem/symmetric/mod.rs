@@ -1,10 +1,14 @@
 //! The symmetric generalised eigenproblem `K phi = lambda M phi`, with separate code for each small size.
 
-use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
+mod large;
+mod refine;
+mod residual;
 
-use super::refine::refine;
-use super::residual::Matrices;
+use nalgebra::{SMatrix, SymmetricEigen};
+
 use crate::algebra::{Matrix, Vector, for_size, largest};
+use refine::refine;
+use residual::Matrices;
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +48,9 @@ pub(crate) const INACCURATE: f64 = 1e-13;
 /// shape.
 const SMALL: f64 = 1e-6;
 
+/// Sizes with code of their own.
+const SMALL_SIZE: usize = 8;
+
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
 pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
     let mut pairs = Pairs::default();
@@ -71,9 +78,13 @@ pub(crate) fn solve_into(
         6 => small_6(k, m, lambda, shapes)?,
         7 => small_7(k, m, lambda, shapes)?,
         8 => small_8(k, m, lambda, shapes)?,
-        _ => large(n, k, m, lambda, shapes)?,
+        _ => {}
     }
     let (residuals, errors) = (pairs.residuals.make_room(n), pairs.errors.make_room(n));
+    if n > SMALL_SIZE {
+        let matrices = Matrices { n, k, m };
+        return large::solve(&matrices, lambda, shapes, (residuals, errors));
+    }
     for_size(
         n,
         #[inline(always)]
@@ -152,9 +163,8 @@ macro_rules! small {
             let mut reduced = reduced.transpose();
             lower.solve_lower_triangular_mut(&mut reduced);
             let reduced = (reduced + reduced.transpose()) * 0.5;
-            let Some(eigen) = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * $size) else {
-                return Err(Trouble::Inaccurate { mode: 0, residual: f64::INFINITY });
-            };
+            let found = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * $size);
+            let eigen = found.ok_or_else(not_found)?;
             let mut shapes = eigen.eigenvectors;
             lower.tr_solve_lower_triangular_mut(&mut shapes);
             lambda.copy_from_slice(eigen.eigenvalues.as_slice());
@@ -193,34 +203,6 @@ pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), 
     Ok(())
 }
 
-fn large(
-    n: usize,
-    k: &[f64],
-    m: &[f64],
-    lambda: &mut [f64],
-    vectors: &mut [f64],
-) -> Result<(), Trouble> {
-    let mut lower = vec![0.0; n * n];
-    factor_into(n, m, &mut lower)?;
-    let lower = DMatrix::<f64>::from_row_slice(n, n, &lower);
-    let mut reduced = DMatrix::<f64>::from_row_slice(n, n, k);
-    lower.solve_lower_triangular_mut(&mut reduced);
-    let mut reduced = reduced.transpose();
-    lower.solve_lower_triangular_mut(&mut reduced);
-    let reduced = (&reduced + reduced.transpose()) * 0.5;
-    let Some(eigen) = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * n) else {
-        return Err(Trouble::Inaccurate {
-            mode: 0,
-            residual: f64::INFINITY,
-        });
-    };
-    let mut shapes = eigen.eigenvectors;
-    lower.tr_solve_lower_triangular_mut(&mut shapes);
-    lambda.copy_from_slice(eigen.eigenvalues.as_slice());
-    vectors.copy_from_slice(shapes.as_slice());
-    Ok(())
-}
-
 /// Sorts, refines where needed, fixes signs and checks each residual.
 #[inline(always)]
 fn finish(
@@ -240,16 +222,7 @@ fn finish(
             (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[own.clone()]);
             refined = true;
         }
-        if residuals[r].is_nan() || residuals[r] > ACCEPTED {
-            if !matrices.is_rounding(lambda[r], &shapes[own]) {
-                return Err(Trouble::Inaccurate {
-                    mode: r,
-                    residual: residuals[r],
-                });
-            }
-            // Relative to the matrices, because the terms are rounding themselves.
-            residuals[r] = ROUNDING;
-        }
+        residuals[r] = accepted(matrices, (lambda[r], &shapes[own]), (r, residuals[r]))?;
     }
     if refined {
         sort(n, lambda, shapes, (residuals, errors));
@@ -264,6 +237,29 @@ fn finish(
         fix_sign(&mut shapes[r * n..(r + 1) * n]);
     }
     Ok(())
+}
+
+/// The residual of pair `mode`, if it passes the check.
+#[inline(always)]
+fn accepted(
+    matrices: &Matrices,
+    (lambda, shape): (f64, &[f64]),
+    (mode, residual): (usize, f64),
+) -> Result<f64, Trouble> {
+    if residual <= ACCEPTED {
+        return Ok(residual);
+    }
+    // Relative to the matrices, because the terms are rounding themselves.
+    let rounding = matrices.is_rounding(lambda, shape).then_some(ROUNDING);
+    rounding.ok_or(Trouble::Inaccurate { mode, residual })
+}
+
+/// The error for a spectrum that was not found.
+pub(super) fn not_found() -> Trouble {
+    Trouble::Inaccurate {
+        mode: 0,
+        residual: f64::INFINITY,
+    }
 }
 
 #[inline(always)]
