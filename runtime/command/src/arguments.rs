@@ -8,8 +8,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use eigentol::Error;
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, probability,
-    report, sample, sensitivities, sweep, tolerance,
+    allocate, branches, campbell, check, completions, expand, import, merge, modes, new,
+    probability, report, sample, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;

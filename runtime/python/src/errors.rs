@@ -195,11 +195,9 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
         Error::NoEquilibrium { coordinates, .. }
         | Error::UnboundedReactions { coordinates, .. }
         | Error::BranchLost { coordinates, .. }
-        | Error::NotAssembled { coordinates, .. } => {
-            with(py, raised(message), |exception| {
-                exception.setattr("coordinates", coordinates.clone())
-            })
-        }
+        | Error::NotAssembled { coordinates, .. } => with(py, raised(message), |exception| {
+            exception.setattr("coordinates", coordinates.clone())
+        }),
         _ => raised(message),
     }
 }

@@ -77,11 +77,18 @@ impl Study {
         };
         match &names[..] {
             [] => raise(py, error),
-            [name] => with_note(py, error, &format!("the input `{name}` was given no value and counts as 0")),
+            [name] => with_note(
+                py,
+                error,
+                &format!("the input `{name}` was given no value and counts as 0"),
+            ),
             names => with_note(
                 py,
                 error,
-                &format!("the inputs `{}` were given no values and count as 0", names.join("`, `")),
+                &format!(
+                    "the inputs `{}` were given no values and count as 0",
+                    names.join("`, `")
+                ),
             ),
         }
     }

@@ -52,7 +52,8 @@ impl Probability {
             false => &self.require,
         };
         if required.is_empty() {
-            let help = format!("state one by `--require`: {HELP}; or by `[[require]]` in a study file");
+            let help =
+                format!("state one by `--require`: {HELP}; or by `[[require]]` in a study file");
             return Err(Failure::usage("nothing is required", help));
         }
         let bar = progress::bar("designs", None);

@@ -82,7 +82,11 @@ impl Tables for Probabilities {
         table.numbers("probability of failure", "", numbers(|own| own.value));
         table.numbers("95 % from", "", numbers(|own| own.interval.lower));
         table.numbers("95 % to", "", numbers(|own| own.interval.upper));
-        table.numbers("probability without response", "", numbers(|own| own.untold));
+        table.numbers(
+            "probability without response",
+            "",
+            numbers(|own| own.untold),
+        );
         let by = all().map(|own| {
             Some(match own.by {
                 Found::DesignPoint => "design point".to_owned(),
@@ -91,7 +95,10 @@ impl Tables for Probabilities {
             })
         });
         table.texts("found by", by);
-        table.whole("designs", all().map(|own| usize::try_from(own.designs).ok()));
+        table.whole(
+            "designs",
+            all().map(|own| usize::try_from(own.designs).ok()),
+        );
         operating_point(&mut table, d, &self.inputs, None);
         let mut tables = vec![table];
         tables.extend(self.reliability.iter().flat_map(Tables::tables));

@@ -171,7 +171,8 @@ impl Tables for MonteCarlo {
         origin(&mut table, self);
         let mut outcomes = outcomes(&self.counts);
         // Of the stable samples, which come first.
-        let elsewhere = (0..outcomes.rows()).map(|row| (row == 0).then_some(self.left_nominal_branch));
+        let elsewhere =
+            (0..outcomes.rows()).map(|row| (row == 0).then_some(self.left_nominal_branch));
         outcomes.whole("on another branch", elsewhere);
         origin(&mut outcomes, self);
         let mut tables = vec![table, outcomes];
