@@ -127,7 +127,7 @@ impl Called {
         let margin = study.margin(0, band).unwrap();
         let corrected = margin.margin.corrected;
         assert!(
-            within(corrected.value, corrected.error * (1.0 + 1e-6)),
+            within(corrected.value, corrected.error + 1e-6 * exact),
             "{at}\n{margin}"
         );
         if margin.verified() {

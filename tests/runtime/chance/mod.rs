@@ -5,6 +5,7 @@ mod bar;
 mod branches;
 mod equal;
 mod limits;
+mod models;
 mod oracle;
 mod words;
 mod work;
