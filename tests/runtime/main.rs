@@ -5,6 +5,7 @@ mod common;
 
 mod allocation;
 mod branches;
+mod chance;
 mod clusters;
 mod constrained_modes;
 mod constraints;

@@ -75,7 +75,8 @@ pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Fai
         .split_once('=')
         .and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
     let Some((name, (low, high))) = parts else {
-        return Err(Failure::usage(format!("`{text}` is not a range"), HELP));
+        let help = "write a range of an input as `speed=0..6000rpm`";
+        return Err(Failure::usage(format!("`{text}` is not a range"), help));
     };
     let (input, unit) = input(study, name)?;
     for (end, what, instead) in [

@@ -1,6 +1,9 @@
-//! A pendulum on a spinning shaft: its frequency, and how far the tolerance of its length spreads it.
+//! A pendulum on a spinning shaft: its frequency, how far the tolerance of its length spreads it, and how probable it is
+//! that it falls below 4 rad/s.
 
-use eigentol::{Study, mechanism};
+use eigentol::requirement::Requirement;
+use eigentol::response::Response;
+use eigentol::{Quantity, Study, mechanism};
 
 mechanism! {
     /// A uniform bar hinged on a shaft that spins at a constant rate.
@@ -27,5 +30,11 @@ fn main() -> Result<(), eigentol::Error> {
     let solved = study.solve()?;
     println!("{}\n{}", solved.equilibrium, solved.modes);
     println!("{}", solved.first_order()?);
+    let frequency = Response::Mode {
+        mode: 0,
+        quantity: Quantity::Frequency,
+    };
+    let wanted = [Requirement::at_least(frequency, 4.0)];
+    println!("{}", solved.probability(&wanted)?);
     Ok(())
 }

@@ -1,15 +1,18 @@
 //! Interpreted implementations of the kernel tables.
 
+use std::array::from_fn;
+use std::slice::from_ref;
+
 use eigentol::kernels::{
     BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
     CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear, MotionKernels,
     PartialMatrices, PictureKernels, ResidualPartials, RestParts, Sizes,
 };
-use eigentol::scalar::{Batch, Instructions};
+use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Description, Dual, Matrix, PictureInfo, PoseMargin, Shared, Violation};
 
 use crate::mechanism::Interpreted;
-use crate::registers::{batch, once, scalar};
+use crate::registers::{along_each, batch, once, scalar};
 use crate::tape::Tape;
 
 /// Copies a result out of the registers.
@@ -108,6 +111,42 @@ fn run_along(
             copy_slopes(registers, places, to);
         }
     });
+}
+
+/// Runs a tape at one state and copies the derivatives of its results along each of several directions, which pass side
+/// by side through the vectors of the processor.
+fn run_along_each<const N: usize>(
+    tape: &Option<Tape>,
+    arguments: &[&[f64]; N],
+    directions: &[[&[f64]; N]],
+    gradients: &mut [Gradient],
+) {
+    let each = directions.chunks(WIDTH).zip(gradients.chunks_mut(WIDTH));
+    for (directions, gradients) in each {
+        let (Some(tape), [_, _, ..]) = (tape, directions) else {
+            for (direction, gradient) in directions.iter().zip(gradients) {
+                run_along(tape, arguments, direction, &mut gradient_buffers(gradient));
+            }
+            continue;
+        };
+        let moved: [Vec<Dual<Batch>>; N] = from_fn(|list| {
+            let values = arguments[list].iter().enumerate();
+            let pairs = values.map(|(k, &value)| Dual {
+                value: Batch::all(value),
+                slope: Batch::from_fn(|lane| directions.get(lane).map_or(0.0, |own| own[list][k])),
+            });
+            pairs.collect()
+        });
+        along_each(tape, &moved.each_ref().map(Vec::as_slice), |registers| {
+            for (lane, gradient) in gradients.iter_mut().enumerate() {
+                for (to, places) in gradient_buffers(gradient).into_iter().zip(&tape.results) {
+                    for (to, place) in to.iter_mut().zip(places) {
+                        *to = registers[*place as usize].slope.0[lane];
+                    }
+                }
+            }
+        });
+    }
 }
 
 fn run_batch(
@@ -350,6 +389,19 @@ impl DirectionalKernels for Interpreted {
             &mut gradient_buffers(gradient),
         );
     }
+
+    fn residual_gradients_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        directions: &[[&[f64]; 4]],
+        gradients: &mut [Gradient],
+    ) {
+        let tape = &self.shared.tapes.residual_gradient;
+        run_along_each(tape, &[q, u, b, w], directions, gradients);
+    }
 }
 
 impl CurvatureKernels for Interpreted {
@@ -371,6 +423,23 @@ impl CurvatureKernels for Interpreted {
             &[dq, du, db, dphi, &[dlambda]],
             &mut gradient_buffers(gradient),
         );
+    }
+
+    fn mode_gradients_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        directions: &[([&[f64]; 4], f64)],
+        gradients: &mut [Gradient],
+    ) {
+        let each = directions.iter();
+        let along = each.map(|([dq, du, db, dphi], rate)| [*dq, du, db, dphi, from_ref(rate)]);
+        let along: Vec<[&[f64]; 5]> = along.collect();
+        let tape = &self.shared.tapes.mode_gradient;
+        run_along_each(tape, &[q, u, b, phi, &[lambda]], &along, gradients);
     }
 
     fn pencil_gradient_along_into(

@@ -52,6 +52,33 @@ impl<V: Lanes> Registers for Vectors<'_, V> {
     }
 }
 
+/// The derivatives along the directions from index `at` on, of one state.
+struct Directions<'a, V> {
+    duals: &'a mut [Dual<Batch>],
+    at: usize,
+    kind: PhantomData<V>,
+}
+
+impl<V: Lanes> Registers for Directions<'_, V> {
+    type Number = Dual<V>;
+
+    #[inline(always)]
+    fn get(&self, register: u32) -> Dual<V> {
+        let Dual { value, slope } = &self.duals[register as usize];
+        Dual {
+            value: V::load(value, self.at),
+            slope: V::load(slope, self.at),
+        }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, register: u32, to: Dual<V>) {
+        let Dual { value, slope } = &mut self.duals[register as usize];
+        to.value.store(value, self.at);
+        to.slope.store(slope, self.at);
+    }
+}
+
 /// A type of number whose registers each thread keeps between calls.
 pub(crate) trait Kept: Copy + Sized + 'static {
     fn constant(value: f64) -> Self;
@@ -80,6 +107,10 @@ macro_rules! kept {
 kept!(f64, |value| value);
 kept!(Dual<f64>, Dual::fixed);
 kept!(Batch, Batch::all);
+kept!(Dual<Batch>, |value| Dual {
+    value: Batch::all(value),
+    slope: Batch::all(0.0),
+});
 
 /// Writes constants and arguments to their registers, runs the tape, and passes the registers to `read`.
 #[inline]
@@ -138,6 +169,36 @@ pub(crate) fn batch<R>(
 ) -> R {
     let run = |batches: &mut [Batch]| instructions.run(SideBySide { tape, batches });
     evaluate(tape, arguments, run, read)
+}
+
+/// Evaluates one state with derivatives along several directions at once.
+pub(crate) fn along_each<R>(
+    tape: &Tape,
+    arguments: &[&[Dual<Batch>]],
+    read: impl FnOnce(&[Dual<Batch>]) -> R,
+) -> R {
+    let run = |duals: &mut [Dual<Batch>]| Instructions::best().run(AlongEach { tape, duals });
+    evaluate(tape, arguments, run, read)
+}
+
+struct AlongEach<'a> {
+    tape: &'a Tape,
+    duals: &'a mut [Dual<Batch>],
+}
+
+impl Task for AlongEach<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        for at in (0..WIDTH).step_by(V::WIDTH) {
+            self.tape.run(&mut Directions::<V> {
+                duals: self.duals,
+                at,
+                kind: PhantomData,
+            });
+        }
+    }
 }
 
 struct SideBySide<'a> {

@@ -309,11 +309,17 @@ fn possible(
     let Parameter::Design(variable) = parameter else {
         return Ok(());
     };
-    for end in ends {
+    let violation = |change: f64| {
         let mut design = study.design_values().to_vec();
-        design[variable.index()] += end;
-        let violation = study.mechanism().violation(study.input_values(), &design);
-        if let Some(violation) = violation {
+        design[variable.index()] += change;
+        study.mechanism().violation(study.input_values(), &design)
+    };
+    if violation(0.0).is_some() {
+        // Something else is to blame, such as an input that has no value yet.
+        return Ok(());
+    }
+    for end in ends {
+        if let Some(violation) = violation(end) {
             let (quantity, requirement) = (violation.quantity, violation.requirement);
             let message =
                 format!("within the tolerance of `{name}`, {quantity} would not be {requirement}");

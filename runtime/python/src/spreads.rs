@@ -456,6 +456,12 @@ fn value(of: Option<Estimated>) -> Option<f64> {
 
 #[pymethods]
 impl Propagation {
+    /// For each response the doubts that distances raise about the model: texts; none for samples, which need no model.
+    #[getter]
+    fn doubts(&self) -> Vec<Vec<String>> {
+        self.0.doubts.iter().map(|own| texts(own)).collect()
+    }
+
     /// How it was found, in words.
     #[getter]
     fn method(&self) -> String {

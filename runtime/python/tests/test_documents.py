@@ -56,6 +56,7 @@ def documents():
         study.influence([frequency]),
         study.worst_case([frequency]),
         study.chances(wanted),
+        study.probability(wanted),
         study.reliability(wanted[:1]),
         study.rare_failure(wanted[:1]),
         study.allocate(

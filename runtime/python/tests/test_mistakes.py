@@ -132,6 +132,28 @@ def test_questions(study, question, kind):
     assert str(caught.value)
 
 
+def test_an_input_without_a_value_is_named():
+    text = """mechanism Stretched {
+        input length: m;
+        design m = 1 kg;
+        gravity 9.81 m/s^2 along -z;
+        body bar: rod(mass: m, length: length - m * (0.001 m/kg), along: -z);
+        joint theta: revolute(y) from ground to bar;
+    }"""
+    mechanism = eigentol.Mechanism.from_text(text)
+    words = "the input `length` was given no value and counts as 0"
+    with pytest.raises(eigentol.InvalidValue, match=words):
+        eigentol.Study(mechanism).modes()
+    with pytest.raises(eigentol.InvalidValue) as caught:
+        eigentol.Study(mechanism, inputs={"length": -1.0}).modes()
+    assert "given no value" not in str(caught.value)
+    # Nor is a tolerance to blame for it.
+    tolerant = eigentol.Study(mechanism, tolerances={"m": "1%"})
+    with pytest.raises(eigentol.InvalidValue, match=words):
+        tolerant.modes()
+    assert tolerant.replace(inputs={"length": 1.0}).modes().frequencies.shape == (1,)
+
+
 @pytest.mark.parametrize("mode", [1, 7, 2**62])
 def test_a_missing_mode_has_the_number_that_was_given(study, mode):
     with pytest.raises(eigentol.InvalidValue, match=f"no mode {mode}: modes are counted from 0"):

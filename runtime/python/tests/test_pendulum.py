@@ -215,6 +215,56 @@ def test_requirements(study):
     assert chances.failure[1] == 0.0 and chances.all_met == 1 - chances.failure[0]
 
 
+def test_probability_of_failure(study):
+    expected = [0.5 * math.erfc(4 / math.sqrt(2)), 0.5 * math.erfc(1 / math.sqrt(2))]
+    wanted = [(("frequency", 0), frequency(0.96), None), (("frequency", 0), None, frequency(1.01))]
+    found = study.probability(wanted)
+    np.testing.assert_allclose(found.failure, expected, rtol=1e-6)
+    assert (found.lower <= found.failure).all() and (found.failure <= found.upper).all()
+    assert found.found_by == ["design point", "design point"]
+    assert found.any_failure == pytest.approx(sum(expected), rel=1e-6)
+    low, high = found.any_interval
+    assert low <= sum(expected) * (1 + 1e-6) and sum(expected) <= high * (1 + 1e-6)
+    assert found.reliability.verified == [True, True] and found.untold.max() == 0
+    np.testing.assert_allclose(found.reliability.solved_anew, expected, rtol=1e-6)
+
+
+def test_a_layer_beside_the_critical_length_is_no_half_space(study):
+    # Longer bars than the critical one stand out to the side, shorter ones hang down: slow only within a layer.
+    speed, sigma = 1.03 * math.sqrt(1.5 * G), 0.2 / 3
+    near = study.replace(
+        inputs={"omega": speed}, start={"theta": 0.4}, tolerances={"l": 0.2}
+    )
+    wanted = [(("frequency", 0), 0.1, None)]
+
+    def until(length):
+        return 0.5 * math.erfc(-(length - 1) / sigma / math.sqrt(2))
+
+    # Hanging: 1.5 g / l - speed^2 = 0.01; standing out: speed^2 - (1.5 g / l / speed)^2 = 0.01.
+    shortest = 1.5 * G / (speed**2 + 0.01)
+    longest = 1.5 * G / speed / math.sqrt(speed**2 - 0.01)
+    expected = until(longest) - until(shortest)
+    reliability = near.reliability(wanted)
+    assert reliability.verified == [False] and reliability.failure[0] > 10 * expected
+    np.testing.assert_allclose(reliability.solved_anew, [expected], rtol=1e-6)
+    found = near.probability(wanted)
+    assert found.found_by == ["lines"]
+    np.testing.assert_allclose(found.failure, [expected], rtol=1e-6)
+    margin = near.margin(0, 0.0, 0.1)
+    assert not margin.verified and abs(margin.probability - expected) <= margin.error * (1 + 1e-6)
+    doubts = near.first_order().doubts
+    assert len(doubts) == 1 and "critical" in doubts[0][0]
+
+
+def test_standard_errors_are_those_of_what_they_name(study):
+    found = study.replace(samples=4000, seed=3).monte_carlo()
+    n = 4000
+    np.testing.assert_allclose(found.standard_error(), found.sigma() / math.sqrt(n), rtol=1e-3)
+    # Nearly normal: sigma / sqrt(2 n).
+    np.testing.assert_allclose(found.sigma_error(), found.sigma() / math.sqrt(2 * n), rtol=0.1)
+    assert found.on_another_branch == 0
+
+
 def test_a_forbidden_band_is_the_rest_of_a_wanted_one(study):
     low, high = frequency(0.99), frequency(1.01)
     study = study.replace(samples=20_000)

@@ -7,7 +7,7 @@ use crate::kernels::Kernels;
 
 /// Maximum number of bisections of the path between two designs: an equilibrium this close to a branch point counts as
 /// beyond it.
-const HALVINGS: usize = 10;
+const HALVINGS: usize = 12;
 /// A Newton step from one equilibrium to the next may miss it by this share of their distance.
 const MISSED: f64 = 0.5;
 /// Displacements below this, relative to the coordinate and a small motion, are rounding.

@@ -4,7 +4,7 @@ use core::cell::RefCell;
 use core::convert::Infallible;
 
 use eigentol_statistics::Distribution;
-use eigentol_statistics::reliability::lines::{LineSampler, LineSettings};
+use eigentol_statistics::reliability::lines::{Direction, LineSampler, LineSettings};
 use eigentol_statistics::reliability::{LimitState, LimitValue};
 
 use super::cost::{BUDGET, operations};
@@ -14,9 +14,6 @@ use crate::algebra::Vector;
 use crate::limits::Deviations;
 use crate::response::{Realisation, Responses, Workspace};
 
-/// Fewer designs do not make the fewest lines: one, if a single variable matters.
-const FEWEST: f64 = 1200.0;
-const FEWEST_OF_ONE: f64 = 64.0;
 /// Most designs: further ones would not change a verdict.
 const MOST: u64 = 20_000;
 /// Target coefficient of variation, well within what is trusted.
@@ -42,10 +39,8 @@ pub(crate) struct Event<'a> {
 /// Where to look for an event first.
 #[derive(Clone, Debug)]
 pub(crate) struct Lines {
-    /// Directions in the space of standard normal numbers.
-    pub(crate) directions: Vec<Vec<f64>>,
-    /// Distance from the origin, in standard deviations, at which the event is expected.
-    pub(crate) expected: f64,
+    /// Directions in the space of standard normal numbers, and how far the event is along them.
+    pub(crate) directions: Vec<Direction>,
     /// Designs worth solving whatever they cost.
     pub(crate) worth: u64,
     /// How many times the usual budget an answer is worth.
@@ -53,15 +48,22 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Along the change of a quantity with these derivatives with respect to the design variables.
-    pub(crate) fn along(deviations: &Deviations<'_>, slopes: &[f64], expected: f64) -> Self {
+    /// Along the change of a quantity with these derivatives with respect to the design variables, at this distance in
+    /// standard deviations.
+    pub(crate) fn along(deviations: &Deviations<'_>, slopes: &[f64], distance: f64) -> Self {
         let origin = vec![0.0; deviations.dimension()];
+        let along = deviations.gradient(&origin, slopes);
         Self {
-            directions: vec![deviations.gradient(&origin, slopes)],
-            expected,
+            directions: vec![Direction { along, distance }],
             worth: 0,
             effort: 1.0,
         }
+    }
+
+    /// The farthest distance.
+    pub(crate) fn farthest(&self) -> f64 {
+        let all = self.directions.iter().map(|own| own.distance);
+        all.fold(0.0, f64::max)
     }
 }
 
@@ -96,24 +98,22 @@ impl<'a> Event<'a> {
         let each = operations(self.responses.modes(), false) * self.responses.price() as f64;
         let budget = lines.effort * BUDGET;
         let affordable = (budget / each).min(MOST as f64);
-        let fewest = match variables.len() {
-            1 => FEWEST_OF_ONE,
-            _ => FEWEST,
-        };
-        if affordable.max(lines.worth as f64) < fewest {
-            return Ok(Judgement::Open(Unjudged::TooDear {
-                operations: fewest * each,
-                budget,
-            }));
-        }
+        let evaluations = lines.worth.max(affordable as u64);
         let settings = LineSettings {
-            evaluations: lines.worth.max(affordable as u64),
+            evaluations,
             coefficient_of_variation: ACCURACY,
-            reach: (lines.expected + BEYOND).clamp(REACH, FARTHEST),
+            reach: (lines.farthest() + BEYOND).clamp(REACH, FARTHEST),
             ..LineSettings::default()
         };
         let dimension = self.deviations.dimension();
         let sampler = LineSampler::new(dimension, &variables, &lines.directions, &settings)?;
+        let fewest = sampler.fewest();
+        if evaluations < fewest {
+            return Ok(Judgement::Open(Unjudged::TooDear {
+                operations: fewest as f64 * each,
+                budget,
+            }));
+        }
         let found = sampler.run(self);
         self.responses.go_on()?;
         Ok(Judgement::Judged(Judged::new(&found, settings.reach)))

@@ -18,4 +18,5 @@ pub use judged::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR, Unjudged};
 
 pub use cost::BUDGET;
 pub(crate) use cost::{operations, together};
+pub(crate) use distances::{distances, doubts_of_models};
 pub(crate) use event::{Event, Lines};

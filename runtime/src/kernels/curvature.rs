@@ -21,6 +21,24 @@ pub trait CurvatureKernels: DirectionalKernels {
         gradient: &mut Gradient,
     );
 
+    /// [`Self::mode_gradient_along_into`] along several directions, each with its own change of `lambda`, with the same
+    /// results as one by one.
+    #[allow(clippy::too_many_arguments)]
+    fn mode_gradients_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        directions: &[([&[f64]; 4], f64)],
+        gradients: &mut [Gradient],
+    ) {
+        for ((direction, rate), gradient) in directions.iter().zip(gradients) {
+            self.mode_gradient_along_into(q, u, b, phi, lambda, *direction, *rate, gradient);
+        }
+    }
+
     /// [`Mechanism::pencil_gradient_along`](crate::Mechanism::pencil_gradient_along); `direction` is `dq`, `du`, `db`,
     /// and `changes` is the change of `vectors`.
     #[allow(clippy::too_many_arguments)]

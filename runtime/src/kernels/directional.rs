@@ -25,6 +25,21 @@ pub trait DirectionalKernels: Kernels {
         direction: [&[f64]; 4],
         gradient: &mut Gradient,
     );
+
+    /// [`Self::residual_gradient_along_into`] along several directions, with the same results as one by one.
+    fn residual_gradients_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        directions: &[[&[f64]; 4]],
+        gradients: &mut [Gradient],
+    ) {
+        for (direction, gradient) in directions.iter().zip(gradients) {
+            self.residual_gradient_along_into(q, u, b, w, *direction, gradient);
+        }
+    }
 }
 
 impl dyn DirectionalKernels + '_ {

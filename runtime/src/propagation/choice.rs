@@ -7,6 +7,7 @@ use super::sampler::{Points, Sampler};
 use super::space::Space;
 use super::taylor::{first_order, second_order};
 use crate::Error;
+use crate::judge::doubts_of_models;
 use crate::kernels::CurvatureKernels;
 use crate::response::Responses;
 use crate::setters::setters;
@@ -63,8 +64,9 @@ impl Default for Effort {
 ///
 /// The first choice is sampling at scrambled Sobol' points, if affordable: it works for every response and
 /// distribution, gives quantiles, and counts failures. It may be too expensive if critical values or crossings must be
-/// searched for in every design. Then the choice is quadrature, if few variables vary and none is discrete. If one of
-/// its nodes has no value, fewer samples are drawn, but at least 64. The next choice is second order, if every response
+/// searched for in every design. Then fewer samples are drawn, but at least 64, where distances to other states cast
+/// doubt on models ([`Propagation::doubts`]); otherwise the choice is quadrature, if few variables vary and none is
+/// discrete, and fewer samples if one of its nodes has no value. The next choice is second order, if every response
 /// has second derivatives; the last is first order.
 ///
 /// ```
@@ -124,6 +126,11 @@ pub fn propagate(
         effort.samples.saturating_mul(price),
         effort.solutions
     );
+    let doubted = doubts_of_models(responses, tolerances);
+    if affordable >= FEW && !doubted.iter().all(Vec::is_empty) {
+        let reason = format!("{dear}; distances cast doubt on any model: so fewer samples");
+        return sample(affordable, reason);
+    }
     let levels = LEVELS
         .rev()
         .filter(|level| cost(dimensions, *level).is_some_and(|cost| cost <= affordable));

@@ -6,6 +6,7 @@ use super::model::{DesignRoom, Designs, Model, TOGETHER};
 use super::result::{Estimated, Method, Propagation, ResponseSpread};
 use super::space::Space;
 use crate::algebra::{Matrix, Vector};
+use crate::judge::doubts_of_models;
 use crate::response::Responses;
 use crate::tolerance::{Counts, Outcome, Tolerances, pool};
 use crate::{Equilibrium, Error};
@@ -84,7 +85,8 @@ pub fn quadrature(
         Ok(())
     })?;
     found.refuse_missing()?;
-    sums.propagation(grid.method(), responses, at, found.counts, &nominal)
+    let found = sums.propagation(grid.method(), responses, at, found.counts, &nominal)?;
+    Ok(found.doubted(doubts_of_models(responses, tolerances)))
 }
 
 /// Number of designs that [`quadrature`] evaluates; `None` if there is no such grid.
@@ -311,6 +313,7 @@ impl Sums {
             method,
             reason: String::new(),
             wanted: responses.wanted().to_vec(),
+            doubts: Vec::new(),
             spreads: spreads.collect::<Result<_, Error>>()?,
             covariance: Matrix::from_fn(m, m, |i, j| Some(self.covariance(i, j, 0))),
             with_design: Matrix::from_fn(m, at.design.len(), |i, j| {

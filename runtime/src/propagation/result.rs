@@ -1,6 +1,7 @@
 //! Results common to all methods.
 
 use crate::algebra::{Matrix, Vector};
+use crate::judge::Doubt;
 use crate::response::Response;
 use crate::tolerance::Counts;
 use crate::{Description, Shared};
@@ -73,6 +74,20 @@ pub struct ResponseSpread {
     pub share: f64,
 }
 
+impl ResponseSpread {
+    /// The same, with nothing known about the errors.
+    pub(super) fn without_errors(mut self) -> Self {
+        self.mean.error = None;
+        for one in [&mut self.sigma, &mut self.skewness].into_iter().flatten() {
+            one.error = None;
+        }
+        for quantile in &mut self.quantiles {
+            quantile.error = None;
+        }
+        self
+    }
+}
+
 /// The method behind a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -109,6 +124,9 @@ pub struct Propagation {
     pub wanted: Vec<Response>,
     /// One per response; `None` if no design has it, or if the derivatives that the method needs do not exist.
     pub spreads: Vec<Option<ResponseSpread>>,
+    /// For each response the doubts that distances raise about the model. Samples need no model and have none.
+    /// Where there are doubts, nothing is known about the errors.
+    pub doubts: Vec<Vec<Doubt>>,
     /// Covariances of responses, SI, over the designs that have both; `None` if no two designs do.
     pub covariance: Matrix<Option<f64>>,
     /// Covariance of each response, by row, with each design variable, SI.
@@ -124,6 +142,16 @@ pub struct Propagation {
 }
 
 impl Propagation {
+    /// The same, in doubt: without the errors of the spreads that are.
+    pub(super) fn doubted(mut self, doubts: Vec<Vec<Doubt>>) -> Self {
+        for (spread, doubts) in self.spreads.iter_mut().zip(&doubts) {
+            if !doubts.is_empty() {
+                *spread = spread.take().map(ResponseSpread::without_errors);
+            }
+        }
+        Self { doubts, ..self }
+    }
+
     /// Correlation of two responses, between -1 and 1; `None` if either does not vary.
     #[must_use]
     pub fn correlation(&self, first: usize, second: usize) -> Option<f64> {

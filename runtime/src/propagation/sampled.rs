@@ -189,6 +189,7 @@ impl Samples {
             method: Method::Sampled(self.points),
             reason: String::new(),
             wanted: self.wanted.clone(),
+            doubts: vec![Vec::new(); spreads.len()],
             spreads,
             covariance,
             with_design,

@@ -10,6 +10,7 @@ use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::Error;
 use crate::algebra::{Matrix, times};
+use crate::judge::doubts_of_models;
 use crate::kernels::CurvatureKernels;
 use crate::response::Responses;
 use crate::tolerance::{Counts, Outcome, Tolerances};
@@ -53,7 +54,8 @@ pub fn first_order(
 /// Errors extrapolate the difference from first order like a series: it is multiplied by `r`, the ratio of the
 /// contributions of curvature and slopes to the standard deviation. The error of the standard deviation itself is the
 /// whole difference plus `r^2` times the standard deviation, because the neglected third derivatives contribute terms
-/// of this order. Near a critical state the series does not converge, and these error estimates do not hold.
+/// of this order. Near a critical state the series does not converge, and these error estimates do not hold: there are
+/// [`doubts`](Propagation::doubts) instead.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -127,18 +129,20 @@ fn taylor(
     }
     let mut counts = Counts::default();
     counts.add(Outcome::from(at.stability), 1);
-    Ok(Propagation {
+    let found = Propagation {
         method,
         reason: String::new(),
         wanted: responses.wanted().to_vec(),
         spreads,
+        doubts: Vec::new(),
         covariance,
         with_design,
         evaluations: 1,
         counts,
         inputs: at.inputs.clone(),
         description: at.description.clone(),
-    })
+    };
+    Ok(found.doubted(doubts_of_models(responses, tolerances)))
 }
 
 /// Samples the expansions: to first order, then to second.
@@ -176,7 +180,7 @@ impl Models<'_> {
     fn spread(&self, i: usize, own: &Expansion, second: bool) -> Result<ResponseSpread, Error> {
         let first = self.model(i, own, None)?;
         let Some(curvature) = &own.curvature else {
-            return Ok(without_errors(first));
+            return Ok(first.without_errors());
         };
         let other = self.model(i, own, Some(curvature))?;
         let ratio = self.ratio(own, curvature);
@@ -261,17 +265,6 @@ fn exactly_normal(mean: f64, sigma: f64) -> Vec<Quantile> {
 }
 
 /// Removes the errors: without second derivatives nothing is known about the accuracy of the model.
-fn without_errors(mut own: ResponseSpread) -> ResponseSpread {
-    own.mean.error = None;
-    for one in [&mut own.sigma, &mut own.skewness].into_iter().flatten() {
-        one.error = None;
-    }
-    for quantile in &mut own.quantiles {
-        quantile.error = None;
-    }
-    own
-}
-
 /// Adds the fraction `share` of the difference from another spread to each error, and the whole difference to that of
 /// the standard deviation.
 fn add_difference(own: &mut ResponseSpread, other: &ResponseSpread, share: f64) {

@@ -32,6 +32,14 @@ pub(super) fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
     shared(all).iter().map(sentence).collect()
 }
 
+/// How a number stands about which there is a doubt.
+pub(super) fn standing(doubt: &Doubt) -> &'static str {
+    match doubt.certain() {
+        true => "Not to be trusted",
+        false => "Doubtful",
+    }
+}
+
 /// Writes the doubts of a result that only distances judge, and who judges better.
 pub(super) fn doubted(f: &mut fmt::Formatter<'_>, all: &[impl AsRef<[Doubt]>]) -> fmt::Result {
     let mut open = false;
@@ -39,10 +47,9 @@ pub(super) fn doubted(f: &mut fmt::Formatter<'_>, all: &[impl AsRef<[Doubt]>]) -
         let names = named(&modes);
         match doubt {
             Doubt::NoFrequency => writeln!(f, "  {}: {doubt}", capital(names))?,
-            _ if doubt.certain() => writeln!(f, "  Not to be trusted for {names}: {doubt}")?,
             _ => {
-                open = true;
-                writeln!(f, "  Doubtful for {names}: {doubt}")?;
+                open |= !doubt.certain();
+                writeln!(f, "  {} for {names}: {doubt}", standing(doubt))?;
             }
         }
     }

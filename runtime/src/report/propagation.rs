@@ -4,6 +4,7 @@ use core::fmt;
 
 use eigentol_statistics::sensitivity::Estimate;
 
+use super::doubts::standing;
 use super::numbers::{heading, in_unit, or_dash, percent, short};
 use super::relevance::{BELOW, names, relevant, unless_rounding};
 use super::table::{Table, cells};
@@ -90,6 +91,17 @@ impl fmt::Display for Propagation {
         }
         if self.wanted.len() > 1 {
             write!(f, "{}", self.correlations())?;
+        }
+        for (response, own) in self.wanted.iter().zip(&self.doubts) {
+            for doubt in own {
+                writeln!(f, "  {} for {}: {doubt}", standing(doubt), response.name(d))?;
+            }
+        }
+        if self.doubts.iter().any(|own| !own.is_empty()) {
+            writeln!(
+                f,
+                "  Nothing is known about their errors: samples need no model."
+            )?;
         }
         Ok(())
     }

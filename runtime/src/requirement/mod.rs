@@ -1,5 +1,6 @@
-//! Requirements on a design and the probability of meeting them under tolerances: by samples, by design points in
-//! standard normal space, and by samples about these points where failure is rare.
+//! Requirements on a design and the probability of failing them under tolerances. [`Requirements::probabilities`] finds
+//! it with nothing to choose. Behind it stand samples, design points in standard normal space, samples about these
+//! points where failure is rare, and the judge of them all: lines of designs solved anew ([`judge`](crate::judge)).
 //!
 //! First-order reliability (A. M. Hasofer and N. C. Lind, *Exact and invariant second-moment code format*, J. Eng.
 //! Mech. 1974) finds the most probable design that just fails, with exact total derivatives of the responses

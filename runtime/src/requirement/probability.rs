@@ -9,12 +9,14 @@ use super::kinds::Requirement;
 use super::reliability::{Reliability, judge_requirements, reliability_of};
 use super::requirements::Requirements;
 use crate::algebra::Vector;
-use crate::judge::{Judged, Judgement};
+use crate::judge::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR};
 use crate::tolerance::Sampling;
 use crate::{Description, Error, Shared};
 
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
+/// Probabilities below this are as good as none.
+const NEGLIGIBLE: f64 = 1e-12;
 
 /// How a probability of failure was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +28,7 @@ pub enum Found {
     DesignPoint,
     /// By lines of designs solved anew, where there are no design points or these do not describe the failure.
     Lines,
-    /// By plain samples, where a variable takes discrete values or lines would not settle it.
+    /// By plain samples, where a variable takes discrete values or lines tell less.
     Samples,
 }
 
@@ -59,6 +61,15 @@ impl FailureProbability {
             },
             designs: judged.designs,
         }
+    }
+
+    fn width(&self) -> f64 {
+        self.interval.upper - self.interval.lower
+    }
+
+    /// Whether it is known better than a model has to be for it to be trusted.
+    fn is_sharp(&self) -> bool {
+        self.width() <= (2.0 * TRUSTED_PROBABILITY_ERROR * self.value).max(NEGLIGIBLE)
     }
 
     fn of_samples(tally: &Tally) -> Result<Self, Error> {
@@ -96,8 +107,8 @@ pub struct Probabilities {
 
 impl Requirements<'_> {
     /// How probable it is that each requirement, and that any, is failed: by design points and lines of designs along
-    /// them, which also settle small probabilities; by plain samples, with the settings of `sampling`, where these do
-    /// not. Nothing needs to be chosen: [`FailureProbability::by`] tells which way was taken.
+    /// them, which also settle small probabilities; by plain samples, with the settings of `sampling`, where these tell
+    /// more. Nothing needs to be chosen: [`FailureProbability::by`] tells which way was taken.
     ///
     /// # Errors
     /// [`Error::Setting`] if no tolerance is declared; those of [`Self::chances`]; [`Error::Stopped`].
@@ -125,16 +136,20 @@ impl Requirements<'_> {
             Some(FailureProbability::of_lines(judged, *described))
         };
         let count = self.wanted().len();
-        let chances = match (0..=count).all(|place| settled(place).is_some()) {
+        let sharp = |place| settled(place).is_some_and(|found| found.is_sharp());
+        let chances = match (0..=count).all(sharp) {
             true => None,
             false => Some(chances_of(self, deviations, sampling)?),
         };
-        let one = |place: usize| match (settled(place), &chances) {
-            (Some(found), _) => Ok(found),
-            (None, Some(chances)) => {
+        let one = |place: usize| {
+            let sampled = |chances: &Chances| {
                 FailureProbability::of_samples(chances.each.get(place).unwrap_or(&chances.all))
-            }
-            (None, None) => Err(Error::Stopped),
+            };
+            let sampled = chances.as_ref().map(sampled).transpose()?;
+            let sharpest = settled(place).into_iter().chain(sampled);
+            sharpest
+                .min_by(|a, b| a.width().total_cmp(&b.width()))
+                .ok_or(Error::Stopped)
         };
         Ok(Probabilities {
             wanted: self.wanted().to_vec(),

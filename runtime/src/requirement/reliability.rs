@@ -1,18 +1,18 @@
 //! Failure probabilities from design points.
 
 use eigentol_statistics::normal;
+use eigentol_statistics::reliability::lines::Direction;
 use eigentol_statistics::reliability::sampling::{Estimate, Interval};
 use eigentol_statistics::reliability::system::{FirstOrderSystem, QuadratureSettings};
 use eigentol_statistics::reliability::{self, FormSettings, failure_regions};
 
 use super::design_point::DesignPoint;
 use super::requirements::{Limit, Requirements, least};
-use crate::algebra::Vector;
-use crate::judge::{Event, Judgement, Lines, Unjudged};
+use crate::algebra::{Vector, dot};
+use crate::judge::{Event, Judgement, Lines, Unjudged, distances};
 use crate::limits::{Deviations, Edge, LimitAt};
 use crate::response::Realisation;
-use crate::sensitivity::{Quantity, sensitivities};
-use crate::tolerance::first_order;
+use crate::sensitivity::Quantity;
 use crate::{Description, Error, Shared};
 
 /// A limit and its design points.
@@ -283,11 +283,7 @@ pub(crate) fn judge(
     deviations: &Deviations<'_>,
     found: &mut Reliability,
 ) -> Result<(), Error> {
-    let about = About {
-        requirements,
-        deviations,
-        worth: 0,
-    };
+    let about = About::new(requirements, deviations, 0);
     let all = about.judge_limits(found)?;
     found.judgement = match (&found.limits[..], &found.left_out[..]) {
         ([only], []) => only.judgement,
@@ -304,11 +300,7 @@ pub(super) fn judge_requirements(
     worth: u64,
     found: &mut Reliability,
 ) -> Result<Vec<(Judgement, bool)>, Error> {
-    let about = About {
-        requirements,
-        deviations: requirements.deviations(),
-        worth,
-    };
+    let about = About::new(requirements, requirements.deviations(), worth);
     let all = about.judge_limits(found)?;
     let count = requirements.wanted().len();
     let mut judgements = Vec::with_capacity(count + 1);
@@ -341,19 +333,39 @@ struct About<'a> {
     requirements: &'a Requirements<'a>,
     deviations: &'a Deviations<'a>,
     worth: u64,
+    /// Where modes lose their stability.
+    unstable: Vec<Direction>,
 }
 
-impl About<'_> {
+impl<'a> About<'a> {
+    fn new(requirements: &'a Requirements<'a>, deviations: &'a Deviations<'a>, worth: u64) -> Self {
+        Self {
+            requirements,
+            deviations,
+            worth,
+            unstable: ways_to_instability(requirements, deviations),
+        }
+    }
+
     /// Judges every limit; returns along which lines.
     fn judge_limits(&self, found: &mut Reliability) -> Result<Vec<Lines>, Error> {
         let mut all = Vec::new();
         let limits = self.requirements.limits();
         for (own, (place, limit)) in found.limits.iter_mut().zip(limits) {
-            let lines = Lines {
+            let mut lines = Lines {
                 worth: self.worth,
                 effort: EFFORT,
                 ..lines(self.requirements, self.deviations, place, own)
             };
+            if limit.response.of_state() {
+                let known = own.design_points.as_ref().is_ok_and(|all| !all.is_empty());
+                let farthest = if known {
+                    lines.farthest()
+                } else {
+                    f64::INFINITY
+                };
+                lines.directions.extend(self.unstable_within(farthest));
+            }
             own.judgement = self.event(&lines, &|found| {
                 let value = found.values.get(place).copied().flatten();
                 (limit.edge).distance_of(found.outcome, limit.response, value)
@@ -386,19 +398,25 @@ impl About<'_> {
     fn together<'l>(&self, all: impl Iterator<Item = &'l Lines>, stability: bool) -> Lines {
         let mut lines = Lines {
             directions: Vec::new(),
-            expected: 0.0,
             worth: self.worth,
             effort: EFFORT,
         };
         for own in all {
             lines.directions.extend(own.directions.iter().cloned());
-            lines.expected = lines.expected.max(own.expected);
         }
         if stability {
-            let ways = ways_to_instability(self.requirements, self.deviations);
-            lines.directions.extend(ways);
+            lines.directions.extend(self.unstable_within(f64::INFINITY));
         }
         lines
+    }
+
+    /// The directions in which stability is lost no less probably than within this distance.
+    fn unstable_within(&self, distance: f64) -> impl Iterator<Item = Direction> {
+        let ways = self
+            .unstable
+            .iter()
+            .filter(move |way| way.distance <= distance);
+        ways.cloned()
     }
 }
 
@@ -410,37 +428,32 @@ fn lines(
     own: &LimitReliability,
 ) -> Lines {
     let points = own.design_points.iter().flatten();
-    let directions: Vec<Vec<f64>> = points
-        .clone()
-        .map(|own| own.normal.direction.clone())
+    let directions: Vec<Direction> = points
+        .map(|own| Direction {
+            along: own.normal.direction.clone(),
+            distance: own.beta(),
+        })
         .collect();
     if !directions.is_empty() {
-        let farthest = points.map(|own| own.beta().abs());
         return Lines {
             directions,
-            expected: farthest.fold(0.0, f64::max),
             worth: 0,
             effort: 0.0,
         };
     }
     let limit = LimitAt::new(requirements.responses(), place, own.limit.edge, deviations);
     let origin = vec![0.0; deviations.dimension()];
-    match limit.by_design(&origin) {
-        Ok((_, slopes)) => Lines::along(deviations, &slopes, 0.0),
-        Err(_) => Lines::along(deviations, &origin, 0.0),
-    }
+    let (value, slopes) = limit.by_design(&origin).unwrap_or((0.0, origin.clone()));
+    let slope = deviations.gradient(&origin, &slopes);
+    Lines::along(deviations, &slopes, value / dot(&slope, &slope).sqrt())
 }
 
 /// Directions in which the least stable modes lose their stability.
 fn ways_to_instability(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
-) -> Vec<Vec<f64>> {
-    let responses = requirements.responses();
-    let (at, modes) = (responses.nominal(), responses.modes());
-    let first = sensitivities(responses.mechanism(), at, modes)
-        .and_then(|slopes| first_order(modes, &slopes, deviations.tolerances()));
-    let Ok(first) = first else {
+) -> Vec<Direction> {
+    let Ok(first) = distances(requirements.responses(), deviations.tolerances()) else {
         return Vec::new();
     };
     let mut ways = Vec::new();
@@ -454,6 +467,9 @@ fn ways_to_instability(
     ways.sort_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()));
     let origin = vec![0.0; deviations.dimension()];
     let ways = ways.iter().take(LEAST_STABLE);
-    ways.map(|(_, slopes)| deviations.gradient(&origin, slopes))
-        .collect()
+    ways.map(|(distance, slopes)| Direction {
+        along: deviations.gradient(&origin, slopes),
+        distance: *distance,
+    })
+    .collect()
 }

@@ -19,7 +19,7 @@ pub struct Dual<T> {
 
 impl<T: Real> Dual<T> {
     /// A value that is constant.
-    #[inline]
+    #[inline(always)]
     pub fn fixed(value: T) -> Self {
         Self {
             value,
@@ -36,7 +36,7 @@ impl<T: Real> Dual<T> {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn through(self, value: T, by_self: T) -> Self {
         Self {
             value,
@@ -47,7 +47,7 @@ impl<T: Real> Dual<T> {
 
 impl<T: Real> Add for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self {
             value: self.value + other.value,
@@ -58,7 +58,7 @@ impl<T: Real> Add for Dual<T> {
 
 impl<T: Real> Sub for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self {
             value: self.value - other.value,
@@ -69,7 +69,7 @@ impl<T: Real> Sub for Dual<T> {
 
 impl<T: Real> Mul for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self {
             value: self.value * other.value,
@@ -80,7 +80,7 @@ impl<T: Real> Mul for Dual<T> {
 
 impl<T: Real> Div for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         Self {
@@ -92,7 +92,7 @@ impl<T: Real> Div for Dual<T> {
 
 impl<T: Real> Neg for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self {
             value: -self.value,
@@ -102,16 +102,16 @@ impl<T: Real> Neg for Dual<T> {
 }
 
 impl<T: Real> Real for Dual<T> {
-    #[inline]
+    #[inline(always)]
     fn constant(value: f64) -> Self {
         Self::fixed(T::constant(value))
     }
-    #[inline]
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.through(root, T::constant(0.5) / root)
     }
-    #[inline]
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = self.value.sin_cos();
         (self.through(sine, cosine), self.through(cosine, -sine))

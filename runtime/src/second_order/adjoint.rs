@@ -46,15 +46,18 @@ impl<'a> Adjoint<'a> {
         changes: &mut [Gradient],
         w: &[f64],
         directions: &[Direction],
-        (shift, room): (&Matrix, &mut Gradient),
+        (shift, room): (&Matrix, &mut [Gradient]),
     ) {
         let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
         let still = Vector::zeros(q.len());
-        for (change, direction) in changes.iter_mut().zip(directions) {
+        let along = directions.iter().map(|direction| {
             let [dq, du, db] = direction.parts();
-            let direction = [dq, du, db, &still];
-            self.mechanism
-                .residual_gradient_along_into(q, u, b, w, direction, room);
+            [dq, du, db, &still]
+        });
+        let along: Vec<[&[f64]; 4]> = along.collect();
+        self.mechanism
+            .residual_gradients_along_into(q, u, b, w, &along, room);
+        for (change, room) in changes.iter_mut().zip(room) {
             subtract(change, room);
         }
         let right = Matrix::from_fn(q.len(), changes.len(), |i, j| changes[j].coordinates[i]);

@@ -322,26 +322,15 @@ impl<'a> AdjointGradient<'a> {
         let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let phi = mode.real_shape();
-        let mut room = Gradient::zeros(mechanism.sizes());
         let each = directions.iter().zip(moved).zip(rates);
-        let changes = each.map(|((direction, dphi), rate)| {
-            let mut change = Gradient::zeros(mechanism.sizes());
+        let along = each.map(|((direction, dphi), rate)| {
             let [dq, du, db] = direction.parts();
-            let direction = [dq, du, db, dphi];
-            let lambda = mode.lambda;
-            mechanism.mode_gradient_along_into(
-                q,
-                u,
-                b,
-                &phi,
-                lambda,
-                direction,
-                *rate,
-                &mut change,
-            );
-            change
+            ([dq, du, db, &**dphi], *rate)
         });
-        let mut changes: Vec<Gradient> = changes.collect();
+        let along: Vec<([&[f64]; 4], f64)> = along.collect();
+        let zeros = || vec![Gradient::zeros(mechanism.sizes()); along.len()];
+        let (mut changes, mut room) = (zeros(), zeros());
+        mechanism.mode_gradients_along_into(q, u, b, &phi, mode.lambda, &along, &mut changes);
         for w in &self.w {
             self.adjoint
                 .total_along_each(&mut changes, w, directions, (shift, &mut room));

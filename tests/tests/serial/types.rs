@@ -40,12 +40,13 @@ const NOT_WRITTEN: [(&str, &str); 32] = [
 ];
 
 /// The same list for the statistics crate.
-const STATISTICS_NOT_WRITTEN: [(&str, &str); 20] = [
+const STATISTICS_NOT_WRITTEN: [(&str, &str); 21] = [
     ("CompensatedSum", "a sum under way"),
     ("Cursor", "borrows its sequence"),
     ("DesignWalk", "borrows its design"),
     ("LimitFunction", "a function"),
     ("LimitFunctionWithHessian", "a function"),
+    ("LineSampler", "made from settings and directions"),
     ("Node", "borrows its rule"),
     ("Number", "written by hand"),
     ("Proposal", "made from design points, which are written"),

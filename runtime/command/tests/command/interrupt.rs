@@ -285,7 +285,10 @@ fn long_work_shows_how_far_it_is() {
             pendulum("report", &["--samples", "20000", "-o", &file]),
             "samples, values",
         ),
-        (pendulum("tolerance", &["-o", &file]), "samples"),
+        (
+            pendulum("tolerance", &["--result", "summary", "-o", &file]),
+            "samples",
+        ),
     ] {
         match on_a_terminal(&arguments) {
             Some(shown) => assert!(shown.contains(what), "{arguments:?}: {shown}"),

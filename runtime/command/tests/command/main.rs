@@ -13,6 +13,7 @@ mod mistakes;
 mod newcomer;
 mod outputs;
 mod parts;
+mod probability;
 mod program;
 mod readme;
 mod reports;

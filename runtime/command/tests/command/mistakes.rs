@@ -321,6 +321,39 @@ fn study_files_with_mistakes() {
 }
 
 #[test]
+fn requirements_in_words() {
+    refused(
+        &pendulum("probability", &[]),
+        2,
+        &["nothing is required", "--require", "[[require]]"],
+    );
+    for (text, parts) in [
+        (
+            "frequency 1",
+            &["`frequency 1` is not a requirement", "frequency 1 >= 20 Hz"][..],
+        ),
+        ("frequency one >= 4 rad/s", &["is not a requirement"]),
+        ("frequency 1 outside 4 rad/s", &["is not a requirement"]),
+        ("the frequency 1 >= 4 rad/s", &["is not a requirement"]),
+        ("frequency 0 >= 4 rad/s", &["counted from 1"]),
+        ("frequency 2 >= 4 rad/s", &["mode 2"]),
+        ("frequency 1 >= 4", &["has no unit"]),
+        ("frequency 1 >= 4 m", &["this is a length"]),
+        ("angel <= 5 deg", &["did you mean `angle`?"]),
+        ("critical omega >= 3 rad/s", &["`omega` is not a range"]),
+        ("stable >= 1", &["no output `stable`"]),
+    ] {
+        refused(&pendulum("probability", &["--require", text]), 2, parts);
+    }
+    let exact = ["--require", "stable", "--tol", "l=0%"];
+    refused(
+        &pendulum("probability", &exact),
+        2,
+        &["no tolerance is declared"],
+    );
+}
+
+#[test]
 fn no_equilibrium_is_an_answer() {
     // The upward force is at most 9 N, the weight 9.81 N.
     let heavy = "mechanism Heavy { gravity 9.81 m/s^2 along -z; body block: point(mass: 1 kg);

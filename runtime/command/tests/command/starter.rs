@@ -34,6 +34,7 @@ fn the_starter_project_builds() {
     assert!(output.status.success(), "{err}");
     let out = String::from_utf8_lossy(&output.stdout);
     assert!(out.contains("4.04212"), "{out}");
+    assert!(out.contains("probability of failure"), "{out}");
     let checked = run(&[
         "check",
         &project.join("pendulum.mechanism").display().to_string(),

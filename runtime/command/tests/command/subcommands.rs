@@ -433,6 +433,7 @@ fn every_subcommand_has_help_with_its_values() {
         "branches",
         "sample",
         "merge",
+        "probability",
         "allocate",
         "expand",
         "new",

@@ -3,6 +3,7 @@
 mod benchmarks;
 mod common;
 mod form;
+mod lines;
 mod random_limits;
 mod regions;
 mod sampling;

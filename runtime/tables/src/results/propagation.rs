@@ -68,6 +68,11 @@ impl Tables for Propagation {
         );
         table.numbers("share", "", each().map(|(_, own)| Some(own?.share)));
         table.texts("method", each().map(|_| Some(self.method.to_string())));
+        let doubts = self.doubts.iter().map(|own| {
+            let own: Vec<String> = own.iter().map(ToString::to_string).collect();
+            (!own.is_empty()).then(|| own.join(" "))
+        });
+        table.texts("doubts", doubts);
         operating_point(&mut table, d, &self.inputs, None);
         let mut tables = vec![table];
         let quantiles = || {

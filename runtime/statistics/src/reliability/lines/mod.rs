@@ -2,16 +2,20 @@
 //! Probabilistic Engineering Mechanics 19): samples are drawn across a direction, and the probability along it is
 //! computed, from every place where the limit state changes its sign.
 //!
-//! Each line gives an unbiased estimate, whatever its direction. A linear limit or a single variable takes one line; thin
-//! layers of failure, far regions and jumps cost no more than a plane.
+//! A linear limit or a single variable takes one line; thin layers of failure, far regions and jumps cost no more than a
+//! plane. The space is divided among the directions in which failure is expected and the variables, each of which answers
+//! for what lies farthest along it. So failures that nobody expected are found, and the sum is unbiased, whatever the
+//! directions.
 
+mod regions;
 mod scan;
 
 use super::limit_state::LimitState;
 use super::random::NormalSamples;
 use super::sampling::Estimate;
-use super::vector::{add_scaled, dot, unit};
+use super::vector::{add_scaled, dot};
 use crate::Error;
+use regions::Regions;
 
 /// Which lines to draw and when to stop.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,16 +45,35 @@ impl Default for LineSettings {
     }
 }
 
-/// Number of points at which a line is evaluated first; a single line bears the whole result and takes more.
-const POINTS: u64 = 33;
+/// A single line bears the whole result and takes this many points at first.
 const POINTS_OF_ONE: u64 = 257;
-/// Fewer lines say nothing about their scatter.
-const FEWEST: u64 = 32;
-/// The probability must come from at least as many lines as this, weighted by what they contribute.
+/// Standard deviations between the points of a line at first, and where nothing is expected.
+const SPACING: f64 = 0.5;
+const WIDE: f64 = 0.5;
+/// Fewer lines say nothing about their scatter: in all, and along a direction of several.
+const FEWEST: usize = 32;
+const FEWEST_OF_SEVERAL: usize = 12;
+/// Lines along a variable where nothing is expected.
+const FEWEST_EXPLORING: usize = 4;
+/// Lines drawn together in the region that needs them most.
+const MORE: usize = 8;
+/// The probability must come from at least as many lines as this, weighted by what they contribute, but for a share.
 const CONTRIBUTING: f64 = 10.0;
+const SHARE: f64 = 0.05;
 
-/// A line: the probabilities along it, given its position.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A direction in which failure is expected.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Direction {
+    /// The direction, of any length and either sign.
+    pub along: Vec<f64>,
+    /// Distance from the origin at which failure is expected, in standard deviations.
+    pub distance: f64,
+}
+
+/// A line: the probabilities along it within its region, given its position.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Line {
     /// Probability of failure.
     pub fails: f64,
@@ -78,22 +101,21 @@ pub struct LineProbability {
     pub evaluations: u64,
 }
 
-/// Draws lines, each of which depends only on seed, stream and its number.
+/// Draws lines, each of which depends only on seed, stream, its region and its number.
 ///
 /// A value of the limit state may be infinite: it then tells which side a point is on, but not how far it is from the
 /// limit.
 #[derive(Clone, Debug)]
 pub struct LineSampler {
     settings: LineSettings,
-    directions: Vec<Vec<f64>>,
     dimension: usize,
     /// The variables that matter.
     variables: Vec<usize>,
+    regions: Regions,
 }
 
 impl LineSampler {
-    /// Lines along each of these directions in turn, in those of the `dimension` variables of which the limit state is a
-    /// function; if no direction is given, along the variables.
+    /// Lines along these directions, in those of the `dimension` variables of which the limit state is a function.
     ///
     /// # Errors
     ///
@@ -101,7 +123,7 @@ impl LineSampler {
     pub fn new(
         dimension: usize,
         variables: &[usize],
-        directions: &[Vec<f64>],
+        directions: &[Direction],
         settings: &LineSettings,
     ) -> Result<Self, Error> {
         let wrong = |setting, reason: String| Err(Error::Setting { setting, reason });
@@ -119,44 +141,36 @@ impl LineSampler {
                 format!("{wished} is negative or not finite"),
             );
         }
-        let within = |direction: &Vec<f64>| {
-            let mut own = vec![0.0; dimension];
-            for &k in variables {
-                own[k] = *direction.get(k)?;
-            }
-            unit(&own)
-        };
-        let mut found: Vec<Vec<f64>> = directions.iter().filter_map(within).collect();
-        if found.is_empty() {
-            let axis = |k: &usize| {
-                let mut own = vec![0.0; dimension];
-                own[*k] = 1.0;
-                own
-            };
-            found = variables.iter().map(axis).collect();
-        }
         Ok(Self {
             settings: settings.clone(),
-            directions: found,
             dimension,
             variables: variables.to_vec(),
+            regions: Regions::new(dimension, variables, directions),
         })
     }
 
-    /// Line number `index` through a limit state.
-    pub fn line<L: LimitState>(&self, limit: &L, index: u64) -> Line {
+    fn alone(&self) -> bool {
+        self.variables.len() == 1
+    }
+
+    /// Number of regions into which the directions divide the space.
+    pub fn regions(&self) -> usize {
+        self.regions.count()
+    }
+
+    /// Line number `index` of a region through a limit state.
+    pub fn line<L: LimitState>(&self, limit: &L, region: usize, index: u64) -> Line {
         let LineSettings {
             seed,
             stream,
             reach,
-            evaluations,
             ..
         } = self.settings;
-        let direction = &self.directions[(index % self.directions.len() as u64) as usize];
+        let direction = self.regions.direction(region);
         let mut across = vec![0.0; self.dimension];
-        let alone = self.variables.len() == 1;
-        if !alone {
-            let mut samples = NormalSamples::new(seed, stream, index, self.variables.len());
+        if !self.alone() {
+            let number = index * self.regions() as u64 + region as u64;
+            let mut samples = NormalSamples::new(seed, stream, number, self.variables.len());
             for (k, z) in self.variables.iter().zip(samples.next_sample()) {
                 across[*k] = *z;
             }
@@ -167,49 +181,97 @@ impl LineSampler {
             let found = limit.value(&add_scaled(&across, s, direction));
             found.unwrap_or(f64::NAN)
         };
-        let points = match alone {
-            true => (evaluations / 2).clamp(POINTS, POINTS_OF_ONE),
-            false => POINTS,
+        let spacing = self.spacing(region);
+        let stretches = match self.alone() {
+            true => vec![(f64::NEG_INFINITY, f64::INFINITY)],
+            false => self.regions.stretches(region, &across).to_vec(),
         };
-        scan::scan(value, reach, points)
+        let mut line = Line::default();
+        for stretch in stretches {
+            let own = scan::scan(&value, stretch, reach, spacing);
+            line.fails += own.fails;
+            line.without_value += own.without_value;
+            line.evaluations += own.evaluations;
+        }
+        line
     }
 
-    /// The estimate from lines.
-    pub fn estimate(&self, lines: &[Line]) -> LineProbability {
-        let mean = |of: fn(&Line) -> f64| {
-            let n = lines.len() as f64;
-            let value = lines.iter().map(of).sum::<f64>() / n;
-            let squares = lines.iter().map(|line| (of(line) - value).powi(2));
-            let variance = squares.sum::<f64>() / (n - 1.0).max(1.0);
+    /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.
+    fn spacing(&self, region: usize) -> f64 {
+        if self.alone() {
+            let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
+            return 2.0 * self.settings.reach / (points - 1) as f64;
+        }
+        match region < self.regions.expected() {
+            true => SPACING,
+            false => WIDE,
+        }
+    }
+
+    /// The estimate from lines of each region.
+    pub fn estimate(&self, lines: &[Vec<Line>]) -> LineProbability {
+        let all = |of: fn(&Line) -> f64| -> Estimate {
+            let each = lines.iter().map(|own| mean(own, of));
+            let (value, variance) = each.fold((0.0, 0.0), |(value, variance), own| {
+                (
+                    value + own.value,
+                    variance + own.standard_error * own.standard_error,
+                )
+            });
             Estimate {
                 value,
-                standard_error: (variance / n).sqrt(),
+                standard_error: variance.sqrt(),
             }
         };
-        let probability = mean(|line| line.fails);
-        let largest = lines
-            .iter()
-            .fold(0.0_f64, |most, line| most.max(line.fails));
-        let [sum, squares] = [1, 2].map(|power| {
-            let parts = lines.iter().map(|line| (line.fails / largest).powi(power));
-            parts.sum::<f64>()
-        });
+        let probability = all(|line| line.fails);
+        let uncertain = lines.iter().filter(|own| !contribute(own));
+        let uncertain: f64 = uncertain
+            .map(|own| mean(own, |line| line.fails).value)
+            .sum();
+        let count: usize = lines.iter().map(Vec::len).sum();
+        let enough = count >= FEWEST && lines.iter().all(|own| !own.is_empty());
+        let settled = self.alone()
+            || enough && probability.value > 0.0 && uncertain <= SHARE * probability.value;
         let wished = self.settings.coefficient_of_variation * probability.value;
-        let spread = lines.len() as u64 >= FEWEST && sum * sum >= CONTRIBUTING * squares;
-        let settled = self.variables.len() == 1 || spread;
         LineProbability {
             settled,
             reached: settled && probability.standard_error <= wished,
             probability,
-            without_value: mean(|line| line.without_value),
-            lines: lines.len() as u64,
-            evaluations: lines.iter().map(|line| line.evaluations).sum(),
+            without_value: all(|line| line.without_value),
+            lines: count as u64,
+            evaluations: evaluations(lines),
         }
     }
 
-    /// Whether further lines are worth drawing.
-    pub fn goes_on(&self, found: &LineProbability) -> bool {
-        !found.reached && found.evaluations < self.settings.evaluations
+    /// How many lines a region takes at first.
+    fn first(&self, region: usize) -> usize {
+        let (count, expected) = (self.regions(), self.regions.expected());
+        match region < expected {
+            _ if self.alone() => 1,
+            true if expected == 1 => FEWEST,
+            true => FEWEST_OF_SEVERAL,
+            false => (FEWEST / count).max(FEWEST_EXPLORING),
+        }
+    }
+
+    /// About how many evaluations the first lines take.
+    pub fn fewest(&self) -> u64 {
+        let across = 2.0 * self.settings.reach;
+        let of = |region: usize| self.first(region) as f64 * across / self.spacing(region);
+        (0..self.regions()).map(of).sum::<f64>() as u64
+    }
+
+    /// The region whose next lines reduce the variance most, for what they cost.
+    fn neediest(lines: &[Vec<Line>]) -> Option<usize> {
+        let need = |own: &Vec<Line>| {
+            let error = mean(own, |line| line.fails).standard_error;
+            let cost = evaluations(core::slice::from_ref(own)) as f64;
+            error / cost.sqrt()
+        };
+        let needs = lines.iter().map(need).enumerate();
+        let most = needs.max_by(|(_, a), (_, b)| a.total_cmp(b));
+        most.filter(|(_, need)| *need > 0.0)
+            .map(|(region, _)| region)
     }
 
     /// Draws lines until the target coefficient of variation or the number of evaluations is reached.
@@ -234,13 +296,64 @@ impl LineSampler {
     /// # Ok::<(), eigentol_statistics::Error>(())
     /// ```
     pub fn run<L: LimitState>(&self, limit: &L) -> LineProbability {
-        let mut lines = vec![self.line(limit, 0)];
+        let mut lines = vec![Vec::new(); self.regions()];
+        let draw = |lines: &mut Vec<Vec<Line>>, region: usize, count: usize| {
+            for _ in 0..count {
+                if evaluations(lines) < self.settings.evaluations {
+                    let index = lines[region].len() as u64;
+                    lines[region].push(self.line(limit, region, index));
+                }
+            }
+        };
+        for region in 0..self.regions() {
+            draw(&mut lines, region, self.first(region));
+        }
         loop {
             let found = self.estimate(&lines);
-            if !self.goes_on(&found) {
+            if found.reached || found.evaluations >= self.settings.evaluations || self.alone() {
                 return found;
             }
-            lines.push(self.line(limit, lines.len() as u64));
+            // Regions that have shown no failure yet take turns while nothing else helps.
+            let fewest = (0..lines.len()).min_by_key(|region| lines[*region].len());
+            let region = Self::neediest(&lines).or(fewest).unwrap_or(0);
+            draw(&mut lines, region, MORE);
         }
     }
+}
+
+/// Mean over lines.
+fn mean(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
+    if lines.is_empty() {
+        return Estimate {
+            value: 0.0,
+            standard_error: 0.0,
+        };
+    }
+    let n = lines.len() as f64;
+    let value = lines.iter().map(of).sum::<f64>() / n;
+    let squares = lines.iter().map(|line| (of(line) - value).powi(2));
+    let variance = squares.sum::<f64>() / (n - 1.0).max(1.0);
+    Estimate {
+        value,
+        standard_error: (variance / n).sqrt(),
+    }
+}
+
+/// Whether enough lines contribute for their scatter to be meaningful.
+fn contribute(lines: &[Line]) -> bool {
+    let largest = lines
+        .iter()
+        .fold(0.0_f64, |most, line| most.max(line.fails));
+    if largest == 0.0 {
+        return true;
+    }
+    let [sum, squares] = [1, 2].map(|power| {
+        let parts = lines.iter().map(|line| (line.fails / largest).powi(power));
+        parts.sum::<f64>()
+    });
+    sum * sum >= CONTRIBUTING * squares
+}
+
+fn evaluations(lines: &[Vec<Line>]) -> u64 {
+    lines.iter().flatten().map(|line| line.evaluations).sum()
 }

@@ -11,6 +11,8 @@ const NARROW: f64 = 1e-12;
 const NARROW_JUMP: f64 = 1e-7;
 /// A value that changes by less than this share of itself next to an extremum does not reach zero there.
 const FLAT: f64 = 0.2;
+/// Fewest intervals of a stretch.
+const FEWEST_STEPS: f64 = 2.0;
 /// Maximum number of steps towards an extremum.
 const STEPS: usize = 60;
 /// How far a secant is moved towards the middle, relative to the square of the width.
@@ -47,16 +49,25 @@ struct Scan<F> {
     evaluations: Cell<u64>,
 }
 
-/// The probabilities along a line with these values: evaluated first at a number of points up to `reach` on either side,
-/// beyond which nothing changes any more.
-pub(super) fn scan(value: impl Fn(f64) -> f64, reach: f64, points: u64) -> Line {
+/// The probabilities along a stretch of a line with these values: evaluated first at points of about this spacing, up to
+/// `reach` on either side, beyond which nothing changes any more.
+pub(super) fn scan(
+    value: impl Fn(f64) -> f64,
+    (from, to): (f64, f64),
+    reach: f64,
+    spacing: f64,
+) -> Line {
+    let (low, high) = (from.max(-reach), to.min(reach));
+    if low >= high {
+        return Line::default();
+    }
     let scan = Scan {
         value,
         evaluations: Cell::new(0),
     };
-    let half = (points / 2) as f64;
-    let grid = (0..=2 * (points / 2)).map(|k| scan.at(reach * (k as f64 - half) / half));
-    let grid: Vec<Point> = grid.collect();
+    let steps = ((high - low) / spacing).ceil().max(FEWEST_STEPS);
+    let place = |k: usize| low + (high - low) * (k as f64 / steps);
+    let grid: Vec<Point> = (0..=steps as usize).map(|k| scan.at(place(k))).collect();
     let mut points = Vec::with_capacity(grid.len());
     for (k, point) in grid.iter().enumerate() {
         points.push(*point);
@@ -65,11 +76,11 @@ pub(super) fn scan(value: impl Fn(f64) -> f64, reach: f64, points: u64) -> Line 
         }
     }
     points.sort_by(|a, b| a.s.total_cmp(&b.s));
-    let mut stretches = Stretches::from(points[0].side());
+    let mut stretches = Stretches::from(from, points[0].side());
     for pair in points.windows(2) {
         scan.between(pair[0], pair[1], 0, &mut stretches);
     }
-    stretches.enter(f64::INFINITY, Side::Safe);
+    stretches.enter(to, Side::Safe);
     Line {
         fails: stretches.fails,
         without_value: stretches.without_value,
@@ -155,9 +166,9 @@ struct Stretches {
 }
 
 impl Stretches {
-    fn from(side: Side) -> Self {
+    fn from(start: f64, side: Side) -> Self {
         Self {
-            start: f64::NEG_INFINITY,
+            start,
             side,
             fails: 0.0,
             without_value: 0.0,
@@ -183,8 +194,13 @@ impl Stretches {
 mod tests {
     use super::*;
 
+    fn everywhere(value: impl Fn(f64) -> f64, steps: u32) -> Line {
+        let all = (f64::NEG_INFINITY, f64::INFINITY);
+        scan(value, all, 8.0, 16.0 / f64::from(steps))
+    }
+
     fn fails(value: impl Fn(f64) -> f64) -> f64 {
-        scan(value, 8.0, 65).fails
+        everywhere(value, 64).fails
     }
 
     fn close(found: f64, expected: f64) {
@@ -230,7 +246,7 @@ mod tests {
             s if s < -2.0 => f64::NAN,
             s => s + 1.0,
         };
-        let line = scan(value, 8.0, 33);
+        let line = everywhere(value, 32);
         let of = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-5);
         of(line.without_value, cdf(-2.0));
         of(line.fails, cdf(-1.0) - cdf(-2.0));
@@ -239,21 +255,21 @@ mod tests {
             s if (1.0..1.1).contains(&s) => f64::NAN,
             s => 1.05 - s,
         };
-        let line = scan(value, 8.0, 33);
+        let line = everywhere(value, 32);
         of(line.without_value, cdf(1.1) - cdf(1.0));
         of(line.fails, cdf(-1.1));
     }
 
     #[test]
     fn a_value_that_stays_above_zero_costs_little() {
-        let line = scan(|s| 1e-3 + (s - 0.1).powi(2), 8.0, 33);
+        let line = everywhere(|s| 1e-3 + (s - 0.1).powi(2), 32);
         assert_eq!(line.fails, 0.0);
         assert!(line.evaluations < 33 + 25, "{}", line.evaluations);
     }
 
     #[test]
     fn a_crossing_takes_a_few_secants_and_a_jump_a_bisection() {
-        let cost = |value: &dyn Fn(f64) -> f64| scan(value, 8.0, 33).evaluations - 33;
+        let cost = |value: &dyn Fn(f64) -> f64| everywhere(value, 32).evaluations - 33;
         assert!(cost(&|s| 3.1 - s) <= 12);
         assert!(cost(&|s: f64| s.exp() - 9.0) <= 14);
         assert!(cost(&|s: f64| (s + 1.2).atan()) <= 14);

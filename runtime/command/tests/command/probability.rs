@@ -1,0 +1,190 @@
+//! Probabilities of failure, against the pendulum by hand: its square of the frequency is `O^2 - (1.5 g / (O l))^2`, and
+//! the length has a standard deviation of 10 mm.
+
+use crate::program::{PENDULUM, answer, examples, file, folder, pendulum, run};
+
+const SPEED: f64 = 5.0;
+
+/// Probability that the length is between these.
+fn length_between(low: f64, high: f64) -> f64 {
+    let reach = |l: f64| ((l - 1.0) / 0.01).clamp(-12.0, 12.0);
+    let (low, high) = (reach(low), reach(high));
+    let panels = 4000;
+    let step = (high - low) / f64::from(panels);
+    let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt();
+    let weight = |k: i32| match k {
+        0 => 1.0,
+        k if k == panels => 1.0,
+        k => f64::from(2 + 2 * (k % 2)),
+    };
+    let value = |k: i32| weight(k) * density(low + f64::from(k) * step);
+    (0..=panels).map(value).sum::<f64>() * step / 3.0
+}
+
+/// The length at which the pendulum has this frequency.
+fn length_at(frequency: f64) -> f64 {
+    1.5 * 9.81 / (SPEED * (SPEED * SPEED - frequency * frequency).sqrt())
+}
+
+/// The column of this name.
+fn column(table: &str, name: &str) -> Vec<String> {
+    let mut lines = table.lines().map(|line| line.split(','));
+    let place = lines.next().unwrap().position(|own| own == name).unwrap();
+    lines
+        .map(|mut line| line.nth(place).unwrap().to_owned())
+        .collect()
+}
+
+fn numbers(table: &str, name: &str) -> Vec<f64> {
+    let all = column(table, name);
+    all.iter().map(|text| text.parse().unwrap()).collect()
+}
+
+fn required<'a>(wanted: &'a str, more: &'a [&'a str]) -> Vec<&'a str> {
+    pendulum("probability", &[&["--require", wanted], more].concat())
+}
+
+#[test]
+fn requirements_in_words() {
+    let longest = |angle: f64| 1.5 * 9.81 / (SPEED * SPEED * angle.cos());
+    for (wanted, exact) in [
+        (
+            "frequency 1 >= 4 rad/s",
+            length_between(0.0, length_at(4.0)),
+        ),
+        (
+            "natural_frequency 1>=4rad/s",
+            length_between(0.0, length_at(4.0)),
+        ),
+        (
+            "frequency 1 <= 4.15 rad/s",
+            length_between(length_at(4.15), 9.0),
+        ),
+        (
+            "frequency 1 outside 4.08..4.1 rad/s",
+            length_between(length_at(4.08), length_at(4.1)),
+        ),
+        (
+            "frequency 1 within 3.95 rad/s..4.1 rad/s",
+            1.0 - length_between(length_at(3.95), length_at(4.1)),
+        ),
+        (
+            "angle <= 55 deg",
+            length_between(longest(55_f64.to_radians()), 9.0),
+        ),
+        // (1.5 g / l)^(1/2) falls below 3.8 rad/s.
+        (
+            "critical omega=0..8rad/s >= 3.8 rad/s",
+            length_between(1.5 * 9.81 / (3.8 * 3.8), 9.0),
+        ),
+        ("stable", 0.0),
+    ] {
+        let table = answer(&required(wanted, &["--csv"]));
+        let found = numbers(&table, "probability of failure");
+        // The requirement, and any.
+        assert_eq!(found.len(), 2, "{table}");
+        for (found, upper) in found.iter().zip(numbers(&table, "95 % to")) {
+            assert!(
+                (found - exact).abs() <= 1e-6 * exact + 1e-14,
+                "{wanted}: {found} {exact}"
+            );
+            assert!(
+                exact <= upper * (1.0 + 1e-6) + 1e-14,
+                "{wanted}: {upper} {exact}"
+            );
+        }
+    }
+}
+
+/// Beyond the critical length the pendulum hangs down; between, it has a frequency below any limit only within a thin
+/// layer. A design point that takes the layer for half of the space is not believed.
+#[test]
+fn the_method_is_chosen() {
+    let near = |speed: &str, more: &[&str]| {
+        let place = [
+            "probability",
+            PENDULUM,
+            "--set",
+            speed,
+            "--tol",
+            "l=10%",
+            "--require",
+            "frequency 1 >= 0.1 rad/s",
+        ];
+        answer(&[&place, more].concat())
+    };
+    let by = |table: &str| column(table, "found by")[0].clone();
+    assert_eq!(
+        by(&answer(&required("frequency 1 >= 4 rad/s", &["--csv"]))),
+        "design point"
+    );
+    assert_eq!(by(&near("omega=3.7rad/s", &["--csv"])), "lines");
+    // A length of one of three kinds.
+    let classes = [
+        "--tol",
+        "l=one of [0.9, 1.0, 1.1] m weighted [1, 2, 1]",
+        "--csv",
+    ];
+    let table = answer(&required("frequency 1 >= 4 rad/s", &classes));
+    assert_eq!(by(&table), "samples");
+    let [low, high] = ["95 % from", "95 % to"].map(|name| numbers(&table, name)[0]);
+    assert!(low < 0.25 && 0.25 < high && high - low < 0.04, "{table}");
+    let text = near("omega=3.7rad/s", &[]);
+    assert!(
+        text.contains("lines") && !text.contains("importance"),
+        "{text}"
+    );
+}
+
+#[test]
+fn every_form_and_every_result() {
+    let wanted = "frequency 1 >= 4 rad/s";
+    let json = answer(&required(wanted, &["--json"]));
+    for part in [
+        "\"kind\": \"probabilities of failure\"",
+        "\"95 % from\"",
+        "design points",
+    ] {
+        assert!(
+            json.replace("\":\"", "\": \"").contains(part),
+            "{part}: {json}"
+        );
+    }
+    let table = answer(&required(wanted, &["--csv", "--result", "reliability"]));
+    assert_eq!(column(&table, "verified"), ["true"]);
+    let text = answer(&required(wanted, &[]));
+    assert!(text.contains("1: frequency 1 at least 4 rad/s"), "{text}");
+}
+
+/// Requirements of a study file, of which one fails more often than is allowed, until the command line asks something
+/// else.
+#[test]
+fn a_study_file_says_how_much_is_allowed() {
+    let exact = length_between(0.0, length_at(4.0));
+    let study = |failure: f64| {
+        let text = format!(
+            "mechanism = {:?}\n[set]\nomega = \"5 rad/s\"\n[start]\ntheta = \"60 deg\"\n[[require]]\nmode = 1\n\
+             at_least = \"4 rad/s\"\nfailure = {failure}\n[[require]]\nstable = true\n",
+            examples().join(PENDULUM).display().to_string(),
+        );
+        file(&folder("allowed"), "study.toml", &text)
+    };
+    let found = run(&["probability", "--study", &study(1.1 * exact)]);
+    assert_eq!((found.code, found.err.as_str()), (0, ""));
+    let few = study(0.9 * exact);
+    let found = run(&["probability", "--study", &few, "--csv"]);
+    assert_eq!(found.code, 1, "{}", found.err);
+    assert!(
+        found
+            .err
+            .contains("requirement 1 fails with a probability of"),
+        "{}",
+        found.err
+    );
+    let values = numbers(&found.out, "probability of failure");
+    assert_eq!(values.len(), 3);
+    assert!((values[0] / exact - 1.0).abs() < 1e-6 && values[1] < 1e-14);
+    let other = ["--require", "frequency 1 >= 1 rad/s"];
+    let found = run(&[&["probability", "--study", &few], &other[..]].concat());
+    assert_eq!(found.code, 0, "{}", found.err);
+}

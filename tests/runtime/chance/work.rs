@@ -1,0 +1,381 @@
+//! What a result costs, counted in calls of kernels: it calls none of another result, and what belongs to all modes once.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use eigentol::clusters::clusters;
+use eigentol::kernels::{
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
+    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, PartialMatrices,
+    ResidualPartials, RestParts, Sizes, SummaryKernels,
+};
+use eigentol::scalar::{Batch, Instructions};
+use eigentol::second_order::second_order;
+use eigentol::sensitivity::sensitivities;
+use eigentol::summary::summary_within;
+use eigentol::tolerance::first_order;
+use eigentol::{Description, Matrix, Mechanism, PoseMargin, Shared, Study, Violation, mechanism};
+
+/// Kinds of kernels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// At one state, without derivatives along a direction.
+    Plain,
+    /// Derivatives of the matrices along a direction.
+    LinearAlong,
+    /// Derivatives of gradients along a direction.
+    GradientAlong,
+    /// Several states at once.
+    Batch,
+}
+
+/// Kernels that count their calls.
+struct Counting<'a> {
+    inner: &'a dyn SummaryKernels,
+    calls: [AtomicUsize; 4],
+}
+
+impl<'a> Counting<'a> {
+    fn new(inner: &'a dyn SummaryKernels) -> Self {
+        Self {
+            inner,
+            calls: Default::default(),
+        }
+    }
+
+    fn count(&self, kind: Kind) {
+        self.calls[kind as usize].fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// The calls since the last time, by kind.
+    fn taken(&self) -> [usize; 4] {
+        self.calls
+            .each_ref()
+            .map(|own| own.swap(0, Ordering::Relaxed))
+    }
+}
+
+impl Kernels for Counting<'_> {
+    fn description(&self) -> Shared<Description> {
+        self.inner.description()
+    }
+
+    fn sizes(&self) -> Sizes {
+        self.inner.sizes()
+    }
+
+    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
+        self.count(Kind::Plain);
+        self.inner.residual_into(q, u, b, residual);
+    }
+
+    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
+        self.count(Kind::Plain);
+        self.inner.residual_parts_into(q, u, b, parts);
+    }
+
+    fn residual_and_stiffness_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        residual: &mut [f64],
+        stiffness: &mut [f64],
+    ) {
+        self.count(Kind::Plain);
+        self.inner
+            .residual_and_stiffness_into(q, u, b, residual, stiffness);
+    }
+
+    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
+        self.count(Kind::Plain);
+        self.inner.linear_into(q, u, b, linear);
+    }
+
+    fn residual_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut ResidualPartials,
+    ) {
+        self.count(Kind::Plain);
+        self.inner.residual_partials_into(q, u, b, partials);
+    }
+
+    fn linear_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut PartialMatrices,
+    ) {
+        self.count(Kind::Plain);
+        self.inner.linear_partials_into(q, u, b, partials);
+    }
+
+    fn mode_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        gradient: &mut Gradient,
+    ) {
+        self.count(Kind::Plain);
+        self.inner
+            .mode_gradient_into(q, u, b, phi, lambda, gradient);
+    }
+
+    fn pencil_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        self.count(Kind::Plain);
+        self.inner.pencil_gradient_into(q, u, b, vectors, gradient);
+    }
+
+    fn residual_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        gradient: &mut Gradient,
+    ) {
+        self.count(Kind::Plain);
+        self.inner.residual_gradient_into(q, u, b, w, gradient);
+    }
+
+    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], re: &[f64], im: &[f64]) -> [f64; 2] {
+        self.inner.whirl(q, u, b, re, im)
+    }
+
+    fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
+        self.inner.violation(u, b)
+    }
+
+    fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool {
+        self.inner.possible_within(u, b, reach)
+    }
+
+    fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
+        self.inner.pose_margin(q, u, b)
+    }
+
+    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
+        self.count(Kind::Plain);
+        self.inner.outputs_into(q, u, b, outputs);
+    }
+
+    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
+        self.count(Kind::Plain);
+        self.inner.output_partials_into(q, u, b, partials);
+    }
+}
+
+impl DirectionalKernels for Counting<'_> {
+    fn linear_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        linear: &mut Linear,
+    ) {
+        self.count(Kind::LinearAlong);
+        self.inner.linear_along_into(q, u, b, direction, linear);
+    }
+
+    fn residual_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        direction: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        self.count(Kind::GradientAlong);
+        self.inner
+            .residual_gradient_along_into(q, u, b, w, direction, gradient);
+    }
+}
+
+impl CurvatureKernels for Counting<'_> {
+    fn mode_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        direction: [&[f64]; 4],
+        dlambda: f64,
+        gradient: &mut Gradient,
+    ) {
+        self.count(Kind::GradientAlong);
+        self.inner
+            .mode_gradient_along_into(q, u, b, phi, lambda, direction, dlambda, gradient);
+    }
+
+    fn pencil_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        direction: [&[f64]; 3],
+        changes: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        self.count(Kind::GradientAlong);
+        self.inner
+            .pencil_gradient_along_into(q, u, b, vectors, direction, changes, gradient);
+    }
+
+    fn output_partials_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        partials: [&mut Matrix; 3],
+    ) {
+        self.count(Kind::GradientAlong);
+        self.inner
+            .output_partials_along_into(q, u, b, direction, partials);
+    }
+}
+
+impl BatchKernels for Counting<'_> {
+    fn residual_and_stiffness_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        residual: &mut [Batch],
+        stiffness: &mut [Batch],
+    ) {
+        self.count(Kind::Batch);
+        self.inner
+            .residual_and_stiffness_batch(instructions, at, residual, stiffness);
+    }
+
+    fn linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        linear: &mut BatchLinear<'_>,
+    ) {
+        self.count(Kind::Batch);
+        self.inner.linear_batch(instructions, at, linear);
+    }
+
+    fn parts_and_linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        parts: &mut BatchParts<'_>,
+        linear: &mut BatchLinear<'_>,
+    ) {
+        self.count(Kind::Batch);
+        self.inner
+            .parts_and_linear_batch(instructions, at, parts, linear);
+    }
+
+    fn partials_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        matrices: &mut BatchPartials<'_>,
+        residual: [&mut [Batch]; 2],
+    ) {
+        self.count(Kind::Batch);
+        self.inner
+            .partials_batch(instructions, at, matrices, residual);
+    }
+
+    fn mode_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        phi: &[Batch],
+        lambda: &Batch,
+        gradient: &mut BatchGradient<'_>,
+    ) {
+        self.count(Kind::Batch);
+        self.inner
+            .mode_gradient_batch(instructions, at, phi, lambda, gradient);
+    }
+
+    fn residual_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        w: &[Batch],
+        gradient: &mut BatchGradient<'_>,
+    ) {
+        self.count(Kind::Batch);
+        self.inner
+            .residual_gradient_batch(instructions, at, w, gradient);
+    }
+}
+
+mechanism! {
+    mechanism Three {
+        input omega: rad/s;
+        design l1 = 1.0 m +/- 1%;
+        design l2 = 0.8 m +/- 1%;
+        design l3 = 0.6 m +/- 1%;
+        design m = 2.0 kg +/- 1%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar1: rod(mass: m, length: l1, along: -z);
+        body bar2: rod(mass: m, length: l2, along: -z);
+        body bar3: rod(mass: m, length: l3, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint q1: revolute(y) from shaft to bar1;
+        joint q2: revolute(y) from bar1 to bar2 at [0, 0, -l1];
+        joint q3: revolute(y) from bar2 to bar3 at [0, 0, -l2];
+        output reach = l1 * sin(q1);
+    }
+}
+
+fn solved<M: Mechanism>(study: &Study<M>) -> (eigentol::Equilibrium, eigentol::Modes) {
+    let solved = study.solve().unwrap();
+    (solved.equilibrium.clone(), solved.modes.clone())
+}
+
+#[test]
+fn a_result_calls_no_kernel_of_another() {
+    let study = Study::new(Three).input(Three::omega, 1.0);
+    let (at, modes) = solved(&study);
+    let tolerances = study.tolerances().unwrap();
+    let counting = Counting::new(&Three);
+    let slopes = sensitivities(&counting, &at, &modes).unwrap();
+    let _ = first_order(&modes, &slopes, &tolerances).unwrap();
+    let [plain, linear, gradient, batch] = counting.taken();
+    assert!(plain > 0 && plain <= 2 + modes.modes.len() + 1, "{plain}");
+    assert_eq!([linear, gradient, batch], [0; 3]);
+    // Clusters: the matrices along each design variable once, nothing of second order, no samples of the machine.
+    let found = clusters(&counting, &at, &modes, &tolerances).unwrap();
+    assert!(found.is_empty());
+    let [_, linear, gradient, batch] = counting.taken();
+    assert_eq!([linear, gradient, batch], [at.design.len(), 0, 0]);
+    // Second order: the matrices along each variable once for all modes, and two gradients for each of both.
+    let _ = second_order(&counting, &at, &modes, &tolerances);
+    let [_, linear, gradient, batch] = counting.taken();
+    let variables = at.design.len() + at.inputs.len();
+    assert_eq!(linear, variables);
+    assert_eq!(gradient, 2 * variables * modes.modes.len());
+    assert_eq!(batch, 0);
+    // Without a budget for samples, a summary is these and nothing else.
+    let _ = summary_within(&counting, &at, &modes, &tolerances, 0.0).unwrap();
+    let [_, linear, gradient, batch] = counting.taken();
+    assert_eq!(linear, variables + at.design.len());
+    assert_eq!((gradient, batch), (2 * variables * modes.modes.len(), 0));
+}
