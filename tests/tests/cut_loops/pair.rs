@@ -67,11 +67,11 @@ impl Compiled {
     }
 }
 
-/// `None` if a coordinate has no resistance.
+/// `None` if nothing balances a load.
 fn resisted(text: &str) -> Option<Compiled> {
     Compiled::new(text)
         .inspect_err(|mistakes| {
-            let unresisted = |mistake: &String| mistake.starts_with("nothing resists");
+            let unresisted = |mistake: &String| mistake.ends_with("which nothing holds");
             assert!(mistakes.iter().all(unresisted), "{mistakes:?}\n{text}");
         })
         .ok()
@@ -90,8 +90,7 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
-    /// `None` if no joint can be cut this way, or if a coordinate has no resistance without the forces on the cut
-    /// joint.
+    /// `None` if no joint can be cut this way, or if nothing balances a load without the forces on the cut joint.
     pub(crate) fn new(plan: Plan, closing: Closing) -> Option<Self> {
         let mut random = Random::new(plan.seed);
         let tree = plan.model();

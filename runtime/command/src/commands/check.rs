@@ -13,8 +13,8 @@ use crate::failure::{Failure, plural};
 use crate::place::print;
 use crate::verdict::Verdict;
 
-/// Check declarations: every mistake with its line and column, or what they declare and which design variables are
-/// unused
+/// Check declarations: every mistake with its line and column, or what they declare, which design variables are unused,
+/// and in which directions nothing holds the mechanism
 #[derive(Args, Debug)]
 pub(crate) struct Check {
     /// Files with one declaration each, `-` for standard input
@@ -32,6 +32,9 @@ impl Check {
             }
             let found = summary(&description(&compilation));
             print(&format!("{}: {found}\n", declaration.name))?;
+            for note in &compilation.functions.free.notes {
+                print(&format!("  {note}\n"))?;
+            }
         }
         Ok(Verdict::Yes)
     }

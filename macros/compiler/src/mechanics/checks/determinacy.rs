@@ -6,6 +6,8 @@ use crate::base::ids::{CoordinateId, ExprId};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 
+use super::listed;
+
 /// Rejects a mechanism with a singular mass matrix, with a coasting coordinate whose speed nothing determines, or with a
 /// constraint that no coordinate affects. If only the kernels are wanted, only the last is an error; for the others, and
 /// for coordinates that nothing resists, the coordinates are returned.
@@ -84,15 +86,6 @@ pub(crate) fn require_determinate_motion(
         }
     }
     diagnostics.into_result(undetermined)
-}
-
-/// `a`, `b` and `c`.
-fn listed(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [only] => only.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
 }
 
 /// A motion of free and coasting coordinates that moves no mass at any probed state: the coordinates that change, each

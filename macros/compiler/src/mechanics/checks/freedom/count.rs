@@ -68,7 +68,7 @@ fn by_symmetry(system: &System, design: u64) -> Option<Count> {
     })
 }
 
-fn at_random(system: &System, design: u64, friction: Friction) -> Option<Linearised> {
+pub(super) fn at_random(system: &System, design: u64, friction: Friction) -> Option<Linearised> {
     (101..140).find_map(|motion| system.at(RandomState { design, motion }, friction))
 }
 

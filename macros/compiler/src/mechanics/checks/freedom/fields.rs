@@ -3,13 +3,14 @@
 //! A coordinate alone is one, `zeta = e_i`. Others are motions of space, as far as the joints between the ground and a
 //! body allow them: with `J` the derivatives of the body's twist about the ground's origin by the rates of these
 //! coordinates, `J zeta = xi` for a constant twist `xi`. Everything that the body carries moves with it. The derivatives
-//! of the field follow from `dJ zeta + J dzeta = 0`.
+//! of the field follow from `dJ zeta + J dzeta = dxi`. A ball that rolls may also spin about its own centre `c`, with the
+//! twist `(omega, c x omega)`.
 
 use crate::algebra::{Disturbed, Graph};
 use crate::base::ids::{BodyId, ExprId};
 use crate::mechanics::motion::{Kinematics, StepAxis, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, by_symbol};
-use crate::model::mechanism::Frame;
+use crate::model::mechanism::{ConstraintLaw, Frame};
 
 /// Number of independent motions of space: three rotations, three translations.
 pub(super) const RIGID: usize = 6;
@@ -33,6 +34,18 @@ pub(super) struct Carrier {
     twists: Vec<Twist<ExprId>>,
     /// `slopes[i][k]`: derivative of `twists[k]` by coordinate `i`.
     slopes: Vec<Vec<Twist<ExprId>>>,
+    /// Centre of a ball that rolls, and its derivative by each coordinate.
+    centers: Vec<[ExprId; 3]>,
+}
+
+impl Carrier {
+    /// Number of candidates: the motions of space, and the spins of a ball.
+    pub(super) fn len(&self) -> usize {
+        match self.centers.is_empty() {
+            true => RIGID,
+            false => RIGID + 3,
+        }
+    }
 }
 
 impl Fields {
@@ -67,54 +80,82 @@ impl Fields {
 
     /// Number of candidates.
     pub(super) fn len(&self) -> usize {
-        self.free + RIGID * self.carriers.len()
+        self.free + self.carriers.iter().map(Carrier::len).sum::<usize>()
     }
 
     /// The expressions that [`Self::at`] reads.
     pub(super) fn roots(&self) -> Vec<ExprId> {
         let all = self.carriers.iter().flat_map(|carrier| {
             let slopes = carrier.slopes.iter().flatten();
-            carrier.twists.iter().chain(slopes)
+            let twists = carrier.twists.iter().chain(slopes).flatten();
+            twists.chain(carrier.centers.iter().flatten())
         });
-        all.flatten().copied().collect()
+        all.copied().collect()
     }
 
     /// The candidates at a state, from the values of the expressions.
-    pub(super) fn at(&self, values: &[Disturbed], operations: usize) -> Vec<Field> {
+    pub(super) fn at(&self, mut values: &[Disturbed], operations: usize) -> Vec<Field> {
+        let mut next = |count: usize| {
+            let (own, rest) = values.split_at(count);
+            values = rest;
+            own
+        };
         let mut fields: Vec<Field> = (0..self.free).map(Field::unit).collect();
-        let mut values = values.chunks_exact(RIGID);
-        let mut next =
-            |count: usize| -> Vec<&[Disturbed]> { values.by_ref().take(count).collect() };
         for carrier in &self.carriers {
             let n = carrier.coordinates.len();
-            let (twists, slopes) = (next(n), next(n * n));
+            let twists: Vec<&[Disturbed]> = next(n * RIGID).chunks_exact(RIGID).collect();
+            let slopes: Vec<&[Disturbed]> = next(n * n * RIGID).chunks_exact(RIGID).collect();
+            let centers: Vec<&[Disturbed]> = next(3 * carrier.centers.len()).chunks(3).collect();
             let inverse = Inverse::new(&twists, operations);
-            for component in 0..RIGID {
-                let mut wanted = [Disturbed::exact(0.0); RIGID];
-                wanted[component] = Disturbed::exact(1.0);
+            for component in 0..carrier.len() {
+                let wanted = wanted(component, &centers, n);
                 let Some(inverse) = &inverse else {
                     // coordinates that do the same
-                    fields.push(Field::impossible(wanted));
+                    fields.push(Field::impossible(wanted[0]));
                     continue;
                 };
-                let rates = inverse.times(&wanted);
-                let reached = combined(&twists, &rates);
-                let missed = wanted.iter().zip(reached);
-                let slopes = slopes.chunks_exact(n).map(|slopes| {
-                    let change = combined(slopes, &rates);
-                    let rates = inverse.times(&change).into_iter();
-                    rates.map(|rate| -rate).collect()
-                });
+                let rates = inverse.times(&wanted[0]);
+                let missed = difference(&wanted[0], &combined(&twists, &rates));
+                let slopes = slopes
+                    .chunks_exact(n)
+                    .zip(&wanted[1..])
+                    .map(|(slopes, wanted)| {
+                        let change = combined(slopes, &rates);
+                        inverse.times(&difference(wanted, &change))
+                    });
                 fields.push(Field {
                     slopes: slopes.collect(),
                     coordinates: carrier.coordinates.clone(),
-                    missed: missed.map(|(&wanted, reached)| wanted - reached).collect(),
+                    missed: missed.into(),
                     rates,
                 });
             }
         }
         fields
     }
+}
+
+/// The twist of a candidate, and its derivatives by `n` coordinates.
+fn wanted(component: usize, centers: &[&[Disturbed]], n: usize) -> Vec<Twist<Disturbed>> {
+    let zero = Disturbed::exact(0.0);
+    let mut twists = vec![[zero; RIGID]; 1 + n];
+    match component.checked_sub(RIGID) {
+        None => twists[0][component] = Disturbed::exact(1.0),
+        Some(axis) => {
+            twists[0][axis] = Disturbed::exact(1.0);
+            let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+            for (twist, center) in twists.iter_mut().zip(centers) {
+                // c x e_axis
+                twist[3 + next] = center[last];
+                twist[3 + last] = -center[next];
+            }
+        }
+    }
+    twists
+}
+
+fn difference(a: &Twist<Disturbed>, b: &Twist<Disturbed>) -> Twist<Disturbed> {
+    std::array::from_fn(|k| a[k] - b[k])
 }
 
 impl Carrier {
@@ -146,9 +187,28 @@ impl Carrier {
                 .map(|twist| std::array::from_fn(|k| twist[k]))
                 .collect()
         });
+        let slopes = slopes.collect();
+        let wheel = context.mechanism.constraints.iter().find_map(|constraint| {
+            let ConstraintLaw::Rolling {
+                wheel, axis: None, ..
+            } = &constraint.law
+            else {
+                return None;
+            };
+            let own = context.mechanism.points[wheel.index()].frame == Frame::Body(body);
+            own.then_some(*wheel)
+        });
+        let centers = wheel.map_or(Vec::new(), |wheel| {
+            let center = kinematics.points[wheel.index()].position.0;
+            let ids = path.iter().map(|(place, ..)| context.symbols.q.ids[*place]);
+            let slopes = ids.map(|id| by_symbol(g, &center, id));
+            let slopes = slopes.map(|slope| std::array::from_fn(|k| slope[k]));
+            std::iter::once(center).chain(slopes).collect()
+        });
         Self {
             body,
-            slopes: slopes.collect(),
+            slopes,
+            centers,
             coordinates: path.iter().map(|(place, ..)| *place).collect(),
             twists,
         }
@@ -200,18 +260,17 @@ impl<'a> Inverse<'a> {
             .map(|i| (0..n).map(|j| product(twists[i], twists[j])).collect())
             .collect();
         for k in 0..n {
-            let pivot = factors[k][k];
-            if pivot.is_rounding(operations) {
+            let (above, below) = factors.split_at_mut(k + 1);
+            let row = &above[k];
+            if row[k].is_rounding(operations) {
                 return None;
             }
-            for i in k + 1..n {
-                let factor = factors[i][k] / pivot;
-                for j in k + 1..=i {
-                    factors[i][j] = factors[i][j] - factor * factors[j][k];
+            for other in below {
+                let factor = other[k] / row[k];
+                for (entry, &above) in other.iter_mut().zip(row).skip(k + 1) {
+                    *entry = *entry - factor * above;
                 }
-            }
-            for row in &mut factors[k + 1..] {
-                row[k] = row[k] / pivot;
+                other[k] = factor;
             }
         }
         Some(Self { twists, factors })

@@ -1,1 +1,165 @@
+//! Loads along free directions. Where the work along a direction is the same everywhere and not zero, nothing balances it.
 
+use crate::algebra::{Graph, NullSpace};
+use crate::base::diagnostics::Diagnostic;
+use crate::base::ids::{ExprId, ForceId};
+use crate::base::span::Extent;
+use crate::mechanics::equations::Residual;
+use crate::mechanics::motion::in_common_frame_at_zero;
+use crate::mechanics::setup::{Context, ForceSelection, RandomState, Selection, at_rest};
+use crate::model::mechanism::Force;
+
+use super::count::{at_random, rates};
+use super::state::{Friction, System};
+use super::symmetry::{Combinations, conserved, powers};
+use super::words::{Direction, exact, independent, readable};
+use crate::mechanics::checks::listed;
+
+/// The directions along which the loads of a design do not balance: those along which they do the same work everywhere.
+/// Loads that follow a free motion do not; then the mechanism rests nowhere if it cannot be brought to rest.
+pub(super) fn unbalanced(
+    system: &System,
+    design: u64,
+    symmetries: &Combinations,
+    friction: Friction,
+) -> Vec<Vec<f64>> {
+    let Some(state) = at_random(system, design, friction) else {
+        return Vec::new();
+    };
+    let conserved = conserved(system, design, friction);
+    let loaded = |combinations: &Combinations| {
+        let mut directions = readable(system, combinations, state.operations);
+        let along: Vec<_> = directions.iter().map(|own| exact(own)).collect();
+        let powers = powers(&state, &along, &state.residual, system.fields.free);
+        let mut works = powers
+            .iter()
+            .map(|power| !power.is_rounding(state.operations));
+        directions.retain(|_| works.next() == Some(true));
+        independent(system, &state, directions)
+    };
+    let everywhere = loaded(&conserved);
+    let dimension = |of: &Combinations| {
+        let motions = rates(system, &state, of);
+        of.len() - NullSpace::new(motions, 0, state.operations).vectors.len()
+    };
+    let rolls = system.first_of_velocities() < system.size();
+    if !everywhere.is_empty() || rolls || dimension(&conserved) >= dimension(symmetries) {
+        return everywhere;
+    }
+    match system.at_equilibrium(design) {
+        Some(_) => Vec::new(),
+        None => loaded(symmetries),
+    }
+}
+
+/// A cause of load.
+pub(super) enum Cause<'a> {
+    Force(&'a Force),
+    Gravity,
+    Inertia,
+}
+
+impl Cause<'_> {
+    fn text(&self) -> String {
+        match self {
+            Self::Force(force) => format!("`{}`", force.name),
+            Self::Gravity => "gravity".to_owned(),
+            Self::Inertia => "the motion of the drives".to_owned(),
+        }
+    }
+}
+
+/// Every cause of load, with its part of the equations at rest.
+pub(super) fn causes<'a>(g: &mut Graph, context: &Context<'a>) -> Vec<(Cause<'a>, Vec<ExprId>)> {
+    let none = ForceSelection {
+        inertia: Selection::None,
+        forces: Selection::None,
+        gravity: false,
+        constraints: false,
+    };
+    let gravity = ForceSelection {
+        gravity: true,
+        ..none
+    };
+    let mut causes = vec![
+        (Cause::Gravity, gravity),
+        (Cause::Inertia, ForceSelection::INERTIA),
+    ];
+    for (index, force) in context.mechanism.forces.iter().enumerate() {
+        let forces = Selection::One(ForceId::new(index));
+        causes.push((Cause::Force(force), ForceSelection { forces, ..none }));
+    }
+    let running = vec![g.zero(); context.symbols.running.ids.len()];
+    let kinematics = in_common_frame_at_zero(g, context);
+    let part = |(cause, selection): (Cause<'a>, ForceSelection)| {
+        let part = Residual::new(g, context, &running, &kinematics, selection).total(g, context);
+        (cause, at_rest(g, context.symbols, &part))
+    };
+    causes.into_iter().map(part).collect()
+}
+
+/// The mistakes of loads along directions that nothing holds: one for all directions of the same loads.
+pub(super) fn mistakes(
+    system: &System,
+    design: u64,
+    directions: Vec<(Vec<f64>, Direction)>,
+    causes: &[(Cause, Vec<ExprId>)],
+) -> Vec<Diagnostic> {
+    let mut groups: Vec<(Vec<usize>, Vec<Direction>)> = Vec::new();
+    for (along, direction) in directions {
+        let loads = acting(system, design, &along, causes);
+        match groups.iter_mut().find(|(others, _)| *others == loads) {
+            Some((_, directions)) => directions.push(direction),
+            None => groups.push((loads, vec![direction])),
+        }
+    }
+    let group = |(loads, directions): (Vec<usize>, Vec<Direction>)| {
+        let loads: Vec<&Cause> = loads.into_iter().map(|k| &causes[k].0).collect();
+        mistake(&loads, &directions)
+    };
+    groups.into_iter().map(group).collect()
+}
+
+/// The causes that do work along a direction.
+fn acting(
+    system: &System,
+    design: u64,
+    along: &[f64],
+    causes: &[(Cause, Vec<ExprId>)],
+) -> Vec<usize> {
+    let state = RandomState { design, motion: 1 };
+    let along = vec![exact(along)];
+    let Some(place) = system.at(state, Friction::None) else {
+        return Vec::new();
+    };
+    let works = |k: &usize| {
+        let (part, operations) = system.values(&causes[*k].1, state);
+        let power = powers(&place, &along, &part, system.fields.free);
+        power.iter().any(|power| !power.is_rounding(operations))
+    };
+    (0..causes.len()).filter(works).collect()
+}
+
+fn mistake(loads: &[&Cause], directions: &[Direction]) -> Diagnostic {
+    let span = loads.iter().find_map(|load| match load {
+        Cause::Force(force) => Some(Extent::from(force.name.span())),
+        Cause::Gravity | Cause::Inertia => None,
+    });
+    let names: Vec<String> = match loads {
+        [] => vec!["a load".to_owned()],
+        loads => loads.iter().map(|load| load.text()).collect(),
+    };
+    let along: Vec<String> = directions.iter().map(|own| own.text.clone()).collect();
+    let verb = if names.len() == 1 { "acts" } else { "act" };
+    let message = format!(
+        "{} {verb} along {}, which nothing holds",
+        listed(&names),
+        listed(&along)
+    );
+    let balance = match names.len() {
+        1 => "drive it, or let it coast against a drag",
+        _ => "drive it, let it coast against a drag, or make one load a function of the others",
+    };
+    Diagnostic::new(span.unwrap_or(directions[0].span), message)
+        .with_help(format!("hold it by a spring, {balance}"))
+}

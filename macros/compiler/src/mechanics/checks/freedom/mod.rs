@@ -14,14 +14,20 @@ mod words;
 
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
+use crate::mechanics::checks::listed;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::FreeDirections;
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::Context;
 
-use count::count;
+use count::{Proof, at_random, count};
 use fields::Fields;
-use state::System;
+use loads::{causes, mistakes, unbalanced};
+use state::{Friction, System};
+use words::{described, note};
+
+/// The nominal design.
+const NOMINAL: u64 = 0;
 
 /// Random designs that must agree.
 const DESIGNS: u64 = 3;
@@ -33,21 +39,58 @@ pub(crate) fn free_directions(
     equations: &Equations,
     jacobians: &Jacobians,
 ) -> Result<FreeDirections, Diagnostics> {
-    let mut diagnostics = Diagnostics::new();
     let fields = Fields::new(g, context);
     let system = System::new(g, context, equations, jacobians, &fields);
-    let mut directions = None;
+    let mut least = usize::MAX;
     for design in 1..=DESIGNS {
-        let own = count(&system, design).map_or(0, |count| count.directions);
-        directions = Some(directions.map_or(own, |least: usize| least.min(own)));
-        if directions == Some(0) {
-            break;
+        least = least.min(count(&system, design).map_or(0, |count| count.directions));
+        if least == 0 {
+            return Ok(FreeDirections::default());
         }
     }
-    let directions = directions.unwrap_or(0);
-    let mut found = FreeDirections {
-        count: directions,
+    let mut free = FreeDirections {
+        count: least,
         notes: Vec::new(),
     };
-    diagnostics.into_result(found)
+    let (Some(nominal), Some(state)) = (
+        count(&system, NOMINAL),
+        at_random(&system, NOMINAL, Friction::Any),
+    ) else {
+        return Ok(free);
+    };
+    if nominal.directions == least {
+        free.notes.push(note(&system, &nominal, &state));
+    }
+    let (symmetries, friction) = match nominal.proof {
+        Proof::AtZero(_) => (Vec::new(), Friction::Any),
+        Proof::Symmetries(symmetries, friction) => (symmetries, friction),
+    };
+    let loaded = unbalanced(&system, NOMINAL, &symmetries, friction);
+    if loaded.is_empty() {
+        let elsewhere = unbalanced(&system, 1, &symmetries, friction);
+        let text = |along: &Vec<f64>| described(context, &fields, along).text;
+        let texts: Vec<String> = elsewhere.iter().map(text).collect();
+        if !texts.is_empty() {
+            free.notes.push(format!(
+                "the loads along {} balance at the nominal design only; there is no equilibrium beside it",
+                listed(&texts)
+            ));
+        }
+        return Ok(free);
+    }
+    if context.mechanism.kernels_only {
+        return Ok(free);
+    }
+    let causes = causes(g, context);
+    let system = System::new(g, context, equations, jacobians, &fields);
+    let named = |along: Vec<f64>| {
+        let direction = described(context, &fields, &along);
+        (along, direction)
+    };
+    let directions = loaded.into_iter().map(named).collect();
+    let mut diagnostics = Diagnostics::new();
+    for mistake in mistakes(&system, NOMINAL, directions, &causes) {
+        diagnostics.push(mistake);
+    }
+    diagnostics.into_result(free)
 }

@@ -29,6 +29,13 @@ pub(super) struct Linearised {
     pub(super) operations: usize,
 }
 
+/// Values of the first unknowns, found by iteration, and what that leaves uncertain.
+#[derive(Default)]
+struct Place {
+    values: Vec<f64>,
+    rounding: Vec<f64>,
+}
+
 /// The reactions of constraints on velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Friction {
@@ -82,21 +89,26 @@ impl<'a> System<'a> {
         self.linearised(&values, evaluator.operations())
     }
 
+    /// Values of other expressions at a random state, and the number of operations behind them.
+    pub(super) fn values(&self, roots: &[ExprId], state: RandomState) -> (Vec<Disturbed>, usize) {
+        let place = self.place(state);
+        let evaluator = Evaluator::new(self.g, roots);
+        let values = evaluator.at(state.motion, |symbol| self.found(&place, state, symbol));
+        (values, evaluator.operations())
+    }
+
     /// Linearises where all coordinates are zero; `None` unless this is an equilibrium with some speeds and reactions.
     pub(super) fn at_zero(&self, design: u64) -> Option<Linearised> {
         let state = RandomState { design, motion: 1 };
         let free = self.fields.free;
-        let mut place = vec![0.0; self.size()];
+        let mut place = Place {
+            values: vec![0.0; self.size()],
+            rounding: vec![0.0; self.size()],
+        };
         if self.size() > free {
             let columns = self.stiffness[free..].iter().flatten();
             let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
-            self.solve(state, &roots, &mut place, free)?;
-        }
-        let residual = Evaluator::new(self.g, self.rest);
-        let gaps = residual.at(state.motion, |symbol| self.found(&place, state, symbol));
-        let balanced = |gap: &Disturbed| gap.is_finite() && gap.is_rounding(residual.operations());
-        if !gaps.iter().all(balanced) {
-            return None;
+            place = self.solve(state, &roots, place.values, free)?;
         }
         self.at_place(&place, state)
     }
@@ -106,24 +118,29 @@ impl<'a> System<'a> {
         let state = RandomState { design, motion: 1 };
         let columns = self.stiffness.iter().flatten();
         let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
-        let mut place = vec![0.0; self.size()];
-        self.solve(state, &roots, &mut place, 0)?;
+        let place = self.solve(state, &roots, vec![0.0; self.size()], 0)?;
         self.at_place(&place, state)
     }
 
-    fn at_place(&self, place: &[f64], state: RandomState) -> Option<Linearised> {
+    /// Linearises where all equations hold.
+    fn at_place(&self, place: &Place, state: RandomState) -> Option<Linearised> {
+        let residual = Evaluator::new(self.g, self.rest);
+        let gaps = residual.at(state.motion, |symbol| self.found(place, state, symbol));
+        let holds = |gap: &Disturbed| gap.is_finite() && gap.is_rounding(residual.operations());
+        if !gaps.iter().all(holds) {
+            return None;
+        }
         let evaluator = Evaluator::new(self.g, &self.roots);
         let values = evaluator.at(state.motion, |symbol| self.found(place, state, symbol));
         self.linearised(&values, evaluator.operations())
     }
 
     /// The value of a symbol where unknowns have been found by iteration.
-    fn found(&self, place: &[f64], state: RandomState, symbol: SymbolId) -> Disturbed {
+    fn found(&self, place: &Place, state: RandomState, symbol: SymbolId) -> Disturbed {
         let unknowns = &self.context.symbols.q.ids;
         match unknowns.iter().position(|own| *own == symbol) {
-            Some(k) if k < place.len() => {
-                let rounding = 4.0 * f64::EPSILON * place[k].abs();
-                Disturbed::rounded(place[k], rounding, u64::from(symbol.0))
+            Some(k) if k < place.values.len() => {
+                Disturbed::rounded(place.values[k], place.rounding[k], u64::from(symbol.0))
             }
             _ => Disturbed::exact(state.value(self.context, symbol)),
         }
@@ -144,55 +161,62 @@ impl<'a> System<'a> {
         })
     }
 
-    /// Coordinates and speeds near a random state that satisfy the constraints; empty without constraints, or if none are
-    /// found.
-    fn place(&self, state: RandomState) -> Vec<f64> {
+    /// Coordinates and speeds near a random state that satisfy the constraints; nothing without constraints, or if none
+    /// are found.
+    fn place(&self, state: RandomState) -> Place {
         let moving = self.context.moving().1;
         let rows = moving..self.size();
         if rows.is_empty() {
-            return Vec::new();
+            return Place::default();
         }
         let mut roots: Vec<ExprId> = self.rest[rows.clone()].to_vec();
         let columns = self.stiffness[..moving].iter();
         roots.extend(columns.flat_map(|column| &column[rows.clone()]));
         let unknowns = &self.context.symbols.q.ids[..moving];
         let random = |symbol: &SymbolId| state.value(self.context, *symbol);
-        let mut place: Vec<f64> = unknowns.iter().map(random).collect();
-        match self.solve(state, &roots, &mut place, 0) {
-            Some(()) => place,
-            None => Vec::new(),
-        }
+        let start = unknowns.iter().map(random).collect();
+        self.solve(state, &roots, start, 0).unwrap_or_default()
     }
 
-    /// Solves equations for some unknowns, `place[first..]`, by Newton's method with the shortest steps. `roots` holds the
-    /// equations, then their derivatives by one of these unknowns after the other.
+    /// Solves equations for some unknowns, `values[first..]`, by Newton's method with the shortest steps. `roots` holds
+    /// the equations, then their derivatives by one of these unknowns after the other.
     fn solve(
         &self,
         state: RandomState,
         roots: &[ExprId],
-        place: &mut [f64],
+        mut values: Vec<f64>,
         first: usize,
-    ) -> Option<()> {
-        let unknowns = &self.context.symbols.q.ids[..place.len()];
-        let count = roots.len() / (1 + place.len() - first);
+    ) -> Option<Place> {
+        let unknowns = &self.context.symbols.q.ids[..values.len()];
+        let count = roots.len() / (1 + values.len() - first);
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let (mut least, mut stalled) = (f64::INFINITY, 0);
+        let (mut least, mut stalled, mut arrived) = (f64::INFINITY, 0, false);
         while stalled < PATIENCE {
-            let values = evaluate(self.g, roots, |symbol| {
+            let entries = evaluate(self.g, roots, |symbol| {
                 match unknowns.iter().position(|own| *own == symbol) {
-                    Some(k) => place[k],
+                    Some(k) => values[k],
                     None => state.value(self.context, symbol),
                 }
             });
-            let (gaps, slopes) = values.split_at(count);
+            let (gaps, slopes) = entries.split_at(count);
             let (step, gap) = shortest_step(gaps, slopes)?;
+            if arrived {
+                // The step from a solution is what rounding makes of it.
+                let rounding = |k: usize| {
+                    let step = if k < first { 0.0 } else { size(&step) };
+                    4.0 * step.max(f64::EPSILON * values[k].abs())
+                };
+                let rounding = (0..values.len()).map(rounding).collect();
+                return Some(Place { values, rounding });
+            }
             let coordinates = self.fields.free.saturating_sub(first).min(step.len());
             let share = (LARGEST_STEP / size(&step[..coordinates])).min(1.0);
-            for (place, step) in place[first..].iter_mut().zip(&step) {
-                *place += share * step;
+            for (value, step) in values[first..].iter_mut().zip(&step) {
+                *value += share * step;
             }
-            if size(&step) <= 1e-12 * size(place) {
-                return (gap <= 1e-9 * size(place)).then_some(());
+            arrived = size(&step) <= 1e-12 * size(&values);
+            if arrived && gap > 1e-9 * size(&values) {
+                return None;
             }
             stalled = if gap < 0.9 * least { 0 } else { stalled + 1 };
             least = least.min(gap);

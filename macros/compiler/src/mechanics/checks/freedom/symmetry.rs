@@ -32,7 +32,7 @@ pub(super) fn symmetries(system: &System, design: u64, friction: Friction) -> Co
         let mut rows: Rows = (0..n)
             .map(|i| reactions(i).chain(change(i)).collect())
             .collect();
-        rows.extend(missed(state, n - moving, 0));
+        rows.extend(missed(system, state, n - moving, 0));
         rows
     })
 }
@@ -51,7 +51,7 @@ pub(super) fn conserved(system: &System, design: u64, friction: Friction) -> Com
         let mut rows: Rows = (0..n)
             .map(|j| gaps(j).chain(slope(j)).chain(coasting(j)).collect())
             .collect();
-        rows.extend(missed(state, n - moving, moving - free));
+        rows.extend(missed(system, state, n - moving, moving - free));
         rows
     })
 }
@@ -120,24 +120,22 @@ fn common(
 }
 
 /// What remains of the motions of space that the joints do not allow, after `before` zeros and followed by `after`.
-fn missed(state: &Linearised, before: usize, after: usize) -> Rows {
+fn missed(system: &System, state: &Linearised, before: usize, after: usize) -> Rows {
     let zeros = |count: usize| std::iter::repeat_n(Disturbed::exact(0.0), count);
-    let columns = state.fields.len();
-    let first = state
-        .fields
-        .iter()
-        .position(|field| !field.missed.is_empty());
-    let carriers = (first.unwrap_or(columns)..columns).step_by(RIGID);
-    let row = |carrier: usize, component: usize| {
-        let own = &state.fields[carrier..carrier + RIGID];
-        let own = own.iter().map(move |field| field.missed[component]);
-        let others = zeros(columns - carrier - RIGID + after);
-        zeros(before + carrier).chain(own).chain(others).collect()
-    };
-    carriers
-        .flat_map(|carrier| (0..RIGID).map(move |component| (carrier, component)))
-        .map(|(carrier, component)| row(carrier, component))
-        .collect()
+    let mut rows = Rows::new();
+    let mut first = system.fields.free;
+    for carrier in &system.fields.carriers {
+        let next = first + carrier.len();
+        for component in 0..RIGID {
+            let own = state.fields[first..next]
+                .iter()
+                .map(|field| field.missed[component]);
+            let others = zeros(state.fields.len() - next + after);
+            rows.push(zeros(before + first).chain(own).chain(others).collect());
+        }
+        first = next;
+    }
+    rows
 }
 
 /// Change of equation `i` along a field, and of the directions in which the equation holds.
@@ -176,7 +174,7 @@ fn sum(terms: impl Iterator<Item = Disturbed>) -> Disturbed {
 }
 
 /// `sum_k weights_k vectors_k` for each list of weights.
-fn combined(vectors: &Combinations, weights: &Combinations) -> Combinations {
+pub(super) fn combined(vectors: &Combinations, weights: &Combinations) -> Combinations {
     let length = vectors.first().map_or(0, Vec::len);
     let entry = |j: usize, weights: &[Disturbed]| {
         let terms = vectors.iter().zip(weights);
