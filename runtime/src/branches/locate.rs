@@ -129,7 +129,8 @@ impl Curve<'_> {
         Err(trouble)
     }
 
-    fn between(
+    /// The station at a share of the way between two others.
+    pub(crate) fn between(
         &self,
         a: &CurvePoint,
         b: &CurvePoint,
@@ -178,7 +179,8 @@ impl Curve<'_> {
                 let at = self
                     .correct(&a.frame, &from, &normal, 0.5 * end.norm())
                     .ok()?;
-                let mean = mean(&self.equilibrium(&at.place, &at.system, 0, None).ok()?)?;
+                let state = self.equilibrium(&at.place, &at.system, 0, None).ok()?.state;
+                let mean = mean(&state)?;
                 Some((mean, None))
             });
         }

@@ -21,9 +21,10 @@ mod walk;
 pub(crate) use bordered::Bordered;
 pub(crate) use curve::Curve;
 pub(crate) use curve_point::CurvePoint;
+pub(crate) use local_scaling::CurvePosition;
 pub use explore::{branch, branches, branches_each};
 pub use settings::Continuation;
-pub(crate) use special::critical_inertia;
+pub(crate) use special::{Located, critical_inertia};
 pub use special::{SpecialKind, SpecialPoint};
 
 use crate::algebra::Vector;

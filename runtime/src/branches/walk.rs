@@ -1,5 +1,7 @@
 //! Pseudo-arclength continuation: follows a branch along its tangent with steps adapted to the curvature.
 
+use core::ops::ControlFlow;
+
 use super::curve::{Corrected, Curve, Trouble};
 use super::curve_point::CurvePoint;
 use super::ends::STRAY;
@@ -36,13 +38,13 @@ struct Step {
 }
 
 impl Curve<'_> {
-    /// Follows the branch from a station along its tangent until the branch ends, or until `stop` returns true for a
-    /// special point and the station before it. The branch started at `home`.
+    /// Follows the branch from a station along its tangent until the branch ends, or until `pass`, which sees every step
+    /// from one station to the next, breaks off. The branch started at `home`.
     pub(crate) fn walk(
         &self,
         start: &CurvePoint,
         home: &CurvePosition,
-        mut stop: impl FnMut(&SpecialPoint, &CurvePoint) -> bool,
+        mut pass: impl FnMut(&CurvePoint, &CurvePoint, &[Located]) -> ControlFlow<()>,
     ) -> Walk {
         let settings = self.settings;
         let mut walk = Walk {
@@ -98,6 +100,10 @@ impl Curve<'_> {
             } else {
                 step.growth
             };
+            if pass(&at, &step.station, &step.located).is_break() {
+                walk.end = BranchEnd::Stopped;
+                return walk;
+            }
             for located in step.located {
                 let special = located.special;
                 walk.points
@@ -112,7 +118,7 @@ impl Curve<'_> {
                         return walk;
                     }
                 }
-                if stop(&special, &at) || located.ends_arm {
+                if located.ends_arm {
                     walk.end = BranchEnd::BranchPoint;
                     return walk;
                 }
@@ -247,9 +253,9 @@ impl Curve<'_> {
     ) -> Result<CurvePoint, Trouble> {
         let place = &corrected.place;
         let system = &corrected.system;
-        let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
+        let judged = self.equilibrium(place, system, corrected.iterations, None)?;
         let before = before.map(|station| &station.signs);
-        self.station(place, system, equilibrium, towards, before)
+        self.station(place, system, judged, towards, before)
     }
 
     /// Whether the step from a station passes a point.

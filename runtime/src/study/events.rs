@@ -80,7 +80,7 @@ impl<M: CurvatureKernels> Study<M> {
     }
 }
 
-impl<M: Kernels> Study<M> {
+impl<M: DirectionalKernels> Study<M> {
     /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
     /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
     ///
@@ -101,7 +101,7 @@ impl<M: Kernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .crossings(range, line.into())
     }
 
@@ -125,7 +125,7 @@ impl<M: Kernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .crossing_tolerances(range, line.into())
     }
 
@@ -148,7 +148,7 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .flutter_onsets(range)
     }
 
@@ -169,7 +169,7 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .flutter_onset_tolerances(range)
     }
 }
@@ -190,7 +190,7 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
     }
 }
 
-impl Subject<'_, dyn Kernels + '_> {
+impl Subject<'_, dyn DirectionalKernels + '_> {
     fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
         let Self { kernels, settings } = *self;
         let (u, b) = (&settings.inputs, &settings.design);
