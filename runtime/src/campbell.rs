@@ -8,7 +8,7 @@ use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
 use crate::sweep::{
-    Condition, Crossing, Event, EventTolerance, Following, Line, Searched, Sought, Tracker,
+    Condition, Crossing, Event, EventTolerance, Events, Following, Line, Searched, Sought, Tracker,
     between, critical_tolerance, crossing_tolerance,
 };
 use crate::tolerance::{Spread, Tolerances};
@@ -214,11 +214,18 @@ pub fn campbell_each(
         inputs: u.into(),
         description,
     };
-    if let Some(found) = found {
+    let until = |found: Events| match (unreached, &tracker.last) {
+        (1.., Some(last)) => found.until(last.value),
+        _ => found,
+    };
+    if let Some(found) = found.map(until) {
         let spread = |state| critical_tolerance(mechanism, state, tolerances);
         diagram.critical = found.critical.iter().map(spread).collect();
         for crossing in &found.crossings {
-            let event = labelled(crossing, crossing_tolerance(mechanism, crossing, tolerances));
+            let event = labelled(
+                crossing,
+                crossing_tolerance(mechanism, crossing, tolerances),
+            );
             match crossing.condition {
                 Condition::Line(_) => diagram.crossings.push(event),
                 Condition::FlutterOnset => diagram.flutter_onsets.push(event),

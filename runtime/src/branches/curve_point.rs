@@ -2,13 +2,13 @@
 
 use super::curve::{Curve, Trouble, plane};
 use super::local_scaling::{CurvePosition, Frame, System};
-use crate::{Description, Mode};
 use crate::algebra::{Cholesky, Vector, asymmetry};
 use crate::constraints::Structure;
 use crate::equilibrium::{Equilibrium, Judged};
 use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::modes::free_pairs;
+use crate::{Description, Mode};
 
 /// A regular point of a branch.
 #[derive(Clone, Debug)]

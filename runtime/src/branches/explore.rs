@@ -178,7 +178,9 @@ impl Curve<'_> {
         let back = if front.end == BranchEnd::Closed {
             nothing(BranchEnd::Closed)
         } else {
-            self.walk(&station.reversed(), &station.place, |_, _, _| ControlFlow::Continue(()))
+            self.walk(&station.reversed(), &station.place, |_, _, _| {
+                ControlFlow::Continue(())
+            })
         };
         self.joined(back, Some(self.point(station)), front)
     }
@@ -287,7 +289,9 @@ impl Curve<'_> {
     fn follow(&self, lead: &Lead, known: &[Branch]) -> Option<Followed> {
         let fresh = |station: &CurvePoint| !self.known(known, &station.place);
         let from = |junction: &Junction, station: &CurvePoint| {
-            let mut walk = self.walk(station, &junction.frame.origin, |_, _, _| ControlFlow::Continue(()));
+            let mut walk = self.walk(station, &junction.frame.origin, |_, _, _| {
+                ControlFlow::Continue(())
+            });
             walk.points.insert(0, self.point(station));
             walk
         };

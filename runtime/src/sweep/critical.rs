@@ -3,10 +3,11 @@
 use super::points::CriticalState;
 use super::range::Range;
 use super::search::{Along, Met, Sought, search};
+use crate::Error;
 use crate::equilibrium::Policy;
+use crate::error::NotFound;
 use crate::kernels::DirectionalKernels;
 use crate::modes::Family;
-use crate::Error;
 
 /// Finds the first input value at which the branch that is stable at `range.low` loses its stiffness: a limit point or
 /// branch point, located to rounding accuracy.
@@ -37,19 +38,26 @@ pub fn critical_state(
         ..Sought::default()
     };
     let mut found = None;
-    let (events, _) = search(&along, &sought, |event| {
-        if let Met::Critical(state, true) = event {
+    let (events, _) = search(&along, &sought, |event| match event {
+        Met::Critical(state, true) => {
             found = Some(state.clone());
+            true
         }
-        found.is_some()
+        Met::Gap => true,
+        _ => false,
     })?;
-    let mut gaps = events.searched.gaps.into_iter();
+    if let Some(state) = found {
+        return Ok(state);
+    }
     let input = &description.inputs[range.input.index()];
-    match (gaps.next(), found) {
-        (Some(gap), None) => Err(gap.reason),
-        (Some(gap), _) if gap.from == range.low => Err(gap.reason),
-        (_, Some(state)) => Ok(state),
-        (None, None) => Err(Error::NotInRange {
+    let escapes = |error: &Error| {
+        let reason = NotFound::Escape;
+        matches!(error, Error::BranchLost { reason: own, .. } if *own == reason)
+    };
+    let gap = events.searched.gaps.into_iter().next();
+    match gap.map(|gap| gap.reason).filter(|error| !escapes(error)) {
+        Some(error) => Err(error),
+        None => Err(Error::NotInRange {
             what: "critical value",
             input: input.name.clone(),
             low: range.low,

@@ -125,10 +125,11 @@ fn meetings(
     let along = Along { family, ..*along };
     let (events, _) = search(&along, &sought, |event| match event {
         Met::Crossing(crossing) => enough(crossing),
-        Met::Critical(..) => false,
+        _ => false,
     })?;
     match events.searched.states {
-        0 => Err((events.searched.gaps.into_iter().next()).map_or(Error::CriticalState, |gap| gap.reason)),
+        0 => Err((events.searched.gaps.into_iter().next())
+            .map_or(Error::CriticalState, |gap| gap.reason)),
         _ => Ok(events.crossings),
     }
 }

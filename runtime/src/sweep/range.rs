@@ -17,7 +17,7 @@ pub struct Range<M = Any> {
     /// End of the search, SI; below `low` to search downwards.
     pub high: f64,
     /// Number of steps the search takes at least. It divides them wherever an event may hide, so that the events found do
-    /// not depend on it. 16 by default.
+    /// not depend on it. 10 by default.
     pub steps: usize,
 }
 
@@ -31,7 +31,7 @@ impl<M> Range<M> {
             input,
             low,
             high,
-            steps: 16,
+            steps: 10,
         }
     }
 

@@ -61,14 +61,20 @@ pub fn sweep_each(
         ..Sought::default()
     };
     let way = (mechanism as &dyn DirectionalKernels, (u, b), start);
-    let (found, route) = between(way, following, (input, values), &sought)?;
-    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input).on(route);
+    let (found, _) = between(way, following, (input, values), &sought)?;
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut unreached = values.len();
+    let mut last = f64::NAN;
     follow(&mut tracker, mechanism, values, false, |station| {
         unreached -= 1;
+        last = station.point.value;
         each(station.point)
     });
-    let (critical, flutter_onsets, searched) = match found {
+    let until = |found: Events| match unreached {
+        0 => found,
+        _ => found.until(last),
+    };
+    let (critical, flutter_onsets, searched) = match found.map(until) {
         Some(found) => (found.critical, found.crossings, Some(found.searched)),
         None => Default::default(),
     };
@@ -85,16 +91,24 @@ pub fn sweep_each(
 }
 
 /// The events between the first and the last of some values, if these ascend or descend, and the way along them.
-#[expect(clippy::type_complexity, reason = "a way: mechanism, operating point, start")]
+#[expect(
+    clippy::type_complexity,
+    reason = "a way: mechanism, operating point, start"
+)]
 pub(crate) fn between(
     (mechanism, values, start): (&dyn DirectionalKernels, (&[f64], &[f64]), &[f64]),
     following: Following,
     (input, along): (Input, &[f64]),
     sought: &Sought,
 ) -> Result<(Option<Events>, Route), Error> {
-    let finite: Vec<f64> = along.iter().copied().filter(|value| value.is_finite()).collect();
+    let finite: Vec<f64> = along
+        .iter()
+        .copied()
+        .filter(|value| value.is_finite())
+        .collect();
     let ascends = finite.is_sorted_by(|a, b| a < b);
-    let (true, [low, .., high]) = (ascends || finite.is_sorted_by(|a, b| a > b), &finite[..]) else {
+    let (true, [low, .., high]) = (ascends || finite.is_sorted_by(|a, b| a > b), &finite[..])
+    else {
         return Ok((None, Route::default()));
     };
     let along = Along {
@@ -102,7 +116,9 @@ pub(crate) fn between(
         values,
         start,
         policy: following.policy,
-        family: following.family.unwrap_or_else(|| Family::of(&mechanism.description())),
+        family: following
+            .family
+            .unwrap_or_else(|| Family::of(&mechanism.description())),
         range: Range::new(input, *low, *high),
     };
     let (events, route) = search(&along, sought, |_| false)?;

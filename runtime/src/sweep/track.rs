@@ -75,11 +75,6 @@ pub(crate) struct Tracker<'a> {
 }
 
 impl<'a> Tracker<'a> {
-    /// The actual input for a set value: its deviation is added.
-    pub(crate) fn actual(&self, value: f64) -> f64 {
-        value + self.mechanism.deviation(self.input.index(), &self.design)
-    }
-
     pub(crate) fn new(
         mechanism: &'a dyn Kernels,
         (u, b): (&[f64], &[f64]),

@@ -304,7 +304,11 @@ mod tests {
     fn jets(t: [f64; 3], f: impl Fn(f64) -> [f64; 2], error: f64) -> Triple {
         let jets = t.map(|t| {
             let [value, slope] = f(t);
-            Jet { value, slope, error }
+            Jet {
+                value,
+                slope,
+                error,
+            }
         });
         Triple { t, jets, size: 1.0 }
     }

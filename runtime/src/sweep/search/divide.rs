@@ -37,18 +37,26 @@ const NEAR: f64 = 0.02;
 /// Distance of two states of a step below which rounding may make them one.
 const CLOSEST: f64 = 8.0 * f64::EPSILON;
 
-/// Finds the events between two states, no finer than `finest`; the last state is part of the step only if it `closes`
-/// the search.
+/// A stretch between two states.
+pub(super) struct Interval {
+    pub(super) ends: [Rc<Spectrum>; 2],
+    /// Whether what happens at its first state belongs to it.
+    pub(super) opens: bool,
+    /// Whether what happens at its last state belongs to it.
+    pub(super) closes: bool,
+}
+
+/// Finds the events in a stretch, no finer than `finest`.
 pub(super) fn divide(
     source: &mut impl States,
     wanted: &Wanted,
-    [first, last]: [Rc<Spectrum>; 2],
-    closes: bool,
+    interval: Interval,
     finest: f64,
 ) -> Division {
     let mut found = Division::default();
+    let [first, last] = interval.ends;
+    let (begin, end) = (first.t, last.t);
     found.states.push(first.clone());
-    let end = last.t;
     let mut open = vec![(first, last)];
     while let Some((a, b)) = open.pop() {
         let width = b.t - a.t;
@@ -63,7 +71,7 @@ pub(super) fn divide(
             found.states.push(b);
             continue;
         };
-        match wanted.events([&a, &middle, &b], closes && b.t == end) {
+        match wanted.events([&a, &middle, &b], interval.closes && b.t == end) {
             Stretch::Events(events) => {
                 found.events.extend(events);
                 found.states.extend([middle, b]);
@@ -80,11 +88,20 @@ pub(super) fn divide(
             }
         }
     }
+    if !interval.opens {
+        found
+            .events
+            .retain(|event| event.zero.between != [begin; 2]);
+    }
     // Beside a root of a root nothing is smooth: such a doubt belongs to the event.
     let Division { events, doubts, .. } = &mut found;
     doubts.retain(|doubt| {
-        let [from, to] = [doubt.between[0] - 4.0 * finest, doubt.between[1] + 4.0 * finest];
-        let beside = |event: &Candidate| event.zero.between[1] >= from && event.zero.between[0] <= to;
+        let [from, to] = [
+            doubt.between[0] - 4.0 * finest,
+            doubt.between[1] + 4.0 * finest,
+        ];
+        let beside =
+            |event: &Candidate| event.zero.between[1] >= from && event.zero.between[0] <= to;
         !events.iter().any(beside)
     });
     found

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::super::cubic::Passage;
 use super::super::scalars::{Kind, Wanted};
 use super::super::spectrum::{Root, Spectrum};
-use super::{Division, States, divide};
+use super::{Division, Interval, States, divide};
 use crate::Complex;
 use crate::sweep::condition::Line;
 
@@ -86,9 +86,13 @@ fn search(
             count: 0,
             ends,
         };
-        let both = [0.0, 1.0].map(|t| family.state(t).expect("a state"));
-        let found = divide(&mut family, wanted, both, step + 1 == steps, 1e-9);
-        for event in &found.events { if std::env::var("DBG").is_ok() { println!("{ends:?} {event:?}"); }
+        let interval = Interval {
+            ends: [0.0, 1.0].map(|t| family.state(t).expect("a state")),
+            opens: true,
+            closes: step + 1 == steps,
+        };
+        let found = divide(&mut family, wanted, interval, 1e-9);
+        for event in &found.events {
             let [from, to] = event.zero.between;
             let at = [event.zero.at, from, to].map(|t| ends[0] + (ends[1] - ends[0]) * t);
             events.push((event.kind, event.zero.passage, at));
@@ -115,7 +119,10 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
@@ -138,7 +145,11 @@ fn onsets_and_ends_of_random_oscillators() {
                 (
                     vec![(a, a + width)],
                     10_f64.powf(random.between(-3.0, 0.5)),
-                    if random.next() < 0.5 { vec![(b, b + 0.5 * width)] } else { vec![] },
+                    if random.next() < 0.5 {
+                        vec![(b, b + 0.5 * width)]
+                    } else {
+                        vec![]
+                    },
                     10_f64.powf(random.between(0.0, 2.0)),
                 )
             })
@@ -169,12 +180,19 @@ fn onsets_and_ends_of_random_oscillators() {
         for steps in [16, 11] {
             let (events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
             assert_eq!(all.doubts, [], "{case} {machines:?}");
-            assert_eq!(events.len(), expected.len(), "{case} {steps} {machines:?}\n{events:?}\n{expected:?}");
+            assert_eq!(
+                events.len(),
+                expected.len(),
+                "{case} {steps} {machines:?}\n{events:?}\n{expected:?}"
+            );
             for (kind, u) in &expected {
                 let own = |event: &&(Kind, Passage, [f64; 3])| {
                     event.0 == *kind && event.2[1] <= u + 1e-9 && event.2[2] >= u - 1e-9
                 };
-                assert!(events.iter().any(|event| own(&event)), "{case} {events:?} {expected:?}");
+                assert!(
+                    events.iter().any(|event| own(&event)),
+                    "{case} {events:?} {expected:?}"
+                );
             }
             last = states;
         }
@@ -199,11 +217,17 @@ fn passing(
     for sign in [1.0, -1.0] {
         let (lambda, change) = (mean + sign * root, sign * rate);
         let distance = (delta * delta - lambda).sqrt();
-        let distance = if distance.im < 0.0 { -distance } else { distance };
+        let distance = if distance.im < 0.0 {
+            -distance
+        } else {
+            distance
+        };
         roots.push(Root {
             value: distance - delta,
             slope: -change / (2.0 * distance),
-            error: 1e-13 * mean.sqrt() * (2.0 + coupling.sqrt() / (root.norm() + 1e-8 * coupling.sqrt() + 1e-300)),
+            error: 1e-13
+                * mean.sqrt()
+                * (2.0 + coupling.sqrt() / (root.norm() + 1e-8 * coupling.sqrt() + 1e-300)),
             paired: true,
             neutral: false,
         });
@@ -223,7 +247,11 @@ fn bands_in_which_two_modes_merge() {
                 let place = random.between(0.15, 0.85);
                 // None, one that excludes growth, and one that does not.
                 let delta = [0.0, 0.6, 0.3, 1e-7][case % 4] * width * slope / mean.sqrt();
-                let coupling = if case % 5 == 4 { 0.0 } else { (width * slope).powi(2) };
+                let coupling = if case % 5 == 4 {
+                    0.0
+                } else {
+                    (width * slope).powi(2)
+                };
                 ((mean, slope, place), coupling, delta)
             })
             .collect();
@@ -239,19 +267,29 @@ fn bands_in_which_two_modes_merge() {
             let left = coupling - 4.0 * delta * delta * (mean - delta * delta);
             if left > 0.0 {
                 let half = left.sqrt() / slope;
-                expected.extend([(Passage::Rises, place - half), (Passage::Falls, place + half)]);
+                expected.extend([
+                    (Passage::Rises, place - half),
+                    (Passage::Falls, place + half),
+                ]);
             }
         }
         let mut last = 0;
         for steps in [16, 13] {
             let (events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
             assert_eq!(all.doubts, [], "{case} {pairs:?} {events:?}");
-            assert_eq!(events.len(), expected.len(), "{case} {steps} {pairs:?}\n{events:?}\n{expected:?}");
+            assert_eq!(
+                events.len(),
+                expected.len(),
+                "{case} {steps} {pairs:?}\n{events:?}\n{expected:?}"
+            );
             for (passage, u) in &expected {
                 let own = |event: &&(Kind, Passage, [f64; 3])| {
                     event.1 == *passage && event.2[1] <= u + 1e-8 && event.2[2] >= u - 1e-8
                 };
-                assert!(events.iter().any(|event| own(&event)), "{case} {events:?} {expected:?}");
+                assert!(
+                    events.iter().any(|event| own(&event)),
+                    "{case} {events:?} {expected:?}"
+                );
             }
             last = states;
         }
@@ -321,12 +359,20 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
             let (events, all, states) = search(roots, &wanted, [0.0, 1.0], steps);
             assert_eq!(all.doubts, [], "{case}");
             let number = if twice { 2 } else { 1 };
-            assert_eq!(events.len(), number * expected.len(), "{case} {events:?} {expected:?}");
+            assert_eq!(
+                events.len(),
+                number * expected.len(),
+                "{case} {events:?} {expected:?}"
+            );
             for (passage, u) in &expected {
                 let own = |event: &&(Kind, Passage, [f64; 3])| {
                     event.1 == *passage && event.2[1] <= u + 1e-6 && event.2[2] >= u - 1e-6
                 };
-                assert_eq!(events.iter().filter(own).count(), number, "{case} {events:?} {expected:?}");
+                assert_eq!(
+                    events.iter().filter(own).count(),
+                    number,
+                    "{case} {events:?} {expected:?}"
+                );
             }
             most = most.max(states);
         }

@@ -1,6 +1,5 @@
 //! The events that a search finds, and what it has searched.
 
-use crate::branches::BranchEnd;
 use crate::sweep::condition::{Condition, Crossing};
 use crate::sweep::points::{CriticalState, SweepPoint};
 use crate::{Description, Error, Input, Shared};
@@ -81,6 +80,20 @@ pub(crate) struct Route {
     pub(crate) unused: usize,
 }
 
+impl Events {
+    /// The events up to a value at which the work was stopped.
+    pub(crate) fn until(mut self, value: f64) -> Self {
+        let Searched { low, high, .. } = self.searched;
+        let within = |own: f64| (value - own) * (high - low) >= 0.0;
+        self.critical.retain(|own| within(own.value));
+        self.crossings.retain(|own| within(own.value));
+        self.searched.high = value;
+        self.searched.unresolved.retain(|own| within(own.from));
+        self.searched.gaps.retain(|own| within(own.from));
+        self
+    }
+}
+
 impl Route {
     /// Up to three points of one branch near a value, the nearest last; `None` if the value is as near to `last`, a
     /// point on the same branch, as the points of the route are to each other.
@@ -101,19 +114,12 @@ impl Route {
         near.truncate(3);
         if let (Some(last), [nearest, next, ..]) = (last, &near[..])
             && piece(last) == own
-            && (value - last).abs() <= (0.5 * (nearest.value - next.value).abs()).max(apart(nearest))
+            && (value - last).abs()
+                <= (0.5 * (nearest.value - next.value).abs()).max(apart(nearest))
         {
             return None;
         }
         near.reverse();
         Some(near)
-    }
-}
-
-/// Why a branch ends, as an error.
-pub(super) fn reason(end: BranchEnd) -> Option<Error> {
-    match end {
-        BranchEnd::Domain(error) | BranchEnd::Lost(error) => Some(error),
-        _ => None,
     }
 }

@@ -14,6 +14,6 @@ mod scalars;
 mod spectrum;
 mod step;
 
-pub use found::{Events, Gap, Searched, Unresolved};
 pub(crate) use found::Route;
+pub use found::{Events, Gap, Searched, Unresolved};
 pub(crate) use route::{Along, Met, Sought, search};

@@ -88,8 +88,9 @@ fn undamped(modes: &[Mode], change: &Linear) -> Vec<Root> {
 
 /// The eigenvalues of a symmetric `Khat` relative to `Mhat`.
 fn stiffness(state: &Equilibrium, change: &Linear) -> Result<Vec<Root>, Error> {
-    let pairs = free_pairs(&state.linear, &state.description)
-        .map_err(|trouble| crate::equilibrium::Failure::from(trouble).explain(&state.description))?;
+    let pairs = free_pairs(&state.linear, &state.description).map_err(|trouble| {
+        crate::equilibrium::Failure::from(trouble).explain(&state.description)
+    })?;
     let shapes: Vec<Vector> = pairs.shapes.iter().map(Vector::from).collect();
     let error = |r: usize| f64::max(pairs.errors[r], state.rounding);
     let neutral = |r: usize| pairs.lambda[r].abs() <= error(r);

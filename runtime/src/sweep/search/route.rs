@@ -3,14 +3,16 @@
 
 use core::ops::ControlFlow;
 
-use super::found::{Events, Gap, Route, Searched, Unresolved, reason};
+use super::found::{Events, Gap, Route, Searched, Unresolved};
 use super::node::{Node, Question, has_stiffness};
 use super::scalars::{Kind, Wanted};
 use super::step::{Event, Step};
 use crate::branches::{
     BranchEnd, Continuation, Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint,
+    Trouble,
 };
 use crate::equilibrium::{Policy, equilibrium};
+use crate::error::NotFound;
 use crate::kernels::DirectionalKernels;
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
 use crate::sweep::condition::{Change, Condition, Crossing, Line};
@@ -44,6 +46,8 @@ pub(crate) enum Met<'a> {
     /// Stiffness vanishes, and whether all of it was positive before.
     Critical(&'a CriticalState, bool),
     Crossing(&'a Crossing),
+    /// There is no equilibrium to follow.
+    Gap,
 }
 
 /// Maximum number of states of a search.
@@ -52,7 +56,7 @@ const MOST_STATES: usize = 4000;
 const MOST_PIECES: usize = 64;
 /// Bounds on the largest step along a branch.
 const FINEST_STEP: f64 = 1e-4;
-const COARSEST_STEP: f64 = 0.125;
+const COARSEST_STEP: f64 = 0.1;
 /// Maximum number of points of one branch.
 const MOST_POINTS: usize = 50_000;
 /// Events are not separated below this share of the range.
@@ -202,10 +206,6 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         (self.settings.high - self.settings.low).signum()
     }
 
-    fn width(&self) -> f64 {
-        (self.settings.high - self.settings.low).abs()
-    }
-
     /// Follows the branch through a state, or on from a station of it, and finds the events on it.
     fn follow(&mut self, state: &Equilibrium, from: Option<&CurvePoint>) -> Next {
         let (u, b) = self.along.values;
@@ -221,8 +221,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let station = match begun {
             Ok(station) => station,
             Err(trouble) => {
-                let error = reason(curve.broken_off(trouble, state));
-                let error = error.unwrap_or(Error::CriticalState);
+                let error = reason(&curve, curve.broken_off(trouble, state), state);
                 return Next::Seek(value, state.coordinates.clone(), error);
             }
         };
@@ -254,10 +253,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         match walk.end {
             end if end == curve.end_at(self.settings.high) => Next::Done,
             BranchEnd::BranchPoint => self.behind(value, &from),
-            end => {
-                let error = reason(end).unwrap_or(Error::CriticalState);
-                Next::Seek(value, from, error)
-            }
+            end => Next::Seek(value, from, reason(&curve, end, &reached.equilibrium)),
         }
     }
 
@@ -320,7 +316,9 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     loses,
                 } => {
                     let stop = self.critical(special.clone(), change, loses);
-                    let arm = located.iter().any(|own| own.ends_arm && own.special == special);
+                    let arm = located
+                        .iter()
+                        .any(|own| own.ends_arm && own.special == special);
                     next = match stop {
                         true => Some(Next::Done),
                         false => self.leaves(&special, arm, after),
@@ -433,12 +431,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     }
 
     /// Adds a critical state; returns whether it is enough.
-    fn critical(
-        &mut self,
-        special: SpecialPoint,
-        change: Change,
-        loses: bool,
-    ) -> bool {
+    fn critical(&mut self, special: SpecialPoint, change: Change, loses: bool) -> bool {
         if !self.wanted.critical {
             return false;
         }
@@ -457,16 +450,11 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     }
 
     /// Adds a crossing; returns whether it is enough.
-    fn crossing(
-        &mut self,
-        condition: Condition,
-        node: &Node,
-        mode: usize,
-        change: Change,
-    ) -> bool {
+    fn crossing(&mut self, condition: Condition, node: &Node, mode: usize, change: Change) -> bool {
         let modes = self.labelled(node);
         let own = &node.modes.modes[mode];
-        let found = (modes.modes.iter()).position(|other| other.s == own.s && other.shape == own.shape);
+        let found =
+            (modes.modes.iter()).position(|other| other.s == own.s && other.shape == own.shape);
         let crossing = Crossing {
             input: self.events.input,
             value: node.point.place.p,
@@ -496,7 +484,9 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         BEHIND.iter().find_map(|share| {
             let value = special.value + share * (self.settings.high - self.settings.low);
             let inside = (self.settings.high - value) * self.forward() > 0.0;
-            let state = inside.then(|| self.solve(value, from, Policy::Stable))?.ok()?;
+            let state = inside
+                .then(|| self.solve(value, from, Policy::Stable))?
+                .ok()?;
             state.stability.holds().then(|| Next::From(Box::new(state)))
         })
     }
@@ -520,6 +510,10 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
 
     /// Looks for the next value at which there is a state, and for the beginning of its branch.
     fn seek(&mut self, value: f64, from: &[f64], error: Error) -> Next {
+        if (self.enough)(Met::Gap) {
+            self.gap(value, self.settings.high, error);
+            return Next::Done;
+        }
         let high = self.settings.high;
         let step = self.settings.max_step * (high - self.settings.low);
         let mut trial = value;
@@ -582,14 +576,22 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     }
 }
 
+/// Why a branch ends before the range does.
+fn reason(curve: &Curve<'_>, end: BranchEnd, last: &Equilibrium) -> Error {
+    let missed = match end {
+        BranchEnd::Domain(error) | BranchEnd::Lost(error) => return error,
+        BranchEnd::Escape => NotFound::Escape,
+        _ => NotFound::IterationLimit,
+    };
+    match curve.broken_off(Trouble::Missed(missed), last) {
+        BranchEnd::Lost(error) => error,
+        _ => Error::CriticalState,
+    }
+}
+
 /// Whether an event at an end of the range counts: growth of a motion must begin or end within the range, or begin at
 /// its very end.
-fn counts(
-    condition: Condition,
-    change: Change,
-    node: &Node,
-    (first, last): (bool, bool),
-) -> bool {
+fn counts(condition: Condition, change: Change, node: &Node, (first, last): (bool, bool)) -> bool {
     if matches!(condition, Condition::Line(_)) || !(first || last) {
         return true;
     }

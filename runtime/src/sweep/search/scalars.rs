@@ -193,11 +193,7 @@ impl Search<'_> {
     }
 
     /// The zeros of the real part of an eigenvalue.
-    fn plain(
-        &mut self,
-        kind: Kind,
-        chain: Chain,
-    ) -> Result<(), Needs> {
+    fn plain(&mut self, kind: Kind, chain: Chain) -> Result<(), Needs> {
         let roots = self.roots(chain);
         let jets = roots.map(|root| Jet {
             value: root.value.re,
@@ -293,7 +289,10 @@ impl Search<'_> {
                 _ => sum[0].abs().max(product[0].abs().sqrt()),
             })
         });
-        let (ends, t) = ([0, 1, 2].map(|k| sum_and_product(&self.roots[k], two[k])), self.t);
+        let (ends, t) = (
+            [0, 1, 2].map(|k| sum_and_product(&self.roots[k], two[k])),
+            self.t,
+        );
         self.zeros(kind, jets, size, |at| {
             let piece = usize::from(at > t[1]);
             let h = t[piece + 1] - t[piece];
@@ -433,7 +432,9 @@ impl Search<'_> {
             };
             let distance = |share: f64| -at(share).1.re;
             let shares = (1..SAMPLES).map(|k| k as f64 / SAMPLES as f64);
-            let nearest = shares.clone().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+            let nearest = shares
+                .clone()
+                .min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
             shares.for_each(&mut look);
             if let Some(nearest) = nearest {
                 look(lowest(distance, nearest, 1.0 / SAMPLES as f64));
@@ -482,7 +483,11 @@ pub(super) fn difference(a: &Root, b: &Root) -> Jet {
     let change = (apart * (a.slope - b.slope)).re - sum * (a.slope.re + b.slope.re);
     Jet {
         value: (apart * apart).re - sum * sum,
-        slope: if change.is_finite() { 2.0 * change } else { 0.0 },
+        slope: if change.is_finite() {
+            2.0 * change
+        } else {
+            0.0
+        },
         error: error * error,
     }
 }

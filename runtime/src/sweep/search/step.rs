@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-use super::cubic::{Passage, Zero};
-use super::divide::{Division, States, divide};
+use super::cubic::{Passage, Zero, cubic};
+use super::divide::{Interval, States, divide};
 use super::node::{Node, Question};
 use super::scalars::{Candidate, Kind, Wanted, difference};
 use super::spectrum::Spectrum;
-use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint};
+use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialPoint};
 use crate::sweep::condition::{Change, Condition, Line};
-use crate::{Behaviour, Complex};
+use crate::{Behaviour, Complex, Stability, Vector};
 
 /// A step from one station of a branch to the next, and the states solved on it.
 pub(super) struct Step<'a, 'b> {
@@ -63,6 +63,12 @@ const LAST_STEP: f64 = 4.0 * f64::EPSILON;
 const ROUNDING: f64 = 1e-9;
 /// Distance of two events, as a share of the step, below which they are one for several modes.
 const SAME: f64 = 1e-9;
+/// Share of its distance from the chord by which the branch may miss the cubic between two known stations, and share of
+/// the step by which it may miss it in addition.
+const ASTRAY: f64 = 0.25;
+const CLOSE: f64 = 1e-3;
+/// Distances from a special point, as shares of the step, at which the branch beside it is sought.
+const ASIDE: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 /// Distance from an event at which the states on either side of it are told apart.
 const BESIDE: f64 = 1e-10;
 
@@ -106,16 +112,45 @@ impl<'a, 'b> Step<'a, 'b> {
         let point = match t {
             0.0 => self.ends[0].clone(),
             1.0 => self.ends[1].clone(),
-            _ => self.curve.between(self.ends[0], self.ends[1], t).ok()?,
+            _ => self.between(t)?,
         };
-        let tangent = self.ends[0].frame.direction(&point.direction());
-        let rate = self.length / tangent.dot(&self.normal);
-        if !(rate > 0.0 && rate.is_finite()) {
-            return None;
-        }
+        let rate = self.rate(&point)?;
         let node = Rc::new(self.question.node(point, t, rate).ok()?);
         self.nodes.insert(place, node.clone());
         Some(node)
+    }
+
+    /// The length of the step's parameter per unit of the local tangent of a station.
+    fn rate(&self, point: &CurvePoint) -> Option<f64> {
+        let tangent = self.ends[0].frame.direction(&point.direction());
+        let rate = self.length / tangent.dot(&self.normal);
+        (rate > 0.0 && rate.is_finite()).then_some(rate)
+    }
+
+    /// The station at a place: on the cubic between the known ones, or close beside it. Where branches meet, another one
+    /// may be farther from it.
+    fn between(&self, t: f64) -> Option<CurvePoint> {
+        let place = self.nodes.partition_point(|node| node.spectrum.t < t);
+        let known = |node: Option<&Rc<Node>>, end: usize| match node {
+            Some(node) => (node.spectrum.t, node.point.clone()),
+            None => (end as f64, self.ends[end].clone()),
+        };
+        let before = known(place.checked_sub(1).and_then(|k| self.nodes.get(k)), 0);
+        let after = known(self.nodes.get(place), 1);
+        let frame = &self.ends[0].frame;
+        let end = |(_, point): &(f64, CurvePoint)| {
+            let along = point.direction().scaled(self.rate(point)?);
+            Some([frame.local(&point.place), frame.direction(&along)])
+        };
+        let h = after.0 - before.0;
+        let share = (t - before.0) / h;
+        let [a, b] = [end(&before)?, end(&after)?];
+        let predicted = curve_between(&a, &b, h, share);
+        let chord = a[0].plus(share, &b[0].plus(-1.0, &a[0]));
+        let bend = predicted.plus(-1.0, &chord).norm();
+        let reach = ASTRAY * bend + CLOSE * self.length;
+        let found = (self.curve).across(self.ends[0], &predicted, &self.normal, reach);
+        found.ok()
     }
 
     /// The events of the step, in order; `located` are the special points that the walk has found on it. The end is part
@@ -127,19 +162,38 @@ impl<'a, 'b> Step<'a, 'b> {
         closes: bool,
         finest: f64,
     ) -> Option<Findings> {
-        let ends = [self.state(0.0)?, self.state(1.0)?];
-        let Division {
-            events,
-            doubts,
-            states,
-        } = divide(self, wanted, ends, closes, finest / self.length);
-        let mut found = Findings {
-            doubts: doubts.iter().map(|own| (own.between, own.kind)).collect(),
-            places: states.iter().map(|state| state.t).collect(),
-            ..Findings::default()
-        };
-        let widths = found.places.windows(2).map(|pair| pair[1] - pair[0]);
-        found.finest = widths.fold(1.0, f64::min) * self.length;
+        let mut found = Findings::default();
+        let mut events = Vec::new();
+        let mut specials: Vec<(f64, &Located)> = (located.iter())
+            .map(|own| (self.place_of(&own.special), own))
+            .collect();
+        specials.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // The special points that are known divide the step.
+        let mut from = (self.state(0.0)?, true);
+        for place in specials.iter().map(|own| Some(own.0)).chain([None]) {
+            let last = match place {
+                Some(t) => self.beside(t, -1.0, from.0.t),
+                None => Some(self.state(1.0)?),
+            };
+            if let Some(last) = last {
+                let interval = Interval {
+                    ends: [from.0.clone(), last],
+                    opens: from.1,
+                    closes: closes && place.is_none(),
+                };
+                let own = divide(self, wanted, interval, finest / self.length);
+                let doubts = own.doubts.iter().map(|own| (own.between, own.kind));
+                found.doubts.extend(doubts);
+                found.places.extend(own.states.iter().map(|state| state.t));
+                events.extend(own.events);
+            }
+            if let Some(t) = place {
+                match self.beside(t, 1.0, 1.0) {
+                    Some(next) => from = (next, false),
+                    None => break,
+                }
+            }
+        }
         let (critical, met): (Vec<_>, Vec<_>) =
             (events.into_iter()).partition(|event| event.kind == Kind::Critical);
         for candidate in &met {
@@ -149,7 +203,7 @@ impl<'a, 'b> Step<'a, 'b> {
                 None => found.doubts.push((candidate.zero.between, candidate.kind)),
             }
         }
-        self.criticals(critical, located, &mut found);
+        self.criticals(critical, &specials, &mut found);
         found.events.sort_by(|a, b| a.0.total_cmp(&b.0));
         Some(found)
     }
@@ -168,7 +222,11 @@ impl<'a, 'b> Step<'a, 'b> {
             // On the side where both keep their amplitude, both are there.
             let calm = |node: &Node| growing(node) == 0 || growing(node) <= least(self, zero);
             if !calm(&node) {
-                let side = if zero.passage == Passage::Rises { -1.0 } else { 1.0 };
+                let side = if zero.passage == Passage::Rises {
+                    -1.0
+                } else {
+                    1.0
+                };
                 let shifted = t + side * BESIDE / self.length;
                 if (0.0..=1.0).contains(&shifted) {
                     (t, node) = (shifted, self.node(shifted)?);
@@ -176,7 +234,11 @@ impl<'a, 'b> Step<'a, 'b> {
             }
         }
         let [mode, other] = nearest(&node.spectrum, near, (wanted.undamped, kind))?;
-        let mode = if kind == Kind::Merging { mode.min(other) } else { mode };
+        let mode = if kind == Kind::Merging {
+            mode.min(other)
+        } else {
+            mode
+        };
         let met = match kind {
             Kind::Merging => true,
             _ => condition.is_met(&node.modes.modes[mode], node.spectrum.input[0]),
@@ -252,7 +314,11 @@ impl<'a, 'b> Step<'a, 'b> {
             let size = (next - t).abs();
             near = roots.map(|root| {
                 let moved = root.value + root.slope * (next - t);
-                if moved.is_finite() && size < ROUNDING.sqrt() { moved } else { root.value }
+                if moved.is_finite() && size < ROUNDING.sqrt() {
+                    moved
+                } else {
+                    root.value
+                }
             });
             if size <= LAST_STEP || (size < ROUNDING && size >= 0.5 * last) {
                 return Some((t, roots.map(|root| root.value)));
@@ -262,48 +328,45 @@ impl<'a, 'b> Step<'a, 'b> {
         None
     }
 
-    /// Resolves the places where stiffness vanishes into special points of the branch.
-    fn criticals(&mut self, candidates: Vec<Candidate>, located: &[Located], found: &mut Findings) {
+    /// Adds the special points of the branch: those that are known, and those at further places where stiffness vanishes.
+    fn criticals(
+        &mut self,
+        candidates: Vec<Candidate>,
+        known: &[(f64, &Located)],
+        found: &mut Findings,
+    ) {
         let (touching, mut crossing): (Vec<_>, Vec<_>) =
             (candidates.into_iter()).partition(|own| own.zero.passage == Passage::Touches);
         crossing.sort_by(|a, b| a.zero.at.total_cmp(&b.zero.at));
-        let mut specials: Vec<(f64, SpecialPoint)> = (located.iter())
-            .map(|own| (self.place_of(&own.special), own.special.clone()))
-            .collect();
-        let several = |special: &SpecialPoint| special.kind == SpecialKind::Degenerate;
-        let known = specials.len();
-        if crossing.len() > known && !specials.iter().any(|(_, own)| several(own)) {
-            specials = self.separated(&crossing);
+        let of_walk = (known.iter()).map(|(t, own)| (*t, own.special.clone(), own.ends_arm));
+        let own = self.separated(&crossing).into_iter();
+        let mut specials: Vec<_> = own.map(|(t, own)| (t, own, false)).chain(of_walk).collect();
+        specials.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let touching = touching.iter().map(|own| own.zero.at);
+        let touching = touching.filter_map(|t| Some((t, self.degenerate(t, 1)?)));
+        for (t, special) in touching.collect::<Vec<_>>() {
+            found.events.push((
+                t,
+                Event::Critical {
+                    special,
+                    change: Change::Touch,
+                    loses: self.holds_before(t),
+                },
+            ));
         }
-        for own in touching {
-            if let Some(special) = self.degenerate(own.zero.at, 1) {
-                let change = Change::Touch;
-                let loses = self.before(own.zero.at).is_none_or(|node| node.point.stiff());
-                found.events.push((
-                    own.zero.at,
-                    Event::Critical {
-                        special,
-                        change,
-                        loses,
-                    },
-                ));
-            }
-        }
-        for (t, special) in specials {
-            let (before, after) = (self.before(t), self.after(t));
-            let counts = [&before, &after].map(|node| node.as_deref().map(divergent));
+        for (k, (t, special, ends_arm)) in specials.into_iter().enumerate() {
+            let sides = [self.before(t), self.after(t)];
+            let counts = sides.each_ref().map(|node| node.as_deref().map(divergent));
             let change = match counts {
+                _ if ends_arm => Change::Pass,
                 [Some(before), Some(after)] if before < after => Change::Onset,
                 [Some(before), Some(after)] if before > after => Change::End,
                 _ => Change::Pass,
             };
-            let holds = |node: &Node| {
-                let diverges = crate::Stability::Divergent { negative: 1 };
-                let verdict = node.point.equilibrium.stability;
-                node.point.stiff()
-                    && core::mem::discriminant(&verdict) != core::mem::discriminant(&diverges)
+            let loses = match k {
+                0 => holds(self.ends[0]),
+                _ => self.holds_before(t),
             };
-            let loses = before.as_deref().is_none_or(holds);
             found.events.push((
                 t,
                 Event::Critical {
@@ -313,6 +376,20 @@ impl<'a, 'b> Step<'a, 'b> {
                 },
             ));
         }
+    }
+
+    fn holds_before(&self, t: f64) -> bool {
+        let before = self.before(t);
+        before.is_none_or(|node| holds(&node.point))
+    }
+
+    /// A state as near to a place as it can be solved, on one side of it and no farther than `limit`.
+    fn beside(&mut self, t: f64, side: f64, limit: f64) -> Option<Rc<Spectrum>> {
+        ASIDE.iter().find_map(|aside| {
+            let near = t + side * aside;
+            let inside = (limit - near) * side > 0.0;
+            inside.then(|| self.state(near)).flatten()
+        })
     }
 
     /// The special points at several places, each sought between the middles of the ways to its neighbours.
@@ -381,15 +458,41 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// The last known state before a place.
     fn before(&self, t: f64) -> Option<Rc<Node>> {
-        let place = self.nodes.partition_point(|node| node.spectrum.t < t - SAME);
+        let place = self
+            .nodes
+            .partition_point(|node| node.spectrum.t < t - SAME);
         self.nodes.get(place.checked_sub(1)?).cloned()
     }
 
     /// The first known state after a place.
     fn after(&self, t: f64) -> Option<Rc<Node>> {
-        let place = self.nodes.partition_point(|node| node.spectrum.t <= t + SAME);
+        let place = self
+            .nodes
+            .partition_point(|node| node.spectrum.t <= t + SAME);
         self.nodes.get(place).cloned()
     }
+}
+
+/// The cubic through two positions with their derivatives.
+fn curve_between(
+    a: &[CurvePosition; 2],
+    b: &[CurvePosition; 2],
+    h: f64,
+    share: f64,
+) -> CurvePosition {
+    let one = |from: [f64; 2], to: [f64; 2]| cubic(from, to, h, share)[0];
+    let unknown = |i: usize| one([a[0].q[i], a[1].q[i]], [b[0].q[i], b[1].q[i]]);
+    CurvePosition {
+        q: Vector::from_fn(a[0].q.len(), unknown),
+        p: one([a[0].p, a[1].p], [b[0].p, b[1].p]),
+    }
+}
+
+/// Whether all stiffness is positive, and the determinant of one that is not symmetric.
+fn holds(point: &CurvePoint) -> bool {
+    // Two directions without stiffness leave the determinant of a non-symmetric one positive.
+    let diverges = matches!(point.equilibrium.stability, Stability::Divergent { .. });
+    point.stiff() && !diverges
 }
 
 /// Number of growing oscillations.
