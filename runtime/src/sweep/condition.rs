@@ -28,7 +28,8 @@ impl From<f64> for Line {
 pub enum Condition {
     /// The frequency equals a line: `Im s = ratio u + offset`.
     Line(Line),
-    /// The oscillation neither grows nor decays: `Re s = 0`, with growth on one side.
+    /// The oscillation neither grows nor decays: `Re s = 0`, with growth on one side; or flutter and divergence turn into
+    /// each other: `Im s = 0`, with growth on both sides.
     FlutterOnset,
 }
 
@@ -45,6 +46,10 @@ pub enum Change {
     Pass,
     /// The condition is met without being passed: a frequency touches a line, a growth or a stiffness touches zero.
     Touch,
+    /// A growing oscillation ceases to oscillate: flutter turns into divergence.
+    ToDivergence,
+    /// Two motions that grow without oscillation become one that oscillates: divergence turns into flutter.
+    ToFlutter,
 }
 
 /// A state where a mode meets a condition.

@@ -157,7 +157,7 @@ impl Wanted {
                     false => root.value.im - line,
                 }
             }
-            Kind::Growth | Kind::Merging => root.value.re - root.error,
+            Kind::Growth | Kind::Merging | Kind::Turning => root.value.re - root.error,
             Kind::Critical => root.value.re,
         }
     }

@@ -9,6 +9,7 @@ mod cubic;
 mod divide;
 mod found;
 mod node;
+mod pick;
 mod route;
 mod scalars;
 mod spectrum;

@@ -295,7 +295,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             // Special points are known nevertheless.
             for own in located {
                 self.critical(own.special.clone(), Change::Pass, before.stiff());
-                if let Some(next) = self.leaves(&own.special, own.ends_arm, after) {
+                if let Some(next) = self.goes_on(&own.special, own.ends_arm, after) {
                     return Some(next);
                 }
             }
@@ -321,10 +321,11 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                         .any(|own| own.ends_arm && own.special == special);
                     next = match stop {
                         true => Some(Next::Done),
-                        false => self.leaves(&special, arm, after),
+                        false => self.goes_on(&special, arm, after),
                     };
                 }
                 Event::Met {
+                    value,
                     condition,
                     node,
                     mode,
@@ -332,7 +333,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                 } => {
                     let ends = (t == 0.0 && self.route.points.len() <= 1, t == 1.0 && closes);
                     if counts(condition, change, &node, ends)
-                        && self.crossing(condition, &node, mode, change)
+                        && self.crossing((value, condition, change), &node, mode)
                     {
                         next = Some(Next::Done);
                     }
@@ -351,7 +352,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             let condition = match kind {
                 Kind::Critical => None,
                 Kind::Line(k) => Some(Condition::Line(self.wanted.lines[k])),
-                Kind::Growth | Kind::Merging => Some(Condition::FlutterOnset),
+                Kind::Growth | Kind::Merging | Kind::Turning => Some(Condition::FlutterOnset),
             };
             self.doubt(between.map(value), condition);
         }
@@ -449,15 +450,31 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         stop
     }
 
+    /// How the way goes on behind the last critical state; where it leaves the branch, no instability begins.
+    fn goes_on(&mut self, special: &SpecialPoint, arm: bool, after: &CurvePoint) -> Option<Next> {
+        let next = self.leaves(special, arm, after)?;
+        if let Some(last) = self.events.critical.last_mut()
+            && last.value == special.value
+        {
+            last.change = Change::Pass;
+        }
+        Some(next)
+    }
+
     /// Adds a crossing; returns whether it is enough.
-    fn crossing(&mut self, condition: Condition, node: &Node, mode: usize, change: Change) -> bool {
+    fn crossing(
+        &mut self,
+        (value, condition, change): (f64, Condition, Change),
+        node: &Node,
+        mode: usize,
+    ) -> bool {
         let modes = self.labelled(node);
         let own = &node.modes.modes[mode];
         let found =
             (modes.modes.iter()).position(|other| other.s == own.s && other.shape == own.shape);
         let crossing = Crossing {
             input: self.events.input,
-            value: node.point.place.p,
+            value,
             condition,
             change,
             mode: found.unwrap_or(mode),
@@ -600,6 +617,7 @@ fn counts(condition: Condition, change: Change, node: &Node, (first, last): (boo
     match change {
         Change::Onset => first || !undamped,
         Change::End => last,
+        Change::ToDivergence | Change::ToFlutter => true,
         _ => false,
     }
 }

@@ -5,6 +5,7 @@
 //! | an undamped frequency meets a line `L` | `lambda - L^2` |
 //! | a damped frequency meets a line `L` | `Im s - L` |
 //! | an oscillation starts or stops growing | `Re s`; the sum of a pair that is real at some states |
+//! | flutter turns into divergence | `(s_1 - s_2)^2` of a growing pair |
 //! | two oscillations without damping merge | `(s_1 - s_2)^2`, negative while both keep their amplitude |
 //! | stiffness vanishes | `lambda` of a symmetric `Khat`; otherwise a real `s`, or the product of a pair |
 
@@ -37,6 +38,8 @@ pub(super) enum Kind {
     Growth,
     /// Two oscillations begin or cease to be equal.
     Merging,
+    /// A growing pair becomes real, or complex again.
+    Turning,
     Critical,
 }
 
@@ -114,12 +117,12 @@ impl Search<'_> {
     fn look(&mut self) -> Result<(), Needs> {
         let wanted = self.wanted;
         let roots = self.roots.each_ref().map(|roots| &roots[..]);
-        let fits = if wanted.growth {
-            Kind::Growth
-        } else {
-            Kind::Line(0)
+        let unknown = match (wanted.growth, wanted.lines.is_empty()) {
+            (true, _) => Kind::Growth,
+            (false, false) => Kind::Line(0),
+            (false, true) => Kind::Critical,
         };
-        let chains = Chains::new(roots, self.t).ok_or((self.t[1], fits))?;
+        let chains = Chains::new(roots, self.t).ok_or((self.t[1], unknown))?;
         if wanted.undamped {
             for &chain in &chains.real {
                 if wanted.critical {
@@ -266,26 +269,30 @@ impl Search<'_> {
         Ok(positive && self.events.len() == before)
     }
 
-    /// The zeros of the product of two eigenvalues.
+    /// The zeros of the sum, the product or the squared difference of two eigenvalues.
     fn both(&mut self, kind: Kind, two: [Two; 3]) -> Result<(), Needs> {
         let jets = [0, 1, 2].map(|k| {
             let [sum, product] = sum_and_product(&self.roots[k], two[k]);
             let error = self.error(k, two[k]);
-            let of = if kind == Kind::Critical { product } else { sum };
-            let size = match kind {
-                Kind::Critical => sum[0].abs() + error,
-                _ => 2.0,
-            };
-            Jet {
-                value: of[0],
-                slope: of[1],
-                error: error * size,
+            let size = sum[0].abs() + error;
+            match kind {
+                Kind::Critical => Jet {
+                    value: product[0],
+                    slope: product[1],
+                    error: error * size,
+                },
+                Kind::Turning => squared_difference(sum, product, error),
+                _ => Jet {
+                    value: sum[0],
+                    slope: sum[1],
+                    error: 2.0 * error,
+                },
             }
         });
         let size = (0..3).fold(0.0_f64, |most, k| {
             let [sum, product] = sum_and_product(&self.roots[k], two[k]);
             most.max(match kind {
-                Kind::Critical => product[0].abs(),
+                Kind::Critical | Kind::Turning => product[0].abs(),
                 _ => sum[0].abs().max(product[0].abs().sqrt()),
             })
         });
@@ -336,6 +343,7 @@ impl Search<'_> {
         }
         for &changing in &chains.changing {
             self.sum(changing)?;
+            self.turning(changing)?;
         }
         for i in 0..pairs.len() {
             for j in i + 1..pairs.len() {
@@ -356,6 +364,23 @@ impl Search<'_> {
         let complex = |event: &Candidate| event.near[0].im != 0.0;
         self.events.extend(found.into_iter().filter(complex));
         Ok(())
+    }
+
+    /// Where a growing pair becomes real, or complex again.
+    fn turning(&mut self, changing: [Two; 3]) -> Result<(), Needs> {
+        let sums = [0, 1, 2].map(|k| sum_and_product(&self.roots[k], changing[k])[0]);
+        let grows = |k: usize| sums[k][0] > self.error(k, changing[k]);
+        match (0..3).any(grows) {
+            true => {
+                let known = self.events.len();
+                self.both(Kind::Turning, changing)?;
+                let found = self.events.split_off(known);
+                let growing = |event: &Candidate| event.near[0].re > 0.0;
+                self.events.extend(found.into_iter().filter(growing));
+                Ok(())
+            }
+            false => Ok(()),
+        }
     }
 
     /// Where two oscillations that all but keep their amplitude merge, or part again; returns whether they grow anywhere.
@@ -488,6 +513,15 @@ pub(super) fn difference(a: &Root, b: &Root) -> Jet {
         } else {
             0.0
         },
+        error: error * error,
+    }
+}
+
+/// `(s_1 - s_2)^2` of two eigenvalues that are real or conjugate, from their sum and product.
+pub(super) fn squared_difference(sum: [f64; 2], product: [f64; 2], error: f64) -> Jet {
+    Jet {
+        value: sum[0] * sum[0] - 4.0 * product[0],
+        slope: 2.0 * sum[0] * sum[1] - 4.0 * product[1],
         error: error * error,
     }
 }

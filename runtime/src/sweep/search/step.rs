@@ -2,13 +2,14 @@
 
 use std::rc::Rc;
 
-use super::cubic::{Passage, Zero, cubic};
+use super::cubic::{Jet, Passage, Zero, cubic};
 use super::divide::{Interval, States, divide};
 use super::node::{Node, Question};
-use super::scalars::{Candidate, Kind, Wanted, difference};
-use super::spectrum::Spectrum;
+use super::pick::pick;
+use super::scalars::{Candidate, Kind, Wanted};
+use super::spectrum::{Root, Spectrum};
 use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialPoint};
-use crate::sweep::condition::{Change, Condition, Line};
+use crate::sweep::condition::{Change, Condition};
 use crate::{Behaviour, Complex, Stability, Vector};
 
 /// A step from one station of a branch to the next, and the states solved on it.
@@ -36,7 +37,10 @@ pub(super) enum Event {
     },
     /// A mode meets a condition.
     Met {
+        /// The input there, SI.
+        value: f64,
         condition: Condition,
+        /// The state there, or next to it where two eigenvalues merge.
         node: Rc<Node>,
         /// Position of the mode at the node.
         mode: usize,
@@ -78,7 +82,7 @@ impl States for Step<'_, '_> {
         let spectrum = node.spectrum.clone();
         let mut all = spectrum.roots.iter().chain(&spectrum.stiffness);
         let inner = t > 0.0 && t < 1.0;
-        let known = |root: &super::spectrum::Root| root.slope.is_finite() || root.neutral;
+        let known = |root: &Root| root.slope.is_finite() || root.neutral;
         (!inner || all.all(known)).then_some(spectrum)
     }
 }
@@ -215,43 +219,47 @@ impl<'a, 'b> Step<'a, 'b> {
             Kind::Line(k) => Condition::Line(wanted.lines[k]),
             _ => Condition::FlutterOnset,
         };
-        let t = self.root(wanted, kind, zero, near)?;
-        let (mut t, near) = t;
+        let (t, near) = self.root(wanted, kind, zero, near)?;
         let mut node = self.node(t)?;
-        if kind == Kind::Merging {
-            // On the side where both keep their amplitude, both are there.
-            let calm = |node: &Node| growing(node) == 0 || growing(node) <= least(self, zero);
-            if !calm(&node) {
-                let side = if zero.passage == Passage::Rises {
-                    -1.0
-                } else {
-                    1.0
-                };
-                let shifted = t + side * BESIDE / self.length;
-                if (0.0..=1.0).contains(&shifted) {
-                    (t, node) = (shifted, self.node(shifted)?);
-                }
-            }
-        }
-        let [mode, other] = nearest(&node.spectrum, near, (wanted.undamped, kind))?;
-        let mode = if kind == Kind::Merging {
-            mode.min(other)
-        } else {
-            mode
+        let value = node.point.place.p;
+        // On the side where two keep their amplitude, both are there; and a pair, where it oscillates.
+        let there = |step: &Self, node: &Node| match kind {
+            Kind::Merging => growing(node) <= step.least(zero),
+            Kind::Turning => pick(wanted, kind, &node.spectrum, near)
+                .is_some_and(|own| own.positions[0] == own.positions[1]),
+            _ => true,
         };
+        let side = match zero.passage {
+            Passage::Rises => -1.0,
+            _ => 1.0,
+        };
+        let mut aside = BESIDE / self.length;
+        while !there(self, &node) && aside < SAME.sqrt() {
+            let beside = t + side * aside;
+            if !(0.0..=1.0).contains(&beside) {
+                break;
+            }
+            node = self.node(beside)?;
+            aside *= 10.0;
+        }
+        let [mode, other] = pick(wanted, kind, &node.spectrum, near)?.positions;
+        let mode = mode.min(other);
         let met = match kind {
-            Kind::Merging => true,
+            Kind::Merging | Kind::Turning => true,
             _ => condition.is_met(&node.modes.modes[mode], node.spectrum.input[0]),
         };
         let change = match (kind, zero.passage) {
             (_, Passage::Touches) => Change::Touch,
             (Kind::Line(_), _) => Change::Pass,
+            (Kind::Turning, Passage::Rises) => Change::ToDivergence,
+            (Kind::Turning, Passage::Falls) => Change::ToFlutter,
             (_, Passage::Rises) => Change::Onset,
             (_, Passage::Falls) => Change::End,
         };
         met.then_some((
             t,
             Event::Met {
+                value,
                 condition,
                 node,
                 mode,
@@ -276,26 +284,9 @@ impl<'a, 'b> Step<'a, 'b> {
         let mut last = f64::INFINITY;
         for _ in 0..MAX_STEPS {
             let node = self.node(t)?;
-            let spectrum = &node.spectrum;
-            let [first, second] = nearest(spectrum, near, (wanted.undamped, kind))?;
-            let roots = [first, second].map(|r| spectrum.roots[r]);
-            let [u, du] = spectrum.input;
-            let (value, slope) = match kind {
-                Kind::Line(k) => {
-                    let Line { ratio, offset } = wanted.lines[k];
-                    let line = ratio * u + offset;
-                    let (own, rate) = (roots[0].value, roots[0].slope);
-                    match wanted.undamped {
-                        true => (own.re - line * line, rate.re - 2.0 * line * ratio * du),
-                        false => (own.im - line, rate.im - ratio * du),
-                    }
-                }
-                Kind::Merging => {
-                    let jet = difference(&roots[0], &roots[1]);
-                    (jet.value, jet.slope)
-                }
-                _ => (roots[0].value.re, roots[0].slope.re),
-            };
+            let picked = pick(wanted, kind, &node.spectrum, near)?;
+            let roots = picked.positions.map(|r| node.spectrum.roots[r]);
+            let Jet { value, slope, .. } = picked.jet;
             if value == 0.0 {
                 return Some((t, roots.map(|root| root.value)));
             }
@@ -376,6 +367,13 @@ impl<'a, 'b> Step<'a, 'b> {
                 },
             ));
         }
+    }
+
+    /// The smaller number of growing oscillations on either side of an event.
+    fn least(&self, zero: Zero) -> usize {
+        let sides = [self.before(zero.at), self.after(zero.at)];
+        let counts = sides.iter().flatten().map(|node| growing(node));
+        counts.min().unwrap_or(0)
     }
 
     fn holds_before(&self, t: f64) -> bool {
@@ -507,33 +505,4 @@ fn divergent(node: &Node) -> usize {
     let all = node.modes.modes.iter();
     all.filter(|mode| matches!(mode.behaviour, Behaviour::Divergent(_)))
         .count()
-}
-
-/// The smaller number of growing oscillations on either side of an event.
-fn least(step: &Step<'_, '_>, zero: Zero) -> usize {
-    let sides = [step.before(zero.at), step.after(zero.at)];
-    let counts = sides.iter().flatten().map(|node| growing(node));
-    counts.min().unwrap_or(0)
-}
-
-/// Positions of the two eigenvalues nearest to two given ones; twice that of the first if only one is meant.
-fn nearest(
-    spectrum: &Spectrum,
-    near: [Complex; 2],
-    (undamped, kind): (bool, Kind),
-) -> Option<[usize; 2]> {
-    let pick = |to: Complex, but: Option<usize>| {
-        let all = spectrum.roots.iter().enumerate();
-        let wanted = all.filter(|(r, root)| (undamped || root.paired) && Some(*r) != but);
-        let apart = |root: &super::spectrum::Root| (root.value - to).norm();
-        wanted
-            .min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)))
-            .map(|(r, _)| r)
-    };
-    let first = pick(near[0], None)?;
-    let second = match kind {
-        Kind::Merging => pick(near[1], Some(first))?,
-        _ => first,
-    };
-    Some([first, second])
 }
