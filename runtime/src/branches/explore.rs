@@ -1,6 +1,5 @@
 //! Finds all reachable branches: follows each from its start, and enters the other branch at every branch point.
 
-use core::ops::ControlFlow;
 use std::collections::VecDeque;
 
 use super::curve::{Curve, Trouble};
@@ -8,7 +7,7 @@ use super::curve_point::CurvePoint;
 use super::local_scaling::CurvePosition;
 use super::settings::Continuation;
 use super::special::{Junction, SpecialKind};
-use super::walk::{SAME, Walk};
+use super::walk::{Pass, SAME, Walk};
 use super::{Branch, BranchEnd, BranchPoint, Branches};
 use crate::algebra::Vector;
 use crate::equilibrium::{Judged, Policy, Search, equilibrium, find_equilibria};
@@ -174,13 +173,11 @@ impl Curve<'_> {
 
     /// The branch through a station, followed in both directions, and its junctions.
     fn both_ways(&self, station: &CurvePoint) -> Followed {
-        let front = self.walk(station, &station.place, |_, _, _| ControlFlow::Continue(()));
+        let front = self.walk(station, &station.place, |_, _, _| Pass::On);
         let back = if front.end == BranchEnd::Closed {
             nothing(BranchEnd::Closed)
         } else {
-            self.walk(&station.reversed(), &station.place, |_, _, _| {
-                ControlFlow::Continue(())
-            })
+            self.walk(&station.reversed(), &station.place, |_, _, _| Pass::On)
         };
         self.joined(back, Some(self.point(station)), front)
     }
@@ -289,9 +286,7 @@ impl Curve<'_> {
     fn follow(&self, lead: &Lead, known: &[Branch]) -> Option<Followed> {
         let fresh = |station: &CurvePoint| !self.known(known, &station.place);
         let from = |junction: &Junction, station: &CurvePoint| {
-            let mut walk = self.walk(station, &junction.frame.origin, |_, _, _| {
-                ControlFlow::Continue(())
-            });
+            let mut walk = self.walk(station, &junction.frame.origin, |_, _, _| Pass::On);
             walk.points.insert(0, self.point(station));
             walk
         };

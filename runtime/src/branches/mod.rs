@@ -26,6 +26,7 @@ pub(crate) use local_scaling::CurvePosition;
 pub use settings::Continuation;
 pub(crate) use special::{Located, critical_inertia};
 pub use special::{SpecialKind, SpecialPoint};
+pub(crate) use walk::Pass;
 
 use crate::algebra::Vector;
 use crate::equilibrium::{Equilibrium, Stability, coincide, turned_towards};

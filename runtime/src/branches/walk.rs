@@ -1,7 +1,5 @@
 //! Pseudo-arclength continuation: follows a branch along its tangent with steps adapted to the curvature.
 
-use core::ops::ControlFlow;
-
 use super::curve::{Corrected, Curve, Trouble};
 use super::curve_point::CurvePoint;
 use super::ends::STRAY;
@@ -28,6 +26,15 @@ pub(crate) struct Walk {
     pub(crate) end: BranchEnd,
 }
 
+/// How a walk goes on after a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pass {
+    On,
+    /// The step may have led to another branch: a shorter one instead.
+    Shorter,
+    Stop,
+}
+
 /// One accepted step.
 struct Step {
     station: CurvePoint,
@@ -38,13 +45,13 @@ struct Step {
 }
 
 impl Curve<'_> {
-    /// Follows the branch from a station along its tangent until the branch ends, or until `pass`, which sees every step
-    /// from one station to the next, breaks off. The branch started at `home`.
+    /// Follows the branch from a station along its tangent until the branch ends. `pass` sees every step from one station
+    /// to the next and says how to go on. The branch started at `home`.
     pub(crate) fn walk(
         &self,
         start: &CurvePoint,
         home: &CurvePosition,
-        mut pass: impl FnMut(&CurvePoint, &CurvePoint, &[Located]) -> ControlFlow<()>,
+        mut pass: impl FnMut(&CurvePoint, &CurvePoint, &[Located]) -> Pass,
     ) -> Walk {
         let settings = self.settings;
         let mut walk = Walk {
@@ -95,15 +102,23 @@ impl Curve<'_> {
                     continue;
                 }
             };
+            match pass(&at, &step.station, &step.located) {
+                Pass::Shorter if length > 2.0 * settings.min_step => {
+                    length *= 0.5;
+                    refused = Some(Trouble::Missed(NotFound::BendsSharply));
+                    continue;
+                }
+                Pass::Stop => {
+                    walk.end = BranchEnd::Stopped;
+                    return walk;
+                }
+                Pass::On | Pass::Shorter => {}
+            }
             let growth = if refused.take().is_some() {
                 step.growth.min(1.0)
             } else {
                 step.growth
             };
-            if pass(&at, &step.station, &step.located).is_break() {
-                walk.end = BranchEnd::Stopped;
-                return walk;
-            }
             for located in step.located {
                 let special = located.special;
                 walk.points

@@ -26,6 +26,8 @@ pub(super) struct Doubt {
 pub(super) struct Division {
     pub(super) events: Vec<Candidate>,
     pub(super) doubts: Vec<Doubt>,
+    /// Whether a state between two others was not found.
+    pub(super) broken: bool,
     /// The states that divide the step, in order.
     pub(super) states: Vec<Rc<Spectrum>>,
 }
@@ -64,6 +66,7 @@ pub(super) fn divide(
             .iter()
             .find_map(|share| source.state(a.t + share * width));
         let Some(middle) = middle else {
+            found.broken = true;
             found.doubts.push(Doubt {
                 between: [a.t, b.t],
                 kind: Kind::Critical,

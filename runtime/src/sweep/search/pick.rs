@@ -2,7 +2,7 @@
 
 use super::cubic::Jet;
 use super::scalars::{Kind, Wanted, difference, squared_difference};
-use super::spectrum::{Root, Spectrum, Two, sum_and_product};
+use super::spectrum::{Root, Spectrum, Two, nearest_two, sum_and_product};
 use crate::Complex;
 use crate::sweep::condition::Line;
 
@@ -45,9 +45,37 @@ pub(super) fn pick(
                 false => alone(own.value.im - line, own.slope.im - ratio * du),
             }
         }
-        Kind::Growth | Kind::Critical => {
+        Kind::Growth => {
             let own = &roots[first?];
             alone(own.value.re, own.slope.re)
+        }
+        Kind::Critical if near[0] != near[1] => {
+            let (two, positions) = two_near(roots, near)?;
+            let [sum, product] = sum_and_product(roots, two);
+            let error = roots[positions[0]].error * sum[0].abs();
+            Some(Picked {
+                positions,
+                jet: Jet {
+                    value: product[0],
+                    slope: product[1],
+                    error,
+                },
+            })
+        }
+        Kind::Critical => {
+            let own = match wanted.symmetric && !wanted.undamped {
+                true => &spectrum.stiffness,
+                false => roots,
+            };
+            let r = nearest(own, near[0], None, |root| !root.paired)?;
+            Some(Picked {
+                positions: [r; 2],
+                jet: Jet {
+                    value: own[r].value.re,
+                    slope: own[r].slope.re,
+                    error: own[r].error,
+                },
+            })
         }
         Kind::Merging => {
             let (first, second) = (first?, nearest(roots, near[1], first, oscillates)?);
@@ -57,14 +85,7 @@ pub(super) fn pick(
             })
         }
         Kind::Turning => {
-            let one = nearest(roots, near[0], None, |root| !root.paired);
-            let other = nearest(roots, near[0], one, |root| !root.paired);
-            let apart =
-                |r: Option<usize>| r.map_or(f64::INFINITY, |r| (roots[r].value - near[0]).norm());
-            let (two, positions) = match (one, other) {
-                (Some(a), Some(b)) if apart(other) < apart(first) => (Two::Real(a, b), [a, b]),
-                _ => (Two::Pair(first?), [first?; 2]),
-            };
+            let (two, positions) = two_near(roots, near)?;
             let [sum, product] = sum_and_product(roots, two);
             Some(Picked {
                 positions,
@@ -72,6 +93,17 @@ pub(super) fn pick(
             })
         }
     }
+}
+
+/// The conjugate pair, or the two real eigenvalues, whose sum and product are nearest to those of two values.
+fn two_near(roots: &[Root], near: [Complex; 2]) -> Option<(Two, [usize; 2])> {
+    let wanted = [(near[0] + near[1]).re, (near[0] * near[1]).re];
+    let two = nearest_two(roots, wanted)?;
+    let positions = match two {
+        Two::Pair(r) => [r; 2],
+        Two::Real(a, b) => [a, b],
+    };
+    Some((two, positions))
 }
 
 /// Position of the eigenvalue nearest to a value, among those that are `wanted`, except one.

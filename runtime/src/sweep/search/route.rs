@@ -8,8 +8,8 @@ use super::node::{Node, Question, has_stiffness};
 use super::scalars::{Kind, Wanted};
 use super::step::{Event, Step};
 use crate::branches::{
-    BranchEnd, Continuation, Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint,
-    Trouble,
+    BranchEnd, Continuation, Curve, CurvePoint, CurvePosition, Located, Pass, SpecialKind,
+    SpecialPoint, Trouble,
 };
 use crate::equilibrium::{Policy, equilibrium};
 use crate::error::NotFound;
@@ -61,8 +61,8 @@ const COARSEST_STEP: f64 = 0.1;
 const MOST_POINTS: usize = 50_000;
 /// Events are not separated below this share of the range.
 const RESOLUTION: f64 = 1e-10;
-/// Shares of the range behind a critical state at which the equilibrium that follows is sought.
-const BEHIND: [f64; 3] = [1e-6, 1e-4, 1e-3];
+/// Share of the range behind a critical state at which the equilibrium that follows is sought.
+const BEHIND: f64 = 1e-6;
 /// Assurance below which a mode counts as not recognised, and a state between is sought.
 const RECOGNISED: f64 = 0.8;
 /// Maximum number of times the way to a state is halved to recognise its modes.
@@ -231,14 +231,22 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let begin = self.route.points.len();
         let mut next = None;
         let mut reached = station.clone();
-        let walk = curve.walk(&station, &station.place, |before, after, located| {
-            next = self.step(&curve, [before, after], located);
-            reached = after.clone();
-            match next {
-                Some(_) => ControlFlow::Break(()),
-                None => ControlFlow::Continue(()),
-            }
-        });
+        let walk = curve.walk(
+            &station,
+            &station.place,
+            |before, after, located| match self.step(&curve, [before, after], located) {
+                ControlFlow::Continue(pass) => {
+                    if pass == Pass::On {
+                        reached = after.clone();
+                    }
+                    pass
+                }
+                ControlFlow::Break(end) => {
+                    next = Some(end);
+                    Pass::Stop
+                }
+            },
+        );
         let until = match (&next, self.events.critical.last()) {
             (Some(Next::From(_) | Next::Seek(..)), Some(critical)) => critical.value,
             _ => reached.place.p,
@@ -275,31 +283,40 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         }
     }
 
-    /// Finds the events of one step; returns how the way goes on if it leaves the branch.
+    /// Finds the events of one step; breaks off with how the way goes on if it leaves the branch.
     fn step(
         &mut self,
         curve: &Curve<'_>,
         [before, after]: [&CurvePoint; 2],
         located: &[Located],
-    ) -> Option<Next> {
+    ) -> ControlFlow<Next, Pass> {
         let closes = after.place.p == self.settings.high;
+        let turns = before.signs.falling != after.signs.falling;
         let mut left = self.left;
         let step = Step::new(curve, self.question, [before, after], &mut left);
-        let found = step.and_then(|mut step| {
-            let found = step.findings(self.wanted, located, closes, RESOLUTION)?;
-            Some((step, found))
-        });
-        let Some((mut step, found)) = found else {
+        let Some(mut step) = step else {
+            return ControlFlow::Continue(Pass::On);
+        };
+        let found = match step.follows() {
+            true => step.findings(self.wanted, located, closes, RESOLUTION),
+            false => None,
+        };
+        let shorter = step.can_be_shorter();
+        let Some(found) = found else {
+            drop(step);
             self.left = left;
+            if shorter && self.left > 0 {
+                return ControlFlow::Continue(Pass::Shorter);
+            }
             self.doubt([before.place.p, after.place.p], None);
             // Special points are known nevertheless.
             for own in located {
                 self.critical(own.special.clone(), Change::Pass, before.stiff());
-                if let Some(next) = self.goes_on(&own.special, own.ends_arm, after) {
-                    return Some(next);
+                if let Some(next) = self.goes_on(&own.special, turns || own.ends_arm, after) {
+                    return ControlFlow::Break(next);
                 }
             }
-            return None;
+            return ControlFlow::Continue(Pass::On);
         };
         self.finest = self.finest.min(found.finest);
         let value = |t: f64| before.place.p + t * (after.place.p - before.place.p);
@@ -316,9 +333,9 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     loses,
                 } => {
                     let stop = self.critical(special.clone(), change, loses);
-                    let arm = located
-                        .iter()
-                        .any(|own| own.ends_arm && own.special == special);
+                    let last = located.last().map(|own| &own.special);
+                    let ends = |own: &Located| own.ends_arm && own.special == special;
+                    let arm = located.iter().any(ends) || turns && last == Some(&special);
                     next = match stop {
                         true => Some(Next::Done),
                         false => self.goes_on(&special, arm, after),
@@ -358,7 +375,10 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         }
         drop(step);
         self.left = left;
-        next
+        match next {
+            Some(next) => ControlFlow::Break(next),
+            None => ControlFlow::Continue(Pass::On),
+        }
     }
 
     fn doubt(&mut self, [from, to]: [f64; 2], condition: Option<Condition>) {
@@ -498,31 +518,24 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         if self.along.policy != Policy::Stable || !potential || settled {
             return None;
         }
-        BEHIND.iter().find_map(|share| {
-            let value = special.value + share * (self.settings.high - self.settings.low);
-            let inside = (self.settings.high - value) * self.forward() > 0.0;
-            let state = inside
-                .then(|| self.solve(value, from, Policy::Stable))?
-                .ok()?;
-            state.stability.holds().then(|| Next::From(Box::new(state)))
-        })
+        let value = special.value + BEHIND * (self.settings.high - self.settings.low);
+        let inside = (self.settings.high - value) * self.forward() > 0.0;
+        let state = inside
+            .then(|| self.solve(value, from, Policy::Stable))?
+            .ok()?;
+        state.stability.holds().then(|| Next::From(Box::new(state)))
     }
 
     /// The state behind a value at which a branch ends.
     fn behind(&self, value: f64, from: &[f64]) -> Next {
-        let mut refused = None;
-        for share in BEHIND {
-            let value = value + share * (self.settings.high - self.settings.low);
-            if (self.settings.high - value) * self.forward() <= 0.0 {
-                return Next::Done;
-            }
-            match self.solve(value, from, self.along.policy) {
-                Ok(state) => return Next::From(Box::new(state)),
-                Err(error) => _ = refused.get_or_insert(error),
-            }
+        let next = value + BEHIND * (self.settings.high - self.settings.low);
+        if (self.settings.high - next) * self.forward() <= 0.0 {
+            return Next::Done;
         }
-        let error = refused.unwrap_or(Error::CriticalState);
-        Next::Seek(value, from.into(), error)
+        match self.solve(next, from, self.along.policy) {
+            Ok(state) => Next::From(Box::new(state)),
+            Err(error) => Next::Seek(value, from.into(), error),
+        }
     }
 
     /// Looks for the next value at which there is a state, and for the beginning of its branch.
@@ -578,10 +591,10 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             let turns = |own: &&Located| own.special.kind == SpecialKind::Fold;
             fold = located.iter().find(turns).map(|own| own.special.clone());
             if fold.is_some() || (after.place.p - limit) * self.forward() < 0.0 {
-                return ControlFlow::Break(());
+                return Pass::Stop;
             }
             begin = after.reversed();
-            ControlFlow::Continue(())
+            Pass::On
         });
         let value = fold.as_ref().map_or(begin.place.p, |special| special.value);
         self.gap(limit, value, error);

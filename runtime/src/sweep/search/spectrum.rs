@@ -85,7 +85,7 @@ impl Chains {
         // Two real ones that are a pair before or after.
         let mut done = vec![false; middle.len()];
         for &(i, both) in &before.split {
-            let to = across(both, &after.ahead, &after.joined)?;
+            let to = across(middle, both, &after)?;
             (chains.changing).push([Two::Pair(i), Two::Real(both[0], both[1]), to]);
             for k in both {
                 done[k] = true;
@@ -116,16 +116,18 @@ fn side(own: Option<usize>, changed: &[(usize, [usize; 2])], k: usize) -> Option
 }
 
 /// What two real eigenvalues of the middle state are at the last one.
-fn across(
-    both: [usize; 2],
-    ahead: &[Option<usize>],
-    joined: &[(usize, [usize; 2])],
-) -> Option<Two> {
-    match both.map(|k| ahead[k]) {
+fn across(middle: &[Root], both: [usize; 2], after: &Link) -> Option<Two> {
+    match both.map(|k| after.ahead[k]) {
         [Some(a), Some(b)] => Some(Two::Real(a, b)),
         [None, None] => {
-            let same = |own: &[usize; 2]| *own == both || *own == [both[1], both[0]];
-            let (pair, _) = joined.iter().find(|(_, own)| same(own))?;
+            // Of equal pairs, any will do.
+            let equal = |a: usize, b: usize| {
+                let (a, b) = (&middle[a], &middle[b]);
+                (a.value - b.value).norm() <= a.error + b.error
+            };
+            let same = |own: &[usize; 2], [a, b]: [usize; 2]| equal(own[0], a) && equal(own[1], b);
+            let fits = |own: &[usize; 2]| same(own, both) || same(own, [both[1], both[0]]);
+            let (pair, _) = after.joined.iter().find(|(_, own)| fits(own))?;
             Some(Two::Pair(*pair))
         }
         _ => None,
@@ -165,31 +167,75 @@ fn link(first: &[Root], second: &[Root], h: f64) -> Option<Link> {
     };
     let (pairs, real) = left(&found.ahead, first);
     let (other_pairs, other_real) = left(&found.behind, second);
-    found.split = halves(first, &pairs, second, other_real)?;
-    found.joined = halves(second, &other_pairs, first, real)?;
+    found.split = halves(first, &pairs, second, other_real, h)?;
+    found.joined = halves(second, &other_pairs, first, real, -h)?;
     Some(found)
 }
 
-/// For each of the `pairs`, the two of the real eigenvalues of the other state that are nearest to its real part;
-/// `None` unless that uses all of them.
+/// For each of the `pairs`, the two real eigenvalues of the other state, at a distance `h`, whose sum and product it
+/// meets halfway; `None` unless that uses all of them.
 fn halves(
     here: &[Root],
     pairs: &[usize],
     there: &[Root],
     mut real: Vec<usize>,
+    h: f64,
 ) -> Option<Vec<(usize, [usize; 2])>> {
     if real.len() != 2 * pairs.len() {
         return None;
     }
     let mut found = Vec::with_capacity(pairs.len());
     for &pair in pairs {
-        let apart = |k: &usize| (there[*k].value.re - here[pair].value.re).abs();
-        real.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
-        let rest = real.split_off(2);
-        found.push((pair, [real[0], real[1]]));
-        real = rest;
+        let wanted = ahead(here, Two::Pair(pair), 0.5 * h);
+        let (both, _) = nearest_real(there, &real, wanted, -0.5 * h)?;
+        real.retain(|r| !both.contains(r));
+        found.push((pair, both));
     }
     Some(found)
+}
+
+/// The sum and the product of two eigenvalues at a distance from their state.
+fn ahead(roots: &[Root], two: Two, distance: f64) -> [f64; 2] {
+    sum_and_product(roots, two).map(|[value, slope]| match slope.is_finite() {
+        true => value + slope * distance,
+        false => value,
+    })
+}
+
+/// The two of the real eigenvalues at these positions whose sum and product, at a distance, are nearest to others, and
+/// by how much they miss them.
+fn nearest_real(
+    roots: &[Root],
+    real: &[usize],
+    wanted: [f64; 2],
+    distance: f64,
+) -> Option<([usize; 2], f64)> {
+    let two = real.iter().enumerate();
+    let two = two.flat_map(|(k, &a)| real[k + 1..].iter().map(move |&b| [a, b]));
+    let missed = two.map(|[a, b]| {
+        let there = ahead(roots, Two::Real(a, b), distance);
+        ([a, b], missed(there, wanted))
+    });
+    missed.min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// How far a sum and a product are from others, as squares of eigenvalues.
+fn missed([sum, product]: [f64; 2], wanted: [f64; 2]) -> f64 {
+    let size = wanted[0].abs().max(wanted[1].abs().sqrt());
+    (sum - wanted[0]).abs() * size + (product - wanted[1]).abs()
+}
+
+/// The conjugate pair, or the two real eigenvalues, nearest to a sum and a product.
+pub(super) fn nearest_two(roots: &[Root], wanted: [f64; 2]) -> Option<Two> {
+    let (pairs, real): (Vec<usize>, Vec<usize>) = (0..roots.len()).partition(|&r| roots[r].paired);
+    let pair = pairs.into_iter().map(|r| {
+        let s = roots[r].value;
+        (Two::Pair(r), missed([2.0 * s.re, s.norm_sqr()], wanted))
+    });
+    let both = nearest_real(roots, &real, wanted, 0.0);
+    let both = both.map(|([a, b], missed)| (Two::Real(a, b), missed));
+    let nearest = pair.chain(both).min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map(|(two, _)| two)
 }
 
 /// Value and slope of the sum and of the product of both eigenvalues.

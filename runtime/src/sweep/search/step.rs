@@ -8,7 +8,7 @@ use super::node::{Node, Question};
 use super::pick::pick;
 use super::scalars::{Candidate, Kind, Wanted};
 use super::spectrum::{Root, Spectrum};
-use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialPoint};
+use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint};
 use crate::sweep::condition::{Change, Condition};
 use crate::{Behaviour, Complex, Stability, Vector};
 
@@ -63,16 +63,26 @@ pub(super) struct Findings {
 const MAX_STEPS: usize = 60;
 /// A step this small, as a share of the whole, changes nothing.
 const LAST_STEP: f64 = 4.0 * f64::EPSILON;
+/// A Newton step this small leaves a remainder at rounding.
+const NEWTON: f64 = 1e-7;
+/// Distance beyond the ends of a stretch, as a share of the step, at which an event may still belong to it.
+const SLACK: f64 = 1e-5;
 /// Below this size, a step that does not shrink has reached rounding.
 const ROUNDING: f64 = 1e-9;
 /// Distance of two events, as a share of the step, below which they are one for several modes.
 const SAME: f64 = 1e-9;
-/// Share of its distance from the chord by which the branch may miss the cubic between two known stations, and share of
-/// the step by which it may miss it in addition.
-const ASTRAY: f64 = 0.25;
-const CLOSE: f64 = 1e-3;
+/// Share of what the branch bends between two known stations by which it may miss the cubic between them, and share of
+/// the way by which it may miss it in addition.
+const ASTRAY: f64 = 0.05;
+const CLOSE: f64 = 1e-6;
+/// Share of it by which the direction may miss that of the cubic: beyond, it is another branch, or the step is too long.
+const TURNED: f64 = 0.1;
 /// Distances from a special point, as shares of the step, at which the branch beside it is sought.
-const ASIDE: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+const ASIDE: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+/// Local distance within which special points of several modes are located.
+const ROUGHLY: f64 = 1e-6;
+/// Local length of a step that is not shortened any more.
+const SHORTEST: f64 = 1e-6;
 /// Distance from an event at which the states on either side of it are told apart.
 const BESIDE: f64 = 1e-10;
 
@@ -131,6 +141,16 @@ impl<'a, 'b> Step<'a, 'b> {
         (rate > 0.0 && rate.is_finite()).then_some(rate)
     }
 
+    /// Whether shorter steps may tell more.
+    pub(super) fn can_be_shorter(&self) -> bool {
+        self.length > SHORTEST
+    }
+
+    /// Whether the branch passes close to where its ends expect it in the middle.
+    pub(super) fn follows(&mut self) -> bool {
+        self.node(0.5).is_some()
+    }
+
     /// The station at a place: on the cubic between the known ones, or close beside it. Where branches meet, another one
     /// may be farther from it.
     fn between(&self, t: f64) -> Option<CurvePoint> {
@@ -149,16 +169,25 @@ impl<'a, 'b> Step<'a, 'b> {
         let h = after.0 - before.0;
         let share = (t - before.0) / h;
         let [a, b] = [end(&before)?, end(&after)?];
-        let predicted = curve_between(&a, &b, h, share);
-        let chord = a[0].plus(share, &b[0].plus(-1.0, &a[0]));
-        let bend = predicted.plus(-1.0, &chord).norm();
-        let reach = ASTRAY * bend + CLOSE * self.length;
+        let [predicted, rate] = curve_between(&a, &b, h, share);
+        let off = |own: &[CurvePosition; 2]| {
+            let along = own[1].dot(&self.normal);
+            own[1].plus(-along, &self.normal).norm() * h
+        };
+        let turn = off(&a) + off(&b);
+        let slack = CLOSE * self.length * h;
+        let reach = ASTRAY * turn + slack;
         let found = (self.curve).across(self.ends[0], &predicted, &self.normal, reach);
-        found.ok()
+        let found = found.ok()?;
+        let own = frame
+            .direction(&found.direction())
+            .scaled(self.rate(&found)?);
+        let turned = own.plus(-1.0, &rate).norm() * h;
+        (turned <= TURNED * turn + slack).then_some(found)
     }
 
     /// The events of the step, in order; `located` are the special points that the walk has found on it. The end is part
-    /// of the step only if it `closes` the search.
+    /// of the step only if it `closes` the search. `None` if a shorter step tells more.
     pub(super) fn findings(
         &mut self,
         wanted: &Wanted,
@@ -168,15 +197,17 @@ impl<'a, 'b> Step<'a, 'b> {
     ) -> Option<Findings> {
         let mut found = Findings::default();
         let mut events = Vec::new();
+        let mut broken = false;
         let mut specials: Vec<(f64, &Located)> = (located.iter())
             .map(|own| (self.place_of(&own.special), own))
             .collect();
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The special points that are known divide the step.
         let mut from = (self.state(0.0)?, true);
-        for place in specials.iter().map(|own| Some(own.0)).chain([None]) {
-            let last = match place {
-                Some(t) => self.beside(t, -1.0, from.0.t),
+        for special in specials.iter().map(Some).chain([None]) {
+            let place = special.map(|own| own.0);
+            let last = match special {
+                Some(own) => self.beside(own, -1.0, from.0.t),
                 None => Some(self.state(1.0)?),
             };
             if let Some(last) = last {
@@ -190,9 +221,14 @@ impl<'a, 'b> Step<'a, 'b> {
                 found.doubts.extend(doubts);
                 found.places.extend(own.states.iter().map(|state| state.t));
                 events.extend(own.events);
+                broken |= own.broken;
+            } else {
+                broken = true;
+                let to = place.unwrap_or(1.0);
+                found.doubts.push(([from.0.t, to], Kind::Critical));
             }
-            if let Some(t) = place {
-                match self.beside(t, 1.0, 1.0) {
+            if let Some(own) = special {
+                match self.beside(own, 1.0, 1.0) {
                     Some(next) => from = (next, false),
                     None => break,
                 }
@@ -200,6 +236,9 @@ impl<'a, 'b> Step<'a, 'b> {
         }
         let (critical, met): (Vec<_>, Vec<_>) =
             (events.into_iter()).partition(|event| event.kind == Kind::Critical);
+        if self.can_be_shorter() && (broken || !explained(&critical)) {
+            return None;
+        }
         for candidate in &met {
             match self.meet(wanted, candidate) {
                 Some(event) => found.events.push(event),
@@ -207,7 +246,7 @@ impl<'a, 'b> Step<'a, 'b> {
                 None => found.doubts.push((candidate.zero.between, candidate.kind)),
             }
         }
-        self.criticals(critical, &specials, &mut found);
+        self.criticals(wanted, critical, &specials, &mut found);
         found.events.sort_by(|a, b| a.0.total_cmp(&b.0));
         Some(found)
     }
@@ -220,8 +259,6 @@ impl<'a, 'b> Step<'a, 'b> {
             _ => Condition::FlutterOnset,
         };
         let (t, near) = self.root(wanted, kind, zero, near)?;
-        let mut node = self.node(t)?;
-        let value = node.point.place.p;
         // On the side where two keep their amplitude, both are there; and a pair, where it oscillates.
         let there = |step: &Self, node: &Node| match kind {
             Kind::Merging => growing(node) <= step.least(zero),
@@ -233,15 +270,17 @@ impl<'a, 'b> Step<'a, 'b> {
             Passage::Rises => -1.0,
             _ => 1.0,
         };
+        let exact = self.node(t);
+        let value = exact.as_ref().map(|node| node.point.place.p);
+        let mut found = exact.filter(|node| there(self, node));
         let mut aside = BESIDE / self.length;
-        while !there(self, &node) && aside < SAME.sqrt() {
-            let beside = t + side * aside;
-            if !(0.0..=1.0).contains(&beside) {
-                break;
-            }
-            node = self.node(beside)?;
+        while found.is_none() && aside < SAME.sqrt() {
+            let beside = (t + side * aside).clamp(0.0, 1.0);
+            found = self.node(beside).filter(|node| there(self, node));
             aside *= 10.0;
         }
+        let node = found?;
+        let value = value.unwrap_or(node.point.place.p);
         let [mode, other] = pick(wanted, kind, &node.spectrum, near)?.positions;
         let mode = mode.min(other);
         let met = match kind {
@@ -283,9 +322,16 @@ impl<'a, 'b> Step<'a, 'b> {
         let rises = zero.passage == Passage::Rises;
         let mut last = f64::INFINITY;
         for _ in 0..MAX_STEPS {
-            let node = self.node(t)?;
-            let picked = pick(wanted, kind, &node.spectrum, near)?;
-            let roots = picked.positions.map(|r| node.spectrum.roots[r]);
+            let node = self.node(t);
+            let spectrum = node.as_ref().map(|node| &node.spectrum);
+            let picked = spectrum.and_then(|own| Some((own, pick(wanted, kind, own, near)?)));
+            let close = last < ROUNDING.sqrt();
+            let known = picked.filter(|(_, own)| own.jet.slope.is_finite() || !close);
+            let Some((spectrum, picked)) = known else {
+                // Where eigenvalues merge they have no derivatives; a Newton step from beside it has led there.
+                return close.then_some((t, near));
+            };
+            let roots = picked.positions.map(|r| spectrum.roots[r]);
             let Jet { value, slope, .. } = picked.jet;
             if value == 0.0 {
                 return Some((t, roots.map(|root| root.value)));
@@ -296,21 +342,29 @@ impl<'a, 'b> Step<'a, 'b> {
                 low = low.max(t);
             }
             let newton = t - value / slope;
-            let next = match newton > low && newton < high {
+            // Right beside an end the sign is not known.
+            let [before, after] = [low, high].map(|end| {
+                if zero.between.contains(&end) {
+                    SLACK
+                } else {
+                    0.0
+                }
+            });
+            let next = match newton > low - before && newton < high + after {
                 true => newton,
-                // At an end of the step, or where the number is not smooth.
-                false if zero.between[0] == zero.between[1] => newton.clamp(0.0, 1.0),
                 false => 0.5 * (low + high),
             };
             let size = (next - t).abs();
             near = roots.map(|root| {
                 let moved = root.value + root.slope * (next - t);
-                if moved.is_finite() && size < ROUNDING.sqrt() {
-                    moved
-                } else {
-                    root.value
+                match kind != Kind::Turning && moved.is_finite() && size < ROUNDING.sqrt() {
+                    true => moved,
+                    false => root.value,
                 }
             });
+            if kind == Kind::Turning && roots[0].paired {
+                near[1] = near[0].conj();
+            }
             if size <= LAST_STEP || (size < ROUNDING && size >= 0.5 * last) {
                 return Some((t, roots.map(|root| root.value)));
             }
@@ -322,12 +376,16 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Adds the special points of the branch: those that are known, and those at further places where stiffness vanishes.
     fn criticals(
         &mut self,
+        wanted: &Wanted,
         candidates: Vec<Candidate>,
         known: &[(f64, &Located)],
         found: &mut Findings,
     ) {
         let (touching, mut crossing): (Vec<_>, Vec<_>) =
             (candidates.into_iter()).partition(|own| own.zero.passage == Passage::Touches);
+        for own in &mut crossing {
+            own.zero.at = self.refined(wanted, own);
+        }
         crossing.sort_by(|a, b| a.zero.at.total_cmp(&b.zero.at));
         let of_walk = (known.iter()).map(|(t, own)| (*t, own.special.clone(), own.ends_arm));
         let own = self.separated(&crossing).into_iter();
@@ -381,36 +439,67 @@ impl<'a, 'b> Step<'a, 'b> {
         before.is_none_or(|node| holds(&node.point))
     }
 
-    /// A state as near to a place as it can be solved, on one side of it and no farther than `limit`.
-    fn beside(&mut self, t: f64, side: f64, limit: f64) -> Option<Rc<Spectrum>> {
+    /// A state as near to a special point as it can be solved, on one side of it and no farther than `limit`.
+    fn beside(
+        &mut self,
+        &(t, special): &(f64, &Located),
+        side: f64,
+        limit: f64,
+    ) -> Option<Rc<Spectrum>> {
+        let exact = special.special.kind != SpecialKind::Degenerate;
+        let least = if exact { 0.0 } else { ROUGHLY / self.length };
         ASIDE.iter().find_map(|aside| {
-            let near = t + side * aside;
+            let near = t + side * f64::max(least, *aside);
             let inside = (limit - near) * side > 0.0;
             inside.then(|| self.state(near)).flatten()
         })
+    }
+
+    /// The place at which stiffness vanishes, by Newton steps from states at which it does not.
+    fn refined(&mut self, wanted: &Wanted, candidate: &Candidate) -> f64 {
+        let Candidate { kind, zero, near } = *candidate;
+        let [low, high] = zero.between;
+        let mut t = zero.at;
+        for _ in 0..MAX_STEPS {
+            let picked = (self.node(t)).and_then(|node| pick(wanted, kind, &node.spectrum, near));
+            let Some(Jet { value, slope, .. }) = picked.map(|own| own.jet) else {
+                return t;
+            };
+            let next = t - value / slope;
+            let size = (next - t).abs();
+            if !(next > low && next < high) {
+                return t;
+            }
+            t = next;
+            if size < NEWTON {
+                return t;
+            }
+        }
+        t
     }
 
     /// The special points at several places, each sought between the middles of the ways to its neighbours.
     fn separated(&mut self, crossing: &[Candidate]) -> Vec<(f64, SpecialPoint)> {
         let mut found = Vec::new();
         let mut rest = crossing;
+        let mut previous: Option<&Candidate> = None;
         while let Some(first) = rest.first() {
             let same = |own: &&Candidate| own.zero.at - first.zero.at <= SAME;
             let count = rest.iter().take_while(same).count();
             let (group, after) = rest.split_at(count);
             let last = &group[count - 1];
-            let mut between = [first.zero.between[0], last.zero.between[1]];
-            if let Some(next) = after.first() {
-                between[1] = between[1].min(0.5 * (last.zero.at + next.zero.at));
-            }
-            let [low, high] = match between[0] == between[1] {
+            let middle = |a: &Candidate, b: &Candidate| 0.5 * (a.zero.at + b.zero.at);
+            let mut low = first.zero.between[0];
+            let mut high = last.zero.between[1];
+            if low == high {
                 // At a state itself: between its neighbours.
-                true => [
-                    self.before(between[0]).map_or(0.0, |node| node.spectrum.t),
-                    self.after(between[1]).map_or(1.0, |node| node.spectrum.t),
-                ],
-                false => between,
-            };
+                low = self.before(low).map_or(0.0, |node| node.spectrum.t);
+                high = self.after(high).map_or(1.0, |node| node.spectrum.t);
+            }
+            low = previous.map_or(low, |own| low.max(middle(own, first)));
+            high = after
+                .first()
+                .map_or(high, |own| high.min(middle(last, own)));
             let ends = [self.node(low), self.node(high)];
             let mut located = Vec::new();
             if let [Some(a), Some(b)] = &ends
@@ -429,7 +518,7 @@ impl<'a, 'b> Step<'a, 'b> {
                     found.extend(self.degenerate(t, count).map(|special| (t, special)));
                 }
             }
-            rest = after;
+            (rest, previous) = (after, Some(last));
         }
         found
     }
@@ -471,19 +560,32 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 }
 
-/// The cubic through two positions with their derivatives.
+/// The cubic through two positions with their derivatives, and its derivative.
 fn curve_between(
     a: &[CurvePosition; 2],
     b: &[CurvePosition; 2],
     h: f64,
     share: f64,
-) -> CurvePosition {
-    let one = |from: [f64; 2], to: [f64; 2]| cubic(from, to, h, share)[0];
+) -> [CurvePosition; 2] {
+    let one = |from: [f64; 2], to: [f64; 2]| cubic(from, to, h, share);
     let unknown = |i: usize| one([a[0].q[i], a[1].q[i]], [b[0].q[i], b[1].q[i]]);
-    CurvePosition {
-        q: Vector::from_fn(a[0].q.len(), unknown),
-        p: one([a[0].p, a[1].p], [b[0].p, b[1].p]),
-    }
+    let input = one([a[0].p, a[1].p], [b[0].p, b[1].p]);
+    [0, 1].map(|k| CurvePosition {
+        q: Vector::from_fn(a[0].q.len(), |i| unknown(i)[k]),
+        p: input[k],
+    })
+}
+
+/// Whether none of these places where stiffness vanishes needs a shorter step, in which the walk sees it: it only
+/// touches zero there, or does so for several modes at once.
+fn explained(critical: &[Candidate]) -> bool {
+    critical.iter().enumerate().all(|(k, own)| {
+        let same = |other: &Candidate| (other.zero.at - own.zero.at).abs() <= SAME;
+        let mut others = critical.iter().enumerate();
+        own.zero.passage == Passage::Touches
+            || own.zero.between[0] == own.zero.between[1]
+            || others.any(|(j, other)| j != k && same(other))
+    })
 }
 
 /// Whether all stiffness is positive, and the determinant of one that is not symmetric.
