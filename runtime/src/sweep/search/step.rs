@@ -130,6 +130,7 @@ impl<'a, 'b> Step<'a, 'b> {
         };
         let rate = self.rate(&point)?;
         let node = Rc::new(self.question.node(point, t, rate).ok()?);
+        if std::env::var("DBG").is_ok() { eprintln!("node {t} u {} q {:?} K {:?}", node.point.place.p, &node.point.place.q[..], node.spectrum.roots.iter().map(|r| r.value.re).collect::<Vec<_>>()); }
         self.nodes.insert(place, node.clone());
         Some(node)
     }
@@ -576,15 +577,13 @@ fn curve_between(
     })
 }
 
-/// Whether none of these places where stiffness vanishes needs a shorter step, in which the walk sees it: it only
-/// touches zero there, or does so for several modes at once.
+/// Whether none of these places where stiffness vanishes needs a shorter step, in which the walk sees it.
 fn explained(critical: &[Candidate]) -> bool {
-    critical.iter().enumerate().all(|(k, own)| {
-        let same = |other: &Candidate| (other.zero.at - own.zero.at).abs() <= SAME;
-        let mut others = critical.iter().enumerate();
-        own.zero.passage == Passage::Touches
-            || own.zero.between[0] == own.zero.between[1]
-            || others.any(|(j, other)| j != k && same(other))
+    critical.iter().all(|own| {
+        let Zero {
+            between, passage, ..
+        } = own.zero;
+        passage == Passage::Touches || between[0] == between[1]
     })
 }
 
