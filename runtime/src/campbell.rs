@@ -8,8 +8,8 @@ use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
 use crate::sweep::{
-    Condition, Crossing, Event, EventTolerance, Following, Line, Path, Tracker, between,
-    critical_tolerance, crossing_tolerance,
+    Condition, Crossing, Event, EventTolerance, Events, Following, Line, Searched, Sought, Tracker,
+    between, critical_tolerance, crossing_tolerance,
 };
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
@@ -64,10 +64,12 @@ pub struct Campbell {
     /// Crossings of frequencies with lines, line by line: input value, sensitivity and spread. The number of the mode
     /// is its label.
     pub crossings: Vec<EventTolerance>,
-    /// Values at which the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::sweep::Sweep)).
+    /// Values at which stiffness vanishes ([`Sweep::critical`](crate::sweep::Sweep)).
     pub critical: Vec<EventTolerance>,
     /// Values at which an oscillation starts or stops growing; none for undamped modes.
     pub flutter_onsets: Vec<EventTolerance>,
+    /// The range that was searched for events, and how finely; `None` without a range.
+    pub searched: Option<Searched>,
     /// Number of standard deviations that a tolerance represents.
     pub sigma_level: f64,
     /// The family of the modes shown.
@@ -126,8 +128,9 @@ impl<'a> Axes<'a> {
     }
 }
 
-/// Computes a Campbell diagram: solves equilibrium and modes at each value of one input, follows every mode, and
-/// locates the crossings with `orders` and the onsets of flutter between neighbouring values.
+/// Computes a Campbell diagram: solves equilibrium and modes at each value of one input, follows every mode, and finds
+/// the critical values, the onsets of flutter and the crossings with `orders` between the first and the last value,
+/// whatever the values between them.
 ///
 /// The arguments are those of [`sweep`](crate::sweep::sweep).
 ///
@@ -173,39 +176,20 @@ pub fn campbell_each(
     } = *axes;
     let description = mechanism.description();
     check_input(input, &description)?;
-    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
-    let conditions = orders.iter().map(|&line| Condition::Line(line));
-    let conditions: Vec<Condition> = conditions.chain([Condition::FlutterOnset]).collect();
-    let (mut crossings, mut flutter_onsets) = (Vec::new(), Vec::new());
-    let mut path = Path::new(following);
+    let sought = Sought {
+        lines: orders.to_vec(),
+        flutter: true,
+        critical: true,
+    };
+    let way = (mechanism, (u, b), start);
+    let (found, route) = between(way, following, (input, values), &sought)?;
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input).on(route);
     let mut unreached = values.len();
     for &value in values {
-        let before = tracker.last.clone();
         let failed = tracker.advance(value);
-        if let (Some(before), Some(after), None) = (&before, &tracker.last, &failed) {
-            for &condition in &conditions {
-                let mut found = Vec::new();
-                between(&tracker, before, after, condition, &mut found);
-                let list = match condition {
-                    Condition::Line(_) => &mut crossings,
-                    Condition::FlutterOnset => &mut flutter_onsets,
-                };
-                list.extend(found.iter().map(|crossing| {
-                    labelled(
-                        crossing,
-                        crossing_tolerance(mechanism, crossing, tolerances),
-                    )
-                }));
-            }
-        }
         if let Some(point) = failed.as_ref().or(tracker.last.as_deref()) {
             unreached -= 1;
             let describe = |(state, modes)| describe(mechanism, state, modes, tolerances);
-            path.add(
-                value,
-                &point.equilibrium,
-                tracker.smooth && failed.is_none(),
-            );
             let shown = each(CampbellPoint {
                 value,
                 equilibrium: point.equilibrium.clone(),
@@ -216,7 +200,40 @@ pub fn campbell_each(
             }
         }
     }
-    // Sort by engine order; the sort is stable, so onsets stay in the order found.
+    let mut diagram = Campbell {
+        input,
+        critical: Vec::new(),
+        points: Vec::new(),
+        unreached,
+        orders: orders.to_vec(),
+        crossings: Vec::new(),
+        flutter_onsets: Vec::new(),
+        searched: None,
+        sigma_level: tolerances.sigma_level(),
+        family: tracker.family(),
+        inputs: u.into(),
+        description,
+    };
+    let until = |found: Events| match (unreached, &tracker.last) {
+        (1.., Some(last)) => found.until(last.value),
+        _ => found,
+    };
+    if let Some(found) = found.map(until) {
+        let spread = |state| critical_tolerance(mechanism, state, tolerances);
+        diagram.critical = found.critical.iter().map(spread).collect();
+        for crossing in &found.crossings {
+            let event = labelled(
+                crossing,
+                crossing_tolerance(mechanism, crossing, tolerances),
+            );
+            match crossing.condition {
+                Condition::Line(_) => diagram.crossings.push(event),
+                Condition::FlutterOnset => diagram.flutter_onsets.push(event),
+            }
+        }
+        diagram.searched = Some(found.searched);
+    }
+    // By engine order; the sort is stable, so events stay in the order found.
     let order = |event: &EventTolerance| match event.event {
         Event::Crossing {
             condition: Condition::Line(line),
@@ -224,24 +241,8 @@ pub fn campbell_each(
         } => orders.iter().position(|own| *own == line),
         _ => None,
     };
-    crossings.sort_by_key(order);
-    let critical = path.critical_states(mechanism, (u, b), input);
-    let critical = critical
-        .iter()
-        .map(|state| critical_tolerance(mechanism, state, tolerances));
-    Ok(Campbell {
-        input,
-        critical: critical.collect(),
-        points: Vec::new(),
-        unreached,
-        orders: orders.to_vec(),
-        crossings,
-        flutter_onsets,
-        sigma_level: tolerances.sigma_level(),
-        family: tracker.family(),
-        inputs: u.into(),
-        description,
-    })
+    diagram.crossings.sort_by_key(order);
+    Ok(diagram)
 }
 
 /// The spread of a crossing, with the label of its mode.

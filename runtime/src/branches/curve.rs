@@ -223,7 +223,7 @@ impl<'a> Curve<'a> {
         system: &System,
         iterations: usize,
         also: Option<f64>,
-    ) -> Result<Equilibrium, Trouble> {
+    ) -> Result<Judged, Trouble> {
         let inputs = self.inputs_at(at.p);
         if let Some(violation) = self.mechanism.violation(&inputs, self.design) {
             return Err(Trouble::Unphysical(Error::Unphysical {
@@ -266,7 +266,7 @@ impl<'a> Curve<'a> {
             };
             judge(self.mechanism, &place, &linear, &[]).map_err(Trouble::Refused)?
         };
-        Ok(Equilibrium {
+        let state = Equilibrium {
             pose: self.mechanism.pose_margin(&at.q, &inputs, self.design),
             coordinates: at.q.clone(),
             inputs,
@@ -282,7 +282,9 @@ impl<'a> Curve<'a> {
             left_unstable_region: false,
             notes: Vec::new(),
             description: self.description.clone(),
-        })
+        };
+        let modes = verdict.modes;
+        Ok(Judged { state, modes })
     }
 
     /// Largest residual, each relative to the forces due to a thousandth of the input range and of the coordinates'

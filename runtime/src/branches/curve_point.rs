@@ -2,19 +2,21 @@
 
 use super::curve::{Curve, Trouble, plane};
 use super::local_scaling::{CurvePosition, Frame, System};
-use crate::Description;
 use crate::algebra::{Cholesky, Vector, asymmetry};
 use crate::constraints::Structure;
-use crate::equilibrium::Equilibrium;
+use crate::equilibrium::{Equilibrium, Judged};
 use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::modes::free_pairs;
+use crate::{Description, Mode};
 
 /// A regular point of a branch.
 #[derive(Clone, Debug)]
 pub(crate) struct CurvePoint {
     pub(crate) place: CurvePosition,
     pub(crate) equilibrium: Equilibrium,
+    /// Its general modes if they were needed to judge its stability; empty otherwise.
+    pub(crate) judged: Vec<Mode>,
     pub(crate) frame: Frame,
     /// Unit tangent in local coordinates.
     pub(crate) tangent: CurvePosition,
@@ -43,7 +45,7 @@ impl Curve<'_> {
         &self,
         place: &CurvePosition,
         system: &System,
-        equilibrium: Equilibrium,
+        judged: Judged,
         towards: &CurvePosition,
         before: Option<&Signs>,
     ) -> Result<CurvePoint, Trouble> {
@@ -70,7 +72,7 @@ impl Curve<'_> {
             negative: if vertical {
                 None
             } else {
-                negative(&equilibrium.linear, &self.description)
+                negative(&judged.state.linear, &self.description)
             },
         };
         // Cramer: sign det Khat = sign t_p sign det [Khat dg/du; t^T].
@@ -80,7 +82,8 @@ impl Curve<'_> {
         }
         Ok(CurvePoint {
             place: place.clone(),
-            equilibrium,
+            equilibrium: judged.state,
+            judged: judged.modes,
             frame,
             tangent,
             signs,
@@ -88,7 +91,8 @@ impl Curve<'_> {
     }
 
     /// The first station of a branch, with its tangent towards the high end of the range.
-    pub(crate) fn first_station(&self, equilibrium: Equilibrium) -> Result<CurvePoint, Trouble> {
+    pub(crate) fn first_station(&self, judged: Judged) -> Result<CurvePoint, Trouble> {
+        let equilibrium = &judged.state;
         let place = CurvePosition {
             q: equilibrium.coordinates.clone(),
             p: equilibrium.inputs[self.settings.input.index()],
@@ -117,7 +121,7 @@ impl Curve<'_> {
         let tangent = best.ok_or(Trouble::Missed(NotFound::NotIsolated))?;
         let tangent = tangent.scaled(if tangent.p * forward < 0.0 { -1.0 } else { 1.0 });
         let direction = frame.stretched(&tangent);
-        self.station(&place, &system, equilibrium, &direction, None)
+        self.station(&place, &system, judged, &direction, None)
     }
 }
 

@@ -26,19 +26,20 @@ impl Curve<'_> {
         before: &CurvePoint,
     ) -> Result<CurvePoint, Trouble> {
         let (place, system) = (&corrected.place, &corrected.system);
-        let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
+        let judged = self.equilibrium(place, system, corrected.iterations, None)?;
         let frame = self.frame(place, system);
         let tangent = frame.direction(&before.direction()).unit();
         Ok(CurvePoint {
             place: place.clone(),
-            equilibrium,
+            equilibrium: judged.state,
+            judged: judged.modes,
             frame,
             tangent: tangent.ok_or(Trouble::Missed(NotFound::NotIsolated))?,
             signs: before.signs,
         })
     }
 
-    pub(super) fn end_at(&self, bound: f64) -> BranchEnd {
+    pub(crate) fn end_at(&self, bound: f64) -> BranchEnd {
         if bound == self.settings.low {
             BranchEnd::Low
         } else {

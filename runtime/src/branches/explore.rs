@@ -7,15 +7,23 @@ use super::curve_point::CurvePoint;
 use super::local_scaling::CurvePosition;
 use super::settings::Continuation;
 use super::special::{Junction, SpecialKind};
-use super::walk::{SAME, Walk};
+use super::walk::{Pass, SAME, Walk};
 use super::{Branch, BranchEnd, BranchPoint, Branches};
 use crate::algebra::Vector;
-use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria};
+use crate::equilibrium::{Judged, Policy, Search, equilibrium, find_equilibria};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error, Stability, Watch};
 
 /// Fraction of the range by which a start at a singular state is moved.
 const NUDGE: f64 = 1e-6;
+
+/// A state without the modes that its judgement may have needed.
+fn unjudged(state: Equilibrium) -> Judged {
+    Judged {
+        state,
+        modes: Vec::new(),
+    }
+}
 
 /// A branch and its branch points, each with a flag that tells whether the branch is an arm that ends there.
 type Followed = (Branch, Vec<(Junction, bool)>);
@@ -156,20 +164,20 @@ fn rest_where_the_input_stands(points: &mut [BranchPoint]) {
 impl Curve<'_> {
     /// The station at an equilibrium, or next to it if branches cross there.
     pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, Trouble> {
-        self.first_station(state.clone())
+        self.first_station(unjudged(state.clone()))
             .or_else(|trouble| match self.beside(state, NUDGE) {
-                Ok(beside) => self.first_station(beside.state),
+                Ok(beside) => self.first_station(beside),
                 Err(_) => Err(trouble),
             })
     }
 
     /// The branch through a station, followed in both directions, and its junctions.
     fn both_ways(&self, station: &CurvePoint) -> Followed {
-        let front = self.walk(station, &station.place, |_, _| false);
+        let front = self.walk(station, &station.place, |_, _, _| Pass::On);
         let back = if front.end == BranchEnd::Closed {
             nothing(BranchEnd::Closed)
         } else {
-            self.walk(&station.reversed(), &station.place, |_, _| false)
+            self.walk(&station.reversed(), &station.place, |_, _, _| Pass::On)
         };
         self.joined(back, Some(self.point(station)), front)
     }
@@ -278,7 +286,7 @@ impl Curve<'_> {
     fn follow(&self, lead: &Lead, known: &[Branch]) -> Option<Followed> {
         let fresh = |station: &CurvePoint| !self.known(known, &station.place);
         let from = |junction: &Junction, station: &CurvePoint| {
-            let mut walk = self.walk(station, &junction.frame.origin, |_, _| false);
+            let mut walk = self.walk(station, &junction.frame.origin, |_, _, _| Pass::On);
             walk.points.insert(0, self.point(station));
             walk
         };

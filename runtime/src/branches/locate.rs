@@ -2,6 +2,7 @@
 
 use super::curve::{Curve, Trouble};
 use super::curve_point::{CurvePoint, Signs};
+use super::local_scaling::CurvePosition;
 use super::special::{Located, SpecialKind};
 use crate::equilibrium::{Bracket, refine};
 use crate::error::NotFound;
@@ -137,9 +138,19 @@ impl Curve<'_> {
     ) -> Result<CurvePoint, Trouble> {
         let end = a.frame.local(&b.place);
         let normal = end.unit().ok_or(Trouble::Missed(NotFound::Coincide))?;
-        let from = end.scaled(fraction);
-        let corrected = self.correct(&a.frame, &from, &normal, 0.5 * end.norm())?;
-        self.arrive(&corrected, &a.frame.stretched(&normal), Some(a))
+        self.across(a, &end.scaled(fraction), &normal, 0.5 * end.norm())
+    }
+
+    /// The station on the plane through `from` with normal `normal` (both local to `a`), no farther than `reach` from it.
+    pub(crate) fn across(
+        &self,
+        a: &CurvePoint,
+        from: &CurvePosition,
+        normal: &CurvePosition,
+        reach: f64,
+    ) -> Result<CurvePoint, Trouble> {
+        let corrected = self.correct(&a.frame, from, normal, reach)?;
+        self.arrive(&corrected, &a.frame.stretched(normal), Some(a))
     }
 
     /// Several events in one place, located where the mean of the eigenvalues that change sign is zero.
@@ -178,7 +189,8 @@ impl Curve<'_> {
                 let at = self
                     .correct(&a.frame, &from, &normal, 0.5 * end.norm())
                     .ok()?;
-                let mean = mean(&self.equilibrium(&at.place, &at.system, 0, None).ok()?)?;
+                let state = self.equilibrium(&at.place, &at.system, 0, None).ok()?.state;
+                let mean = mean(&state)?;
                 Some((mean, None))
             });
         }

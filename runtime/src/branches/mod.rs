@@ -19,12 +19,14 @@ mod visited;
 mod walk;
 
 pub(crate) use bordered::Bordered;
-pub(crate) use curve::Curve;
+pub(crate) use curve::{Curve, Trouble};
 pub(crate) use curve_point::CurvePoint;
 pub use explore::{branch, branches, branches_each};
+pub(crate) use local_scaling::CurvePosition;
 pub use settings::Continuation;
-pub(crate) use special::critical_inertia;
+pub(crate) use special::{Located, critical_inertia};
 pub use special::{SpecialKind, SpecialPoint};
+pub(crate) use walk::Pass;
 
 use crate::algebra::Vector;
 use crate::equilibrium::{Equilibrium, Stability, coincide, turned_towards};

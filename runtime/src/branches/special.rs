@@ -89,7 +89,9 @@ impl Curve<'_> {
             q: place.q.clone(),
             p: place.p.clamp(least, most),
         };
-        let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
+        let mut equilibrium = self
+            .equilibrium(place, &self.system(place)?, 0, also)?
+            .state;
         let (v, w) = normalised(&equilibrium.linear, self.structure, v, w)
             .ok_or(Trouble::Missed(NotFound::DependentVectors))?;
         make_critical(&mut equilibrium, zero);

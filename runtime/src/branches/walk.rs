@@ -26,6 +26,15 @@ pub(crate) struct Walk {
     pub(crate) end: BranchEnd,
 }
 
+/// How a walk goes on after a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pass {
+    On,
+    /// The step may have led to another branch: a shorter one instead.
+    Shorter,
+    Stop,
+}
+
 /// One accepted step.
 struct Step {
     station: CurvePoint,
@@ -36,13 +45,13 @@ struct Step {
 }
 
 impl Curve<'_> {
-    /// Follows the branch from a station along its tangent until the branch ends, or until `stop` returns true for a
-    /// special point and the station before it. The branch started at `home`.
+    /// Follows the branch from a station along its tangent until the branch ends. `pass` sees every step from one station
+    /// to the next and says how to go on. The branch started at `home`.
     pub(crate) fn walk(
         &self,
         start: &CurvePoint,
         home: &CurvePosition,
-        mut stop: impl FnMut(&SpecialPoint, &CurvePoint) -> bool,
+        mut pass: impl FnMut(&CurvePoint, &CurvePoint, &[Located]) -> Pass,
     ) -> Walk {
         let settings = self.settings;
         let mut walk = Walk {
@@ -93,6 +102,18 @@ impl Curve<'_> {
                     continue;
                 }
             };
+            match pass(&at, &step.station, &step.located) {
+                Pass::Shorter if length > 2.0 * settings.min_step => {
+                    length *= 0.5;
+                    refused = Some(Trouble::Missed(NotFound::BendsSharply));
+                    continue;
+                }
+                Pass::Stop => {
+                    walk.end = BranchEnd::Stopped;
+                    return walk;
+                }
+                Pass::On | Pass::Shorter => {}
+            }
             let growth = if refused.take().is_some() {
                 step.growth.min(1.0)
             } else {
@@ -112,7 +133,7 @@ impl Curve<'_> {
                         return walk;
                     }
                 }
-                if stop(&special, &at) || located.ends_arm {
+                if located.ends_arm {
                     walk.end = BranchEnd::BranchPoint;
                     return walk;
                 }
@@ -247,9 +268,9 @@ impl Curve<'_> {
     ) -> Result<CurvePoint, Trouble> {
         let place = &corrected.place;
         let system = &corrected.system;
-        let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
+        let judged = self.equilibrium(place, system, corrected.iterations, None)?;
         let before = before.map(|station| &station.signs);
-        self.station(place, system, equilibrium, towards, before)
+        self.station(place, system, judged, towards, before)
     }
 
     /// Whether the step from a station passes a point.

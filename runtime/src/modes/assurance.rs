@@ -156,16 +156,9 @@ pub(crate) fn match_with_assurance(
 }
 
 impl Modes {
-    /// These modes in the order, and with the labels, of the modes of `before` that they continue.
+    /// Gives these modes the order and the labels of the modes of `before` that they continue, at the positions `order`.
     ///
     /// Modes without a predecessor come last, labelled from `next` on.
-    pub(crate) fn continuing(mut self, before: &Self, linear: &Linear, next: usize) -> Self {
-        let order = match_modes(before, &self, linear);
-        self.arrange(before, &order, next);
-        self
-    }
-
-    /// Reorders and relabels the modes as in [`Self::continuing`], given the matching positions `order`.
     pub(crate) fn arrange(&mut self, before: &Self, order: &[Option<usize>], mut next: usize) {
         let in_place = |(i, place): (usize, &Option<usize>)| *place == Some(i);
         if order.len() == self.modes.len() && order.iter().enumerate().all(in_place) {

@@ -141,15 +141,6 @@ impl Modes {
         }
     }
 
-    /// The smallest `lambda`; infinite if there are no modes.
-    pub(crate) fn least_lambda(&self) -> f64 {
-        let lambda = self.modes.iter().map(|mode| mode.lambda);
-        lambda.fold(
-            f64::INFINITY,
-            |least, own| if own < least { own } else { least },
-        )
-    }
-
     /// Real parts of the shapes, one shape per row.
     pub(crate) fn real_shapes(&self) -> Matrix {
         let columns = self.modes.first().map_or(0, |mode| mode.shape.len());

@@ -4,11 +4,37 @@ use super::subject::Subject;
 use super::{Study, Value};
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Kernels};
 use crate::second_order::{self, EventCurvature};
-use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Range};
+use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Line, Range};
 use crate::tolerance::Tolerances;
 use crate::{Error, Input};
 
 impl<M: DirectionalKernels> Study<M> {
+    /// Finds every event of an input between `low` and `high`: where frequencies meet lines (engine orders as numbers, or
+    /// [`Line`]s), where oscillations start or stop growing, and where stiffness vanishes ([`sweep::events`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let found = study.events(Pendulum::omega, 0.5, 6.0, &[1.0])?;
+    /// assert!((found.critical[0].value - 14.715_f64.sqrt()).abs() < 1e-9);
+    /// assert!((found.crossings[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotAssembled`].
+    pub fn events(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+        orders: &[impl Into<Line> + Copy],
+    ) -> Result<Events, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
+            .events(range, &lines)
+    }
+
     /// Finds the first critical value of an input between `low` and `high` ([`sweep::critical_state`]).
     ///
     /// ```
@@ -80,7 +106,7 @@ impl<M: CurvatureKernels> Study<M> {
     }
 }
 
-impl<M: Kernels> Study<M> {
+impl<M: DirectionalKernels> Study<M> {
     /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
     /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
     ///
@@ -101,7 +127,7 @@ impl<M: Kernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .crossings(range, line.into())
     }
 
@@ -125,7 +151,7 @@ impl<M: Kernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .crossing_tolerances(range, line.into())
     }
 
@@ -148,7 +174,7 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .flutter_onsets(range)
     }
 
@@ -169,12 +195,19 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn Kernels>(&self.mechanism)
+        self.subject::<dyn DirectionalKernels>(&self.mechanism)
             .flutter_onset_tolerances(range)
     }
 }
 
 impl Subject<'_, dyn DirectionalKernels + '_> {
+    fn events(&self, range: Range, lines: &[Line]) -> Result<Events, Error> {
+        let Self { kernels, settings } = *self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(kernels)?;
+        sweep::events(kernels, u, b, &start, settings.following(), range, lines)
+    }
+
     fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
         let Self { kernels, settings } = *self;
         let start = settings.assembled_start(kernels)?;
@@ -190,7 +223,7 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
     }
 }
 
-impl Subject<'_, dyn Kernels + '_> {
+impl Subject<'_, dyn DirectionalKernels + '_> {
     fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
         let Self { kernels, settings } = *self;
         let (u, b) = (&settings.inputs, &settings.design);

@@ -1,8 +1,7 @@
 //! The conditions that a mode can meet at a value of an input: its frequency equals a multiple of the input (resonance,
 //! critical speed of a rotor), or its oscillation stops decaying (onset of flutter).
 
-use crate::kernels::Kernels;
-use crate::sensitivity::{Quantity, sensitivities};
+use crate::sensitivity::Quantity;
 use crate::{Equilibrium, Input, Mode, Modes};
 
 /// A line `ratio u + offset` to compare frequencies with: an engine order or a fixed excitation frequency.
@@ -29,8 +28,28 @@ impl From<f64> for Line {
 pub enum Condition {
     /// The frequency equals a line: `Im s = ratio u + offset`.
     Line(Line),
-    /// The oscillation neither grows nor decays: `Re s = 0`, with growth on one side.
+    /// The oscillation neither grows nor decays: `Re s = 0`, with growth on one side; or flutter and divergence turn into
+    /// each other: `Im s = 0`, with growth on both sides.
     FlutterOnset,
+}
+
+/// What changes at an event, in the direction of the search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Change {
+    /// One more motion grows behind it: an instability begins.
+    Onset,
+    /// One motion fewer grows behind it: an instability ends.
+    End,
+    /// As many motions grow behind it as before.
+    Pass,
+    /// The condition is met without being passed: a frequency touches a line, a growth or a stiffness touches zero.
+    Touch,
+    /// A growing oscillation ceases to oscillate: flutter turns into divergence.
+    ToDivergence,
+    /// Two motions that grow without oscillation become one that oscillates: divergence turns into flutter.
+    ToFlutter,
 }
 
 /// A state where a mode meets a condition.
@@ -44,6 +63,8 @@ pub struct Crossing {
     pub value: f64,
     /// The condition that is met.
     pub condition: Condition,
+    /// Whether an instability begins or ends there.
+    pub change: Change,
     /// Position of the mode in `modes`.
     pub mode: usize,
     /// The equilibrium at the crossing.
@@ -53,18 +74,6 @@ pub struct Crossing {
 }
 
 impl Condition {
-    /// The function that vanishes where the condition is met; `value` is the actual input, deviation included.
-    pub(super) fn excess(self, modes: &Modes, label: usize, value: f64) -> Option<f64> {
-        let mode = modes.modes.iter().find(|mode| mode.label == label)?;
-        let omega = mode.frequency()?;
-        Some(match self {
-            Self::Line(line) => omega - line.ratio * value - line.offset,
-            // Growth indistinguishable from zero counts as no growth.
-            Self::FlutterOnset if mode.s.re.abs() <= mode.error => -mode.error,
-            Self::FlutterOnset => mode.s.re,
-        })
-    }
-
     /// Whether a mode meets the condition within rounding. Where the equilibrium jumps to another branch, a frequency
     /// jumps across a line without meeting it.
     pub(super) fn is_met(self, mode: &Mode, value: f64) -> bool {
@@ -89,20 +98,5 @@ impl Condition {
             Self::Line(line) => (Quantity::Frequency, line.ratio),
             Self::FlutterOnset => (Quantity::Growth, 0.0),
         }
-    }
-
-    /// Derivative of the excess with respect to the input along the equilibria; `None` where it does not exist.
-    pub(super) fn slope(
-        self,
-        mechanism: &dyn Kernels,
-        (state, modes): (&Equilibrium, &Modes),
-        label: usize,
-        input: Input,
-    ) -> Option<f64> {
-        let position = modes.modes.iter().position(|mode| mode.label == label)?;
-        let all = sensitivities(mechanism, state, modes).ok()?;
-        let own = all.modes.get(position).filter(|own| !own.clustered)?;
-        let (quantity, other) = self.sides();
-        Some(own.of(quantity)?.by_input.get(input.index())? - other)
     }
 }

@@ -4,7 +4,7 @@
 use core::ops::ControlFlow;
 
 use super::points::SweepPoint;
-use super::track::{Tracker, even};
+use super::track::Tracker;
 use crate::batched::Block;
 use crate::kernels::BatchKernels;
 use crate::scalar::WIDTH;
@@ -16,8 +16,6 @@ pub(crate) struct Station<'a> {
     pub(crate) point: &'a SweepPoint,
     /// Derivatives of the modes, if requested.
     pub(crate) slopes: Option<&'a Result<Sensitivities, Error>>,
-    /// Whether no critical state lies between the previous value and this one.
-    pub(crate) smooth: bool,
 }
 
 /// Advances through `values` until `each` breaks off. `each` receives the results in order, with derivatives of the
@@ -62,7 +60,6 @@ pub(crate) fn follow(
             let shown = each(Station {
                 point,
                 slopes: slopes.as_ref(),
-                smooth: tracker.smooth && failed.is_none(),
             });
             if shown.is_break() {
                 return;
@@ -97,7 +94,6 @@ fn show(
     let Some(point) = &mut tracker.last else {
         return ControlFlow::Continue(());
     };
-    let mut before = None;
     for lane in 0..number {
         let Ok((state, modes)) = point.solved_mut() else {
             return ControlFlow::Continue(());
@@ -105,11 +101,8 @@ fn show(
         let value = block.values.0[lane];
         state.inputs[input] = value;
         modes.inputs[input] = value;
-        let last = before.unwrap_or_else(|| modes.least_lambda());
         block.read_state(lane, mechanism, state);
         block.read_modes(lane, modes);
-        let least = modes.least_lambda();
-        before = Some(least);
         if let Some(slopes) = &mut slopes {
             if slopes.is_err() {
                 **slopes = Ok(Sensitivities::blank(state, modes, Method::Adjoint));
@@ -123,7 +116,6 @@ fn show(
         each(Station {
             point,
             slopes: slopes.as_deref(),
-            smooth: even(last, least),
         })?;
     }
     ControlFlow::Continue(())

@@ -1,6 +1,6 @@
 //! First-order spread of the input values at which an event occurs: critical speeds and resonances.
 
-use super::condition::{Condition, Crossing};
+use super::condition::{Change, Condition, Crossing};
 use super::event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 use super::points::CriticalState;
 use crate::algebra::Vector;
@@ -39,6 +39,8 @@ pub enum Event {
 pub struct EventTolerance {
     /// The event.
     pub event: Event,
+    /// Whether an instability begins or ends there.
+    pub change: Change,
     /// The input.
     pub input: Input,
     /// Its nominal value at the event, SI.
@@ -79,6 +81,7 @@ pub fn critical_tolerance(
 ) -> EventTolerance {
     EventTolerance {
         event: Event::Critical,
+        change: critical.change,
         input: critical.input,
         value: critical.value,
         spread: critical_sensitivity(mechanism, critical)
@@ -110,6 +113,7 @@ pub fn crossing_tolerance(
                 .copied()
                 .flatten(),
         },
+        change: crossing.change,
         input: crossing.input,
         value: crossing.value,
         spread: crossing_sensitivity(mechanism, crossing)

@@ -7,9 +7,9 @@ mod crossing;
 mod driver;
 mod event_sensitivity;
 mod event_tolerance;
-mod merging;
 mod points;
 mod range;
+mod search;
 mod sensitivity_sweep;
 #[expect(
     clippy::module_inception,
@@ -18,17 +18,19 @@ mod sensitivity_sweep;
 mod sweep;
 mod track;
 
-pub use condition::{Condition, Crossing, Line};
-pub(crate) use critical::Path;
+pub use condition::{Change, Condition, Crossing, Line};
 pub use critical::critical_state;
-pub(crate) use crossing::{between, first_crossing};
-pub use crossing::{crossings, flutter_onsets};
+pub(crate) use crossing::first_crossing;
+pub use crossing::{crossings, events, flutter_onsets};
 pub(crate) use event_sensitivity::{Crossed, bordered};
 pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_tolerance};
 pub use points::{CriticalState, Sweep, SweepPoint};
 pub use range::Range;
+pub(crate) use search::Sought;
+pub use search::{Events, Gap, Searched, Unresolved};
 pub use sensitivity_sweep::sensitivity_sweep;
+pub(crate) use sweep::between;
 pub use sweep::{sweep, sweep_each};
 pub use track::Following;
 pub(crate) use track::Tracker;

@@ -1,5 +1,7 @@
 //! Results along an input.
 
+use super::condition::{Change, Crossing};
+use super::search::Searched;
 use crate::algebra::Vector;
 use crate::branches::SpecialKind;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
@@ -13,10 +15,14 @@ pub struct Sweep {
     pub input: Input,
     /// One point per value.
     pub points: Vec<SweepPoint>,
-    /// Critical values of the input, where the stable equilibrium that the sweep follows loses its stiffness, each
-    /// located to rounding accuracy on the branch before it. Computed only if stable equilibria are followed and the
-    /// values are monotonic.
+    /// Critical values of the input, where stiffness vanishes on the way from the first value to the last, each located
+    /// to rounding accuracy on the branch before it. Like all events, they depend on the first and the last value only;
+    /// without two values in ascending or descending order there are none.
     pub critical: Vec<CriticalState>,
+    /// Values at which an oscillation starts or stops growing; none for undamped modes.
+    pub flutter_onsets: Vec<Crossing>,
+    /// The range that was searched for events, and how finely; `None` without a range.
+    pub searched: Option<Searched>,
     /// Number of values not reached because the run was stopped.
     pub unreached: usize,
     /// The inputs, SI; all but the swept one keep their values.
@@ -79,6 +85,8 @@ pub struct CriticalState {
     pub value: f64,
     /// The kind of critical point.
     pub kind: SpecialKind,
+    /// Whether a motion without oscillation begins or ceases to grow there.
+    pub change: Change,
     /// The equilibrium at the critical value, on the branch that is stable below it; its critical mode counts as
     /// neutral.
     pub equilibrium: Equilibrium,

@@ -4,7 +4,7 @@ use crate::arguments::check_input;
 use crate::setters::setters;
 use crate::{Any, Description, Error, Input};
 
-/// The range to search: `steps` equal steps of one input from `low` to `high`.
+/// The range of one input to search, from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -16,7 +16,8 @@ pub struct Range<M = Any> {
     pub low: f64,
     /// End of the search, SI; below `low` to search downwards.
     pub high: f64,
-    /// Number of steps; two events within one step cannot be told apart. 200 by default.
+    /// Number of steps the search takes at least. It divides them wherever an event may hide, so that the events found do
+    /// not depend on it. 10 by default.
     pub steps: usize,
 }
 
@@ -30,7 +31,7 @@ impl<M> Range<M> {
             input,
             low,
             high,
-            steps: 200,
+            steps: 10,
         }
     }
 
@@ -47,12 +48,6 @@ impl<M> Range<M> {
 }
 
 impl Range {
-    /// The end points of the steps, `low` excluded.
-    pub(super) fn values(&self) -> impl Iterator<Item = f64> + use<> {
-        let (low, high, count) = (self.low, self.high, self.steps);
-        (1..=count).map(move |step| low + (high - low) * step as f64 / count as f64)
-    }
-
     pub(crate) fn check(&self, description: &Description) -> Result<(), Error> {
         check_input(self.input, description)?;
         let refused = if !(self.low.is_finite() && self.high.is_finite()) {

@@ -2,19 +2,21 @@
 
 use core::ops::ControlFlow;
 
-use super::critical::Path;
 use super::driver::follow;
 use super::points::{Sweep, SweepPoint};
+use super::range::Range;
+use super::search::{Along, Events, Route, Sought, search};
 use super::track::{Following, Tracker};
 use crate::arguments::check_input;
-use crate::kernels::BatchKernels;
+use crate::kernels::{BatchKernels, DirectionalKernels};
+use crate::modes::Family;
 use crate::{Error, Input};
 
 /// Solves equilibrium and modes at each of `values` of one input; the other inputs keep their values in `u`.
 ///
 /// The first point starts at `start`, each later one at the last equilibrium found. A point that fails carries its
-/// error and the sweep continues. A sweep that follows stable equilibria switches branches by itself and reports the
-/// critical values it passes.
+/// error and the sweep continues. A sweep that follows stable equilibria switches branches by itself. The events between
+/// the first and the last value do not depend on the values between them.
 ///
 /// # Errors
 /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
@@ -38,7 +40,7 @@ pub fn sweep(
 }
 
 /// Like [`sweep`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result
-/// contains only the critical states. The sweep ends when `each` breaks off.
+/// contains only the events. The sweep ends when `each` breaks off.
 ///
 /// # Errors
 /// As [`sweep`].
@@ -53,21 +55,72 @@ pub fn sweep_each(
     let description = mechanism.description();
     check_input(input, &description)?;
     let following = following.into();
+    let sought = Sought {
+        flutter: true,
+        critical: true,
+        ..Sought::default()
+    };
+    let way = (mechanism as &dyn DirectionalKernels, (u, b), start);
+    let (found, _) = between(way, following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
-    let mut path = Path::new(following);
     let mut unreached = values.len();
+    let mut last = f64::NAN;
     follow(&mut tracker, mechanism, values, false, |station| {
-        let point = station.point;
         unreached -= 1;
-        path.add(point.value, &point.equilibrium, station.smooth);
-        each(point)
+        last = station.point.value;
+        each(station.point)
     });
+    let until = |found: Events| match unreached {
+        0 => found,
+        _ => found.until(last),
+    };
+    let (critical, flutter_onsets, searched) = match found.map(until) {
+        Some(found) => (found.critical, found.crossings, Some(found.searched)),
+        None => Default::default(),
+    };
     Ok(Sweep {
         input,
         points: Vec::new(),
+        critical,
+        flutter_onsets,
+        searched,
         unreached,
-        critical: path.critical_states(mechanism, (u, b), input),
         inputs: u.into(),
         description,
     })
+}
+
+/// The events between the first and the last of some values, if these ascend or descend, and the way along them.
+#[expect(
+    clippy::type_complexity,
+    reason = "a way: mechanism, operating point, start"
+)]
+pub(crate) fn between(
+    (mechanism, values, start): (&dyn DirectionalKernels, (&[f64], &[f64]), &[f64]),
+    following: Following,
+    (input, along): (Input, &[f64]),
+    sought: &Sought,
+) -> Result<(Option<Events>, Route), Error> {
+    let finite: Vec<f64> = along
+        .iter()
+        .copied()
+        .filter(|value| value.is_finite())
+        .collect();
+    let ascends = finite.is_sorted_by(|a, b| a < b);
+    let (true, [low, .., high]) = (ascends || finite.is_sorted_by(|a, b| a > b), &finite[..])
+    else {
+        return Ok((None, Route::default()));
+    };
+    let along = Along {
+        mechanism,
+        values,
+        start,
+        policy: following.policy,
+        family: following
+            .family
+            .unwrap_or_else(|| Family::of(&mechanism.description())),
+        range: Range::new(input, *low, *high),
+    };
+    let (events, route) = search(&along, sought, |_| false)?;
+    Ok((Some(events), route))
 }

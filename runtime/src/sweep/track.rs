@@ -2,6 +2,7 @@
 //! keep their identity.
 
 use super::points::SweepPoint;
+use super::search::Route;
 use crate::algebra::Vector;
 use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
@@ -65,9 +66,8 @@ pub(crate) struct Tracker<'a> {
     path: Path,
     /// The smallest label not yet used; labels of modes that have ended are not reused.
     unused: usize,
-    /// Whether the last advance ended where the path so far predicted, with no stiffness near zero: it passed no
-    /// critical state.
-    pub(crate) smooth: bool,
+    /// States along the way, found by a search for events.
+    route: Route,
     /// The last point with modes.
     pub(crate) last: Option<Box<SweepPoint>>,
     /// A buffer for the next point.
@@ -75,11 +75,6 @@ pub(crate) struct Tracker<'a> {
 }
 
 impl<'a> Tracker<'a> {
-    /// The actual input for a set value: its deviation is added.
-    pub(crate) fn actual(&self, value: f64) -> f64 {
-        value + self.mechanism.deviation(self.input.index(), &self.design)
-    }
-
     pub(crate) fn new(
         mechanism: &'a dyn Kernels,
         (u, b): (&[f64], &[f64]),
@@ -100,10 +95,17 @@ impl<'a> Tracker<'a> {
             from: start.into(),
             path: Path::default(),
             unused: 0,
-            smooth: false,
+            route: Route::default(),
             last: None,
             spare: None,
         }
+    }
+
+    /// The tracker on its way along the states that a search for events has passed.
+    pub(crate) fn on(mut self, route: Route) -> Self {
+        self.unused = route.unused;
+        self.route = route;
+        self
     }
 
     /// The family of the followed modes.
@@ -121,15 +123,14 @@ impl<'a> Tracker<'a> {
     }
 
     /// Solves the equilibrium at a value of the input into `state`, starting from the prediction if that converges at
-    /// once (returns true), otherwise from `from`. Also returns its general modes if they were needed to judge its
-    /// stability.
+    /// once, otherwise from `from`. Returns its general modes if they were needed to judge its stability.
     fn equilibrium_into(
         &self,
         (value, policy): (f64, Policy),
         from: &[f64],
         predicted: Option<&[f64]>,
         state: &mut Equilibrium,
-    ) -> Result<(Vec<Mode>, bool), Error> {
+    ) -> Result<Vec<Mode>, Error> {
         let inputs = self.inputs_at(value);
         let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
         point.check_start(from)?;
@@ -137,10 +138,9 @@ impl<'a> Tracker<'a> {
         let predicted = predicted.filter(|_| policy == Policy::Stable);
         if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state))
         {
-            return Ok((modes, true));
+            return Ok(modes);
         }
         solve_into(&point, from, policy, state)
-            .map(|modes| (modes, false))
             .map_err(|failure| failure.explain(&point.description))
     }
 
@@ -150,30 +150,6 @@ impl<'a> Tracker<'a> {
             Equilibrium::blank(&self.description, &self.inputs, &self.design),
             Modes::empty(self.family, &self.description),
         )
-    }
-
-    /// Equilibrium and modes at a value near a known point, with the order and labels of that point's modes.
-    pub(crate) fn near(
-        &self,
-        value: f64,
-        known: (&Equilibrium, &Modes),
-    ) -> Result<(Equilibrium, Modes), Error> {
-        self.near_with(self.policy, value, known)
-    }
-
-    /// Like [`Self::near`], for the equilibrium that this policy chooses.
-    pub(super) fn near_with(
-        &self,
-        policy: Policy,
-        value: f64,
-        (state, modes): (&Equilibrium, &Modes),
-    ) -> Result<(Equilibrium, Modes), Error> {
-        let (mut equilibrium, mut found) = self.blank();
-        let from = &state.coordinates;
-        let (judged, _) = self.equilibrium_into((value, policy), from, None, &mut equilibrium)?;
-        found.solve_at(&equilibrium, judged)?;
-        let modes = found.continuing(modes, &equilibrium.linear, self.unused);
-        Ok((equilibrium, modes))
     }
 
     /// Whether blocks of values may be solved at once, as far as can be told in advance.
@@ -236,6 +212,7 @@ impl<'a> Tracker<'a> {
     /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new
     /// point is [`Self::last`]; a point without modes is returned instead.
     pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
+        self.join(value);
         let (equilibrium, error) = match self.go(value) {
             Ok(None) => return None,
             Ok(Some((point, error))) => (point.equilibrium, error),
@@ -248,16 +225,30 @@ impl<'a> Tracker<'a> {
         })
     }
 
+    /// Goes to the state of the route nearest to a value, unless the last point is as near to that value as the states of
+    /// the route are to each other.
+    fn join(&mut self, value: f64) {
+        let last = self.last.as_ref().map(|point| point.value);
+        let Some(points) = self.route.towards(last, value) else {
+            return;
+        };
+        self.path = Path::default();
+        for point in points {
+            if let Ok(state) = &point.equilibrium {
+                self.path.go(point.value, state.coordinates.iter().copied());
+                self.from.clone_from(&state.coordinates);
+                self.last = Some(Box::new(point.clone()));
+            }
+        }
+    }
+
     /// Like [`Self::advance`], but returns a state whose modes fail together with the error.
     fn go(&mut self, value: f64) -> Result<Option<(Box<SweepPoint>, Error)>, Error> {
         // The next value, how often its step may still be halved, and the values after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
-        let mut smooth = true;
         loop {
-            let step = self.step(next, halvings);
-            smooth &= self.smooth;
-            match step {
+            match self.step(next, halvings) {
                 Ok(step) => match (step, after.pop()) {
                     (Step::TooFar(middle), place) => {
                         after.extend(place);
@@ -267,10 +258,7 @@ impl<'a> Tracker<'a> {
                     }
                     (_, Some(place)) => (next, halvings) = place,
                     (Step::WithoutModes(point, error), None) => return Ok(Some((point, error))),
-                    (Step::Arrived, None) => {
-                        self.smooth = smooth;
-                        return Ok(None);
-                    }
+                    (Step::Arrived, None) => return Ok(None),
                 },
                 Err(error) => match after.pop() {
                     None => return Err(error),
@@ -294,20 +282,15 @@ impl<'a> Tracker<'a> {
         point.value = value;
         let (state, found) = point.solved_mut().map_err(|error| error.clone())?;
         let at = (value, self.policy);
-        let (judged, confirmed) =
-            self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
+        let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
         if let Err(error) = found.solve_at(state, judged) {
             self.from.clone_from(&state.coordinates);
             self.path.go(value, state.coordinates.iter().copied());
             return Ok(Step::WithoutModes(point, error));
         }
-        self.smooth = false;
         if let Some(last) = &self.last
             && let Ok(modes) = &last.modes
         {
-            self.smooth = confirmed
-                && self.family == Family::Undamped
-                && even(modes.least_lambda(), found.least_lambda());
             let order = match_with_assurance(modes, found, &state.linear);
             // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
             let repeated = |r: usize| merged(found, r) || near_another(found, r, CLUSTER_GAP);
@@ -331,13 +314,6 @@ impl<'a> Tracker<'a> {
         self.spare = self.last.replace(point);
         Ok(Step::Arrived)
     }
-}
-
-/// Whether the smallest eigenvalues of two sets of undamped modes are positive and nearly equal.
-pub(super) fn even(a: f64, b: f64) -> bool {
-    /// Minimum ratio of the smaller to the larger.
-    const KEPT: f64 = 0.75;
-    a.min(b) > 0.0 && a.min(b) >= KEPT * a.max(b)
 }
 
 /// The outcome of a step.

@@ -344,7 +344,7 @@ mechanism! {
     }
 }
 
-/// A branch that is already unstable has no critical value, whatever the sign of the determinant.
+/// A branch that is already unstable does not lose its stability, whatever the sign of the determinant.
 #[test]
 fn only_the_loss_of_stability_is_critical() {
     let study = Study::new(Twice);
@@ -359,10 +359,16 @@ fn only_the_loss_of_stability_is_critical() {
             "{low} {high}: {none:?}"
         );
     }
-    let swept = study
-        .sweep(Twice::thrust, &[0.3, 1.2, 1.7, 3.0])
-        .expect("sweep");
-    assert_eq!(swept.critical.len(), 1);
+    // Along an input all of them are listed, also those at which a further motion begins to grow.
+    for values in [&[0.3, 3.0][..], &[0.3, 1.2, 1.7, 3.0], &[3.0, 0.3]] {
+        let swept = study.sweep(Twice::thrust, values).expect("sweep");
+        let mut found: Vec<f64> = swept.critical.iter().map(|own| own.value).collect();
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found.len(), 3, "{found:?}");
+        for (found, expected) in found.iter().zip([1.0, 1.5, 2.0]) {
+            assert!((found - expected).abs() < 1e-9, "{found}");
+        }
+    }
 }
 
 mechanism! {

@@ -1,0 +1,382 @@
+//! Families of oscillators with known events.
+
+use std::rc::Rc;
+
+use super::super::cubic::Passage;
+use super::super::scalars::{Kind, Wanted};
+use super::super::spectrum::{Root, Spectrum};
+use super::{Division, Interval, States, divide};
+use crate::Complex;
+use crate::sweep::condition::Line;
+
+/// Value and slope.
+type Jet = [f64; 2];
+
+fn product(factors: &[(f64, f64)], amount: f64, u: f64) -> Jet {
+    factors.iter().fold([amount, 0.0], |[v, d], (a, b)| {
+        let (own, rate) = ((u - a) * (u - b), 2.0 * u - a - b);
+        [v * own, d * own + v * rate]
+    })
+}
+
+/// The roots of `s^2 + c s + k`.
+fn oscillator(c: Jet, k: Jet, roots: &mut Vec<Root>) {
+    let inside = Complex::from(0.25 * c[0] * c[0] - k[0]).sqrt();
+    let mut add = |value: Complex| {
+        let slope = -(value * c[1] + k[1]) / (2.0 * value + c[0]);
+        roots.push(Root {
+            value,
+            slope,
+            error: 1e-14 * (1.0 + value.norm()),
+            paired: value.im > 0.0,
+            neutral: false,
+        });
+    };
+    let middle = Complex::from(-0.5 * c[0]);
+    if inside.im > 0.0 {
+        add(middle + inside);
+    } else {
+        add(middle - inside);
+        add(middle + inside);
+    }
+}
+
+struct Family<F> {
+    roots: F,
+    count: usize,
+    ends: [f64; 2],
+}
+
+impl<F: Fn(f64) -> (Vec<Root>, Vec<Root>)> States for Family<F> {
+    fn state(&mut self, t: f64) -> Option<Rc<Spectrum>> {
+        self.count += 1;
+        let [low, high] = self.ends;
+        let u = low + (high - low) * t;
+        let (mut roots, mut stiffness) = (self.roots)(u);
+        for root in roots.iter_mut().chain(&mut stiffness) {
+            root.slope *= high - low;
+        }
+        let finite = roots.iter().all(|root| root.slope.is_finite());
+        (finite && self.count < 2000).then(|| {
+            Rc::new(Spectrum {
+                t,
+                input: [u, high - low],
+                roots,
+                stiffness,
+            })
+        })
+    }
+}
+
+/// The events from one value to another, in `steps` steps: kind, passage, and place between two others; and the number
+/// of states.
+fn search(
+    roots: impl Fn(f64) -> (Vec<Root>, Vec<Root>),
+    wanted: &Wanted,
+    [low, high]: [f64; 2],
+    steps: usize,
+) -> (Vec<(Kind, Passage, [f64; 3])>, Division, usize) {
+    let (mut events, mut states) = (Vec::new(), 0);
+    let mut all = Division::default();
+    for step in 0..steps {
+        let at = |k: usize| low + (high - low) * k as f64 / steps as f64;
+        let ends = [at(step), at(step + 1)];
+        let mut family = Family {
+            roots: &roots,
+            count: 0,
+            ends,
+        };
+        let interval = Interval {
+            ends: [0.0, 1.0].map(|t| family.state(t).expect("a state")),
+            opens: true,
+            closes: step + 1 == steps,
+        };
+        let found = divide(&mut family, wanted, interval, 1e-9);
+        for event in &found.events {
+            let [from, to] = event.zero.between;
+            let at = [event.zero.at, from, to].map(|t| ends[0] + (ends[1] - ends[0]) * t);
+            events.push((event.kind, event.zero.passage, at));
+        }
+        all.doubts.extend(found.doubts);
+        states += family.count - usize::from(step > 0);
+    }
+    events.sort_by(|a, b| a.2[0].total_cmp(&b.2[0]));
+    (events, all, states)
+}
+
+fn general() -> Wanted {
+    Wanted {
+        lines: Vec::new(),
+        growth: true,
+        critical: true,
+        undamped: false,
+        symmetric: false,
+        conservative: false,
+    }
+}
+
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+/// Oscillators whose damping and stiffness are products of quadratics.
+#[test]
+fn onsets_and_ends_of_random_oscillators() {
+    let mut random = Random(7);
+    let mut most = 0;
+    for case in 0..400 {
+        let machines: Vec<_> = (0..1 + case % 3)
+            .map(|_| {
+                let width = 10_f64.powf(random.between(-4.0, -0.5));
+                let a = random.between(0.05, 0.9);
+                let b = random.between(0.05, 0.9);
+                (
+                    vec![(a, a + width)],
+                    10_f64.powf(random.between(-3.0, 0.5)),
+                    if random.next() < 0.5 {
+                        vec![(b, b + 0.5 * width)]
+                    } else {
+                        vec![]
+                    },
+                    10_f64.powf(random.between(0.0, 2.0)),
+                )
+            })
+            .collect();
+        let roots = |u: f64| {
+            let mut roots = Vec::new();
+            for (c, amount, k, stiff) in &machines {
+                oscillator(product(c, *amount, u), product(k, *stiff, u), &mut roots);
+            }
+            (roots, Vec::new())
+        };
+        let mut expected = Vec::new();
+        for (c, _, k, stiff) in &machines {
+            for &(a, b) in k {
+                expected.extend([a, b].map(|u| (Kind::Critical, u)));
+            }
+            for &(a, b) in c {
+                for u in [a, b] {
+                    if product(k, *stiff, u)[0] > 0.0 {
+                        expected.push((Kind::Growth, u));
+                    }
+                }
+            }
+        }
+        expected.retain(|event| event.1 <= 1.0);
+        expected.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut last = 0;
+        for steps in [16, 11] {
+            let (mut events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
+            events.retain(|event| event.0 != Kind::Turning);
+            assert_eq!(all.doubts, [], "{case} {machines:?}");
+            assert_eq!(
+                events.len(),
+                expected.len(),
+                "{case} {steps} {machines:?}\n{events:?}\n{expected:?}"
+            );
+            for (kind, u) in &expected {
+                let own = |event: &&(Kind, Passage, [f64; 3])| {
+                    event.0 == *kind && event.2[1] <= u + 1e-9 && event.2[2] >= u - 1e-9
+                };
+                assert!(
+                    events.iter().any(|event| own(&event)),
+                    "{case} {events:?} {expected:?}"
+                );
+            }
+            last = states;
+        }
+        most = most.max(last);
+    }
+    println!("{most} states at most");
+}
+
+/// Two modes without damping of their own whose frequencies pass each other, coupled by forces without a potential:
+/// `lambda = mean +- sqrt(slope^2 (u - place)^2 - coupling)`; both lose `2 delta s`.
+fn passing(
+    (mean, slope, place): (f64, f64, f64),
+    coupling: f64,
+    delta: f64,
+    u: f64,
+    roots: &mut Vec<Root>,
+) {
+    let x = u - place;
+    let inside = slope * slope * x * x - coupling;
+    let root = Complex::from(inside).sqrt();
+    let rate = slope * slope * x / root;
+    for sign in [1.0, -1.0] {
+        let (lambda, change) = (mean + sign * root, sign * rate);
+        let distance = (delta * delta - lambda).sqrt();
+        let distance = if distance.im < 0.0 {
+            -distance
+        } else {
+            distance
+        };
+        roots.push(Root {
+            value: distance - delta,
+            slope: -change / (2.0 * distance),
+            error: 1e-13
+                * mean.sqrt()
+                * (2.0 + coupling.sqrt() / (root.norm() + 1e-8 * coupling.sqrt() + 1e-300)),
+            paired: true,
+            neutral: false,
+        });
+    }
+}
+
+#[test]
+fn bands_in_which_two_modes_merge() {
+    let mut random = Random(11);
+    let (mut most, mut sum) = (0, 0);
+    for case in 0..600 {
+        let pairs: Vec<_> = (0..1 + case % 3)
+            .map(|k| {
+                let mean = random.between(0.5, 1.5) + 10.0 * k as f64;
+                let slope = random.between(0.1, 0.4);
+                let width = 10_f64.powf(random.between(-5.0, -1.0));
+                let place = random.between(0.15, 0.85);
+                // None, one that excludes growth, and one that does not.
+                let delta = [0.0, 0.6, 0.3, 1e-7][case % 4] * width * slope / mean.sqrt();
+                let coupling = if case % 5 == 4 {
+                    0.0
+                } else {
+                    (width * slope).powi(2)
+                };
+                ((mean, slope, place), coupling, delta)
+            })
+            .collect();
+        let roots = |u: f64| {
+            let mut roots = Vec::new();
+            for &(line, coupling, delta) in &pairs {
+                passing(line, coupling, delta, u, &mut roots);
+            }
+            (roots, Vec::new())
+        };
+        let mut expected = Vec::new();
+        for &((mean, slope, place), coupling, delta) in &pairs {
+            let left = coupling - 4.0 * delta * delta * (mean - delta * delta);
+            if left > 0.0 {
+                let half = left.sqrt() / slope;
+                expected.extend([
+                    (Passage::Rises, place - half),
+                    (Passage::Falls, place + half),
+                ]);
+            }
+        }
+        let mut last = 0;
+        for steps in [16, 13] {
+            let (events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
+            assert_eq!(all.doubts, [], "{case} {pairs:?} {events:?}");
+            assert_eq!(
+                events.len(),
+                expected.len(),
+                "{case} {steps} {pairs:?}\n{events:?}\n{expected:?}"
+            );
+            for (passage, u) in &expected {
+                let own = |event: &&(Kind, Passage, [f64; 3])| {
+                    event.1 == *passage && event.2[1] <= u + 1e-8 && event.2[2] >= u - 1e-8
+                };
+                assert!(
+                    events.iter().any(|event| own(&event)),
+                    "{case} {events:?} {expected:?}"
+                );
+            }
+            last = states;
+        }
+        most = most.max(last);
+        sum += last;
+    }
+    println!("{most} states at most, {} on average", sum / 600);
+}
+
+/// `lambda = L^2 + amount (u - a) (u - b)` for a line `L`, alone or twice; frequencies damped or not.
+#[test]
+fn every_crossing_of_a_line_also_of_equal_machines() {
+    let mut random = Random(3);
+    let mut most = 0;
+    for case in 0..300 {
+        let line = Line {
+            ratio: random.between(-1.0, 2.0),
+            offset: random.between(2.0, 3.0),
+        };
+        let width = match case % 3 {
+            0 => 0.0,
+            _ => 10_f64.powf(random.between(-5.0, -0.3)),
+        };
+        let a = random.between(0.05, 0.95);
+        let amount = random.between(0.5, 2.0) * if case % 2 == 0 { 1.0 } else { -1.0 };
+        let twice = case % 4 == 1;
+        let undamped = case % 5 < 2;
+        let roots = |u: f64| {
+            let [square, rate] = product(&[(a, a + width)], amount, u);
+            let own = line.ratio * u + line.offset;
+            let lambda = [own * own + square, 2.0 * own * line.ratio + rate];
+            let mut roots = Vec::new();
+            for _ in 0..1 + usize::from(twice) {
+                if undamped {
+                    roots.push(Root {
+                        value: lambda[0].into(),
+                        slope: lambda[1].into(),
+                        error: 1e-14 * lambda[0],
+                        paired: false,
+                        neutral: false,
+                    });
+                } else {
+                    // s = -0.1 + i sqrt(lambda)
+                    oscillator([0.2, 0.0], [lambda[0] + 0.01, lambda[1]], &mut roots);
+                }
+            }
+            (roots, Vec::new())
+        };
+        let wanted = Wanted {
+            lines: vec![line],
+            undamped,
+            symmetric: undamped,
+            ..general()
+        };
+        let mut expected = match width {
+            0.0 => vec![(Passage::Touches, a)],
+            _ => {
+                let passages = match amount > 0.0 {
+                    true => [Passage::Falls, Passage::Rises],
+                    false => [Passage::Rises, Passage::Falls],
+                };
+                vec![(passages[0], a), (passages[1], a + width)]
+            }
+        };
+        expected.retain(|event| event.1 <= 1.0);
+        for steps in [16, 7] {
+            let (events, all, states) = search(roots, &wanted, [0.0, 1.0], steps);
+            assert_eq!(all.doubts, [], "{case}");
+            let number = if twice { 2 } else { 1 };
+            assert_eq!(
+                events.len(),
+                number * expected.len(),
+                "{case} {events:?} {expected:?}"
+            );
+            for (passage, u) in &expected {
+                let own = |event: &&(Kind, Passage, [f64; 3])| {
+                    event.1 == *passage && event.2[1] <= u + 1e-6 && event.2[2] >= u - 1e-6
+                };
+                assert_eq!(
+                    events.iter().filter(own).count(),
+                    number,
+                    "{case} {events:?} {expected:?}"
+                );
+            }
+            most = most.max(states);
+        }
+    }
+    println!("{most} states at most");
+}

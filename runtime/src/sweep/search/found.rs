@@ -1,0 +1,125 @@
+//! The events that a search finds, and what it has searched.
+
+use crate::sweep::condition::{Condition, Crossing};
+use crate::sweep::points::{CriticalState, SweepPoint};
+use crate::{Description, Error, Input, Shared};
+
+/// A stretch of the input in which an event may lie that was not resolved, or several that were not separated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Unresolved {
+    /// Where it begins, SI.
+    pub from: f64,
+    /// Where it ends, SI.
+    pub to: f64,
+    /// The condition that a mode may meet there; `None` for vanishing stiffness.
+    pub condition: Option<Condition>,
+}
+
+/// A stretch of the input without an equilibrium to follow.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Gap {
+    /// Where it begins, SI.
+    pub from: f64,
+    /// Where it ends, SI.
+    pub to: f64,
+    /// Why there is none.
+    pub reason: Error,
+}
+
+/// What a search for events has covered.
+///
+/// It follows the eigenvalues by their derivatives and divides a stretch until what remains between two states can hide
+/// no event. An event is missed only if it leaves no trace in the values and derivatives at any of these states.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Searched {
+    /// Where the search began, SI.
+    pub low: f64,
+    /// Where it ended, SI.
+    pub high: f64,
+    /// Number of states solved.
+    pub states: usize,
+    /// Events closer to each other than this are not separated, SI.
+    pub resolution: f64,
+    /// Stretches that are not resolved.
+    pub unresolved: Vec<Unresolved>,
+    /// Stretches without an equilibrium.
+    pub gaps: Vec<Gap>,
+}
+
+/// The events along an input, each at a value that depends on the mechanism only.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Events {
+    /// The varied input.
+    pub input: Input,
+    /// States where stiffness vanishes, in the order of the search.
+    pub critical: Vec<CriticalState>,
+    /// States where a mode meets a condition, in the order of the search.
+    pub crossings: Vec<Crossing>,
+    /// What was searched.
+    pub searched: Searched,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+/// The way along which events were sought: states near which any other on the way lies.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Route {
+    /// In the order of the search.
+    pub(super) points: Vec<SweepPoint>,
+    /// The branches on the way: the position of the first point of each, and the value up to which it is followed.
+    pub(super) pieces: Vec<(usize, f64)>,
+    /// The smallest label not used on the way.
+    pub(crate) unused: usize,
+}
+
+impl Events {
+    /// The events up to a value at which the work was stopped.
+    pub(crate) fn until(mut self, value: f64) -> Self {
+        let Searched { low, high, .. } = self.searched;
+        let within = |own: f64| (value - own) * (high - low) >= 0.0;
+        self.critical.retain(|own| within(own.value));
+        self.crossings.retain(|own| within(own.value));
+        self.searched.high = value;
+        self.searched.unresolved.retain(|own| within(own.from));
+        self.searched.gaps.retain(|own| within(own.from));
+        self
+    }
+}
+
+impl Route {
+    /// Up to three points of one branch near a value, the nearest last; `None` if the value is as near to `last`, a
+    /// point on the same branch, as the points of the route are to each other.
+    pub(crate) fn towards(&self, last: Option<f64>, value: f64) -> Option<Vec<&SweepPoint>> {
+        let (first, end) = (self.points.first()?, self.points.last()?);
+        let forward = if end.value < first.value { -1.0 } else { 1.0 };
+        let piece = |value: f64| {
+            let reaches = |piece: &&(usize, f64)| (piece.1 - value) * forward >= 0.0;
+            let found = self.pieces.iter().position(|piece| reaches(&piece));
+            found.unwrap_or(self.pieces.len().saturating_sub(1))
+        };
+        let own = piece(value);
+        let from = self.pieces.get(own)?.0;
+        let to = (self.pieces.get(own + 1)).map_or(self.points.len(), |piece| piece.0);
+        let mut near: Vec<&SweepPoint> = self.points[from..to].iter().collect();
+        let apart = |point: &SweepPoint| (point.value - value).abs();
+        near.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
+        near.truncate(3);
+        if let (Some(last), [nearest, next, ..]) = (last, &near[..])
+            && piece(last) == own
+            && (value - last).abs()
+                <= (0.5 * (nearest.value - next.value).abs()).max(apart(nearest))
+        {
+            return None;
+        }
+        near.reverse();
+        Some(near)
+    }
+}
