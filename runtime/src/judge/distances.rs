@@ -1,11 +1,11 @@
 //! The doubts that distances raise about first order.
 
 use super::Doubt;
-use crate::{Behaviour, Error};
 use crate::modes::Family;
 use crate::response::{Response, Responses};
 use crate::sensitivity::{Quantity, sensitivities};
 use crate::tolerance::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, Tolerances, first_order};
+use crate::{Behaviour, Error};
 
 /// A first-order standard deviation with a larger error is not to be trusted.
 pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;

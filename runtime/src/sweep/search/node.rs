@@ -6,9 +6,10 @@ use super::spectrum::{Root, Spectrum};
 use crate::algebra::{Matrix, Vector, dot, dot_complex, times};
 use crate::branches::CurvePoint;
 use crate::constraints::Structure;
+use crate::eigenproblem::eigenvalues;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, free_pairs, pencil_slope_times, pencil_times};
-use crate::sensitivity::{Direction, eigenvalues};
+use crate::sensitivity::Direction;
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
 /// Eigenvalues closer than this, relative to the larger, are derived together: rounding mixes their shapes.

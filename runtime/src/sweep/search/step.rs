@@ -130,7 +130,6 @@ impl<'a, 'b> Step<'a, 'b> {
         };
         let rate = self.rate(&point)?;
         let node = Rc::new(self.question.node(point, t, rate).ok()?);
-        if std::env::var("DBG").is_ok() { eprintln!("node {t} u {} q {:?} K {:?}", node.point.place.p, &node.point.place.q[..], node.spectrum.roots.iter().map(|r| r.value.re).collect::<Vec<_>>()); }
         self.nodes.insert(place, node.clone());
         Some(node)
     }
