@@ -35,8 +35,8 @@ pub struct Compilation {
 /// Runs every stage up to the program. Mistakes in syntax, in names and values, and in the connections between bodies
 /// are reported together; the equations are derived only if there are none.
 pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, Diagnostics> {
-    let (ast, mechanism, topology) = accepted(declaration)?;
-    let mut functions = derive(&mechanism, &topology, limits)?;
+    let (ast, mut mechanism, mut topology) = accepted(declaration)?;
+    let mut functions = derive(&mut mechanism, &mut topology, limits)?;
     let kernels = regrouped_kernels(&mut functions);
     let program = lower(&functions.graph, &kernels);
     Ok(Compilation {

@@ -15,12 +15,13 @@ pub struct NamedUnit {
 }
 
 /// Units that take decimal prefixes, each as a factor times a power of ten.
-const PREFIXED: [(&str, Dimension, f64, i32); 9] = [
+const PREFIXED: [(&str, Dimension, f64, i32); 10] = [
     ("m", Dimension::LENGTH, 1.0, 0),
     ("g", Dimension::MASS, 1.0, -3),
     ("s", Dimension::TIME, 1.0, 0),
     ("N", Dimension::FORCE, 1.0, 0),
     ("Pa", Dimension::PRESSURE, 1.0, 0),
+    ("bar", Dimension::PRESSURE, 1.0, 5),
     ("J", Dimension::MOMENT, 1.0, 0),
     ("W", Dimension::POWER, 1.0, 0),
     // One cycle per second of a rotation or vibration, so that `50 Hz` can be given where rad/s are needed.
@@ -29,7 +30,9 @@ const PREFIXED: [(&str, Dimension, f64, i32); 9] = [
 ];
 
 /// Units without prefixes.
-const PLAIN: [(&str, Dimension, f64); 10] = [
+///
+/// Pounds, inches and what follows from them are exact: NIST Special Publication 811, appendix B.
+const PLAIN: [(&str, Dimension, f64); 16] = [
     ("deg", Dimension::NONE, PI / 180.0),
     ("rev", Dimension::NONE, 2.0 * PI),
     ("rpm", Dimension::RATE, 2.0 * PI / 60.0),
@@ -39,8 +42,16 @@ const PLAIN: [(&str, Dimension, f64); 10] = [
     ("inch", Dimension::LENGTH, 0.0254),
     ("ft", Dimension::LENGTH, 0.3048),
     ("lb", Dimension::MASS, 0.453_592_37),
-    ("lbf", Dimension::FORCE, 4.448_221_615_260_5),
+    ("lbf", Dimension::FORCE, POUND_FORCE),
+    ("kip", Dimension::FORCE, 4_448.221_615_260_5),
+    ("kgf", Dimension::FORCE, 9.806_65),
+    ("slug", Dimension::MASS, POUND_FORCE / 0.3048),
+    ("mil", Dimension::LENGTH, 25.4e-6),
+    ("psi", Dimension::PRESSURE, POUND_FORCE / 0.000_645_16),
+    ("ksi", Dimension::PRESSURE, 4_448.221_615_260_5 / 0.000_645_16),
 ];
+
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 const PREFIXES: [(&str, i32); 11] = [
     ("", 0),
@@ -78,7 +89,7 @@ fn power_of_ten(exponent: i32) -> f64 {
 }
 
 /// Common spellings of units, and the symbol to write instead.
-const WORDS: [(&str, &str); 50] = [
+const WORDS: [(&str, &str); 65] = [
     ("metre", "m"),
     ("meter", "m"),
     ("millimetre", "mm"),
@@ -99,6 +110,21 @@ const WORDS: [(&str, &str); 50] = [
     ("ton", "t"),
     ("lbs", "lb"),
     ("pound", "lb"),
+    ("lbm", "lb"),
+    ("slinch", "lbf*s^2/inch"),
+    ("thou", "mil"),
+    ("micron", "um"),
+    ("kp", "kgf"),
+    ("kilopond", "kgf"),
+    ("poundforce", "lbf"),
+    ("ftlb", "lbf*ft"),
+    ("ftlbf", "lbf*ft"),
+    ("lbft", "lbf*ft"),
+    ("lbfft", "lbf*ft"),
+    ("inlb", "lbf*inch"),
+    ("inlbf", "lbf*inch"),
+    ("lbin", "lbf*inch"),
+    ("lbfin", "lbf*inch"),
     ("second", "s"),
     ("sec", "s"),
     ("millisecond", "ms"),
@@ -158,16 +184,20 @@ pub fn respelt(name: &str) -> Option<String> {
 
 /// The probable meaning of an unknown unit: the symbol for a word, in singular or plural, otherwise the nearest symbol.
 pub fn suggestion(name: &str) -> Option<&'static str> {
+    let name = &name.replace('_', "");
     let singular = name.strip_suffix('s').unwrap_or(name);
     let word = |name: &str| {
-        WORDS
-            .iter()
-            .find(|(word, _)| word.eq_ignore_ascii_case(name))
+        let word = WORDS.iter().find(|own| own.0.eq_ignore_ascii_case(name));
+        word.map(|own| own.1)
     };
-    match word(name).or_else(|| word(singular)) {
-        Some((_, symbol)) => Some(symbol),
-        None => nearest(name, names()),
-    }
+    let plain = |name: &str| {
+        let symbol = PLAIN.iter().find(|own| own.0.eq_ignore_ascii_case(name));
+        symbol.map(|own| own.0)
+    };
+    [name, singular]
+        .into_iter()
+        .find_map(|name| word(name).or_else(|| plain(name)))
+        .or_else(|| nearest(name, names()))
 }
 
 /// Names to suggest for a misspelt unit, the most common first.
@@ -178,7 +208,7 @@ fn names() -> impl Iterator<Item = &'static str> {
     ];
     let prefixed = PREFIXED.iter().map(|entry| entry.0);
     let plain = PLAIN.iter().map(|entry| entry.0);
-    prefixed.chain(plain).chain(PREFIXED_IN_USE)
+    prefixed.chain(PREFIXED_IN_USE).chain(plain)
 }
 
 #[cfg(test)]
@@ -218,6 +248,25 @@ mod tests {
     #[test]
     fn pound_force_is_a_pound_in_standard_gravity() {
         assert!((scale("lbf") - scale("lb") * 9.80665).abs() < 1e-15);
+        assert_eq!(scale("kgf"), 9.80665);
+    }
+
+    /// Against NIST Special Publication 811, appendix B.8, to the digits that it gives.
+    #[test]
+    fn customary_units() {
+        for (name, dimension, published) in [
+            ("psi", Dimension::PRESSURE, 6.894_757e3),
+            ("ksi", Dimension::PRESSURE, 6.894_757e6),
+            ("bar", Dimension::PRESSURE, 1e5),
+            ("mbar", Dimension::PRESSURE, 1e2),
+            ("slug", Dimension::MASS, 14.593_90),
+            ("kip", Dimension::FORCE, 4.448_222e3),
+            ("mil", Dimension::LENGTH, 2.54e-5),
+        ] {
+            let unit = find(name).unwrap();
+            assert_eq!(unit.dimension, dimension, "{name}");
+            assert!((unit.scale / published - 1.0).abs() < 3e-7, "{name}");
+        }
     }
 
     #[test]
@@ -227,6 +276,11 @@ mod tests {
             ("Seconds", "s"),
             ("Nm", "N*m"),
             ("kgg", "kg"),
+            ("lbm", "lb"),
+            ("PSI", "psi"),
+            ("RPM", "rpm"),
+            ("slugs", "slug"),
+            ("ft_lb", "lbf*ft"),
         ] {
             assert_eq!(suggestion(name), Some(symbol));
         }

@@ -3,11 +3,12 @@
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::CoordinateId;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, Motion};
 use crate::topology::Topology;
+use crate::topology::build::build;
 
 use super::checks::{
-    free_directions, poses, properties, require_determinate_motion, require_steady_state,
+    Unsteady, free_directions, listed, poses, properties, require_determinate_motion, require_steady_state,
     requirements,
 };
 use super::equations::Equations;
@@ -18,13 +19,42 @@ use super::loads::constraint_rows;
 use super::setup::{Context, Runs, Symbols, Values};
 
 /// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
-/// unless only the kernels are wanted, if a motion moves no mass or nothing resists a coordinate: errors that only the
-/// equations reveal.
+/// unless only the kernels are wanted, if a motion moves no mass or nothing balances a load: errors that only the
+/// equations reveal. Coasting coordinates that can only stand still become free ones.
 pub fn derive(
+    mechanism: &mut Mechanism,
+    topology: &mut Topology,
+    limits: Limits,
+) -> Result<Functions, Diagnostics> {
+    let mut standing = Vec::new();
+    let mut functions = loop {
+        match derived(mechanism, topology, limits) {
+            Ok(functions) => break functions,
+            Err(Unsteady::Mistakes(mistakes)) => return Err(mistakes),
+            Err(Unsteady::Standing(more)) => {
+                for id in more {
+                    let coordinate = &mut mechanism.coordinates[id.index()];
+                    coordinate.motion = Motion::Free;
+                    standing.push(format!("`{}`", coordinate.name));
+                }
+                *topology = build(mechanism)?;
+            }
+        }
+    };
+    if !standing.is_empty() {
+        functions.free.notes.push(format!(
+            "slip depends on {}: no coasting, only standing still, so free like other coordinates",
+            listed(&standing)
+        ));
+    }
+    Ok(functions)
+}
+
+fn derived(
     mechanism: &Mechanism,
     topology: &Topology,
     limits: Limits,
-) -> Result<Functions, Diagnostics> {
+) -> Result<Functions, Unsteady> {
     let mut graph = Graph::new();
     let g = &mut graph;
     let symbols = Symbols::new(g, mechanism, topology);

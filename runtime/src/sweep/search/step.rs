@@ -75,6 +75,8 @@ const SAME: f64 = 1e-9;
 /// the way by which it may miss it in addition.
 const ASTRAY: f64 = 0.05;
 const CLOSE: f64 = 1e-6;
+/// Rounding of a solved state, local.
+const ROUNDED: f64 = 1e-12;
 /// Share of it by which the direction may miss that of the cubic: beyond, it is another branch, or the step is too long.
 const TURNED: f64 = 0.1;
 /// Distances from a special point, as shares of the step, at which the branch beside it is sought.
@@ -175,7 +177,7 @@ impl<'a, 'b> Step<'a, 'b> {
             own[1].plus(-along, &self.normal).norm() * h
         };
         let turn = off(&a) + off(&b);
-        let slack = CLOSE * self.length * h;
+        let slack = CLOSE * self.length * h + ROUNDED;
         let reach = ASTRAY * turn + slack;
         let found = (self.curve).across(self.ends[0], &predicted, &self.normal, reach);
         let found = found.ok()?;

@@ -12,10 +12,10 @@ pub(super) use freedom::free_directions;
 pub(super) use poses::poses;
 pub(super) use properties::properties;
 pub(super) use requirements::requirements;
-pub(super) use steady_state::require_steady_state;
+pub(super) use steady_state::{Unsteady, require_steady_state};
 
 /// `a`, `b` and `c`.
-fn listed(names: &[String]) -> String {
+pub(super) fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),
         [only] => only.clone(),

@@ -2,7 +2,7 @@
 
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
+use crate::base::ids::{BodyId, CoordinateId, ExprId, ForceId, SymbolId};
 use crate::mechanics::equations::{Residual, outputs};
 use crate::mechanics::motion::{Kinematics, in_common_frame};
 use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};
@@ -10,9 +10,23 @@ use crate::model::mechanism::Motion;
 
 const GRAVITY: &str = "gravity is not parallel to its axis";
 
+/// Why there is no steady state.
+pub(crate) enum Unsteady {
+    /// These coasting coordinates can only stand still, because the slip at a contact depends on them: they are free.
+    Standing(Vec<CoordinateId>),
+    Mistakes(Diagnostics),
+}
+
+impl From<Diagnostics> for Unsteady {
+    fn from(mistakes: Diagnostics) -> Self {
+        Self::Mistakes(mistakes)
+    }
+}
+
 /// Rejects a mechanism whose equations or outputs depend on a running coordinate, naming the cause.
-pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(), Diagnostics> {
+pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(), Unsteady> {
     let mut diagnostics = Diagnostics::new();
+    let mut standing = Vec::new();
     let running = &context.symbols.running.values;
     let kinematics = in_common_frame(g, context, running);
     let residual =
@@ -32,7 +46,11 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
             _ => ("driven", "drive"),
         };
         if depends(g, context, &residual, symbol) {
-            let mut causes = causes(g, context, &kinematics, symbol);
+            let Causes { mut causes, slip } = causes(g, context, &kinematics, symbol);
+            if slip && coordinate.motion == Motion::Coasting {
+                standing.push(id);
+                continue;
+            }
             if causes.is_empty() {
                 causes.push(
                     "at least, the contrary could not be shown near the nominal design".to_owned(),
@@ -65,7 +83,19 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
             }
         }
     }
-    diagnostics.into_result(())
+    match diagnostics.into_result(()) {
+        Err(mistakes) => Err(Unsteady::Mistakes(mistakes)),
+        Ok(()) if standing.is_empty() => Ok(()),
+        Ok(()) => Err(Unsteady::Standing(standing)),
+    }
+}
+
+/// What makes the equations depend on a coordinate.
+struct Causes {
+    /// In words.
+    causes: Vec<String>,
+    /// Whether that is only the slip at contacts.
+    slip: bool,
 }
 
 fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId) -> bool {
@@ -79,7 +109,7 @@ fn causes(
     context: &Context,
     kinematics: &Kinematics,
     symbol: SymbolId,
-) -> Vec<String> {
+) -> Causes {
     let running = &context.symbols.running.values;
     let none = ForceSelection {
         inertia: Selection::None,
@@ -117,6 +147,7 @@ fn causes(
         depends(g, context, &part, symbol)
     });
     let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause)| cause).collect();
+    let (mut rows, mut slip) = (0, causes.is_empty());
     let constraints = ForceSelection {
         constraints: true,
         ..none
@@ -124,10 +155,13 @@ fn causes(
     let values = Residual::new(g, context, running, kinematics, constraints).total(g, context);
     for (row, &value) in context.rows.iter().zip(&values[context.moving().1..]) {
         if depends(g, context, &[value], symbol) {
+            slip &= row.of_velocities && row.source.rolls(context.mechanism);
+            rows += 1;
             let source = row.source.name(context.mechanism);
             causes.push(format!("the constraint `{source}` changes with it"));
         }
     }
     causes.dedup();
-    causes
+    slip &= rows > 0;
+    Causes { causes, slip }
 }

@@ -8,6 +8,7 @@ mod forces;
 mod pair;
 mod perpendiculars;
 mod rolling;
+mod slip_axes;
 mod transmitted;
 
 pub(super) use constraints::{constraint_rows, held};

@@ -7,11 +7,13 @@ use crate::model::expression::{Expr, Vector};
 use super::force_context::ForceContext;
 use super::pair::{Demand, Pair};
 use super::perpendiculars::perpendiculars;
+use super::slip_axes::slip_axes;
 
 /// Contact along the normal, as an equation of positions; no slip forward and sideways, as equations of velocities.
 ///
 /// With `n` the normal, `a` the axle and `c` the centre, the lowest point of a disk is `c + r d`,
-/// `d = -(n - (n . a) a) / |n - (n . a) a|`; forward is `a x n / |a x n|`.
+/// `d = -(n - (n . a) a) / |n - (n . a) a|`; forward is `a x n / |a x n|`. A ball has no axle: forward is fixed in the
+/// plane, or where its slip is steady.
 pub(crate) fn rolling(
     g: &mut Graph,
     force_context: &ForceContext,
@@ -40,8 +42,15 @@ pub(crate) fn rolling(
             (up.scale(g, inverse), ahead.scale(g, inverse))
         }
         None => {
+            let sides = (plane.frame, wheel.frame);
+            let turned = slip_axes(g, force_context, sides, normal);
+            let axes = turned.unwrap_or(plane.at.axes);
+            let local = match turned {
+                Some(axes) => axes.transpose().apply(g, normal),
+                None => local,
+            };
             let [first, _] = perpendiculars(g, force_context.context, local);
-            (normal, plane.at.axes.apply(g, first))
+            (normal, axes.apply(g, first))
         }
     };
     let sideways = normal.cross(g, forward);

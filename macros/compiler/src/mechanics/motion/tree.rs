@@ -34,7 +34,7 @@ impl Tree {
     }
 
     /// The frame and all its ancestors, up to the ground.
-    fn path(&self, frame: Frame) -> Vec<Frame> {
+    pub(crate) fn path(&self, frame: Frame) -> Vec<Frame> {
         let mut path = vec![frame];
         let mut at = frame;
         while let Some(branch) = self.parent(at) {

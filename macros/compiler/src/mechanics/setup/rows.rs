@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use crate::base::ids::{ConstraintId, JointId};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{ConstraintLaw, Mechanism};
 
 /// The source of an equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,12 @@ impl Source {
             Source::Constraint(id) => &mechanism.constraints[id.index()].name,
             Source::Joint(id) => &mechanism.joints[id.index()].name,
         }
+    }
+
+    /// Whether it is a contact without slip.
+    pub(crate) fn rolls(self, mechanism: &Mechanism) -> bool {
+        let law = |id: ConstraintId| &mechanism.constraints[id.index()].law;
+        matches!(self, Source::Constraint(id) if matches!(law(id), ConstraintLaw::Rolling { .. }))
     }
 }
 

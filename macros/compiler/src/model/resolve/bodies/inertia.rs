@@ -1,7 +1,7 @@
 //! The inertia of a rigid body of any shape.
 
 use super::super::matrices::is_matrix;
-use super::super::typed::Place;
+use super::super::typed::{Place, Typed};
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
@@ -45,7 +45,7 @@ impl Quantities<'_, '_, '_> {
 
     fn tensor(&mut self, value: &Value) -> Option<[Expr; 6]> {
         let ValueKind::Vector(entries, unit) = &value.bare().kind else {
-            return self.wrong_inertia(value);
+            return self.moments(value);
         };
         if is_matrix(entries) {
             self.resolver.diagnostics.error_with_help(
@@ -100,6 +100,18 @@ impl Quantities<'_, '_, '_> {
         }
         tensor.resize(6, Expr::Number(0.0));
         tensor.try_into().ok()
+    }
+
+    /// The moments of inertia about the axes, by an expression.
+    fn moments(&mut self, value: &Value) -> Option<[Expr; 6]> {
+        let Typed::Vector([x, y, z], quantity) = self.resolver.value(value, Place::Parameter)?
+        else {
+            return self.wrong_inertia(value);
+        };
+        self.resolver
+            .expect(quantity, Dimension::INERTIA, "`inertia`", value)?;
+        let none = Expr::Number(0.0);
+        Some([x, y, z, none.clone(), none.clone(), none])
     }
 
     fn wrong_inertia(&mut self, value: &Value) -> Option<[Expr; 6]> {
