@@ -23,6 +23,9 @@ pub(crate) struct Curve<'a> {
     pub(crate) inputs: &'a [f64],
     pub(crate) design: &'a [f64],
     pub(crate) settings: &'a Continuation,
+    /// What holds the place along free directions. At a critical state the stiffness alone does not tell them from the
+    /// critical one.
+    place: FreeDirections,
     /// A large change of every unknown, SI.
     pub(crate) large: Vector,
     pub(crate) watch: Watch<'a>,
@@ -90,6 +93,7 @@ impl<'a> Curve<'a> {
                 settings.size * description.large(i)
             }),
             dropped: Vec::new(),
+            place: FreeDirections::default(),
             description,
             inputs,
             design,
@@ -110,12 +114,18 @@ impl<'a> Curve<'a> {
 
     /// The operating point at these inputs, with all constraints.
     pub(crate) fn operating_point<'b>(&'b self, inputs: &'b [f64]) -> OperatingPoint<'b> {
-        OperatingPoint::unchecked(self.mechanism, inputs, self.design)
+        OperatingPoint::unchecked(self.mechanism, inputs, self.design).placed(&self.place)
     }
 
     /// The curve prepared for branches near a state. In a singular configuration more constraints look redundant than
     /// around it: then those of the first regular state beside it count, or none.
     pub(crate) fn about(mut self, state: &Equilibrium) -> Self {
+        if self.description.free_directions > 0 {
+            // The state itself may be critical.
+            let mut beside = NUDGES.iter();
+            let beside = beside.find_map(|&share| self.beside(state, share).ok());
+            self.place = beside.map_or_else(|| state.free.clone(), |beside| beside.state.free);
+        }
         if self.structure.constraints() > 1 {
             let redundant =
                 |state: &Equilibrium| redundant_rows(&state.linear.stiffness, self.structure);

@@ -119,6 +119,7 @@ impl Curve<'_> {
             .flatten()
             .and_then(|pairs| {
                 let shapes = pairs.lambda.iter().zip(pairs.shapes.iter());
+                let shapes = shapes.skip(self.description.free_directions);
                 let (_, least) = shapes.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
                 Some(Vector::from(least))
             });

@@ -5,7 +5,7 @@ use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
 use crate::error::{NotClosed, NotFound};
-use crate::free::{Held, fix_place};
+use crate::free::{FreeDirections, Held, fix_place};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
 use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, Role, Shared};
@@ -26,6 +26,8 @@ pub(crate) struct OperatingPoint<'a> {
     pub(super) nearby: &'a [Mode],
     /// Whether each unknown has a start value that was given, not a default; may be empty.
     named: &'a [bool],
+    /// What holds the place along free directions; if `None`, it is found from the stiffness itself.
+    place: Option<&'a FreeDirections>,
     /// The unknowns by which the member of a family of steady motions is to be held.
     pub(super) held: Vec<Held>,
 }
@@ -75,6 +77,7 @@ impl<'a> OperatingPoint<'a> {
             dropped: Vec::new(),
             nearby: &[],
             named: &[],
+            place: None,
             held: Vec::new(),
         }
     }
@@ -129,6 +132,12 @@ impl<'a> OperatingPoint<'a> {
         )
     }
 
+    /// This point with the place held as at another state.
+    pub(crate) fn placed(self, place: &'a FreeDirections) -> Self {
+        let place = (!place.is_empty()).then_some(place);
+        Self { place, ..self }
+    }
+
     /// This point without the constraints marked in `dropped`.
     pub(crate) fn without(&self, dropped: &[bool]) -> Self {
         Self {
@@ -180,7 +189,10 @@ impl<'a> OperatingPoint<'a> {
             }
         }
         if finite && self.free() > 0 {
-            fix_place(stiffness, self.free());
+            match self.place {
+                Some(place) => place.hold(stiffness),
+                None => fix_place(stiffness, self.free()),
+            }
         }
         finite
     }

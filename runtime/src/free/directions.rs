@@ -139,8 +139,13 @@ impl FreeDirections {
             return Cow::Borrowed(stiffness);
         }
         let mut held = stiffness.clone();
-        hold(&mut held, &self.columns, &self.rows);
+        self.hold(&mut held);
         Cow::Owned(held)
+    }
+
+    /// Holds the place in a stiffness, which may be that of a state nearby.
+    pub(crate) fn hold(&self, stiffness: &mut Matrix) {
+        hold(stiffness, &self.columns, &self.rows);
     }
 }
 
@@ -149,6 +154,27 @@ pub(crate) fn fix_place(stiffness: &mut Matrix, count: usize) {
     let mut space = NullSpace::of(stiffness, count);
     space.columns.truncate(count);
     hold(stiffness, &space.columns, &space.rows);
+}
+
+/// [`fix_place`] of a stiffness that is also singular along one more direction, which a border takes out: of what is left,
+/// `count` directions are free.
+pub(crate) fn fix_place_beside(stiffness: &mut Matrix, border: &[f64], count: usize) {
+    if count == 0 {
+        return;
+    }
+    let n = border.len();
+    let whole = Matrix::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
+        (true, true) => stiffness[i][j],
+        (true, false) => border[i],
+        (false, true) => border[j],
+        (false, false) => 0.0,
+    });
+    let space = NullSpace::of(&whole, count);
+    let inner = |vectors: &[Vector]| -> Vec<Vector> {
+        let own = vectors.iter().take(count);
+        own.map(|vector| vector[..n].into()).collect()
+    };
+    hold(stiffness, &inner(&space.columns), &inner(&space.rows));
 }
 
 fn hold(stiffness: &mut Matrix, columns: &[Vector], rows: &[Vector]) {

@@ -6,6 +6,7 @@ use crate::algebra::{Matrix, Values, Vector, all_finite, dot, largest, times};
 use crate::branches::{Bordered, SpecialKind, critical_inertia};
 use crate::constraints::Structure;
 use crate::error::NoDerivative;
+use crate::free::fix_place_beside;
 use crate::kernels::{DirectionalKernels, Gradient, Kernels};
 use crate::sensitivity::{check_state, outside_domain, sensitivities};
 use crate::{Equilibrium, Error};
@@ -128,8 +129,13 @@ pub(crate) fn bordered(critical: &CriticalState) -> Result<Bordered, Error> {
         &critical_inertia(linear, structure, &critical.v),
         &critical.v,
     );
-    Bordered::new(&linear.stiffness, [&border], [&border], [[0.0]])
-        .ok_or(Error::ClusteredMode { mode: 0 })
+    let mut stiffness = linear.stiffness.clone();
+    fix_place_beside(
+        &mut stiffness,
+        &border,
+        critical.equilibrium.description.free_directions,
+    );
+    Bordered::new(&stiffness, [&border], [&border], [[0.0]]).ok_or(Error::ClusteredMode { mode: 0 })
 }
 
 /// The neighbourhood of a branch point.

@@ -1,0 +1,195 @@
+//! Events belong to the machine: random machines whose events are known in closed form, along grids of 2 to 200 points.
+
+use eigentol::sweep::Change;
+use eigentol::{Input, Stability, Study};
+use eigentol_interpreter::Interpreted;
+use eigentol_statistics::random::RandomNumbers;
+
+const HIGH: f64 = 40.0;
+
+/// An event: its kind, its value, and how growth changes there.
+type Event = (&'static str, f64, Option<Change>);
+
+fn between(random: &mut RandomNumbers, low: f64, high: f64) -> f64 {
+    low + random.fraction() * (high - low)
+}
+
+fn count(random: &mut RandomNumbers, least: usize, most: usize) -> usize {
+    least + (random.fraction() * (most + 1 - least) as f64) as usize
+}
+
+fn study(text: &str) -> Study<Interpreted> {
+    match Interpreted::from_text(text) {
+        Ok(machine) => Study::new(machine),
+        Err(error) => panic!("{error}\n{text}"),
+    }
+}
+
+/// The events that a diagram with so many points lists.
+fn listed(study: &Study<Interpreted>, points: usize, orders: &[f64]) -> Vec<Event> {
+    let last = points as f64 - 1.0;
+    let values: Vec<f64> = (0..points).map(|k| HIGH * k as f64 / last).collect();
+    let found = study
+        .campbell(Input::new(0), &values, orders)
+        .expect("a diagram");
+    let searched = found.searched.as_ref().expect("a search");
+    assert_eq!((searched.low, searched.high), (0.0, HIGH));
+    assert!(searched.unresolved.is_empty() && searched.gaps.is_empty());
+    let critical = found
+        .critical
+        .iter()
+        .map(|own| ("critical", own.value, None));
+    let onsets = found.flutter_onsets.iter();
+    let growth = onsets.map(|own| ("growth", own.value, Some(own.change)));
+    let lines = found.crossings.iter().map(|own| ("line", own.value, None));
+    let mut all: Vec<Event> = critical.chain(growth).chain(lines).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    all
+}
+
+/// Compares the lists along several grids with the known events.
+fn check(text: &str, orders: &[f64], mut known: Vec<Event>) {
+    known.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let study = study(text);
+    for points in [2, 3, 5, 11, 51, 200] {
+        let found = listed(&study, points, orders);
+        let kinds = |all: &[Event]| all.iter().map(|own| (own.0, own.2)).collect::<Vec<_>>();
+        assert_eq!(
+            kinds(&found),
+            kinds(&known),
+            "{points} points\n{text}\n{found:?}\n{known:?}"
+        );
+        for (found, known) in found.iter().zip(&known) {
+            let off = (found.1 - known.1).abs();
+            assert!(off < 1e-9 * HIGH, "{found:?}, not {known:?}\n{text}");
+        }
+    }
+}
+
+/// Masses on a turning base, each held in one direction: each loses its stiffness at its own frequency. A pair that
+/// nothing holds along the axis is free.
+#[test]
+fn critical_speeds_of_sliders_also_close_together() {
+    let mut random = RandomNumbers::new(1, 0);
+    for free in [false, true] {
+        for _ in 0..6 {
+            let sliders = count(&mut random, 2, 6);
+            let mut speeds: Vec<f64> = (0..sliders)
+                .map(|_| between(&mut random, 2.0, 38.0))
+                .collect();
+            // Two that are close together, between two points of most grids.
+            speeds.push(speeds[0] * (1.0 + 10f64.powf(between(&mut random, -6.0, -2.0))));
+            let mut text = String::from(
+                "mechanism Sliders { input speed: rad/s; body base: massless;
+                 joint turn: revolute(x) from ground to base, driven at speed;\n",
+            );
+            for (k, speed) in speeds.iter().enumerate() {
+                let mass = between(&mut random, 0.5, 3.0);
+                text += &format!(
+                    "body b{k}: point(mass: {mass} kg); joint y{k}: prismatic(y) from base to b{k};
+                     force f{k}: spring(on: y{k}, stiffness: {} N/m);\n",
+                    mass * speed * speed
+                );
+            }
+            if free {
+                text += "body p: point(mass: 1 kg); body q: point(mass: 2 kg);
+                    joint px: prismatic(x) from base to p; joint qx: prismatic(x) from base to q;
+                    force fp: generalized(on: px, value: (300 N/m) * (qx - px));
+                    force fq: generalized(on: qx, value: (300 N/m) * (px - qx));\n";
+            }
+            text += "}";
+            let known = speeds.iter().map(|speed| ("critical", *speed, None));
+            check(&text, &[], known.collect());
+        }
+    }
+}
+
+/// Oscillators whose damping is a product of factors linear in the input: growth begins and ends at their zeros.
+#[test]
+fn bands_of_growth() {
+    let mut random = RandomNumbers::new(2, 0);
+    for _ in 0..6 {
+        let mut text = String::from("mechanism Bands { input speed: rad/s;\n");
+        let mut known: Vec<Event> = Vec::new();
+        for k in 0..count(&mut random, 1, 4) {
+            let low = between(&mut random, 1.0, 38.0);
+            let width = 10f64.powf(between(&mut random, -4.0, 0.0));
+            let high = f64::min(low + width, 39.0);
+            let stiffness = between(&mut random, 100.0, 1000.0);
+            text += &format!(
+                "body b{k}: point(mass: 1 kg); joint x{k}: prismatic(x) from ground to b{k};
+                 force f{k}: spring(on: x{k}, stiffness: {stiffness} N/m);
+                 force d{k}: generalized(on: x{k},
+                    value: -(0.01 kg*s/rad^2) * (speed - {low} rad/s) * (speed - {high} rad/s) * rate(x{k}));\n"
+            );
+            known.push(("growth", low, Some(Change::Onset)));
+            known.push(("growth", high, Some(Change::End)));
+        }
+        text += "}";
+        check(&text, &[], known);
+    }
+}
+
+/// A round rotor on isotropic bearings in fixed axes: `omega` is a frequency at every speed, and internal damping `ci`
+/// beside an external `ce` starts growth at `omega (1 + ce / ci)`.
+#[test]
+fn rotors_with_internal_damping() {
+    let mut random = RandomNumbers::new(3, 0);
+    for _ in 0..6 {
+        let omega: f64 = between(&mut random, 4.0, 12.0);
+        let (outer, inner) = (
+            between(&mut random, 0.1, 0.3),
+            between(&mut random, 0.1, 0.3),
+        );
+        let mass = between(&mut random, 0.5, 3.0);
+        let (k, ce, ci) = (mass * omega * omega, mass * outer, mass * inner);
+        let text = format!(
+            "mechanism Rotor {{ input speed: rad/s; body s: massless; body disc: point(mass: {mass} kg);
+             joint x: prismatic(x) from ground to s; joint y: prismatic(y) from s to disc;
+             force kx: spring(on: x, stiffness: {k} N/m); force ky: spring(on: y, stiffness: {k} N/m);
+             force cx: damper(on: x, damping: {ce} N*s/m); force cy: damper(on: y, damping: {ce} N*s/m);
+             force ix: generalized(on: x, value: -({ci} N*s/m) * (rate(x) + speed * y));
+             force iy: generalized(on: y, value: -({ci} N*s/m) * (rate(y) - speed * x)); }}"
+        );
+        let onset = omega * (1.0 + outer / inner);
+        let mut known = Vec::new();
+        if onset < HIGH {
+            known.push(("growth", onset, Some(Change::Onset)));
+        }
+        check(&text, &[], known);
+        let study = study(&text);
+        let beyond = study.input(Input::new(0), onset * 1.01);
+        let stability = beyond.equilibrium().expect("a state").stability;
+        assert!(
+            matches!(stability, Stability::Flutter { .. }),
+            "{stability}"
+        );
+    }
+}
+
+/// Undamped oscillators whose frequencies do not depend on the speed meet the engine orders where they equal them.
+#[test]
+fn resonances() {
+    let mut random = RandomNumbers::new(4, 0);
+    for _ in 0..6 {
+        let mut text = String::from(
+            "mechanism Lines { input speed: rad/s; design unused_ = 1 s/rad; output o = speed * unused_;\n",
+        );
+        let mut known: Vec<Event> = Vec::new();
+        for k in 0..count(&mut random, 2, 5) {
+            let frequency: f64 = between(&mut random, 3.0, 70.0);
+            text += &format!(
+                "body b{k}: point(mass: 2 kg); joint x{k}: prismatic(x) from ground to b{k};
+                 force f{k}: spring(on: x{k}, stiffness: {} N/m);\n",
+                2.0 * frequency * frequency
+            );
+            for order in [1.0, 2.0] {
+                if frequency / order < HIGH {
+                    known.push(("line", frequency / order, None));
+                }
+            }
+        }
+        text += "}";
+        check(&text, &[1.0, 2.0], known);
+    }
+}
