@@ -134,7 +134,7 @@ impl Coordinates {
         match self {
             Self::Relative => true,
             Self::Absolute => false,
-            Self::Mixed => k % 2 == 0,
+            Self::Mixed => k.is_multiple_of(2),
         }
     }
 }
