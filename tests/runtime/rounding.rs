@@ -116,6 +116,7 @@ impl Model for Chain {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -464,6 +465,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }));

@@ -221,12 +221,13 @@ fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     assert_eq!(allocations(shift), 0, "shift of {name}");
 
     let found = modes(&at).expect("modes");
-    // One list; general modes also need their roots and five work lists of the eigenproblem.
+    // One list; general modes also need their roots and work lists of the eigenproblem, more if some are real.
     let lists = match found.family {
-        Family::Undamped => 1,
-        Family::General => 7,
+        Family::Undamped => 1..=1,
+        Family::General => 7..=11,
     };
-    assert_eq!(allocations(|| modes(&at)), lists, "modes of {name}");
+    let used = allocations(|| modes(&at));
+    assert!(lists.contains(&used), "modes of {name}: {used}");
     // One list; for several general modes also their places and the sizes of their shapes.
     assert!(
         allocations(|| match_modes(&found, &found, &at.linear)) <= 5,

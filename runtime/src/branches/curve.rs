@@ -23,6 +23,8 @@ pub(crate) struct Curve<'a> {
     pub(crate) inputs: &'a [f64],
     pub(crate) design: &'a [f64],
     pub(crate) settings: &'a Continuation,
+    /// A large change of every unknown, SI.
+    pub(crate) large: Vector,
     pub(crate) watch: Watch<'a>,
     /// Redundant constraints, omitted from Newton's method for regularity; every point must still meet all of them.
     dropped: Vec<bool>,
@@ -84,6 +86,9 @@ impl<'a> Curve<'a> {
         Ok(Self {
             mechanism,
             structure: Structure::of(&description),
+            large: Vector::from_fn(description.coordinates.len(), |i| {
+                settings.size * description.large(i)
+            }),
             dropped: Vec::new(),
             description,
             inputs,
@@ -293,7 +298,7 @@ impl<'a> Curve<'a> {
         (0..q.len()).fold(0.0, |most: f64, i| {
             let input = system.by_input[i].abs() * self.settings.range();
             let scale = (0..q.len()).fold(input, |sum, j| {
-                sum + system.stiffness[i][j].abs() * (self.settings.size + q[j].abs())
+                sum + system.stiffness[i][j].abs() * (self.large[j] + q[j].abs())
             });
             let residual = system.residual[i].abs();
             most.max(if residual > 0.0 {
@@ -307,7 +312,7 @@ impl<'a> Curve<'a> {
     pub(crate) fn frame(&self, at: &CurvePosition, system: &System) -> Frame {
         Frame::new(
             at.clone(),
-            self.settings.size,
+            &self.large,
             self.settings.range(),
             system,
             self.structure.motions(),

@@ -86,12 +86,12 @@ impl Frame {
     /// The first `motions` unknowns are coordinates and speeds; the rest are reactions.
     pub(crate) fn new(
         origin: CurvePosition,
-        size: f64,
+        large: &[f64],
         range: f64,
         system: &System,
         motions: usize,
     ) -> Self {
-        let units = units(&origin, size, range, system, motions);
+        let units = units(&origin, large, range, system, motions);
         let rows = Vector::from_fn(units.q.len(), |i| {
             let row = system.stiffness[i].iter().zip(&units.q);
             let most = row.fold(0.0, |most, (k, q)| greater(most, (k * q).abs()));
@@ -156,13 +156,13 @@ impl Frame {
 /// holds, relative to the work of the other forces on all units: it weighs as much as the forces it balances.
 fn units(
     place: &CurvePosition,
-    size: f64,
+    large: &[f64],
     range: f64,
     system: &System,
     motions: usize,
 ) -> CurvePosition {
     let mut units = CurvePosition {
-        q: place.q.map(|value| size + value.abs()),
+        q: Vector::from_fn(place.q.len(), |i| large[i] + place.q[i].abs()),
         p: range,
     };
     let n = units.q.len();

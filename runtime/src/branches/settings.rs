@@ -6,8 +6,8 @@ use crate::{Any, Description, Error, Input};
 
 /// Settings of a continuation: the range of one input and the sizes of the steps.
 ///
-/// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|` as the unit of a
-/// coordinate or speed. A constraint reaction is measured by the work it does on a unit of the coordinates it holds,
+/// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|`, with `size` in
+/// radians or typical lengths of the mechanism, as the unit of a coordinate or speed. A constraint reaction is measured by the work it does on a unit of the coordinates it holds,
 /// relative to the work of all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -30,9 +30,10 @@ pub struct Continuation<M = Any> {
     pub max_corrections: usize,
     /// Maximum number of branches. 64 by default.
     pub max_branches: usize,
-    /// A change of a coordinate, rad or m (of a speed, rad/s or m/s), that counts as large. 1 by default.
+    /// A change of a coordinate that counts as large, in multiples of a radian or of
+    /// [`Description::length`](crate::Description::length) (of a speed, in rad/s or m/s). 1 by default.
     pub size: f64,
-    /// Multiple of `size` (plus the largest coordinate at the start) beyond which a coordinate counts as infinite. 1e6
+    /// Multiple of `size` (plus the largest coordinate at the start, in the same units) beyond which a coordinate counts as infinite. 1e6
     /// by default.
     pub escape: f64,
 }

@@ -61,10 +61,12 @@ impl Curve<'_> {
             end: BranchEnd::PointLimit,
         };
         let largest = |place: &CurvePosition| {
-            let q = place.q[..self.structure.motions()].iter();
-            q.fold(0.0, |most: f64, value| most.max(value.abs()))
+            let q = place.q[..self.structure.motions()].iter().zip(&self.large);
+            q.fold(0.0, |most: f64, (value, large)| {
+                most.max((value / large).abs())
+            })
         };
-        let far = settings.escape * (settings.size + largest(home));
+        let far = settings.escape * (1.0 + largest(home));
         let mut at = start.clone();
         let mut length = 0.2 * settings.max_step;
         let mut refused: Option<Trouble> = None;

@@ -121,7 +121,7 @@ where
                 return Err(failure(point, reason, &base.q, iterations));
             }
             let shape = base.space.lift(Vector::from(&curved.pairs.shapes[0]));
-            let side = departure(&shape, &curved.linear.mass, &base.q, start);
+            let side = departure(point, &shape, &curved.linear.mass, &base.q, start);
             if !base.space.trial(point, &base.q, (&side, 1.0), &mut trial) {
                 return Err(outside(&base.q));
             }
@@ -137,7 +137,7 @@ where
         {
             return Ok(found(end, iterations + 1));
         }
-        let size = largest(&step);
+        let size = point.size_of(&step);
         let limited = size > radius;
         if limited {
             step = step.map(|value| value * radius / size);
@@ -151,7 +151,7 @@ where
             return Err(failure(point, reason, &base.q, iterations));
         };
         if next.length < 1.0 {
-            radius = radius.min(2.0 * next.length * largest(&step));
+            radius = radius.min(2.0 * next.length * point.size_of(&step));
         } else if limited && next.predicted {
             radius *= GROWTH;
         }
@@ -235,17 +235,23 @@ fn outside(q: &[f64]) -> Failure {
 }
 
 /// A small step along the unstable mode, towards the user's start value if that indicates a side.
-fn departure(shape: &[f64], mass: &Matrix, q: &[f64], start: &[f64]) -> Vector {
+fn departure(
+    point: &OperatingPoint<'_>,
+    shape: &[f64],
+    mass: &Matrix,
+    q: &[f64],
+    start: &[f64],
+) -> Vector {
     let offset = add_scaled(start, -1.0, q);
     let side = dot(&offset, &times(mass, shape));
     let size = form(&offset, mass, &offset).max(0.0).sqrt();
     // Below a thousandth of the distance the projection does not indicate a side.
-    let sign = if side.abs() > 1e-3 * size && largest(&offset) > 1e-9 {
+    let sign = if side.abs() > 1e-3 * size && point.size_of(&offset) > 1e-9 {
         side.signum()
     } else {
         1.0
     };
-    let scale = sign * DEPARTURE / largest(shape);
+    let scale = sign * DEPARTURE / point.size_of(shape);
     shape.map(|value| value * scale)
 }
 

@@ -127,7 +127,8 @@ where
     let direction = base.space.lift(direction);
     let motions = &direction[..point.motions()];
     let lead = (0..motions.len()).max_by(|&i, &j| motions[i].abs().total_cmp(&motions[j].abs()))?;
-    let share = DEPARTURE * (1.0 + base.q[lead].abs()) / direction[lead].abs();
+    let share =
+        DEPARTURE * (point.description.large(lead) + base.q[lead].abs()) / direction[lead].abs();
     let before = merit(&slopes, &weight);
     let mut trial = Trial::blank(point.size());
     let mut side = |share: f64| {

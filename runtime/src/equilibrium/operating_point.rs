@@ -1,6 +1,6 @@
 //! One equilibrium problem: a mechanism with validated inputs and design variables, evaluated with checks.
 
-use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix, for_size};
+use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix, for_size, greater};
 use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
@@ -192,6 +192,13 @@ impl<'a> OperatingPoint<'a> {
             self.drop_rows(&mut residual, None);
         }
         residual
+    }
+
+    /// The largest component of a step, relative to [large changes](Description::large).
+    pub(super) fn size_of(&self, step: &[f64]) -> f64 {
+        let sizes = step.iter().enumerate();
+        let sizes = sizes.map(|(i, step)| (step / self.description.large(i)).abs());
+        sizes.fold(0.0, greater)
     }
 
     /// Inertia and applied forces at rest, which may not be finite.

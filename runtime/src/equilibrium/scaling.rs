@@ -58,11 +58,11 @@ pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, F
     }
 }
 
-/// Units of coordinates and speeds in which the first step is limited: one SI unit of a coordinate, and for a speed the
-/// [`fastest`] rate.
+/// Units of coordinates and speeds in which the first step is limited: a large change of a coordinate, and for a speed
+/// the [`fastest`] rate.
 pub(super) fn units(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
     let structure = point.structure;
-    let mut units = Vector::filled(structure.motions(), 1.0);
+    let mut units = Vector::from_fn(structure.motions(), |i| point.description.large(i));
     if structure.speeds > 0 {
         let linear = &point.linear(q)?;
         let rate = fastest(linear, structure, &inertias(linear, structure), q);

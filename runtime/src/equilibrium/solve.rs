@@ -101,12 +101,15 @@ fn solve_slowly(
 /// What to say if the nearest equilibrium is far from the start values that were given.
 fn far(point: &OperatingPoint<'_>, start: &[f64], q: &[f64]) -> Option<Note> {
     let away = |unknown: usize| (start[unknown] - q[unknown]).abs();
-    let unknown = point.named().max_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+    let share = |unknown: usize| away(unknown) / point.description.large(unknown);
+    let unknown = point
+        .named()
+        .max_by(|a, b| share(*a).total_cmp(&share(*b)))?;
     let distance = away(unknown);
-    (distance > FAR).then_some(Note::Far { unknown, distance })
+    (share(unknown) > FAR).then_some(Note::Far { unknown, distance })
 }
 
-/// Distance from a start value, rad or m, that is worth a note.
+/// Distance from a start value, relative to a large change, that is worth a note.
 const FAR: f64 = 0.1;
 
 /// Leaves a singular configuration in the direction in which the forces drive.

@@ -29,8 +29,8 @@ pub(crate) fn turned_towards(q: &[f64], other: &[f64], description: &Description
 pub(crate) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description) -> bool {
     let close = if singular { CLOSE_SINGULAR } else { CLOSE };
     let motions = Structure::of(description).motions();
-    let mut pairs = a.iter().zip(b).take(motions);
-    pairs.all(|(a, b)| (a - b).abs() <= close * (1.0 + a.abs()))
+    let near = |i: usize| (a[i] - b[i]).abs() <= close * (description.large(i) + a[i].abs());
+    (0..motions).all(near)
 }
 
 /// Whether the mechanism is the same in two states that differ by full turns, so that no spring or screw counts the

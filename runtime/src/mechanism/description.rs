@@ -26,6 +26,10 @@ pub struct Description {
     /// has one, a free body in space six. An equilibrium may be moved along them.
     #[cfg_attr(feature = "serde", serde(default))]
     pub free_directions: usize,
+    /// A length typical of the mechanism, m: the geometric mean of the shortest and the longest that are declared, one
+    /// metre if there are none.
+    #[cfg_attr(feature = "serde", serde(default = "one_metre"))]
+    pub length: f64,
     /// The kind of `Chat`.
     pub damping: DampingKind,
     /// The generated functions and their costs.
@@ -57,12 +61,27 @@ impl Description {
         None
     }
 
+    /// A change of a coordinate that counts as large, SI: the typical length, or a radian. For speeds and reactions, one
+    /// SI unit.
+    #[cfg(feature = "std")]
+    pub(crate) fn large(&self, unknown: usize) -> f64 {
+        match self.coordinates.get(unknown) {
+            Some(info) if info.role == Role::Position && *info.unit.symbol == *"m" => self.length,
+            _ => 1.0,
+        }
+    }
+
     /// The name of a coordinate, speed or reaction.
     #[cfg(feature = "std")]
     pub(crate) fn unknown_name(&self, index: usize) -> Text {
         let found = self.coordinates.get(index);
         found.map_or(Text::Static("?"), |info| info.name.clone())
     }
+}
+
+#[cfg(feature = "serde")]
+const fn one_metre() -> f64 {
+    1.0
 }
 
 #[cfg(feature = "std")]

@@ -26,6 +26,7 @@ impl Model for Plate {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -82,6 +83,7 @@ impl Model for Spring {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -117,6 +119,7 @@ impl Model for Follower {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -164,6 +167,7 @@ impl Model for Pair {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -210,6 +214,7 @@ impl Model for Triple {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -255,6 +260,7 @@ impl Model for Slipping {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -297,6 +303,7 @@ impl Model for Supercritical {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -338,6 +345,7 @@ impl Model for Overdamped {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

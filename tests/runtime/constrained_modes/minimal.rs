@@ -185,6 +185,7 @@ mod contradictory {
             outputs: Shared::Static(&[]),
             symmetric_stiffness: true,
             free_directions: 0,
+            length: 1.0,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };
@@ -257,6 +258,7 @@ pub(crate) mod held {
             outputs: Shared::Static(&[]),
             symmetric_stiffness: true,
             free_directions: 0,
+            length: 1.0,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

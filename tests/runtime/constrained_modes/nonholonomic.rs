@@ -407,6 +407,7 @@ impl Model for Rated {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -463,6 +464,7 @@ fn a_free_mass_drifts() {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         free_directions: 0,
+        length: 1.0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     });

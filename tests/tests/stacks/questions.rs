@@ -72,6 +72,8 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
         ("equilibrium", |s, _| answered(s.equilibrium())),
         ("assembly", |s, _| answered(s.assembly())),
         ("equilibria", |s, _| answered(s.equilibria(&search(s)))),
+        // Some machines need bounds.
+        ("search", |s, _| drop(black_box(s.search(&[])))),
         ("solve", |s, _| answered(s.solve())),
         ("modes", |s, _| answered(s.modes())),
         ("equilibrium_shift", |s, _| answered(s.equilibrium_shift())),

@@ -32,6 +32,8 @@ pub struct Mechanism {
     pub curve_arguments: Vec<CurveArgument>,
     /// Acceleration of gravity in the ground frame, m/s^2; zero when not declared.
     pub gravity: Vector,
+    /// A length typical of it, m: the geometric mean of the shortest and the longest that are declared.
+    pub length: f64,
     /// Whether only the equations are wanted, so that they need not determine a steady motion.
     pub kernels_only: bool,
     /// Bodies.

@@ -81,6 +81,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     for (variable, is_used) in items.design.iter_mut().zip(&resolver.used_design) {
         variable.is_used = *is_used;
     }
+    let length = resolver.typical_length();
     let mechanism = Mechanism {
         name: ast.name.clone(),
         visibility: ast.visibility.clone(),
@@ -91,6 +92,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         curves: resolver.curves.into_iter().flatten().collect(),
         curve_arguments: resolver.curve_arguments,
         gravity: items.gravity,
+        length,
         kernels_only: items.kernels_only,
         bodies: items.bodies,
         joints: items.joints,

@@ -167,8 +167,10 @@ fn damping_ratios_cross_zero_at_the_limit_of_stability() {
         .flat_map(|own| &own.bars)
         .map(|bar| bar.at[0])
         .collect();
-    assert!(!onsets.is_empty());
-    assert_eq!(onsets, found);
+    assert!(!onsets.is_empty() && onsets.len() == found.len());
+    for (onset, found) in onsets.iter().zip(&found) {
+        assert!((onset - found).abs() <= 1e-15 * onset.abs());
+    }
     save(&figure, "damping");
 }
 

@@ -13,7 +13,11 @@ use crate::modes::pencil::pencil_transposed_times;
 
 pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, Trouble> {
     let system = System::new(linear, tangent)?;
-    let reduced = deflation::first_order_roots(&system.matrix(), free, |matrix| {
+    let matrix = match free {
+        0 => system.matrix(),
+        _ => system.matrix_without_rounding(),
+    };
+    let reduced = deflation::first_order_roots(&matrix, free, |matrix| {
         roots_of(Eigenproblem::FirstOrder(matrix))
     })?;
     let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Largest);
@@ -56,14 +60,22 @@ impl System<'_> {
             self.combined(&nu, self.mass.iter()),
             self.combined(&nu, self.damping.iter()),
         );
+        let terms = |a: usize| {
+            let forced = self.forced.get(a).map(|forced| forced.iter().zip(&m));
+            let forced = forced.into_iter().flatten().map(|(e, m)| -m * e);
+            let given = l_y.get(a).copied();
+            [-s * m[a], -c[a]].into_iter().chain(given).chain(forced)
+        };
+        let all = (0..self.velocities()).flat_map(terms);
+        let most = all.fold(0.0, |most: f64, term| most.max(term.norm()));
+        // What rounding leaves of forces that cancel would make a reaction of its own.
+        let rounding = 4.0 * self.velocities() as f64 * f64::EPSILON * most;
         let force = Vector::from_fn(self.velocities(), |a| {
-            let kappa = if a < f {
-                let forced = self.forced[a].iter().zip(&m);
-                l_y[a] - forced.map(|(e, m)| m * e).sum::<Complex>()
-            } else {
-                Complex::default()
-            };
-            kappa - s * m[a] - c[a]
+            let sum: Complex = terms(a).sum();
+            match sum.norm() <= rounding {
+                true => Complex::default(),
+                false => sum,
+            }
         });
         let re = self.velocity.multipliers(&force.map(|value| value.re));
         let im = self.velocity.multipliers(&force.map(|value| value.im));

@@ -175,6 +175,30 @@ impl<'a> System<'a> {
         }
         matrix
     }
+
+    /// [`Self::matrix`] with zeros where forces cancel: free directions are found by its zeros.
+    pub(super) fn matrix_without_rounding(&self) -> Matrix {
+        let size = |x: &Vector| x.map(f64::abs);
+        let sizes = Self {
+            velocity: self.velocity.clone(),
+            units: self.units.clone(),
+            free: self.free.iter().map(|x| size(x).map(|x| -x)).collect(),
+            forced: self.forced.iter().map(size).collect(),
+            mass: self.mass.map(f64::abs),
+            damping: self.damping.map(f64::abs),
+            stiffness: self.stiffness.map(f64::abs),
+            ..*self
+        };
+        let (mut matrix, sizes) = (self.matrix(), sizes.matrix());
+        let rounding = 4.0 * self.velocities() as f64 * f64::EPSILON;
+        let pairs = matrix.as_flattened_mut().iter_mut();
+        for (value, size) in pairs.zip(sizes.as_flattened()) {
+            if value.abs() <= rounding * size.abs() {
+                *value = 0.0;
+            }
+        }
+        matrix
+    }
 }
 
 /// Square roots of the masses of the velocities, with a lower limit relative to the largest.

@@ -99,6 +99,7 @@ impl Resolver<'_> {
         });
         let tolerance = self.design_tolerance(design.tolerance.as_ref(), expected);
         let (value, dimension) = nominal?;
+        self.note_length(value, dimension);
         Some(Nominal {
             dimension,
             value,

@@ -34,6 +34,8 @@ pub(super) struct Resolver<'a> {
     pub(super) parts: Vec<Option<Vec<Part>>>,
     pub(super) given_inertias: Vec<GivenInertia>,
     pub(super) requirements: Vec<Requirement>,
+    /// The shortest and the longest length that is written, m; the first is the greater one if there is none.
+    pub(super) lengths: [f64; 2],
     /// Units after numbers and vectors, in which declared names could have been meant.
     pub(super) units: Vec<(Option<f64>, Unit, Place)>,
 }
@@ -62,6 +64,7 @@ impl<'a> Resolver<'a> {
             parts: Vec::new(),
             given_inertias: Vec::new(),
             requirements: Vec::new(),
+            lengths: [f64::INFINITY, 0.0],
             units: Vec::new(),
         }
     }
@@ -76,6 +79,24 @@ impl<'a> Resolver<'a> {
         let mut diagnostic = Diagnostic::new(span, message);
         diagnostic.help = help;
         self.diagnostics.push(diagnostic);
+    }
+
+    /// Notes a value, in case it is a length.
+    pub(super) fn note_length(&mut self, value: f64, dimension: Dimension) {
+        let size = value.abs();
+        if dimension == Dimension::LENGTH && size > 0.0 {
+            let [shortest, longest] = self.lengths;
+            self.lengths = [shortest.min(size), longest.max(size)];
+        }
+    }
+
+    /// A length typical of the mechanism, m; one metre if it has none.
+    pub(super) fn typical_length(&self) -> f64 {
+        let [shortest, longest] = self.lengths;
+        match shortest <= longest {
+            true => shortest.sqrt() * longest.sqrt(),
+            false => 1.0,
+        }
     }
 
     /// Requires values to be finite at the nominal design; `what` names them, a vector only once.

@@ -64,6 +64,15 @@ impl Typed {
         }
     }
 
+    /// The numbers in the value.
+    pub(super) fn components(&self) -> &[Expr] {
+        match self {
+            Typed::Scalar(a, _) => std::slice::from_ref(a),
+            Typed::Vector(a, _) => a,
+            Typed::Matrix(a, _) => a.as_flattened(),
+        }
+    }
+
     /// Applies a function to each number in the value.
     pub(super) fn map(self, mut change: impl FnMut(Expr) -> Expr, quantity: Quantity) -> Self {
         match self {

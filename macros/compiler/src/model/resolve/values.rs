@@ -60,6 +60,10 @@ impl Resolver<'_> {
             );
             return None;
         }
+        // Tolerances are no lengths of the mechanism, and nominal values are noted by those who ask for them.
+        if place != Place::Nominal {
+            self.note_length(value, dimension);
+        }
         Some(Typed::number(value, dimension))
     }
 
@@ -307,6 +311,11 @@ impl Resolver<'_> {
         };
         let product = typed.quantity().dimension().times(dimension);
         let quantity = self.in_range(product, extent)?;
+        for component in typed.components() {
+            if let Expr::Number(value) = component {
+                self.note_length(value * scale, quantity.dimension());
+            }
+        }
         let scaled = |expr| match scale == 1.0 {
             true => expr,
             false => simplify::multiply(Expr::Number(scale), expr),
