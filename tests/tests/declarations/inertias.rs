@@ -229,3 +229,52 @@ fn what_is_welded_to_the_ground_may_be_anything() {
         "{text}"
     );
 }
+
+/// Moments by an expression of design variables, about the centre of mass or another point, against the mass matrix of a
+/// body on three hinges: `J` about the point on the hinges.
+#[test]
+fn moments_by_an_expression() {
+    let found = |inertia: &str, axis: &str| {
+        let source = format!(
+            "mechanism Top {{
+                kernels only;
+                design m = 2 kg; design r = 3 cm; let s = [1, 2, 2.5];
+                body b: rigid(mass: m, {inertia});
+                joint q: revolute({axis}) from ground to b;
+            }}"
+        );
+        let compilation = compiled(&source).unwrap_or_else(|text| panic!("{text}"));
+        let linear = |design: [f64; 2]| {
+            let values = compilation
+                .program
+                .evaluate("linear", &[&[0.0], &[], &design]);
+            values.expect("a kernel")[0][0]
+        };
+        [[2.0, 0.03], [2.5, 0.04]].map(linear)
+    };
+    for (axis, factor) in [("x", 1.0), ("y", 2.0), ("z", 2.5)] {
+        let own = |[m, r]: [f64; 2]| factor * m * r * r;
+        let expected = [[2.0, 0.03], [2.5, 0.04]].map(own);
+        for inertia in [
+            "inertia: m * r^2 * [1, 2, 2.5]",
+            "inertia: m * (r * r) * s",
+            "inertia: (m * r) * [r, 2 * r, 2.5 * r]",
+        ] {
+            let found = found(inertia, axis);
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found / expected - 1.0).abs() < 1e-14, "{inertia}: {found}");
+            }
+        }
+        let numbers = found("inertia: (2 kg) * [9, 18, 22.5] cm^2", axis);
+        assert!(
+            (numbers[0] / expected[0] - 1.0).abs() < 1e-14,
+            "{numbers:?}"
+        );
+        // The centre is 1 m along x; about the hinge the moments across x are larger by m (1 m)^2.
+        let moved = found(
+            "inertia: m * [1, 2, 2.5] m^2, center: [1, 0, 0] m, about: [0, 0, 0]",
+            axis,
+        );
+        assert!((moved[1] / (2.5 * factor) - 1.0).abs() < 1e-14, "{moved:?}");
+    }
+}

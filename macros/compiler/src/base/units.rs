@@ -32,16 +32,18 @@ const PREFIXED: [(&str, Dimension, f64, i32); 10] = [
 /// Units without prefixes.
 ///
 /// Pounds, inches and what follows from them are exact: NIST Special Publication 811, appendix B.
-const PLAIN: [(&str, Dimension, f64); 16] = [
+const PLAIN: [(&str, Dimension, f64); 18] = [
     ("deg", Dimension::NONE, PI / 180.0),
     ("rev", Dimension::NONE, 2.0 * PI),
     ("rpm", Dimension::RATE, 2.0 * PI / 60.0),
+    ("rps", Dimension::RATE, 2.0 * PI),
     ("min", Dimension::TIME, 60.0),
     ("h", Dimension::TIME, 3600.0),
     ("t", Dimension::MASS, 1000.0),
     ("inch", Dimension::LENGTH, 0.0254),
     ("ft", Dimension::LENGTH, 0.3048),
     ("lb", Dimension::MASS, 0.453_592_37),
+    ("oz", Dimension::MASS, 0.453_592_37 / 16.0),
     ("lbf", Dimension::FORCE, POUND_FORCE),
     ("kip", Dimension::FORCE, 4_448.221_615_260_5),
     ("kgf", Dimension::FORCE, 9.806_65),
@@ -93,7 +95,7 @@ fn power_of_ten(exponent: i32) -> f64 {
 }
 
 /// Common spellings of units, and the symbol to write instead.
-const WORDS: [(&str, &str); 65] = [
+const WORDS: [(&str, &str); 66] = [
     ("metre", "m"),
     ("meter", "m"),
     ("millimetre", "mm"),
@@ -115,6 +117,7 @@ const WORDS: [(&str, &str); 65] = [
     ("lbs", "lb"),
     ("pound", "lb"),
     ("lbm", "lb"),
+    ("ounce", "oz"),
     ("slinch", "lbf*s^2/inch"),
     ("thou", "mil"),
     ("micron", "um"),
@@ -264,6 +267,7 @@ mod tests {
             ("bar", Dimension::PRESSURE, 1e5),
             ("mbar", Dimension::PRESSURE, 1e2),
             ("slug", Dimension::MASS, 14.593_90),
+            ("oz", Dimension::MASS, 2.834_952e-2),
             ("kip", Dimension::FORCE, 4.448_222e3),
             ("mil", Dimension::LENGTH, 2.54e-5),
         ] {

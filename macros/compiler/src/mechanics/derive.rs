@@ -1,15 +1,15 @@
 //! Derives all functions of a mechanism, step by step.
 
 use crate::algebra::Graph;
-use crate::base::diagnostics::Diagnostics;
+use crate::base::diagnostics::{Diagnostics, listed};
 use crate::base::ids::CoordinateId;
 use crate::model::mechanism::{Mechanism, Motion};
 use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, listed, poses, properties, require_determinate_motion,
-    require_steady_state, requirements,
+    Unsteady, free_directions, poses, properties, require_determinate_motion, require_steady_state,
+    requirements,
 };
 use super::equations::Equations;
 use super::functions::{Functions, Limits, Role, Unknown};

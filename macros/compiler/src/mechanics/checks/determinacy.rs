@@ -1,12 +1,10 @@
 //! Checks that the equations determine every motion: each must move some mass, and something must decide every speed.
 
 use crate::algebra::{Disturbed, Evaluator, Graph};
-use crate::base::diagnostics::Diagnostics;
+use crate::base::diagnostics::{Diagnostics, listed};
 use crate::base::ids::{CoordinateId, ExprId};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
-
-use super::listed;
 
 /// Rejects a mechanism with a singular mass matrix, with a coasting coordinate whose speed nothing determines, or with a
 /// constraint that no coordinate affects. If only the kernels are wanted, only the last is an error; for the others, and

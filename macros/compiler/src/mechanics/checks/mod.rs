@@ -13,12 +13,3 @@ pub(super) use poses::poses;
 pub(super) use properties::properties;
 pub(super) use requirements::requirements;
 pub(super) use steady_state::{Unsteady, require_steady_state};
-
-/// `a`, `b` and `c`.
-pub(super) fn listed(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [only] => only.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
-}

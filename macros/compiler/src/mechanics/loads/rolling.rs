@@ -43,7 +43,7 @@ pub(crate) fn rolling(
         }
         None => {
             let sides = (plane.frame, wheel.frame);
-            let turned = slip_axes(g, force_context, sides, normal);
+            let turned = slip_axes(g, force_context, sides, wheel.at.position, normal);
             let axes = turned.unwrap_or(plane.at.axes);
             let local = match turned {
                 Some(axes) => axes.transpose().apply(g, normal),

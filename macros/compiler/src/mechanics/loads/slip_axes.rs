@@ -12,6 +12,7 @@ pub(super) fn slip_axes(
     g: &mut Graph,
     force_context: &ForceContext,
     (plane, wheel): (Frame, Frame),
+    center: Vector3,
     normal: Vector3,
 ) -> Option<Matrix3> {
     let tree = &force_context.tree;
@@ -21,38 +22,51 @@ pub(super) fn slip_axes(
         path.take_while(|own| *own != closing).collect::<Vec<_>>()
     };
     let outwards = below(wheel).into_iter().rev();
-    let carrier = last_turning(g, force_context, outwards, normal);
+    let carrier = turning(g, force_context, outwards, normal, Some(center));
     let still = match carrier {
         Some(_) => None,
-        None => last_turning(g, force_context, below(plane).into_iter(), normal)
+        None => turning(g, force_context, below(plane).into_iter(), normal, None)
             .and_then(|turning| tree.path(turning).get(1).copied()),
     };
     let axes = force_context.kinematics.frame(carrier.or(still)?);
     Some(axes.orientation.axes)
 }
 
-/// The last frame that its joint keeps turning about the normal, before one that is turned about another direction.
-fn last_turning(
+/// The last frame that its joint keeps turning about the normal, before one that is turned about another direction. With
+/// the centre of a ball, only if this or a later joint moves the ball: its own spin about the normal does not.
+fn turning(
     g: &mut Graph,
     force_context: &ForceContext,
     frames: impl Iterator<Item = Frame>,
     normal: Vector3,
+    center: Option<Vector3>,
 ) -> Option<Frame> {
-    let mut last = None;
+    let context = force_context.context;
+    let (mut last, mut turning) = (None, None);
     for frame in frames {
         let Frame::Body(body) = frame else { break };
-        let mut runs = false;
-        for step in &force_context.kinematics.of(body).steps {
-            let Some(axis) = step.turn else { continue };
-            let across = axis.cross(g, normal).0;
-            if vanish(g, force_context.context, &across).contains(&false) {
-                return last;
+        let own = force_context.kinematics.of(body);
+        for step in &own.steps {
+            if let Some(axis) = step.turn {
+                let across = axis.cross(g, normal).0;
+                if vanish(g, context, &across).contains(&false) {
+                    return turning;
+                }
+                if context.mechanism.coordinates[step.coordinate.index()]
+                    .motion
+                    .runs()
+                {
+                    turning = Some(frame);
+                }
             }
-            let coordinates = &force_context.context.mechanism.coordinates;
-            runs |= coordinates[step.coordinate.index()].motion.runs();
-        }
-        if runs {
-            last = Some(frame);
+            let moves = center.is_none_or(|center| {
+                let arm = center.sub(g, own.frame.position);
+                let velocity = step.velocity(g, arm).0;
+                vanish(g, context, &velocity).contains(&false)
+            });
+            if moves {
+                last = turning;
+            }
         }
     }
     last

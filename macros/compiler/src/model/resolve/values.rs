@@ -445,6 +445,11 @@ impl Resolver<'_> {
                     ),
                     _ => format!("`{name}` is declared without a unit: `{number}`"),
                 })
+            })
+            .or_else(|| {
+                let weighed = found.dimension() == Dimension::FORCE;
+                let weight = "what weighs 1 kgf has a mass of 1 kg, what weighs 1 lbf one of 1 lb";
+                (weighed && expected.dimension == Dimension::MASS).then(|| weight.to_owned())
             });
         self.report(value.extent, message, help);
         None

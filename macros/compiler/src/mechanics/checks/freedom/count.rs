@@ -45,6 +45,9 @@ fn unresisted(system: &System, state: &Linearised) -> Vec<Vec<Disturbed>> {
 
 /// Rolling at rest takes no place away: at rest its equations hold everywhere. Besides the motions that leave the
 /// equations as they are, the stiffness then has a null vector for each such equation that none of these motions breaks.
+///
+/// Other directions are no combination of the candidates, such as a turn about a hinge that other bodies carry away. An
+/// equilibrium shows them.
 fn by_symmetry(system: &System, design: u64) -> Option<Count> {
     let mut found = (symmetries(system, design, Friction::Any), Friction::Any);
     let state = at_random(system, design, Friction::Any)?;
@@ -62,8 +65,13 @@ fn by_symmetry(system: &System, design: u64) -> Option<Count> {
     let idle: Vec<usize> = velocities.filter(|&k| is_idle(&state, k)).collect();
     let slips = slips(system, &state, &idle, &symmetries);
     let places = independent(system, &state, &idle) - rank(&slips, state.operations);
+    let resting = system
+        .equilibria(design)
+        .find(|own| !is_singular(&state, own));
+    let proven = dimension(system, &state, &symmetries, resting.as_ref()) + places;
+    let shown = resting.map_or(0, |resting| unresisted(system, &resting).len());
     Some(Count {
-        directions: dimension(system, design, &state, &symmetries) + places,
+        directions: proven.max(shown),
         proof: Proof::Symmetries(symmetries, friction),
     })
 }
@@ -128,17 +136,16 @@ fn rank(rows: &[Vec<Disturbed>], operations: usize) -> usize {
 /// on its axis, a turn is no motion.
 fn dimension(
     system: &System,
-    design: u64,
     state: &Linearised,
     combinations: &Combinations,
+    resting: Option<&Linearised>,
 ) -> usize {
     if combinations.is_empty() {
         return 0;
     }
     let generic = rates(system, state, combinations);
     let dimension = rank(&generic, state.operations);
-    let resting = system.at_equilibrium(design);
-    let Some(resting) = resting.filter(|resting| !is_singular(state, resting)) else {
+    let Some(resting) = resting else {
         return dimension;
     };
     let size = |row: &[Disturbed]| {
@@ -146,7 +153,7 @@ fn dimension(
         clear.fold(0.0_f64, |most, x| most.max(x.value().abs()))
     };
     let sizes: Vec<f64> = generic.iter().map(|row| size(row)).collect();
-    let rows = rates(system, &resting, combinations);
+    let rows = rates(system, resting, combinations);
     let scaled = rows.iter().zip(&sizes).filter(|(_, size)| **size > 0.0);
     let scaled: Vec<Vec<f64>> = scaled
         .map(|(row, size)| row.iter().map(|x| x.value() / size).collect())

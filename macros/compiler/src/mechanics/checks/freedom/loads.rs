@@ -1,7 +1,7 @@
 //! Loads along free directions. Where the work along a direction is the same everywhere and not zero, nothing balances it.
 
 use crate::algebra::{Graph, NullSpace};
-use crate::base::diagnostics::Diagnostic;
+use crate::base::diagnostics::{Diagnostic, listed};
 use crate::base::ids::{ExprId, ForceId};
 use crate::base::span::Extent;
 use crate::mechanics::equations::Residual;
@@ -13,7 +13,6 @@ use super::count::{at_random, rates};
 use super::state::{Friction, System};
 use super::symmetry::{Combinations, conserved, powers};
 use super::words::{Direction, exact, independent, readable};
-use crate::mechanics::checks::listed;
 
 /// The directions along which the loads of a design do not balance: those along which they do the same work everywhere.
 /// Loads that follow a free motion do not; then the mechanism rests nowhere if it cannot be brought to rest.
@@ -46,7 +45,7 @@ pub(super) fn unbalanced(
     if !everywhere.is_empty() || rolls || dimension(&conserved) >= dimension(symmetries) {
         return everywhere;
     }
-    match system.at_equilibrium(design) {
+    match system.equilibria(design).next() {
         Some(_) => Vec::new(),
         None => loaded(symmetries),
     }

@@ -13,8 +13,7 @@ mod symmetry;
 mod words;
 
 use crate::algebra::Graph;
-use crate::base::diagnostics::Diagnostics;
-use crate::mechanics::checks::listed;
+use crate::base::diagnostics::{Diagnostics, listed};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::FreeDirections;
 use crate::mechanics::linear::Jacobians;

@@ -113,13 +113,22 @@ impl<'a> System<'a> {
         self.at_place(&place, state)
     }
 
-    /// Linearises at an equilibrium near all coordinates zero; `None` if none is found.
-    pub(super) fn at_equilibrium(&self, design: u64) -> Option<Linearised> {
-        let state = RandomState { design, motion: 1 };
+    /// Linearises at equilibria: near all coordinates zero, then near random places.
+    pub(super) fn equilibria(&self, design: u64) -> impl Iterator<Item = Linearised> {
         let columns = self.stiffness.iter().flatten();
         let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
-        let place = self.solve(state, &roots, vec![0.0; self.size()], 0)?;
-        self.at_place(&place, state)
+        (0..STARTS).filter_map(move |motion| {
+            let state = RandomState { design, motion };
+            let mut start = vec![0.0; self.size()];
+            if motion > 0 {
+                let unknowns = &self.context.symbols.q.ids[..self.fields.free];
+                for (start, symbol) in start.iter_mut().zip(unknowns) {
+                    *start = SPREAD * state.value(self.context, *symbol);
+                }
+            }
+            let place = self.solve(state, &roots, start, 0)?;
+            self.at_place(&place, state)
+        })
     }
 
     /// Linearises where all equations hold.
@@ -225,6 +234,10 @@ impl<'a> System<'a> {
     }
 }
 
+/// Places from which equilibria are sought.
+const STARTS: u64 = 6;
+/// How far from zero they are, in rad or m.
+const SPREAD: f64 = 0.5;
 /// Steps that may pass without progress.
 const PATIENCE: usize = 8;
 /// Largest step of a coordinate, in rad or m.

@@ -34,7 +34,11 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
     list.truncate(count.directions);
     let rest = count.directions - list.len();
     if rest > 0 {
-        list.push(format!("{rest} more that rolling leaves open"));
+        let cause = match system.first_of_velocities() < system.size() {
+            true => "rolling leaves open",
+            false => "nothing resists at the equilibrium",
+        };
+        list.push(format!("{rest} more that {cause}"));
     }
     let (they, their) = match count.directions {
         1 if !list[0].contains(':') => ("it stands", "its"),
