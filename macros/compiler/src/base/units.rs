@@ -48,7 +48,11 @@ const PLAIN: [(&str, Dimension, f64); 16] = [
     ("slug", Dimension::MASS, POUND_FORCE / 0.3048),
     ("mil", Dimension::LENGTH, 25.4e-6),
     ("psi", Dimension::PRESSURE, POUND_FORCE / 0.000_645_16),
-    ("ksi", Dimension::PRESSURE, 4_448.221_615_260_5 / 0.000_645_16),
+    (
+        "ksi",
+        Dimension::PRESSURE,
+        4_448.221_615_260_5 / 0.000_645_16,
+    ),
 ];
 
 const POUND_FORCE: f64 = 4.448_221_615_260_5;

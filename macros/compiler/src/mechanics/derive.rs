@@ -8,8 +8,8 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, listed, poses, properties, require_determinate_motion, require_steady_state,
-    requirements,
+    Unsteady, free_directions, listed, poses, properties, require_determinate_motion,
+    require_steady_state, requirements,
 };
 use super::equations::Equations;
 use super::functions::{Functions, Limits, Role, Unknown};

@@ -104,12 +104,7 @@ fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId)
 }
 
 /// The individual causes of force that make the equations depend on `symbol`.
-fn causes(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-    symbol: SymbolId,
-) -> Causes {
+fn causes(g: &mut Graph, context: &Context, kinematics: &Kinematics, symbol: SymbolId) -> Causes {
     let running = &context.symbols.running.values;
     let none = ForceSelection {
         inertia: Selection::None,

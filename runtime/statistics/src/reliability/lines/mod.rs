@@ -47,9 +47,8 @@ impl Default for LineSettings {
 
 /// A single line bears the whole result and takes this many points at first.
 const POINTS_OF_ONE: u64 = 257;
-/// Standard deviations between the points of a line at first, and where nothing is expected.
+/// Standard deviations between the points of a line at first.
 const SPACING: f64 = 0.5;
-const WIDE: f64 = 0.5;
 /// Fewer lines say nothing about their scatter: in all, and along a direction of several.
 const FEWEST: usize = 32;
 const FEWEST_OF_SEVERAL: usize = 12;
@@ -57,6 +56,8 @@ const FEWEST_OF_SEVERAL: usize = 12;
 const FEWEST_EXPLORING: usize = 4;
 /// Lines drawn together in the region that needs them most.
 const MORE: usize = 8;
+/// The share of all lines that is divided evenly among the regions, whatever they have shown.
+const EVENLY: f64 = 0.25;
 /// The probability must come from at least as many lines as this, weighted by what they contribute, but for a share.
 const CONTRIBUTING: f64 = 10.0;
 const SHARE: f64 = 0.05;
@@ -181,7 +182,7 @@ impl LineSampler {
             let found = limit.value(&add_scaled(&across, s, direction));
             found.unwrap_or(f64::NAN)
         };
-        let spacing = self.spacing(region);
+        let spacing = self.spacing();
         let stretches = match self.alone() {
             true => vec![(f64::NEG_INFINITY, f64::INFINITY)],
             false => self.regions.stretches(region, &across).to_vec(),
@@ -197,15 +198,12 @@ impl LineSampler {
     }
 
     /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.
-    fn spacing(&self, region: usize) -> f64 {
-        if self.alone() {
-            let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
-            return 2.0 * self.settings.reach / (points - 1) as f64;
+    fn spacing(&self) -> f64 {
+        if !self.alone() {
+            return SPACING;
         }
-        match region < self.regions.expected() {
-            true => SPACING,
-            false => WIDE,
-        }
+        let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
+        2.0 * self.settings.reach / (points - 1) as f64
     }
 
     /// The estimate from lines of each region.
@@ -224,14 +222,9 @@ impl LineSampler {
             }
         };
         let probability = all(|line| line.fails);
-        let uncertain = lines.iter().filter(|own| !contribute(own));
-        let uncertain: f64 = uncertain
-            .map(|own| mean(own, |line| line.fails).value)
-            .sum();
         let count: usize = lines.iter().map(Vec::len).sum();
         let enough = count >= FEWEST && lines.iter().all(|own| !own.is_empty());
-        let settled = self.alone()
-            || enough && probability.value > 0.0 && uncertain <= SHARE * probability.value;
+        let settled = self.alone() || enough && probability.value > 0.0 && is_certain(lines);
         let wished = self.settings.coefficient_of_variation * probability.value;
         LineProbability {
             settled,
@@ -256,22 +249,32 @@ impl LineSampler {
 
     /// About how many evaluations the first lines take.
     pub fn fewest(&self) -> u64 {
-        let across = 2.0 * self.settings.reach;
-        let of = |region: usize| self.first(region) as f64 * across / self.spacing(region);
-        (0..self.regions()).map(of).sum::<f64>() as u64
+        let lines: usize = (0..self.regions()).map(|region| self.first(region)).sum();
+        (lines as f64 * 2.0 * self.settings.reach / self.spacing()) as u64
     }
 
-    /// The region whose next lines reduce the variance most, for what they cost.
-    fn neediest(lines: &[Vec<Line>]) -> Option<usize> {
-        let need = |own: &Vec<Line>| {
-            let error = mean(own, |line| line.fails).standard_error;
-            let cost = evaluations(core::slice::from_ref(own)) as f64;
-            error / cost.sqrt()
+    /// The region that takes the next lines: one that has had less than its share; or one whose scatter is not known
+    /// yet, if that matters; or the one where they reduce the variance most, for what they cost.
+    fn neediest(lines: &[Vec<Line>]) -> usize {
+        let most = |need: &dyn Fn(&Vec<Line>) -> f64| {
+            let needs = lines.iter().map(need).enumerate();
+            let (region, need) = needs
+                .max_by(|(_, a), (_, b)| a.total_cmp(b))
+                .unwrap_or_default();
+            (need > 0.0).then_some(region)
         };
-        let needs = lines.iter().map(need).enumerate();
-        let most = needs.max_by(|(_, a), (_, b)| a.total_cmp(b));
-        most.filter(|(_, need)| *need > 0.0)
-            .map(|(region, _)| region)
+        let count: usize = lines.iter().map(Vec::len).sum();
+        let share = EVENLY * count as f64 / lines.len() as f64;
+        let doubtful = !is_certain(lines);
+        let uncertain = |own: &Vec<Line>| if doubtful { uncertain(own) } else { 0.0 };
+        let scatter = |own: &Vec<Line>| {
+            let error = failure(own).standard_error;
+            error / (evaluations(core::slice::from_ref(own)) as f64).sqrt()
+        };
+        let lacking = |own: &Vec<Line>| share - own.len() as f64;
+        (most(&lacking).or_else(|| most(&uncertain)))
+            .or_else(|| most(&scatter))
+            .unwrap_or(0)
     }
 
     /// Draws lines until the target coefficient of variation or the number of evaluations is reached.
@@ -313,9 +316,7 @@ impl LineSampler {
             if found.reached || found.evaluations >= self.settings.evaluations || self.alone() {
                 return found;
             }
-            // Regions that have shown no failure yet take turns while nothing else helps.
-            let fewest = (0..lines.len()).min_by_key(|region| lines[*region].len());
-            let region = Self::neediest(&lines).or(fewest).unwrap_or(0);
+            let region = Self::neediest(&lines);
             draw(&mut lines, region, MORE);
         }
     }
@@ -337,6 +338,24 @@ fn mean(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
         value,
         standard_error: (variance / n).sqrt(),
     }
+}
+
+/// The probability in a region, if its scatter is not known.
+fn uncertain(own: &[Line]) -> f64 {
+    match contribute(own) {
+        true => 0.0,
+        false => failure(own).value,
+    }
+}
+
+/// Whether the scatter is known of all that matters.
+fn is_certain(lines: &[Vec<Line>]) -> bool {
+    let all = lines.iter().map(|own| failure(own).value).sum::<f64>();
+    lines.iter().map(|own| uncertain(own)).sum::<f64>() <= SHARE * all
+}
+
+fn failure(lines: &[Line]) -> Estimate {
+    mean(lines, |line| line.fails)
 }
 
 /// Whether enough lines contribute for their scatter to be meaningful.

@@ -8,8 +8,8 @@ use crate::reliability::vector::{dot, unit};
 const NEAR: f64 = 0.5;
 /// Directions with a larger cosine are one.
 const SAME: f64 = 1.0 - 1e-9;
-/// A variable where nothing is expected answers for what lies beyond a distance that it exceeds this rarely.
-const RARE: f64 = 0.01;
+/// At most this share of the failures beyond the nearest plane belongs to variables where nothing is expected.
+const RARE: f64 = 0.05;
 
 /// A region: the points that lie farther along its direction, in units of its distance, than along any other.
 #[derive(Clone, Debug)]
@@ -52,7 +52,8 @@ impl Regions {
             direction[*k] = 1.0;
             Region {
                 direction,
-                distance: nearest.max(rare),
+                // No component of a point of the plane exceeds this more often.
+                distance: nearest.hypot(rare),
             }
         }));
         let mut apart: Vec<Region> = Vec::new();

@@ -66,8 +66,15 @@ pub(super) fn scan(
         evaluations: Cell::new(0),
     };
     let steps = ((high - low) / spacing).ceil().max(FEWEST_STEPS);
-    let place = |k: usize| low + (high - low) * (k as f64 / steps);
-    let grid: Vec<Point> = (0..=steps as usize).map(|k| scan.at(place(k))).collect();
+    let place = |k: i32| match f64::from(k) {
+        k if k == steps => high,
+        k => low + (high - low) * (k / steps),
+    };
+    // An end within reach takes a point beyond it, so that what is hidden in the last interval has a neighbour.
+    let (first, last) = (-i32::from(from > -reach), i32::from(to < reach));
+    let grid: Vec<Point> = (first..=steps as i32 + last)
+        .map(|k| scan.at(place(k)))
+        .collect();
     let mut points = Vec::with_capacity(grid.len());
     for (k, point) in grid.iter().enumerate() {
         points.push(*point);
@@ -75,6 +82,7 @@ pub(super) fn scan(
             points.extend(scan.hidden([grid[before], *point, *after]));
         }
     }
+    points.retain(|point| (low..=high).contains(&point.s));
     points.sort_by(|a, b| a.s.total_cmp(&b.s));
     let mut stretches = Stretches::from(from, points[0].side());
     for pair in points.windows(2) {
@@ -224,6 +232,20 @@ mod tests {
             }
         };
         close(fails(jump), cdf(-0.3));
+    }
+
+    /// A thin layer next to an end of a stretch, where no inner point is nearest to it.
+    #[test]
+    fn layers_next_to_an_end() {
+        for (from, to) in [(1.0, 4.0), (1.0, f64::INFINITY), (1.0, 1.4)] {
+            for place in [1.001, 1.04, 1.2] {
+                let layer = |s: f64| (s - place).abs() - 1e-5;
+                let found = scan(layer, (from, to), 8.0, 0.5).fails;
+                close(found, cdf(place + 1e-5) - cdf(place - 1e-5));
+                let mirrored = scan(|s| layer(-s), (-to, -from), 8.0, 0.5).fails;
+                close(mirrored, found);
+            }
+        }
     }
 
     /// Layers of failure far thinner than the grid: round, pointed and cusped.
