@@ -2,11 +2,12 @@
 //! Probabilistic Engineering Mechanics 19): samples are drawn across a direction, and the probability along it is
 //! computed, from every place where the limit state changes its sign.
 //!
-//! A linear limit or a single variable takes one line; thin layers of failure, far regions and jumps cost no more than a
-//! plane. The space is divided among the directions in which failure is expected and the variables, each of which answers
-//! for what lies farthest along it. So failures that nobody expected are found, and the sum is unbiased, whatever the
-//! directions.
+//! A single variable takes one line; thin layers of failure, far regions and jumps cost no more than a plane. Lines farther
+//! out than samples lie are tried first: they show how far failure is along the directions in which it is expected, and
+//! others in which nobody expected it. The space is then divided among these directions and the variables, each of which
+//! answers for what lies farthest along it, so the sum is unbiased, whatever the directions.
 
+mod explore;
 mod regions;
 mod scan;
 
@@ -168,20 +169,15 @@ impl LineSampler {
             ..
         } = self.settings;
         let direction = self.regions.direction(region);
-        let mut across = vec![0.0; self.dimension];
-        if !self.alone() {
-            let number = index * self.regions() as u64 + region as u64;
-            let mut samples = NormalSamples::new(seed, stream, number, self.variables.len());
-            for (k, z) in self.variables.iter().zip(samples.next_sample()) {
-                across[*k] = *z;
+        let across = match self.alone() {
+            true => vec![0.0; self.dimension],
+            false => {
+                let number = index * self.regions() as u64 + region as u64;
+                let mut samples = NormalSamples::new(seed, stream, number, self.variables.len());
+                self.across(samples.next_sample(), direction)
             }
-            let along = dot(&across, direction);
-            across = add_scaled(&across, -along, direction);
-        }
-        let value = |s: f64| {
-            let found = limit.value(&add_scaled(&across, s, direction));
-            found.unwrap_or(f64::NAN)
         };
+        let value = Self::along(limit, &across, direction);
         let spacing = self.spacing();
         let stretches = match self.alone() {
             true => vec![(f64::NEG_INFINITY, f64::INFINITY)],
@@ -189,12 +185,29 @@ impl LineSampler {
         };
         let mut line = Line::default();
         for stretch in stretches {
-            let own = scan::scan(&value, stretch, reach, spacing);
+            let own = scan::scan(&value, stretch, reach, spacing).line;
             line.fails += own.fails;
             line.without_value += own.without_value;
             line.evaluations += own.evaluations;
         }
         line
+    }
+
+    /// A point across a direction, from a value of each variable that matters.
+    fn across(&self, sample: &[f64], direction: &[f64]) -> Vec<f64> {
+        let mut point = vec![0.0; self.dimension];
+        for (k, z) in self.variables.iter().zip(sample) {
+            point[*k] = *z;
+        }
+        add_scaled(&point, -dot(&point, direction), direction)
+    }
+
+    /// The values of a limit state along a line; NaN where it has none.
+    fn along<L: LimitState>(limit: &L, across: &[f64], direction: &[f64]) -> impl Fn(f64) -> f64 {
+        move |s| {
+            let found = limit.value(&add_scaled(across, s, direction));
+            found.unwrap_or(f64::NAN)
+        }
     }
 
     /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.
@@ -299,10 +312,33 @@ impl LineSampler {
     /// # Ok::<(), eigentol_statistics::Error>(())
     /// ```
     pub fn run<L: LimitState>(&self, limit: &L) -> LineProbability {
+        let (sampler, spent) = self.explored(limit);
+        let evaluations = sampler.settings.evaluations.saturating_sub(spent);
+        let mut found = sampler.draw(limit, evaluations);
+        found.evaluations += spent;
+        found
+    }
+
+    /// The same along the directions in which failures were found, if finding them leaves enough evaluations; and the
+    /// number of evaluations that it took.
+    fn explored<L: LimitState>(&self, limit: &L) -> (Self, u64) {
+        let left = self.settings.evaluations.saturating_sub(self.fewest());
+        if self.alone() || 2 * self.cost_of_exploring() > left {
+            return (self.clone(), 0);
+        }
+        let (directions, spent) = self.explore(limit);
+        let sampler = Self {
+            regions: Regions::new(self.dimension, &self.variables, &directions),
+            ..self.clone()
+        };
+        (sampler, spent)
+    }
+
+    fn draw<L: LimitState>(&self, limit: &L, most: u64) -> LineProbability {
         let mut lines = vec![Vec::new(); self.regions()];
         let draw = |lines: &mut Vec<Vec<Line>>, region: usize, count: usize| {
             for _ in 0..count {
-                if evaluations(lines) < self.settings.evaluations {
+                if evaluations(lines) < most {
                     let index = lines[region].len() as u64;
                     lines[region].push(self.line(limit, region, index));
                 }
@@ -313,7 +349,7 @@ impl LineSampler {
         }
         loop {
             let found = self.estimate(&lines);
-            if found.reached || found.evaluations >= self.settings.evaluations || self.alone() {
+            if found.reached || found.evaluations >= most || self.alone() {
                 return found;
             }
             let region = Self::neediest(&lines);

@@ -1,6 +1,7 @@
 //! The regions in which lines run: the space is divided among directions.
 
 use super::Direction;
+use super::scan::Stretch;
 use crate::normal;
 use crate::reliability::vector::{dot, unit};
 
@@ -25,9 +26,6 @@ pub(super) struct Regions {
     all: Vec<Region>,
     expected: usize,
 }
-
-/// A part of a line, from one distance along it to another; either may be infinite.
-pub(super) type Stretch = (f64, f64);
 
 impl Regions {
     pub(super) fn new(dimension: usize, variables: &[usize], directions: &[Direction]) -> Self {
@@ -80,6 +78,7 @@ impl Regions {
         self.expected
     }
 
+    /// The direction of a region, of length one.
     pub(super) fn direction(&self, region: usize) -> &[f64] {
         &self.all[region].direction
     }
