@@ -15,6 +15,9 @@ use crate::kernels::CurvatureKernels;
 use crate::response::Responses;
 use crate::tolerance::{Counts, Outcome, Tolerances};
 
+/// What third derivatives contribute to a standard deviation, relative to `r^2`: `(2 - p) / (1 - p)` for a power `p`.
+const THIRD: f64 = 3.0;
+
 /// Number of samples of the expansions themselves, for results without a closed form.
 const SAMPLES: u64 = 1 << 15;
 
@@ -53,8 +56,8 @@ pub fn first_order(
 ///
 /// Errors extrapolate the difference from first order like a series: it is multiplied by `r`, the ratio of the
 /// contributions of curvature and slopes to the standard deviation. The error of the standard deviation itself is the
-/// whole difference plus `r^2` times the standard deviation, because the neglected third derivatives contribute terms
-/// of this order. Near a critical state the series does not converge, and these error estimates do not hold: there are
+/// whole difference plus `3 r^2` times the standard deviation: as much as the neglected third derivatives contribute to
+/// that of a square root, such as a frequency. Near a critical state the series does not converge, and these error estimates do not hold: there are
 /// [`doubts`](Propagation::doubts) instead.
 ///
 /// ```
@@ -191,7 +194,7 @@ impl Models<'_> {
         add_difference(&mut found, &other, share);
         let sigma = found.sigma.as_mut();
         if let Some((sigma, error)) = sigma.and_then(|own| Some((own.value, own.error.as_mut()?))) {
-            *error += ratio * ratio * sigma;
+            *error += THIRD * ratio * ratio * sigma;
         }
         Ok(found)
     }
@@ -264,7 +267,6 @@ fn exactly_normal(mean: f64, sigma: f64) -> Vec<Quantile> {
     each.into()
 }
 
-/// Removes the errors: without second derivatives nothing is known about the accuracy of the model.
 /// Adds the fraction `share` of the difference from another spread to each error, and the whole difference to that of
 /// the standard deviation.
 fn add_difference(own: &mut ResponseSpread, other: &ResponseSpread, share: f64) {

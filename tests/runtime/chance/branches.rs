@@ -61,9 +61,9 @@ fn an_imperfect_pitchfork_keeps_its_branch() {
     );
 }
 
-/// The nominal state is not stable: there is no branch to stay on.
+/// An unstable state that the start names is kept by its samples: all of them are unstable, and none left it.
 #[test]
-fn an_unstable_state_is_left_by_all() {
+fn samples_about_an_unstable_state_stay_with_it() {
     let study = Study::new(Derived(Spring))
         .input(Input::new(0), -3.0)
         .design(DesignVariable::new(1), 1.0)
@@ -74,6 +74,6 @@ fn an_unstable_state_is_left_by_all() {
         .tolerance(FORCE, 0.1)
         .samples(300);
     let run = study.monte_carlo().unwrap();
-    assert_eq!(run.counts.stable, 300, "{run}");
-    assert_eq!(run.left_nominal_branch, 300);
+    assert_eq!(run.counts.divergent, 300, "{run}");
+    assert_eq!(run.left_nominal_branch, 0);
 }

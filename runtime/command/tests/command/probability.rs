@@ -26,13 +26,26 @@ fn length_at(frequency: f64) -> f64 {
     1.5 * 9.81 / (SPEED * (SPEED * SPEED - frequency * frequency).sqrt())
 }
 
+/// The cells of a line of a CSV table, of which those with commas are in quotation marks.
+fn cells(line: &str) -> Vec<String> {
+    let mut all = vec![String::new()];
+    let mut quoted = false;
+    for c in line.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            ',' if !quoted => all.push(String::new()),
+            c => all.last_mut().unwrap().push(c),
+        }
+    }
+    all
+}
+
 /// The column of this name.
 fn column(table: &str, name: &str) -> Vec<String> {
-    let mut lines = table.lines().map(|line| line.split(','));
-    let place = lines.next().unwrap().position(|own| own == name).unwrap();
-    lines
-        .map(|mut line| line.nth(place).unwrap().to_owned())
-        .collect()
+    let mut lines = table.lines().map(cells);
+    let head = lines.next().unwrap();
+    let place = head.iter().position(|own| own == name).unwrap();
+    lines.map(|line| line[place].clone()).collect()
 }
 
 fn numbers(table: &str, name: &str) -> Vec<f64> {

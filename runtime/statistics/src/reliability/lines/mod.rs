@@ -2,11 +2,12 @@
 //! Probabilistic Engineering Mechanics 19): samples are drawn across a direction, and the probability along it is
 //! computed, from every place where the limit state changes its sign.
 //!
-//! A linear limit or a single variable takes one line; thin layers of failure, far regions and jumps cost no more than a
-//! plane. The space is divided among the directions in which failure is expected and the variables, each of which answers
-//! for what lies farthest along it. So failures that nobody expected are found, and the sum is unbiased, whatever the
-//! directions.
+//! A single variable takes one line; thin layers of failure, far regions and jumps cost no more than a plane. Lines farther
+//! out than samples lie are tried first: they show how far failure is along the directions in which it is expected, and
+//! others in which nobody expected it. The space is then divided among these directions and the variables, each of which
+//! answers for what lies farthest along it, so the sum is unbiased, whatever the directions.
 
+mod explore;
 mod regions;
 mod scan;
 
@@ -47,9 +48,8 @@ impl Default for LineSettings {
 
 /// A single line bears the whole result and takes this many points at first.
 const POINTS_OF_ONE: u64 = 257;
-/// Standard deviations between the points of a line at first, and where nothing is expected.
+/// Standard deviations between the points of a line at first.
 const SPACING: f64 = 0.5;
-const WIDE: f64 = 0.5;
 /// Fewer lines say nothing about their scatter: in all, and along a direction of several.
 const FEWEST: usize = 32;
 const FEWEST_OF_SEVERAL: usize = 12;
@@ -57,6 +57,8 @@ const FEWEST_OF_SEVERAL: usize = 12;
 const FEWEST_EXPLORING: usize = 4;
 /// Lines drawn together in the region that needs them most.
 const MORE: usize = 8;
+/// The share of all lines that is divided evenly among the regions, whatever they have shown.
+const EVENLY: f64 = 0.25;
 /// The probability must come from at least as many lines as this, weighted by what they contribute, but for a share.
 const CONTRIBUTING: f64 = 10.0;
 const SHARE: f64 = 0.05;
@@ -167,28 +169,23 @@ impl LineSampler {
             ..
         } = self.settings;
         let direction = self.regions.direction(region);
-        let mut across = vec![0.0; self.dimension];
-        if !self.alone() {
-            let number = index * self.regions() as u64 + region as u64;
-            let mut samples = NormalSamples::new(seed, stream, number, self.variables.len());
-            for (k, z) in self.variables.iter().zip(samples.next_sample()) {
-                across[*k] = *z;
+        let across = match self.alone() {
+            true => vec![0.0; self.dimension],
+            false => {
+                let number = index * self.regions() as u64 + region as u64;
+                let mut samples = NormalSamples::new(seed, stream, number, self.variables.len());
+                self.across(samples.next_sample(), direction)
             }
-            let along = dot(&across, direction);
-            across = add_scaled(&across, -along, direction);
-        }
-        let value = |s: f64| {
-            let found = limit.value(&add_scaled(&across, s, direction));
-            found.unwrap_or(f64::NAN)
         };
-        let spacing = self.spacing(region);
+        let value = Self::along(limit, &across, direction);
+        let spacing = self.spacing();
         let stretches = match self.alone() {
             true => vec![(f64::NEG_INFINITY, f64::INFINITY)],
             false => self.regions.stretches(region, &across).to_vec(),
         };
         let mut line = Line::default();
         for stretch in stretches {
-            let own = scan::scan(&value, stretch, reach, spacing);
+            let own = scan::scan(&value, stretch, reach, spacing).line;
             line.fails += own.fails;
             line.without_value += own.without_value;
             line.evaluations += own.evaluations;
@@ -196,16 +193,30 @@ impl LineSampler {
         line
     }
 
+    /// A point across a direction, from a value of each variable that matters.
+    fn across(&self, sample: &[f64], direction: &[f64]) -> Vec<f64> {
+        let mut point = vec![0.0; self.dimension];
+        for (k, z) in self.variables.iter().zip(sample) {
+            point[*k] = *z;
+        }
+        add_scaled(&point, -dot(&point, direction), direction)
+    }
+
+    /// The values of a limit state along a line; NaN where it has none.
+    fn along<L: LimitState>(limit: &L, across: &[f64], direction: &[f64]) -> impl Fn(f64) -> f64 {
+        move |s| {
+            let found = limit.value(&add_scaled(across, s, direction));
+            found.unwrap_or(f64::NAN)
+        }
+    }
+
     /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.
-    fn spacing(&self, region: usize) -> f64 {
-        if self.alone() {
-            let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
-            return 2.0 * self.settings.reach / (points - 1) as f64;
+    fn spacing(&self) -> f64 {
+        if !self.alone() {
+            return SPACING;
         }
-        match region < self.regions.expected() {
-            true => SPACING,
-            false => WIDE,
-        }
+        let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
+        2.0 * self.settings.reach / (points - 1) as f64
     }
 
     /// The estimate from lines of each region.
@@ -224,14 +235,9 @@ impl LineSampler {
             }
         };
         let probability = all(|line| line.fails);
-        let uncertain = lines.iter().filter(|own| !contribute(own));
-        let uncertain: f64 = uncertain
-            .map(|own| mean(own, |line| line.fails).value)
-            .sum();
         let count: usize = lines.iter().map(Vec::len).sum();
         let enough = count >= FEWEST && lines.iter().all(|own| !own.is_empty());
-        let settled = self.alone()
-            || enough && probability.value > 0.0 && uncertain <= SHARE * probability.value;
+        let settled = self.alone() || enough && probability.value > 0.0 && is_certain(lines);
         let wished = self.settings.coefficient_of_variation * probability.value;
         LineProbability {
             settled,
@@ -256,22 +262,32 @@ impl LineSampler {
 
     /// About how many evaluations the first lines take.
     pub fn fewest(&self) -> u64 {
-        let across = 2.0 * self.settings.reach;
-        let of = |region: usize| self.first(region) as f64 * across / self.spacing(region);
-        (0..self.regions()).map(of).sum::<f64>() as u64
+        let lines: usize = (0..self.regions()).map(|region| self.first(region)).sum();
+        (lines as f64 * 2.0 * self.settings.reach / self.spacing()) as u64
     }
 
-    /// The region whose next lines reduce the variance most, for what they cost.
-    fn neediest(lines: &[Vec<Line>]) -> Option<usize> {
-        let need = |own: &Vec<Line>| {
-            let error = mean(own, |line| line.fails).standard_error;
-            let cost = evaluations(core::slice::from_ref(own)) as f64;
-            error / cost.sqrt()
+    /// The region that takes the next lines: one that has had less than its share; or one whose scatter is not known
+    /// yet, if that matters; or the one where they reduce the variance most, for what they cost.
+    fn neediest(lines: &[Vec<Line>]) -> usize {
+        let most = |need: &dyn Fn(&Vec<Line>) -> f64| {
+            let needs = lines.iter().map(need).enumerate();
+            let (region, need) = needs
+                .max_by(|(_, a), (_, b)| a.total_cmp(b))
+                .unwrap_or_default();
+            (need > 0.0).then_some(region)
         };
-        let needs = lines.iter().map(need).enumerate();
-        let most = needs.max_by(|(_, a), (_, b)| a.total_cmp(b));
-        most.filter(|(_, need)| *need > 0.0)
-            .map(|(region, _)| region)
+        let count: usize = lines.iter().map(Vec::len).sum();
+        let share = EVENLY * count as f64 / lines.len() as f64;
+        let doubtful = !is_certain(lines);
+        let uncertain = |own: &Vec<Line>| if doubtful { uncertain(own) } else { 0.0 };
+        let scatter = |own: &Vec<Line>| {
+            let error = failure(own).standard_error;
+            error / (evaluations(core::slice::from_ref(own)) as f64).sqrt()
+        };
+        let lacking = |own: &Vec<Line>| share - own.len() as f64;
+        (most(&lacking).or_else(|| most(&uncertain)))
+            .or_else(|| most(&scatter))
+            .unwrap_or(0)
     }
 
     /// Draws lines until the target coefficient of variation or the number of evaluations is reached.
@@ -296,10 +312,33 @@ impl LineSampler {
     /// # Ok::<(), eigentol_statistics::Error>(())
     /// ```
     pub fn run<L: LimitState>(&self, limit: &L) -> LineProbability {
+        let (sampler, spent) = self.explored(limit);
+        let evaluations = sampler.settings.evaluations.saturating_sub(spent);
+        let mut found = sampler.draw(limit, evaluations);
+        found.evaluations += spent;
+        found
+    }
+
+    /// The same along the directions in which failures were found, if finding them leaves enough evaluations; and the
+    /// number of evaluations that it took.
+    fn explored<L: LimitState>(&self, limit: &L) -> (Self, u64) {
+        let left = self.settings.evaluations.saturating_sub(self.fewest());
+        if self.alone() || 2 * self.cost_of_exploring() > left {
+            return (self.clone(), 0);
+        }
+        let (directions, spent) = self.explore(limit);
+        let sampler = Self {
+            regions: Regions::new(self.dimension, &self.variables, &directions),
+            ..self.clone()
+        };
+        (sampler, spent)
+    }
+
+    fn draw<L: LimitState>(&self, limit: &L, most: u64) -> LineProbability {
         let mut lines = vec![Vec::new(); self.regions()];
         let draw = |lines: &mut Vec<Vec<Line>>, region: usize, count: usize| {
             for _ in 0..count {
-                if evaluations(lines) < self.settings.evaluations {
+                if evaluations(lines) < most {
                     let index = lines[region].len() as u64;
                     lines[region].push(self.line(limit, region, index));
                 }
@@ -310,12 +349,10 @@ impl LineSampler {
         }
         loop {
             let found = self.estimate(&lines);
-            if found.reached || found.evaluations >= self.settings.evaluations || self.alone() {
+            if found.reached || found.evaluations >= most || self.alone() {
                 return found;
             }
-            // Regions that have shown no failure yet take turns while nothing else helps.
-            let fewest = (0..lines.len()).min_by_key(|region| lines[*region].len());
-            let region = Self::neediest(&lines).or(fewest).unwrap_or(0);
+            let region = Self::neediest(&lines);
             draw(&mut lines, region, MORE);
         }
     }
@@ -337,6 +374,24 @@ fn mean(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
         value,
         standard_error: (variance / n).sqrt(),
     }
+}
+
+/// The probability in a region, if its scatter is not known.
+fn uncertain(own: &[Line]) -> f64 {
+    match contribute(own) {
+        true => 0.0,
+        false => failure(own).value,
+    }
+}
+
+/// Whether the scatter is known of all that matters.
+fn is_certain(lines: &[Vec<Line>]) -> bool {
+    let all = lines.iter().map(|own| failure(own).value).sum::<f64>();
+    lines.iter().map(|own| uncertain(own)).sum::<f64>() <= SHARE * all
+}
+
+fn failure(lines: &[Line]) -> Estimate {
+    mean(lines, |line| line.fails)
 }
 
 /// Whether enough lines contribute for their scatter to be meaningful.

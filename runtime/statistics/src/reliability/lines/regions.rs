@@ -1,6 +1,7 @@
 //! The regions in which lines run: the space is divided among directions.
 
 use super::Direction;
+use super::scan::Stretch;
 use crate::normal;
 use crate::reliability::vector::{dot, unit};
 
@@ -8,8 +9,8 @@ use crate::reliability::vector::{dot, unit};
 const NEAR: f64 = 0.5;
 /// Directions with a larger cosine are one.
 const SAME: f64 = 1.0 - 1e-9;
-/// A variable where nothing is expected answers for what lies beyond a distance that it exceeds this rarely.
-const RARE: f64 = 0.01;
+/// At most this share of the failures beyond the nearest plane belongs to variables where nothing is expected.
+const RARE: f64 = 0.05;
 
 /// A region: the points that lie farther along its direction, in units of its distance, than along any other.
 #[derive(Clone, Debug)]
@@ -25,9 +26,6 @@ pub(super) struct Regions {
     all: Vec<Region>,
     expected: usize,
 }
-
-/// A part of a line, from one distance along it to another; either may be infinite.
-pub(super) type Stretch = (f64, f64);
 
 impl Regions {
     pub(super) fn new(dimension: usize, variables: &[usize], directions: &[Direction]) -> Self {
@@ -52,7 +50,8 @@ impl Regions {
             direction[*k] = 1.0;
             Region {
                 direction,
-                distance: nearest.max(rare),
+                // No component of a point of the plane exceeds this more often.
+                distance: nearest.hypot(rare),
             }
         }));
         let mut apart: Vec<Region> = Vec::new();
@@ -79,6 +78,7 @@ impl Regions {
         self.expected
     }
 
+    /// The direction of a region, of length one.
     pub(super) fn direction(&self, region: usize) -> &[f64] {
         &self.all[region].direction
     }

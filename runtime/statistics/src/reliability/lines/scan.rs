@@ -49,25 +49,43 @@ struct Scan<F> {
     evaluations: Cell<u64>,
 }
 
+/// A part of a line, from one distance along it to another; either may be infinite.
+pub(super) type Stretch = (f64, f64);
+
+/// What a scan finds.
+#[derive(Debug, Default)]
+pub(super) struct Scanned {
+    pub(super) line: Line,
+    /// Where designs fail, in ascending order.
+    pub(super) failing: Vec<Stretch>,
+}
+
 /// The probabilities along a stretch of a line with these values: evaluated first at points of about this spacing, up to
 /// `reach` on either side, beyond which nothing changes any more.
 pub(super) fn scan(
     value: impl Fn(f64) -> f64,
-    (from, to): (f64, f64),
+    (from, to): Stretch,
     reach: f64,
     spacing: f64,
-) -> Line {
+) -> Scanned {
     let (low, high) = (from.max(-reach), to.min(reach));
     if low >= high {
-        return Line::default();
+        return Scanned::default();
     }
     let scan = Scan {
         value,
         evaluations: Cell::new(0),
     };
     let steps = ((high - low) / spacing).ceil().max(FEWEST_STEPS);
-    let place = |k: usize| low + (high - low) * (k as f64 / steps);
-    let grid: Vec<Point> = (0..=steps as usize).map(|k| scan.at(place(k))).collect();
+    let place = |k: i32| match f64::from(k) {
+        k if k == steps => high,
+        k => low + (high - low) * (k / steps),
+    };
+    // An end within reach takes a point beyond it, so that what is hidden in the last interval has a neighbour.
+    let (first, last) = (-i32::from(from > -reach), i32::from(to < reach));
+    let grid: Vec<Point> = (first..=steps as i32 + last)
+        .map(|k| scan.at(place(k)))
+        .collect();
     let mut points = Vec::with_capacity(grid.len());
     for (k, point) in grid.iter().enumerate() {
         points.push(*point);
@@ -75,17 +93,15 @@ pub(super) fn scan(
             points.extend(scan.hidden([grid[before], *point, *after]));
         }
     }
+    points.retain(|point| (low..=high).contains(&point.s));
     points.sort_by(|a, b| a.s.total_cmp(&b.s));
     let mut stretches = Stretches::from(from, points[0].side());
     for pair in points.windows(2) {
         scan.between(pair[0], pair[1], 0, &mut stretches);
     }
     stretches.enter(to, Side::Safe);
-    Line {
-        fails: stretches.fails,
-        without_value: stretches.without_value,
-        evaluations: scan.evaluations.get(),
-    }
+    stretches.found.line.evaluations = scan.evaluations.get();
+    stretches.found
 }
 
 impl<F: Fn(f64) -> f64> Scan<F> {
@@ -161,8 +177,7 @@ impl<F: Fn(f64) -> f64> Scan<F> {
 struct Stretches {
     start: f64,
     side: Side,
-    fails: f64,
-    without_value: f64,
+    found: Scanned,
 }
 
 impl Stretches {
@@ -170,8 +185,7 @@ impl Stretches {
         Self {
             start,
             side,
-            fails: 0.0,
-            without_value: 0.0,
+            found: Scanned::default(),
         }
     }
 
@@ -181,10 +195,14 @@ impl Stretches {
             true => cdf(-self.start) - cdf(-s),
             false => cdf(s) - cdf(self.start),
         };
+        let Scanned { line, failing } = &mut self.found;
         match self.side {
             Side::Safe => {}
-            Side::Fails => self.fails += probability,
-            Side::WithoutValue => self.without_value += probability,
+            Side::Fails => {
+                line.fails += probability;
+                failing.push((self.start, s));
+            }
+            Side::WithoutValue => line.without_value += probability,
         }
         (self.start, self.side) = (s, side);
     }
@@ -196,7 +214,7 @@ mod tests {
 
     fn everywhere(value: impl Fn(f64) -> f64, steps: u32) -> Line {
         let all = (f64::NEG_INFINITY, f64::INFINITY);
-        scan(value, all, 8.0, 16.0 / f64::from(steps))
+        scan(value, all, 8.0, 16.0 / f64::from(steps)).line
     }
 
     fn fails(value: impl Fn(f64) -> f64) -> f64 {
@@ -224,6 +242,20 @@ mod tests {
             }
         };
         close(fails(jump), cdf(-0.3));
+    }
+
+    /// A thin layer next to an end of a stretch, where no inner point is nearest to it.
+    #[test]
+    fn layers_next_to_an_end() {
+        for (from, to) in [(1.0, 4.0), (1.0, f64::INFINITY), (1.0, 1.4)] {
+            for place in [1.001, 1.04, 1.2] {
+                let layer = |s: f64| (s - place).abs() - 1e-5;
+                let found = scan(layer, (from, to), 8.0, 0.5).line.fails;
+                close(found, cdf(place + 1e-5) - cdf(place - 1e-5));
+                let mirrored = scan(|s| layer(-s), (-to, -from), 8.0, 0.5).line.fails;
+                close(mirrored, found);
+            }
+        }
     }
 
     /// Layers of failure far thinner than the grid: round, pointed and cusped.

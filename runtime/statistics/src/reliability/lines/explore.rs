@@ -1,0 +1,221 @@
+//! Where failures are, before any line counts: how far along the directions in which they are expected, and in which others.
+
+use super::scan::{self, Stretch};
+use super::{Direction, LineSampler, SPACING};
+use crate::normal;
+use crate::reliability::limit_state::LimitState;
+use crate::reliability::random::NormalSamples;
+use crate::reliability::vector::{add_scaled, dot, norm, scaled, unit};
+
+/// Lines along each direction.
+const LINES: u64 = 8;
+/// Lines lie this much farther out than the nearest failure known.
+const BEYOND: f64 = 1.0;
+/// Where none is known, they lie beyond a distance that a variable exceeds this rarely.
+const RARE: f64 = 1e-4;
+/// A failure is in line with one on a central line if it is this near to it along that line.
+const IN_LINE: f64 = 0.5;
+/// Directions with a larger cosine are as good as one.
+const ALIKE: f64 = 0.98;
+/// Failures matter whose density is no less than that of the nearest by this logarithm.
+const LESS: f64 = 7.0;
+/// Most directions that are added.
+const MOST: usize = 4;
+/// How far the lines are shifted that show how a limit slopes, and how far they reach from it.
+const SHIFT: f64 = 0.3;
+const AROUND: f64 = 2.0;
+/// Most variables for which slopes are worth their lines.
+const MOST_VARIABLES: usize = 10;
+
+/// A direction, of length one, and where designs fail on the line along it through the origin.
+struct Central {
+    direction: Vec<f64>,
+    failing: Vec<Stretch>,
+}
+
+impl Central {
+    fn distance(&self) -> f64 {
+        let all = self.failing.iter().map(|own| nearest(own).abs());
+        all.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The direction, unless nothing fails along it.
+    fn direction(&self) -> Option<Direction> {
+        let distance = self.distance();
+        distance.is_finite().then(|| Direction {
+            along: self.direction.clone(),
+            distance,
+        })
+    }
+
+    /// The failure nearest to the origin.
+    fn nearest(&self) -> Option<Vec<f64>> {
+        let all = self.failing.iter().map(nearest);
+        let s = all.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        Some(scaled(s, &self.direction))
+    }
+
+    /// Whether one of two directions is enough.
+    fn is_like(&self, other: &Self) -> bool {
+        dot(&self.direction, &other.direction).abs() > ALIKE
+    }
+
+    /// Whether a point is in line with a failure on the central line.
+    fn explains(&self, point: &[f64]) -> bool {
+        let s = dot(point, &self.direction);
+        let near = |(from, to): &Stretch| (from - IN_LINE..=to + IN_LINE).contains(&s);
+        self.failing.iter().any(near)
+    }
+}
+
+/// Explores a limit state along whole lines.
+struct Explorer<'a, L> {
+    limit: &'a L,
+    sampler: &'a LineSampler,
+    evaluations: u64,
+}
+
+impl LineSampler {
+    /// Directions in which failures were found, those expected first, and the number of evaluations.
+    pub(super) fn explore<L: LimitState>(&self, limit: &L) -> (Vec<Direction>, u64) {
+        let mut explorer = Explorer {
+            limit,
+            sampler: self,
+            evaluations: 0,
+        };
+        let found = explorer.directions();
+        (found, explorer.evaluations)
+    }
+
+    /// About how many evaluations that takes.
+    pub(super) fn cost_of_exploring(&self) -> u64 {
+        let lines = self.regions() as u64 * (LINES + 1);
+        let slopes = match self.variables.len() {
+            few if few <= MOST_VARIABLES => (self.regions.expected() + MOST) * 2 * few,
+            _ => 0,
+        };
+        let along = |reach: f64| 2.0 * reach / SPACING;
+        (lines as f64 * along(self.settings.reach) + slopes as f64 * along(AROUND)) as u64
+    }
+}
+
+impl<L: LimitState> Explorer<'_, L> {
+    /// The directions in which failure is expected, turned towards it; then, again and again, that of the nearest failure
+    /// that is not in line with those known.
+    fn directions(&mut self) -> Vec<Direction> {
+        let regions = &self.sampler.regions;
+        let mut known: Vec<Central> = Vec::new();
+        for k in 0..regions.expected() {
+            let central = self.central(regions.direction(k).to_vec());
+            let turned = central.nearest().and_then(|point| self.towards(&point));
+            let central = turned.map_or(central, |direction| self.central(direction));
+            if !known.iter().any(|own| own.is_like(&central)) {
+                known.push(central);
+            }
+        }
+        let mut points = self.failures(self.farthest(&known));
+        for _ in 0..MOST {
+            let central = known.iter().map(Central::distance);
+            let all = central.chain(points.iter().map(|point| norm(point)));
+            let least = all.fold(f64::INFINITY, f64::min);
+            points.retain(|point| {
+                norm(point).powi(2) <= least * least + 2.0 * LESS
+                    && !known.iter().any(|own| own.explains(point))
+            });
+            let nearest = points.iter().enumerate();
+            let nearest = nearest.min_by(|(_, a), (_, b)| norm(a).total_cmp(&norm(b)));
+            let Some((place, _)) = nearest else { break };
+            let point = points.swap_remove(place);
+            let Some(direction) = self.towards(&point) else {
+                break;
+            };
+            let central = self.central(direction);
+            if !known.iter().any(|own| own.is_like(&central)) {
+                known.push(central);
+            }
+        }
+        known.iter().filter_map(Central::direction).collect()
+    }
+
+    /// How far from the origin failures matter: beyond the nearest known one, or where samples hardly lie.
+    fn farthest(&self, known: &[Central]) -> f64 {
+        let reach = self.sampler.settings.reach;
+        let least = (known.iter().map(Central::distance)).fold(f64::INFINITY, f64::min);
+        let rare = -normal::quantile(RARE);
+        (if least.is_finite() { least } else { rare } + BEYOND).min(reach)
+    }
+
+    /// The failures nearest to the origin along lines in all directions, up to a distance away from it.
+    fn failures(&mut self, farthest: f64) -> Vec<Vec<f64>> {
+        let sampler = self.sampler;
+        let LineSampler {
+            settings,
+            variables,
+            ..
+        } = sampler;
+        // Numbers that no line of the estimate takes.
+        let first = 1 << 60;
+        let mut samples =
+            NormalSamples::new(settings.seed, settings.stream, first, variables.len());
+        let mut all = Vec::new();
+        for region in 0..sampler.regions() {
+            let direction = sampler.regions.direction(region);
+            for _ in 0..LINES {
+                let (share, sample) = samples.next_with_choice();
+                let across = unit(&sampler.across(sample, direction)).unwrap_or_default();
+                let across = scaled(share * farthest, &across);
+                let reach = f64::INFINITY;
+                for own in self.line(&across, direction, (-reach, reach)) {
+                    all.push(add_scaled(&across, nearest(&own), direction));
+                }
+            }
+        }
+        all
+    }
+
+    /// The direction in which a limit lies that passes near a point.
+    fn towards(&mut self, point: &[f64]) -> Option<Vec<f64>> {
+        let distance = norm(point);
+        let direction = unit(point)?;
+        let variables = &self.sampler.variables;
+        if variables.len() > MOST_VARIABLES {
+            return Some(direction);
+        }
+        // Along lines in the direction of the point, shifted along each variable to either side.
+        let mut normal = direction.clone();
+        for &k in variables {
+            let [back, ahead] = [-SHIFT, SHIFT].map(|shift| {
+                let across = scaled(-shift * direction[k], &direction);
+                let across: Vec<f64> = (across.iter().enumerate())
+                    .map(|(j, own)| if j == k { own + shift } else { *own })
+                    .collect();
+                let around = (distance - AROUND, distance + AROUND);
+                let places = self.line(&across, &direction, around);
+                let changes = places.iter().map(|own| nearest(own) - distance);
+                changes.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+            });
+            normal[k] -= (ahead.unwrap_or(0.0) - back.unwrap_or(0.0)) / (2.0 * SHIFT);
+        }
+        unit(&normal)
+    }
+
+    fn central(&mut self, direction: Vec<f64>) -> Central {
+        let origin = vec![0.0; direction.len()];
+        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+        let failing = self.line(&origin, &direction, everywhere);
+        Central { direction, failing }
+    }
+
+    /// Where designs fail on a line.
+    fn line(&mut self, across: &[f64], direction: &[f64], stretch: Stretch) -> Vec<Stretch> {
+        let value = LineSampler::along(self.limit, across, direction);
+        let scanned = scan::scan(value, stretch, self.sampler.settings.reach, SPACING);
+        self.evaluations += scanned.line.evaluations;
+        scanned.failing
+    }
+}
+
+/// The place of a stretch that is nearest to the origin.
+fn nearest((from, to): &Stretch) -> f64 {
+    0.0_f64.clamp(*from, *to)
+}
