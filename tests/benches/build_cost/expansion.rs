@@ -74,12 +74,12 @@ fn once(declaration: &str) -> Result<(usize, usize, [f64; STAGES.len()]), Box<dy
 
     let start = ProcessTime::now();
     let ast = parse(tokens.clone()).map_err(refused)?;
-    let mechanism = resolve(&ast).map_err(refused)?;
-    let topology = build(&mechanism).map_err(refused)?;
+    let mut mechanism = resolve(&ast).map_err(refused)?;
+    let mut topology = build(&mechanism).map_err(refused)?;
     let read = start.elapsed();
 
     let start = ProcessTime::now();
-    black_box(derive(&mechanism, &topology, Limits::default()).map_err(refused)?);
+    black_box(derive(&mut mechanism, &mut topology, Limits::default()).map_err(refused)?);
     let derived = start.elapsed();
 
     let start = ProcessTime::now();
