@@ -14,6 +14,9 @@ use crate::{Behaviour, Complex, Description, Equilibrium, Error, Modes, Shared};
 const BUDGET: f64 = 1.5e8;
 const FEWEST: usize = 256;
 
+/// Relative difference of eigenvalues, by nominal values and within tolerances, that is rounding.
+const EQUAL: f64 = 1e-9;
+
 /// Modes that mix within the tolerances, or that rounding cannot tell apart.
 ///
 /// A mode that has merged with its own conjugate is a defective cluster of one.
@@ -31,6 +34,9 @@ pub struct ClusterTolerance {
     /// ([`clusters`] defines it); zero for equal eigenvalues.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
+    /// Whether the eigenvalues are equal in every design: no tolerance splits them, so each has the spread of the mean.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub equal: bool,
     /// Mean of the eigenvalues with its derivatives; `None` for a defective cluster.
     pub mean: Option<MeanEigenvalue>,
     /// Spread of the sorted members from up to 4096 samples with a fixed seed, or the reason why there is none:
@@ -234,12 +240,15 @@ fn tolerance(
     let count = couplings.modes.len();
     let mut defective = couplings.modes.iter().any(|&mode| merged(modes, mode));
     let mut distance = f64::INFINITY;
+    let mut equal = count > 1;
     for i in 0..count {
         for j in 0..i {
             let pair = Pair::new(couplings, (i, j), tolerances);
             let condition = own(i).condition.max(own(j).condition);
             defective = defective || pair.hidden_by_rounding(condition);
             distance = distance.min(pair.distance());
+            let values = [i, j].map(|place| couplings.eigenvalues[place].norm());
+            equal &= pair.gap + pair.apart + pair.mixing <= EQUAL * values[0].max(values[1]);
         }
     }
     let finite = couplings.by_design.iter().chain(&couplings.by_input);
@@ -260,7 +269,8 @@ fn tolerance(
         modes: couplings.modes.clone(),
         family: couplings.family,
         eigenvalues: couplings.eigenvalues.clone(),
-        distance: if defective { 0.0 } else { distance },
+        distance: if defective || equal { 0.0 } else { distance },
+        equal: equal && !defective,
         mean: (!defective).then(|| MeanEigenvalue::new(couplings, tolerances)),
         spread,
         sigma_level: tolerances.sigma_level(),

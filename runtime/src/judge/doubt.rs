@@ -33,6 +33,11 @@ pub enum Doubt {
         /// They have merged into one defective eigenvalue.
         defective: bool,
     },
+    /// It is equal to other modes in every design, by symmetry: each has the spread of their mean.
+    EqualInEveryDesign {
+        /// Positions of all modes that are equal, including this one.
+        modes: Vec<usize>,
+    },
     /// The critical state of the mode is near, where its stiffness vanishes and the equilibrium changes branch: the
     /// distance is zero within rounding of it, negative beyond it. A positive distance is not reported if samples found
     /// first order right.
@@ -116,6 +121,14 @@ pub enum Doubt {
 const UPON_CRITICAL: f64 = 0.1;
 
 impl Doubt {
+    /// Whether it is about modes that share one spread.
+    pub(crate) fn shared(&self) -> bool {
+        matches!(
+            self,
+            Self::Clustered { .. } | Self::EqualInEveryDesign { .. }
+        )
+    }
+
     /// Whether it shows that there is no such standard deviation, or that it is wrong. Distances to other states only
     /// warn.
     #[must_use]

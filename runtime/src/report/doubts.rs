@@ -82,6 +82,11 @@ impl fmt::Display for Doubt {
                 named(modes),
                 short(*distance)
             ),
+            Self::EqualInEveryDesign { modes } => write!(
+                f,
+                "no tolerance splits {}: they are equal in every design, each with the sigma of their mean below.",
+                named(modes)
+            ),
             Self::Unrepresentative { quantity } => write!(
                 f,
                 "sigma of the {} is due to values too rare to be among the samples: nothing confirms it.",

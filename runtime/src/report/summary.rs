@@ -55,11 +55,15 @@ impl fmt::Display for ClusterTolerance {
             }
             Err(error) => return writeln!(f, "{title}: {modes} form a cluster: {error}"),
         };
-        let (distance, samples) = (short(self.distance), spread.samples);
-        writeln!(
-            f,
-            "{title}: {modes} form a cluster, {distance} standard deviations apart; {samples} samples"
-        )?;
+        let samples = spread.samples;
+        let are = match self.equal {
+            true => "are equal in every design".to_owned(),
+            false => format!(
+                "form a cluster, {} standard deviations apart",
+                short(self.distance)
+            ),
+        };
+        writeln!(f, "{title}: {modes} {are}; {samples} samples")?;
         let mut table = Table::new(cells(["sorted", "mean", "sigma", "min", "max", "samples"]));
         if let Some(mean) = self.mean.as_ref().and_then(|mean| mean.frequency.as_ref()) {
             let name = "of the mean eigenvalue [rad/s]".to_owned();
@@ -124,13 +128,7 @@ impl fmt::Display for Summary {
 fn verdict(doubts: &[Doubt]) -> String {
     let word = match doubts {
         [] => "yes",
-        doubts
-            if doubts
-                .iter()
-                .any(|doubt| matches!(doubt, Doubt::Clustered { .. })) =>
-        {
-            "cluster"
-        }
+        doubts if doubts.iter().any(Doubt::shared) => "cluster",
         [Doubt::NoFrequency, ..] => "-",
         _ => "no",
     };

@@ -166,10 +166,14 @@ impl<'a> Judge<'a> {
             _ => true,
         });
         if let Some(cluster) = cluster {
-            let clustered = Doubt::Clustered {
-                modes: cluster.modes.clone(),
-                distance: cluster.distance,
-                defective: cluster.defective(),
+            let modes = cluster.modes.clone();
+            let clustered = match cluster.equal {
+                true => Doubt::EqualInEveryDesign { modes },
+                false => Doubt::Clustered {
+                    modes,
+                    distance: cluster.distance,
+                    defective: cluster.defective(),
+                },
             };
             let place = doubts
                 .iter()
@@ -192,7 +196,15 @@ impl<'a> Judge<'a> {
         let any = |kind: fn(&Doubt) -> bool| doubts.iter().any(kind);
         if doubts.is_empty() {
             Advice::FirstOrder
-        } else if any(|doubt| matches!(doubt, Doubt::Clustered { defective, .. } if !defective)) {
+        } else if any(|doubt| {
+            matches!(
+                doubt,
+                Doubt::Clustered {
+                    defective: false,
+                    ..
+                } | Doubt::EqualInEveryDesign { .. }
+            )
+        }) {
             Advice::Cluster
         } else if any(|doubt| matches!(doubt, Doubt::Inaccurate { .. }))
             && checks.iter().all(confirmed)

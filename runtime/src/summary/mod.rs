@@ -69,8 +69,7 @@ impl Summary {
     pub fn cluster_of(&self, mode: usize) -> Option<&ClusterTolerance> {
         let mut all = self.clusters.iter();
         let own = all.find(|cluster| cluster.modes.contains(&mode))?;
-        let mixed = |doubt: &Doubt| matches!(doubt, Doubt::Clustered { .. });
-        (self.trust.get(mode)?.doubts.iter().any(mixed)).then_some(own)
+        (self.trust.get(mode)?.doubts.iter().any(Doubt::shared)).then_some(own)
     }
 
     /// The second-order standard deviation of a frequency, rad/s; `None` if there is none, or if it is meaningless

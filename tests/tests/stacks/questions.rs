@@ -269,6 +269,10 @@ pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels
             let each = |_| ControlFlow::Continue(());
             answered(s.campbell_each(input(), &range.sweep, &[range.order], each));
         }),
+        ("events", |s, range| {
+            let [low, high] = range.crossings;
+            answered(s.events(input(), low, high, &[range.order]));
+        }),
         between!(branches, branches),
         ("branches_with", |s, range| {
             let [low, high] = range.branches;

@@ -100,3 +100,44 @@ fn machines_of_strangers_give_what_they_expect() {
         .collect();
     assert!(failed.is_empty(), "{}", failed.join("\n\n"));
 }
+
+fn declared(name: &str, text: &str, arguments: &[&str]) -> String {
+    let folder = crate::program::folder(name);
+    let file = crate::program::file(&folder, "it.mechanism", text);
+    let run = run(&[&[arguments[0], &file], &arguments[1..]].concat());
+    assert!(run.err.is_empty(), "{}", run.err);
+    run.out
+}
+
+/// A rod that may spin inside a stiff leg has a free motion, not a frequency of rounding.
+#[test]
+fn a_rod_that_spins_freely_in_a_stiff_leg_is_free() {
+    let text = "mechanism Leg {
+        body leg: cylinder(mass: 5 kg, radius: 5 cm, length: 0.5 m, axis: [1, 2, 2]);
+        body rod: cylinder(mass: 1 kg, radius: 1 cm, length: 0.5 m, axis: [1, 2, 2]);
+        joint hip: universal(a: x, b: y) from ground to leg;
+        joint spin: revolute([1, 2, 2]) from leg to rod;
+        force ka: spring(on: a, stiffness: 1e9 N*m/rad); force kb: spring(on: b, stiffness: 1e9 N*m/rad); }";
+    let out = declared("free_rod", text, &["modes"]);
+    let rows: Vec<&str> = out.lines().filter(|line| line.contains("free")).collect();
+    assert_eq!(rows.len(), 2, "{out}");
+    assert!(rows[0].trim_start().starts_with("1 "), "{out}");
+    assert!(rows[1].contains("neutral (one free direction)"), "{out}");
+}
+
+/// Modes that are equal by symmetry in every design are not called mixed.
+#[test]
+fn modes_equal_by_symmetry_share_a_spread() {
+    let text = "mechanism Stalk {
+        design k = 1e3 N*m/rad +/- 5%; design m = 5 kg +/- 1%;
+        body stalk: rigid(mass: m, inertia: [0.1, 0.1, 0.02] kg*m^2, center: [0, 0, 0.5 m]);
+        joint hip: universal(a: x, b: y) from ground to stalk;
+        force ka: spring(on: a, stiffness: k); force kb: spring(on: b, stiffness: k); }";
+    let out = declared("stalk", text, &["tolerance"]);
+    assert!(out.contains("no tolerance splits modes 1 and 2"), "{out}");
+    assert!(
+        out.contains("modes 1 and 2 are equal in every design"),
+        "{out}"
+    );
+    assert!(!out.contains("standard deviations apart"), "{out}");
+}
