@@ -1,9 +1,9 @@
 //! Whether equilibria of neighbouring designs lie on one branch.
 
 use super::{OperatingPoint, Policy, SMALL_MOTION, solve};
-use crate::Equilibrium;
 use crate::algebra::{Lu, Matrix, Vector};
 use crate::kernels::Kernels;
+use crate::{Equilibrium, Stability};
 
 /// Maximum number of bisections of the path between two designs: an equilibrium this close to a branch point counts as
 /// beyond it.
@@ -19,14 +19,21 @@ const ROUNDING: f64 = 1e-9;
 /// each design has the same sign at both, and a Newton step from either leads to the other. At a pitchfork the branch
 /// that ends and the one that begins fail the first test, however close they are; two valleys with a ridge between them
 /// fail the second. Where the tests fail, the path between the two designs is bisected. Branches that meet where two
-/// stiffnesses vanish at once cannot be told apart.
+/// stiffnesses vanish at once cannot be told apart. Upon a branch point the nominal equilibrium has no basin; the other
+/// one decides.
 pub(crate) struct Branch<'a> {
     mechanism: &'a dyn Kernels,
     nominal: &'a Equilibrium,
 }
 
 /// A design and an equilibrium of it.
-type Place<'a> = (&'a [f64], &'a [f64]);
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    design: &'a [f64],
+    q: &'a [f64],
+    /// Whether its stiffness is regular.
+    regular: bool,
+}
 
 impl<'a> Branch<'a> {
     pub(crate) fn of(mechanism: &'a dyn Kernels, nominal: &'a Equilibrium) -> Self {
@@ -35,28 +42,43 @@ impl<'a> Branch<'a> {
 
     /// Whether the equilibrium `q` of a design, as stable as the nominal one, lies on it.
     pub(crate) fn holds(&self, design: &[f64], q: &[f64]) -> bool {
-        let nominal = (&self.nominal.design[..], &self.nominal.coordinates[..]);
-        self.connected(nominal, (design, q), HALVINGS)
+        let free = self.nominal.free.count();
+        let nominal = Place {
+            design: &self.nominal.design,
+            q: &self.nominal.coordinates,
+            regular: !matches!(self.nominal.stability, Stability::Neutral { zero } if zero > free),
+        };
+        let regular = true;
+        self.connected(nominal, Place { design, q, regular }, HALVINGS)
     }
 
     fn connected(&self, a: Place<'_>, b: Place<'_>, halvings: usize) -> bool {
-        if self.leads(a, b.1) && self.leads(b, a.1) {
+        if self.leads(a, b.q) && self.leads(b, a.q) {
             return true;
         }
         if halvings == 0 {
             return false;
         }
-        let design: Vector = a.0.iter().zip(b.0).map(|(a, b)| 0.5 * (a + b)).collect();
+        let both = a.design.iter().zip(b.design);
+        let design: Vector = both.map(|(a, b)| 0.5 * (a + b)).collect();
         let point = OperatingPoint::unchecked(self.mechanism, &self.nominal.inputs, &design);
         let point = point.asked(&[], self.nominal.free.held.clone());
-        solve(&point, a.1, Policy::about(self.nominal)).is_ok_and(|middle| {
-            let middle = (&design[..], &middle.state.coordinates[..]);
+        solve(&point, a.q, Policy::about(self.nominal)).is_ok_and(|middle| {
+            let middle = Place {
+                design: &design,
+                q: &middle.state.coordinates,
+                regular: true,
+            };
             self.connected(a, middle, halvings - 1) && self.connected(middle, b, halvings - 1)
         })
     }
 
-    /// Whether a Newton step from `start` leads to the equilibrium of a design, over regular stiffness of one sign.
-    fn leads(&self, (design, q): Place<'_>, start: &[f64]) -> bool {
+    /// Whether a Newton step from `start` leads to the equilibrium of a design, over regular stiffness of one sign; or the
+    /// equilibrium has no basin.
+    fn leads(&self, Place { design, q, regular }: Place<'_>, start: &[f64]) -> bool {
+        if !regular {
+            return true;
+        }
         let inputs = &self.nominal.inputs;
         let at = |q: &[f64]| self.mechanism.residual_and_stiffness(q, inputs, design);
         let negative = |factors: &Lu| factors.negative_determinant();

@@ -65,11 +65,12 @@ impl LimitReliability {
         parts.sum::<Option<f64>>().map(|sum| sum.min(1.0))
     }
 
-    /// Whether designs solved anew do not refute what the design points say: the failure probability to second order,
-    /// or to first where there is no second.
+    /// Whether the design points describe the failure: the limit is crossed at each, and designs solved anew do not refute
+    /// what they say, the failure probability to second order, or to first where there is no second.
     fn described(&self) -> bool {
         let claimed = self.second_order().or(self.probability());
         claimed.is_some_and(|claimed| self.judgement.agrees(claimed))
+            && (self.design_points.iter().flatten()).all(|point| point.verified)
     }
 
     /// Whether there are no design points because no design within reach fails.

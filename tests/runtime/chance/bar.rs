@@ -144,13 +144,12 @@ impl Called {
             interval.lower - rounding <= exact && exact <= interval.upper + rounding,
             "{at}\n{answer}"
         );
+        let mut points = found.limits[0].design_points.iter().flatten();
+        let described = points.any(|own| own.verified);
         assert_eq!(
             own.by == Found::DesignPoint,
-            found.limits[0]
-                .design_points
-                .iter()
-                .flatten()
-                .any(|own| own.verified)
+            described,
+            "{at}\n{answer}\n{found}"
         );
     }
 }

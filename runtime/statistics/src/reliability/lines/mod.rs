@@ -53,7 +53,7 @@ const SPACING: f64 = 0.5;
 /// Fewer lines say nothing about their scatter: in all, and along a direction of several.
 const FEWEST: usize = 32;
 const FEWEST_OF_SEVERAL: usize = 12;
-/// Lines along a variable where nothing is expected.
+/// Lines along a variable along which nothing is expected.
 const FEWEST_EXPLORING: usize = 4;
 /// Lines drawn together in the region that needs them most.
 const MORE: usize = 8;
@@ -63,7 +63,7 @@ const EVENLY: f64 = 0.25;
 const CONTRIBUTING: f64 = 10.0;
 const SHARE: f64 = 0.05;
 
-/// A direction in which failure is expected.
+/// A direction in which failure is expected. A wrong one costs evaluations, and does the result no harm.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Direction {
@@ -74,15 +74,14 @@ pub struct Direction {
 }
 
 /// A line: the probabilities along it within its region, given its position.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Line {
+#[derive(Clone, Copy, Debug, Default)]
+struct Line {
     /// Probability of failure.
-    pub fails: f64,
+    fails: f64,
     /// Probability that the limit state has no value.
-    pub without_value: f64,
+    without_value: f64,
     /// Number of evaluations of the limit state.
-    pub evaluations: u64,
+    evaluations: u64,
 }
 
 /// A failure probability estimated from lines.
@@ -103,7 +102,7 @@ pub struct LineProbability {
     pub evaluations: u64,
 }
 
-/// Draws lines, each of which depends only on seed, stream, its region and its number.
+/// Explores a limit state, then draws lines, each of which depends only on seed, stream, its region and its number.
 ///
 /// A value of the limit state may be infinite: it then tells which side a point is on, but not how far it is from the
 /// limit.
@@ -156,12 +155,12 @@ impl LineSampler {
     }
 
     /// Number of regions into which the directions divide the space.
-    pub fn regions(&self) -> usize {
+    fn regions(&self) -> usize {
         self.regions.count()
     }
 
     /// Line number `index` of a region through a limit state.
-    pub fn line<L: LimitState>(&self, limit: &L, region: usize, index: u64) -> Line {
+    fn line<L: LimitState>(&self, limit: &L, region: usize, index: u64) -> Line {
         let LineSettings {
             seed,
             stream,
@@ -220,7 +219,7 @@ impl LineSampler {
     }
 
     /// The estimate from lines of each region.
-    pub fn estimate(&self, lines: &[Vec<Line>]) -> LineProbability {
+    fn estimate(&self, lines: &[Vec<Line>]) -> LineProbability {
         let all = |of: fn(&Line) -> f64| -> Estimate {
             let each = lines.iter().map(|own| mean(own, of));
             let (value, variance) = each.fold((0.0, 0.0), |(value, variance), own| {
