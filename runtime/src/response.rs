@@ -273,7 +273,7 @@ impl<'a> Responses<'a> {
                         asked.and_then(|state| crossing_sensitivity(self.mechanism, state).ok());
                     (state.map(|state| state.value), gradient)
                 }
-                _ if !stable && !(unstable && tells_stability(response)) => (None, None),
+                _ if !(stable || unstable && tells_stability(response)) => (None, None),
                 Response::Mode { mode, quantity } => {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
                     let slopes = value.filter(|_| slopes);

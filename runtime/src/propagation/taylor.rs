@@ -57,8 +57,8 @@ pub fn first_order(
 /// Errors extrapolate the difference from first order like a series: it is multiplied by `r`, the ratio of the
 /// contributions of curvature and slopes to the standard deviation. The error of the standard deviation itself is the
 /// whole difference plus `3 r^2` times the standard deviation: as much as the neglected third derivatives contribute to
-/// that of a square root, such as a frequency. Near a critical state the series does not converge, and these error estimates do not hold: there are
-/// [`doubts`](Propagation::doubts) instead.
+/// that of a square root, such as a frequency. Near a critical state the series does not converge, and these error
+/// estimates do not hold: there are [`doubts`](Propagation::doubts) instead.
 ///
 /// ```
 #[doc = include_str!("example.txt")]

@@ -191,13 +191,11 @@ fn limit(f: &mut fmt::Formatter<'_>, own: &LimitReliability, d: &Description) ->
         "  Designs solved anew: probability of failure {}.",
         own.judgement
     )?;
-    let verdict =
-        own.probability().map(
-            |claimed| match own.judgement.confirms(claimed) && !own.verified() {
-                true => "not verified".to_owned(),
-                false => verdict(&own.judgement, claimed),
-            },
-        );
+    let doubtful = |claimed| own.judgement.confirms(claimed) && !own.verified();
+    let verdict = own.probability().map(|claimed| match doubtful(claimed) {
+        true => "not verified".to_owned(),
+        false => verdict(&own.judgement, claimed),
+    });
     let verdict = verdict.unwrap_or_default();
     let points = own.design_points.iter().flatten();
     points

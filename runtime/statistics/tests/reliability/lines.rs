@@ -31,7 +31,7 @@ fn run<L: LimitState>(
     let variables: Vec<usize> = (0..dimension).collect();
     let settings = settings(coefficient_of_variation);
     LineSampler::new(dimension, &variables, directions, &settings)
-        .unwrap()
+        .expect("valid settings")
         .run(limit)
 }
 
