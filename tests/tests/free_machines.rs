@@ -1,5 +1,7 @@
 //! Machines that nothing holds in some direction, against reference values (`truth/practice`), in any coordinates.
 
+#[path = "free_machines/along.rs"]
+mod along;
 #[path = "free_machines/common.rs"]
 mod common;
 #[path = "free_machines/families.rs"]

@@ -1,0 +1,70 @@
+//! Free machines along an input.
+
+use eigentol::{Behaviour, Input};
+
+use super::common::{close, study};
+
+/// Two masses that nothing holds along the axis of a turning base, and are held across it: the free motion takes part in
+/// no critical state, and `omega = sqrt(k / m)` has its derivatives.
+#[test]
+fn critical_speeds_beside_a_free_motion() {
+    let study = study(
+        "mechanism Carousel {
+            input speed: rad/s; design m = 2 kg +/- 1%;
+            body base: massless; joint turn: revolute(x) from ground to base, driven at speed;
+            body s: massless; body t: massless; body a: point(mass: m); body b: point(mass: m);
+            joint ax: prismatic(x) from base to s; joint ay: prismatic(y) from s to a;
+            joint bx: prismatic(x) from base to t; joint by: prismatic(y) from t to b;
+            force c: generalized(on: ax, value: (300 N/m) * (bx - ax));
+            force d: generalized(on: bx, value: (300 N/m) * (ax - bx));
+            force e: spring(on: ay, stiffness: 2000 N/m); force f: spring(on: by, stiffness: 1000 N/m);
+        }",
+    );
+    let found = study
+        .campbell(Input::new(0), &[0.0, 40.0], &[] as &[f64])
+        .expect("a diagram");
+    assert_eq!(found.critical.len(), 2);
+    for (event, k) in found.critical.iter().zip([1000.0_f64, 2000.0]) {
+        let speed = (k / 2.0).sqrt();
+        close(event.value, speed, 1e-11, "critical speed");
+        let spread = event.spread.as_ref().expect("a derivative");
+        close(spread.by_design[0], -speed / 4.0, 1e-9, "its derivative");
+    }
+    let branches = study.branches(Input::new(0), 0.0, 40.0).expect("branches");
+    assert_eq!(branches.special().count(), 2);
+}
+
+/// A ball on a turning table goes round at 2/7 of the table's rate, wherever it is; its orientation is free.
+#[test]
+fn a_ball_on_a_turning_table() {
+    let ball = |travel: &str, table: &str| {
+        let text = format!(
+            "mechanism Table {{
+                input omega: rad/s; gravity 9.81 m/s^2 along -z;
+                body table: disk(mass: 3 kg, radius: 1 m, axis: z); body base: massless; body mast: massless;
+                body ball: sphere(mass: 1 kg, radius: 5 cm);
+                joint turn: revolute(z) from ground to table, {table};
+                joint travel: planar(px: x, py: y, yaw: z) from ground to base, {travel} yaw driven at 0 rad/s;
+                joint height: prismatic(z) from base to mast at [0, 0, 5 cm];
+                joint roll: universal(alpha: x, beta: y) from mast to ball;
+                point center: ball; point plate: table;
+                constraint contact: rolling(wheel: center, radius: 5 cm, on: plate); }}"
+        );
+        study(&text)
+    };
+    for travel in ["", "px coasting, py coasting,"] {
+        let study = ball(travel, "driven at omega").input(Input::new(0), 3.0);
+        let modes = study.modes().expect("modes").modes;
+        let free = modes.iter().filter(|own| own.behaviour == Behaviour::Free);
+        assert_eq!((free.count(), modes.len()), (2, 3));
+        close(
+            modes[2].frequency().expect("it goes round"),
+            6.0 / 7.0,
+            1e-12,
+            "rate",
+        );
+        let slopes = study.sensitivities().expect("derivatives");
+        let by_speed = slopes.modes[2].frequency().expect("of the rate").by_input[0];
+        close(by_speed, 2.0 / 7.0, 1e-10, "by the table's rate");
+    }
+}
