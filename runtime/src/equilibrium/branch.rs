@@ -48,7 +48,7 @@ impl<'a> Branch<'a> {
         }
         let design: Vector = a.0.iter().zip(b.0).map(|(a, b)| 0.5 * (a + b)).collect();
         let point = OperatingPoint::unchecked(self.mechanism, &self.nominal.inputs, &design);
-        let point = point.asked(&[], self.nominal.free.held.clone());
+        let point = point.held_like(&self.nominal.free);
         solve(&point, a.1, Policy::about(self.nominal)).is_ok_and(|middle| {
             let middle = (&design[..], &middle.state.coordinates[..]);
             self.connected(a, middle, halvings - 1) && self.connected(middle, b, halvings - 1)
