@@ -21,6 +21,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     outputs: Shared::Static(&[]),
     symmetric_stiffness: true,
     free_directions: 0,
+    held: Shared::Static(&[]),
     length: 1.0,
     damping: DampingKind::Zero,
     kernels: Shared::Static(&[]),

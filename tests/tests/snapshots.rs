@@ -14,16 +14,30 @@ use insta::assert_snapshot;
 const READABLE: [&str; 3] = ["residual", "linear", "violation"];
 
 /// Machines whose generated code is kept in full.
-const GENERATED: [&str; 5] = [
+const GENERATED: [&str; 6] = [
     "rotating_pendulum",
     "rotating_double_pendulum",
     "turntable_slider",
     "geared_coasting",
     "fits",
+    "conical",
 ];
 
+/// A pendulum that goes round with a declared speed.
+const CONICAL: &str = "mechanism Conical {
+    input speed: rpm;
+    design l = 1 m;
+    design n = 2;
+    gravity 9.81 m/s^2 along -z;
+    body shaft: massless;
+    body bar: rod(mass: 1 kg, length: l, along: -z);
+    joint spin: revolute(z) from ground to shaft, coasting;
+    joint tilt: revolute(y) from shaft to bar;
+    steady spin = speed / n;
+}";
+
 /// The corpus, a closed loop, running coordinates, a rolling wheel, every kind of tolerance, and springs on every free
-/// coordinate.
+/// coordinate, a steady value.
 fn machines() -> Vec<(&'static str, &'static str)> {
     let constrained = [
         ("slider_crank", slider_crank::DECLARATION),
@@ -31,6 +45,7 @@ fn machines() -> Vec<(&'static str, &'static str)> {
         ("disk", disk::DECLARATION),
         ("fits", fits::DECLARATION),
         ("every", every::DECLARATION),
+        ("conical", CONICAL),
     ];
     corpus().into_iter().chain(constrained).collect()
 }

@@ -112,6 +112,7 @@ pub fn description(compilation: &Compilation) -> Description {
         outputs: outputs.into(),
         symmetric_stiffness: functions.properties.symmetric_stiffness,
         free_directions: functions.free.count,
+        held: functions.held.clone().into(),
         length: mechanism.length,
         damping: match functions.properties.damping {
             mechanics::Damping::Zero => DampingKind::Zero,

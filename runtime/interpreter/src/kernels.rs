@@ -6,7 +6,7 @@ use std::slice::from_ref;
 use eigentol::kernels::{
     BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
     CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear, MotionKernels,
-    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Sizes,
+    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Second, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Description, Dual, Matrix, PictureInfo, PoseMargin, Shared, Violation};
@@ -344,6 +344,12 @@ impl Kernels for Interpreted {
             joint: joint.clone(),
             margin,
         })
+    }
+
+    fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
+        if let Some(tape) = &self.shared.tapes.held_values {
+            copy(&once(tape, &[u, b]), &tape.results[0], values);
+        }
     }
 
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {

@@ -53,6 +53,7 @@ pub(crate) struct Tapes {
     pub(crate) picture: Option<Tape>,
     pub(crate) violation: Option<Tape>,
     pub(crate) pose_margin: Option<Tape>,
+    pub(crate) held_values: Option<Tape>,
     pub(crate) outputs: Option<Tape>,
     pub(crate) output_partials: Option<Tape>,
 }
@@ -77,6 +78,7 @@ impl Tapes {
             picture: tape("picture"),
             violation: tape("violation"),
             pose_margin: tape("pose_margin"),
+            held_values: tape("held_values"),
             outputs: tape("outputs"),
             output_partials: tape("output_partials"),
         }

@@ -62,7 +62,7 @@ impl<'a> Branch<'a> {
         let both = a.design.iter().zip(b.design);
         let design: Vector = both.map(|(a, b)| 0.5 * (a + b)).collect();
         let point = OperatingPoint::unchecked(self.mechanism, &self.nominal.inputs, &design);
-        let point = point.asked(&[], self.nominal.free.held.clone());
+        let point = point.held_like(&self.nominal.free);
         solve(&point, a.q, Policy::about(self.nominal)).is_ok_and(|middle| {
             let middle = Place {
                 design: &design,

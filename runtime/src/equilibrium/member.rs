@@ -1,8 +1,8 @@
 //! Families of steady motions: which member is meant, and which unknowns hold it.
 //!
 //! A wheel may roll in a circle of any size at any speed: the equations have more unknowns than independent rows. As
-//! many unknowns as the family has parameters are held at a value. Preferred are those that the mechanism or the user
-//! declares, then those with a start value, then the speeds of coasting coordinates. With `H y = c` for the held
+//! many unknowns as the family has parameters are held at a value. Preferred are those that the user holds, then those
+//! with a declared value, then those with a start value, then the speeds of coasting coordinates. With `H y = c` for the held
 //! unknowns and columns `B` not orthogonal to the left null space, the bordered equations `g(y) + B mu = 0`, `H y = c`
 //! are regular. On a family they have a solution with `mu = 0` for every `c` nearby; at an equilibrium where the
 //! stiffness only happens to be singular they do not.
@@ -39,10 +39,7 @@ pub(super) fn settled(
     let unit = units_of(point, q)?;
     let family = choice.filter(|held| newton(point, q, &beside(held, q, &unit)).is_some());
     let Some(mut held) = family else {
-        return match point.held.is_empty() {
-            true => Ok(found),
-            false => Err(refused(point, 0)),
-        };
+        return refuse_held(point).map(|()| found);
     };
     let differs = |unknown: usize, a: f64, b: f64| {
         (a - b).abs() > DIFFERENT * (a.abs() + b.abs() + unit[unknown])
@@ -72,6 +69,14 @@ pub(super) fn settled(
     Ok(settled)
 }
 
+/// Where a steady motion belongs to no family, nothing can hold a member of it.
+pub(super) fn refuse_held(point: &OperatingPoint<'_>) -> Result<(), Failure> {
+    match point.held.is_empty() {
+        true => Ok(()),
+        false => Err(refused(point, 0)),
+    }
+}
+
 fn refused(point: &OperatingPoint<'_>, dimension: usize) -> Failure {
     Failure::Held {
         unknowns: point.held.iter().map(|held| held.unknown).collect(),
@@ -95,9 +100,13 @@ fn choice(
         return Ok(None);
     }
     let mut chosen = Independent::new(&space.basis);
-    let mut held = point.held.to_vec();
-    if held.len() > dimension || !held.iter().all(|held| chosen.take(held.unknown)) {
-        return Err(refused(point, dimension));
+    let mut held: Vec<Held> = Vec::new();
+    for own in &point.held {
+        if held.len() < dimension && chosen.take(own.unknown) {
+            held.push(own.clone());
+        } else if own.declared.is_none() || held.iter().all(|other| other.declared.is_some()) {
+            return Err(refused(point, dimension));
+        }
     }
     let plain = |unknown, value| Held {
         unknown,

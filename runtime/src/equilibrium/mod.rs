@@ -93,7 +93,7 @@ pub fn equilibrium(
     policy: Policy,
 ) -> Result<Equilibrium, Error> {
     let mut state = Equilibrium::blank(&mechanism.description(), u, b);
-    let point = OperatingPoint::unchecked(mechanism, u, b);
+    let point = OperatingPoint::new(mechanism, u, b)?.asked(&[], Vec::new());
     equilibrium_into(&point, start, policy, &mut state)?;
     Ok(state)
 }

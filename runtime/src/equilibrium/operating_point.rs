@@ -5,7 +5,7 @@ use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
 use crate::error::{NotClosed, NotFound};
-use crate::free::{FreeDirections, Held, fix_place};
+use crate::free::{FreeDirections, Held, declared, fix_place};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
 use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, Role, Shared};
@@ -83,12 +83,30 @@ impl<'a> OperatingPoint<'a> {
     }
 
     /// This point with the unknowns whose start values are given, and those by which a member of a family is to be held.
-    pub(crate) fn asked(self, named: &'a [bool], held: Vec<Held>) -> Self {
+    /// Unknowns with declared values follow, unless they are held at another one.
+    pub(crate) fn asked(self, named: &'a [bool], mut held: Vec<Held>) -> Self {
+        let mut declared = declared(self.mechanism, self.inputs, self.design);
+        declared.retain(|own| held.iter().all(|other| other.unknown != own.unknown));
+        held.append(&mut declared);
         Self {
             named,
             held,
             ..self
         }
+    }
+
+    /// This point, held as a steady motion of another design is: declared values are those of this design.
+    pub(crate) fn held_like(self, other: &FreeDirections) -> Self {
+        let mut held = other.held.clone();
+        if held.iter().any(|own| own.declared.is_some()) {
+            let declared = declared(self.mechanism, self.inputs, self.design);
+            for own in &mut held {
+                if let Some(place) = own.declared {
+                    own.clone_from(&declared[place]);
+                }
+            }
+        }
+        Self { held, ..self }
     }
 
     /// The coordinates and speeds whose start values are given.

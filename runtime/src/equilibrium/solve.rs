@@ -33,6 +33,9 @@ pub(crate) fn solve_into(
     policy: Policy,
     state: &mut Equilibrium,
 ) -> Result<Vec<Mode>, Failure> {
+    if point.structure.holonomic() {
+        member::refuse_held(point)?;
+    }
     let found = if policy == Policy::Stable && has_open_potential(point) {
         let place = descent::SearchState::first(start);
         match newton_fast_path::newton_fast_path(point, place, state) {

@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 
 use super::NullSpace;
+use super::declared::derivatives;
 use crate::algebra::{Matrix, Vector, add_to, dot};
+use crate::kernels::Kernels;
 
 /// What elimination may leave of the stiffness of an equilibrium along its free directions, relative to the terms in
 /// it.
@@ -47,7 +49,7 @@ pub struct Held {
     pub by_input: Vector,
     /// The derivative of that value by each design variable; empty if it is a plain number.
     pub by_design: Vector,
-    /// The output that declares it: the unknown minus the value it is to have.
+    /// Its position among the unknowns with declared values, [`Description::held`](crate::Description::held).
     pub(crate) declared: Option<usize>,
 }
 
@@ -120,6 +122,29 @@ impl FreeDirections {
             let along = -dot(w, column);
             add_to(by_input, along, &held.by_input);
             add_to(by_design, along, &held.by_design);
+        }
+    }
+
+    /// Adds to the derivative of a gradient along a direction of inputs and design variables what
+    /// [`Self::add_to_gradient`] contributes to it.
+    pub(crate) fn add_to_gradient_along(
+        &self,
+        mechanism: &dyn Kernels,
+        at: (&[f64], &[f64]),
+        w: &[f64],
+        along: (&[f64], &[f64]),
+        (by_input, by_design): (&mut [f64], &mut [f64]),
+    ) {
+        if self.held.iter().all(|held| held.declared.is_none()) {
+            return;
+        }
+        let changes = derivatives(mechanism, at, along).along;
+        for (held, column) in self.held.iter().zip(&self.columns) {
+            let Some(place) = held.declared else { continue };
+            let along = -dot(w, column);
+            let (inputs, design) = changes[place].split_at(by_input.len());
+            add_to(by_input, along, inputs);
+            add_to(by_design, along, design);
         }
     }
 

@@ -6,9 +6,11 @@
 //! to `W` and rows `H^T` that are not orthogonal to `Z`, selects the one with `H^T x = 0`: multiplied by `W^T` from the
 //! left, the equation says so. Whatever does not depend on the place comes out the same for any `B` and `H`.
 
+mod declared;
 mod directions;
 mod null_space;
 
+pub(crate) use declared::declared;
 pub use directions::{FreeDirections, Held};
 pub(crate) use directions::{fix_place, fix_place_beside};
 pub(crate) use null_space::NullSpace;

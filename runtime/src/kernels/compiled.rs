@@ -3,7 +3,7 @@
 use super::interval::Interval;
 use super::{
     Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
-    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Sizes, entries_of,
+    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Second, Sizes, entries_of,
 };
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{
@@ -311,6 +311,10 @@ impl<M: Mechanism> Kernels for M {
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
         let (q, u, b) = point::<M>(q, u, b);
         Mechanism::pose_margin(self, q, u, b)
+    }
+
+    fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
+        Mechanism::held_values(self, Array::view(u), Array::view(b), values);
     }
 
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {

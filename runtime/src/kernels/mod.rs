@@ -35,6 +35,7 @@ pub use summary::SummaryKernels;
 
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{self, Description, PoseMargin, Shared, Violation};
+use crate::scalar::Dual;
 
 /// Mass, damping and stiffness.
 pub type Linear<T = f64> = mechanism::Linear<Matrix<T>>;
@@ -132,6 +133,9 @@ fn output_partials_zeros(sizes: Sizes) -> [Matrix; 3] {
     [sizes.coordinates, sizes.inputs, sizes.design]
         .map(|columns| Matrix::zeros(sizes.outputs, columns))
 }
+
+/// A number with two first derivatives and the mixed second one.
+pub type Second = Dual<Dual<f64>>;
 
 /// The kernels needed at any single state.
 pub trait Kernels: Sync {
@@ -254,6 +258,9 @@ pub trait Kernels: Sync {
 
     /// [`Mechanism::pose_margin`](crate::Mechanism::pose_margin).
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>>;
+
+    /// [`Mechanism::held_values`](crate::Mechanism::held_values) with first and second derivatives.
+    fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]);
 
     /// [`Mechanism::outputs`](crate::Mechanism::outputs).
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]);

@@ -26,6 +26,10 @@ pub struct Description {
     /// has one, a free body in space six. An equilibrium may be moved along them.
     #[cfg_attr(feature = "serde", serde(default))]
     pub free_directions: usize,
+    /// Positions of the unknowns that the declaration gives a value in the steady motion, in the order of
+    /// [`Mechanism::held_values`](crate::Mechanism::held_values).
+    #[cfg_attr(feature = "serde", serde(default = "none"))]
+    pub held: List<usize>,
     /// A length typical of the mechanism, m: the geometric mean of the shortest and the longest that are declared, one
     /// metre if there are none.
     #[cfg_attr(feature = "serde", serde(default = "one_metre"))]
@@ -77,6 +81,11 @@ impl Description {
         let found = self.coordinates.get(index);
         found.map_or(Text::Static("?"), |info| info.name.clone())
     }
+}
+
+#[cfg(feature = "serde")]
+const fn none() -> List<usize> {
+    List::Static(&[])
 }
 
 #[cfg(feature = "serde")]

@@ -423,6 +423,10 @@ pub trait Mechanism: Clone + Sync + Sized {
         None
     }
 
+    /// The values that select one of a family of steady motions: of the unknowns at the positions
+    /// [`Description::held`], in `values`.
+    fn held_values<T: Real>(&self, _u: &Self::Inputs<T>, _b: &Self::Design<T>, _values: &mut [T]) {}
+
     /// The declared outputs.
     fn outputs<T: Real>(
         &self,

@@ -9,7 +9,7 @@ use super::real::Real;
 ///
 /// Kernels are generic over their scalar. Evaluated in duals whose slopes form a direction, they return values and
 /// exact directional derivatives at about three times the cost. Duals of duals carry second derivatives.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Dual<T> {
     /// The number.
     pub value: T,

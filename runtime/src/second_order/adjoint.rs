@@ -57,7 +57,8 @@ impl<'a> Adjoint<'a> {
         let along: Vec<[&[f64]; 4]> = along.collect();
         self.mechanism
             .residual_gradients_along_into(q, u, b, w, &along, room);
-        for (change, room) in changes.iter_mut().zip(room) {
+        for ((change, room), direction) in changes.iter_mut().zip(room).zip(directions) {
+            self.add_held(w, direction, room);
             subtract(change, room);
         }
         let right = Matrix::from_fn(q.len(), changes.len(), |i, j| changes[j].coordinates[i]);
@@ -84,10 +85,20 @@ impl<'a> Adjoint<'a> {
     ) {
         let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
         let [dq, du, db] = direction.parts();
-        let direction = [dq, du, db, &Vector::zeros(q.len())];
+        let still = Vector::zeros(q.len());
         self.mechanism
-            .residual_gradient_along_into(q, u, b, w, direction, room);
+            .residual_gradient_along_into(q, u, b, w, [dq, du, db, &still], room);
+        self.add_held(w, direction, room);
         subtract(change, room);
         self.total(change, room);
+    }
+
+    /// Adds the change of the held values along a direction.
+    fn add_held(&self, w: &[f64], direction: &Direction, change: &mut Gradient) {
+        let at = (&self.at.inputs[..], &self.at.design[..]);
+        let [_, du, db] = direction.parts();
+        let change = (&mut change.inputs[..], &mut change.design[..]);
+        let free = &self.at.free;
+        free.add_to_gradient_along(self.mechanism, at, w, (du, db), change);
     }
 }

@@ -10,7 +10,7 @@ use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
 use crate::equilibrium;
 use crate::equilibrium::{Assembly, OperatingPoint, Policy};
-use crate::free::Held;
+use crate::free::{Held, declared};
 use crate::kernels::Kernels;
 use crate::mechanism::ToleranceInfo;
 use crate::modes::Family;
@@ -327,16 +327,30 @@ impl Settings {
 
     pub(super) fn assembly(&self, mechanism: &dyn Kernels) -> Result<Assembly, Error> {
         self.ready()?;
-        let held = (0..self.named.len()).filter(|&j| self.named[j]);
+        let (start, named) = self.beginning(mechanism);
+        let held = (0..named.len()).filter(|&j| named[j]);
         let held: Vec<Coordinate> = held.map(Coordinate::new).collect();
-        equilibrium::assemble(mechanism, &self.inputs, &self.design, &self.start, &held)
+        equilibrium::assemble(mechanism, &self.inputs, &self.design, &start, &held)
+    }
+
+    /// The start values, and which of them are given; those of unknowns with declared steady values are these.
+    fn beginning(&self, mechanism: &dyn Kernels) -> (Cow<'_, [f64]>, Cow<'_, [bool]>) {
+        let (mut start, mut named) = (Cow::from(&self.start[..]), Cow::from(&self.named));
+        for own in declared(mechanism, &self.inputs, &self.design) {
+            if self.holds.iter().all(|held| held.unknown != own.unknown) {
+                start.to_mut()[own.unknown] = own.value;
+                named.to_mut()[own.unknown] = true;
+            }
+        }
+        (start, named)
     }
 
     /// The start of the solvers: the start values, assembled if any coordinate is held.
     pub(super) fn assembled_start(&self, mechanism: &dyn Kernels) -> Result<Cow<'_, [f64]>, Error> {
         self.ready()?;
-        if Structure::of(&self.description).open() || !self.named.contains(&true) {
-            return Ok(Cow::Borrowed(&self.start));
+        let (start, named) = self.beginning(mechanism);
+        if Structure::of(&self.description).open() || !named.contains(&true) {
+            return Ok(start);
         }
         let assembly = self.assembly(mechanism)?;
         Ok(Cow::Owned(assembly.coordinates.into()))
@@ -355,7 +369,8 @@ impl Settings {
     ) -> Result<Vec<Mode>, Error> {
         let start = self.assembled_start(mechanism)?;
         let point = OperatingPoint::unchecked(mechanism, &self.inputs, &self.design);
-        let point = point.asked(&self.named, self.holds.clone());
+        let (_, named) = self.beginning(mechanism);
+        let point = point.asked(&named, self.holds.clone());
         equilibrium::equilibrium_into(&point, &start, self.policy, state)
     }
 

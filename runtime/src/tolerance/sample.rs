@@ -104,9 +104,8 @@ impl Solution {
         if mechanism.violation(inputs, design).is_some() {
             return Err(Outcome::Unphysical);
         }
-        let held = nominal.free.held.clone();
         let point = OperatingPoint::unchecked(mechanism, inputs, design).near(modes);
-        let point = point.asked(&[], held);
+        let point = point.held_like(&nominal.free);
         self.state.design.copy_from_slice(design);
         let start = &nominal.coordinates;
         solve_into(&point, start, Policy::about(nominal), &mut self.state)

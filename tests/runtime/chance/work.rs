@@ -6,7 +6,7 @@ use eigentol::clusters::clusters;
 use eigentol::kernels::{
     BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
     CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, PartialMatrices,
-    ResidualPartials, RestParts, Sizes, SummaryKernels,
+    ResidualPartials, RestParts, Second, Sizes, SummaryKernels,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::second_order::second_order;
@@ -165,6 +165,10 @@ impl Kernels for Counting<'_> {
 
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
         self.inner.pose_margin(q, u, b)
+    }
+
+    fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
+        self.inner.held_values_into(u, b, values);
     }
 
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {

@@ -32,6 +32,7 @@ macro_rules! law {
                     outputs: Shared::Static(&[]),
                     symmetric_stiffness: $symmetric,
                     free_directions: 0,
+                    held: Shared::Static(&[]),
                     length: 1.0,
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),

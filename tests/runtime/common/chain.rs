@@ -56,6 +56,7 @@ macro_rules! chain {
                     }]),
                     symmetric_stiffness: true,
                     free_directions: 0,
+                    held: Shared::Static(&[]),
                     length: 1.0,
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),

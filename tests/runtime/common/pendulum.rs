@@ -62,6 +62,7 @@ impl Mechanism for Pendulum {
         }]),
         symmetric_stiffness: true,
         free_directions: 0,
+        held: Shared::Static(&[]),
         length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),

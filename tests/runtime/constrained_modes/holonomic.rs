@@ -30,6 +30,7 @@ const fn described(
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        held: Shared::Static(&[]),
         length: 1.0,
         damping,
         kernels: Shared::Static(&[]),

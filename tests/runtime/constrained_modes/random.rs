@@ -55,6 +55,7 @@ impl Sizes {
             outputs: Shared::Static(&[]),
             symmetric_stiffness: false,
             free_directions: 0,
+            held: Shared::Static(&[]),
             length: 1.0,
             damping: DampingKind::General,
             kernels: Shared::Static(&[]),

@@ -89,6 +89,7 @@ pub(crate) const fn described(
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        held: Shared::Static(&[]),
         length: 1.0,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),

@@ -171,6 +171,7 @@ impl Model for Fed {
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,
+        held: Shared::Static(&[]),
         length: 1.0,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),

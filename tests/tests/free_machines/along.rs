@@ -31,7 +31,7 @@ fn critical_speeds_beside_a_free_motion() {
         close(spread.by_design[0], -speed / 4.0, 1e-9, "its derivative");
     }
     let branches = study.branches(Input::new(0), 0.0, 40.0).expect("branches");
-    assert_eq!(branches.special().count(), 2);
+    assert_eq!(branches.special().len(), 2);
 }
 
 /// A ball on a turning table goes round at 2/7 of the table's rate, wherever it is; its orientation is free.

@@ -107,8 +107,11 @@ impl Chain {
     }
 }
 
+/// Real and imaginary part of an eigenvalue, and derivatives by name.
+type Derived = (f64, f64, Vec<(String, f64)>);
+
 /// Eigenvalues that are not zero, with the derivatives of the frequency or else of the growth by name.
-fn numbers(study: &Study<Interpreted>) -> Vec<(f64, f64, Vec<(String, f64)>)> {
+fn numbers(study: &Study<Interpreted>) -> Vec<Derived> {
     let solved = study.solve().expect("modes");
     let slopes = solved.sensitivities().expect("derivatives");
     let design = &study.description().design;

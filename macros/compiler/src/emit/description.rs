@@ -50,6 +50,7 @@ pub(super) fn description(
     });
     let symmetric = functions.properties.symmetric_stiffness;
     let free_directions = functions.free.count;
+    let held = &functions.held;
     let length = mechanism.length;
     let damping = match functions.properties.damping {
         Damping::Zero => quote!(Zero),
@@ -72,6 +73,7 @@ pub(super) fn description(
             outputs: ::eigentol::Shared::Static(&[#(#outputs),*]),
             symmetric_stiffness: #symmetric,
             free_directions: #free_directions,
+            held: ::eigentol::Shared::Static(&[#(#held),*]),
             length: #length,
             damping: ::eigentol::DampingKind::#damping,
             kernels: ::eigentol::Shared::Static(&[#(#kernels),*]),

@@ -15,7 +15,7 @@ pub(super) enum Form {
     Partials,
 }
 
-/// The form of a kernel of the contract; `None` for requirements and poses, whose methods are generated separately.
+/// The form of a kernel of the contract; `None` for requirements, poses and held values, whose methods are generated separately.
 pub(super) fn form(kernel: KernelName) -> Option<Form> {
     Some(match kernel {
         KernelName::Residual
@@ -33,6 +33,6 @@ pub(super) fn form(kernel: KernelName) -> Option<Form> {
         KernelName::ModeGradient | KernelName::PencilGradient | KernelName::ResidualGradient => {
             Form::Record("Gradient", 3)
         }
-        KernelName::Violation | KernelName::PoseMargin => return None,
+        KernelName::Violation | KernelName::PoseMargin | KernelName::HeldValues => return None,
     })
 }

@@ -26,6 +26,7 @@ mod curves;
 mod description;
 mod expression;
 mod form;
+mod held_values;
 mod names;
 mod picture;
 mod pose_margin;
@@ -59,6 +60,7 @@ pub fn emit<E: Debug>(
             None if name == KernelName::Violation => {
                 violation::method(kernel, &functions.requirements)
             }
+            None if name == KernelName::HeldValues => held_values::method(kernel),
             None => pose_margin::method(kernel, &functions.poses),
         };
         let _ = writeln!(methods, "{method}");

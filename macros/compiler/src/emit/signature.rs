@@ -29,7 +29,7 @@ pub(super) fn head(kernel: &Kernel, name: &str, last: &str, returned: &str, boun
     format!("fn {name}<T: ::eigentol::Real{bound}>(&self{parameters}) -> {returned} ")
 }
 
-fn documentation(kernel: &Kernel) -> String {
+pub(super) fn documentation(kernel: &Kernel) -> String {
     let mut text = format!(
         "{} additions and multiplications, {} divisions and functions",
         kernel.cost.operations, kernel.cost.functions

@@ -13,7 +13,7 @@ use super::checks::{
 };
 use super::equations::Equations;
 use super::functions::{Functions, Limits, Role, Unknown};
-use super::kernels::{kernels, picture, pose_margin, violation, whirl};
+use super::kernels::{held_values, kernels, picture, pose_margin, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::setup::{Context, Runs, Symbols, Values};
@@ -32,11 +32,20 @@ pub fn derive(
             Ok(functions) => break functions,
             Err(Unsteady::Mistakes(mistakes)) => return Err(mistakes),
             Err(Unsteady::Standing(more)) => {
+                let mut refused = Diagnostics::new();
                 for id in more {
+                    if let Some(steady) = mechanism.steady.iter().find(|own| own.coordinate == id) {
+                        refused.error_with_help(
+                            &steady.name,
+                            format!("`{}` can only stand still: slip depends on it", steady.name),
+                            "a steady speed belongs to a coordinate that keeps running",
+                        );
+                    }
                     let coordinate = &mut mechanism.coordinates[id.index()];
                     coordinate.motion = Motion::Free;
                     standing.push(format!("`{}`", coordinate.name));
                 }
+                refused.into_result(())?;
                 *topology = build(mechanism)?;
             }
         }
@@ -97,7 +106,9 @@ fn derived(
     functions.push(violation(&requirements, &symbols));
     let poses = poses(g, &context);
     functions.push(pose_margin(&poses, &symbols));
+    functions.extend(held_values(g, &context));
     let unknowns = unknowns(&context);
+    let held = held(mechanism, &unknowns);
     Ok(Functions {
         unknowns,
         graph,
@@ -108,7 +119,19 @@ fn derived(
         properties,
         undetermined,
         free,
+        held,
     })
+}
+
+/// The positions of the unknowns with a steady value.
+fn held(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<usize> {
+    let place = |id: CoordinateId| {
+        let is = |role: Role| matches!(role, Role::Position(own) | Role::Speed(own) if own == id);
+        let place = unknowns.iter().position(|unknown| is(unknown.role));
+        place.expect("what has a steady value is not driven, and its joint is not cut")
+    };
+    let steady = mechanism.steady.iter();
+    steady.map(|own| place(own.coordinate)).collect()
 }
 
 /// The meaning of each entry of `q`.

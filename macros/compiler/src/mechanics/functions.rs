@@ -27,6 +27,8 @@ pub struct Functions {
     pub undetermined: Vec<CoordinateId>,
     /// The directions in which nothing determines where the mechanism stands.
     pub free: FreeDirections,
+    /// Positions of the unknowns whose values select a steady motion, in the order of the kernel `held_values`.
+    pub held: Vec<usize>,
 }
 
 /// The directions in which nothing determines where a mechanism stands: it can be moved along them in every design.

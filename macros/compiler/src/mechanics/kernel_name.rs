@@ -64,4 +64,6 @@ kernel_names! {
     Violation "violation",
     /// How far joints are from their singular poses.
     PoseMargin "pose_margin",
+    /// Values of unknowns that select a steady motion.
+    HeldValues "held_values",
 }

@@ -48,6 +48,8 @@ pub struct Mechanism {
     pub forces: Vec<Force>,
     /// Constraints, besides those of joints that close loops.
     pub constraints: Vec<Constraint>,
+    /// Values that select one of a family of steady motions.
+    pub steady: Vec<Steady>,
     /// Outputs.
     pub outputs: Vec<Output>,
 }
@@ -114,6 +116,17 @@ pub struct Constant {
     /// Declared name.
     pub name: Ident,
     /// Its value.
+    pub value: Expr,
+}
+
+/// The value of an unknown in the steady motion, where steady motions come in a family.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// A free coordinate, or a coasting one, of which the speed is given.
+    pub coordinate: CoordinateId,
+    /// Its name as referred to.
+    pub name: Ident,
+    /// The value.
     pub value: Expr,
 }
 

@@ -104,6 +104,14 @@ impl Display for Mechanism {
             let law = names.constraint(&constraint.law);
             writeln!(f, "constraint {}: {law}", constraint.name)?;
         }
+        for steady in &self.steady {
+            writeln!(
+                f,
+                "steady {} = {}",
+                steady.name,
+                names.scalar(&steady.value)
+            )?;
+        }
         for output in &self.outputs {
             let value = names.scalar(&output.value);
             writeln!(f, "output {} = {value}{}", output.name, unit(&output.unit))?;

@@ -30,6 +30,7 @@ mod point_arguments;
 mod references;
 mod resolver;
 mod scope;
+mod steady;
 mod tension;
 mod tolerances;
 mod typed;
@@ -40,7 +41,7 @@ use self::resolver::Resolver;
 use self::scope::Scope;
 use super::expression::Vector;
 use super::mechanism::{
-    Body, Constraint, DesignVariable, Force, Input, Joint, Mechanism, Output, Point,
+    Body, Constraint, DesignVariable, Force, Input, Joint, Mechanism, Output, Point, Steady,
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
@@ -100,6 +101,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         points: items.points,
         forces: items.forces,
         constraints: items.constraints,
+        steady: items.steady,
         outputs: items.outputs,
     };
     let is_whole = ast.unread.is_empty();
@@ -129,6 +131,7 @@ struct Items {
     points: Vec<Point>,
     forces: Vec<Force>,
     constraints: Vec<Constraint>,
+    steady: Vec<Steady>,
     outputs: Vec<Output>,
 }
 
@@ -155,6 +158,7 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
     let mut forces = resolver.forces();
     forces.extend(resolver.forces_of_every(&forces));
     let constraints = resolver.constraints();
+    let steady = resolver.steady_values();
     let outputs = resolver.outputs();
     Items {
         inputs,
@@ -166,6 +170,7 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
         points,
         forces,
         constraints,
+        steady,
         outputs,
     }
 }
@@ -183,6 +188,7 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
             .filter(|force| !force.of_every)
             .count()
             == count(ast, |kind| matches!(kind, ItemKind::Force(_)))
+        && mechanism.steady.len() == count(ast, |kind| matches!(kind, ItemKind::Steady(_)))
         && mechanism.outputs.len() == count(ast, |kind| matches!(kind, ItemKind::Output(_)))
         && is_connected(ast, mechanism)
 }

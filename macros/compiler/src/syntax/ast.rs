@@ -20,7 +20,7 @@ pub struct Ast {
 }
 
 /// Keywords of items without a name.
-const NAMELESS: [&str; 3] = ["gravity", "kernels", "every"];
+const NAMELESS: [&str; 4] = ["gravity", "kernels", "every", "steady"];
 
 /// The known parts of an item that could not be read.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,9 +34,9 @@ pub struct Unread {
 impl Unread {
     /// Whether it may be a body, a joint or a constraint; false only if its keyword says otherwise.
     pub fn may_connect(&self) -> bool {
-        const OTHERS: [&str; 10] = [
+        const OTHERS: [&str; 11] = [
             "input", "design", "let", "curve", "gravity", "kernels", "point", "force", "every",
-            "output",
+            "steady", "output",
         ];
         !self.starts_with(&OTHERS)
     }
@@ -88,6 +88,8 @@ pub enum ItemKind {
     Every(Every),
     /// `constraint NAME: KIND(...);`
     Constraint(Constraint),
+    /// `steady UNKNOWN = VALUE;`
+    Steady(Named),
     /// `output NAME = VALUE;`
     Output(Named),
 }
@@ -100,7 +102,10 @@ impl ItemKind {
             ItemKind::Design(design) => Some(&design.name),
             ItemKind::Let(named) | ItemKind::Output(named) => Some(&named.name),
             ItemKind::Curve(curve) => Some(&curve.name),
-            ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) => None,
+            ItemKind::Gravity(_)
+            | ItemKind::KernelsOnly(_)
+            | ItemKind::Every(_)
+            | ItemKind::Steady(_) => None,
             ItemKind::Body(body) => Some(&body.name),
             ItemKind::Joint(joint) => Some(&joint.name),
             ItemKind::Point(point) => Some(&point.name),

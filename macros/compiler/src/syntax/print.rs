@@ -84,6 +84,7 @@ fn item(kind: &ItemKind) -> String {
             value(&curve.arguments),
             value(&curve.values)
         ),
+        ItemKind::Steady(named) => format!("steady {} = {}", named.name, value(&named.value)),
         ItemKind::Output(named) => format!("output {} = {}", named.name, value(&named.value)),
         ItemKind::Gravity(gravity) => match &gravity.along {
             Some(along) => format!("gravity {} along {}", value(&gravity.value), value(along)),

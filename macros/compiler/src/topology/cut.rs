@@ -12,6 +12,9 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     let mut of_coordinate = |id: crate::base::ids::CoordinateId| {
         needed[mechanism.coordinates[id.index()].joint.index()] = true;
     };
+    for steady in &mechanism.steady {
+        of_coordinate(steady.coordinate);
+    }
     let mut values: Vec<&Expr> = mechanism
         .outputs
         .iter()

@@ -32,6 +32,12 @@ impl Check {
             }
             let found = summary(&description(&compilation));
             print(&format!("{}: {found}\n", declaration.name))?;
+            for steady in &compilation.mechanism.steady {
+                let name = &steady.name;
+                print(&format!(
+                    "  steady: the value of `{name}` selects one of a family of steady motions\n"
+                ))?;
+            }
             for note in &compilation.functions.free.notes {
                 print(&format!("  {note}\n"))?;
             }

@@ -6,7 +6,7 @@ use super::DeviatingInputs;
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::{
     Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
-    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Sizes,
+    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Second, Sizes,
 };
 use crate::mechanism::{Description, PictureInfo, PoseMargin, Shared, Violation};
 
@@ -186,6 +186,11 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
         let (u, b) = self.applied(u, b);
         self.kernels.pose_margin(q, &u, b)
+    }
+
+    fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
+        let (u, b) = self.deviations.applied(u, b, Second::add);
+        self.kernels.held_values_into(&u, b, values);
     }
 
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {

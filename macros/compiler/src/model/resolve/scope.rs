@@ -99,7 +99,10 @@ impl Scope {
                 ItemKind::Force(_) => Meaning::Force,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
-                ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) => continue,
+                ItemKind::Gravity(_)
+                | ItemKind::KernelsOnly(_)
+                | ItemKind::Every(_)
+                | ItemKind::Steady(_) => continue,
             };
             if let Some(name) = item.kind.name() {
                 scope.declare(name, meaning, diagnostics);

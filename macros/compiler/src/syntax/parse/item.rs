@@ -43,6 +43,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "force" => force,
         "every" => every,
         "constraint" => constraint,
+        "steady" => |tokens| named(tokens).map(ItemKind::Steady),
         "output" => |tokens| named(tokens).map(ItemKind::Output),
         unknown => {
             let message = format!("unknown item `{unknown}`");

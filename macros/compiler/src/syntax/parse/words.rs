@@ -3,7 +3,7 @@
 use crate::base::nearest::suggestion;
 
 /// The words that start an item.
-pub(super) const KEYWORDS: [&str; 13] = [
+pub(super) const KEYWORDS: [&str; 14] = [
     "input",
     "design",
     "let",
@@ -16,11 +16,12 @@ pub(super) const KEYWORDS: [&str; 13] = [
     "force",
     "every",
     "constraint",
+    "steady",
     "output",
 ];
 
 /// Names of items in other tools and languages.
-const SYNONYMS: [(&str, &str); 25] = [
+const SYNONYMS: [(&str, &str); 26] = [
     ("table", "curve"),
     ("lookup", "curve"),
     ("spline", "curve"),
@@ -46,6 +47,7 @@ const SYNONYMS: [(&str, &str); 25] = [
     ("all", "every"),
     ("each", "every"),
     ("default", "every"),
+    ("hold", "steady"),
 ];
 
 /// Words that belong after the name of an item, not before it.

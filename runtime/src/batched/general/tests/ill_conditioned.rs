@@ -14,6 +14,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     outputs: Shared::Static(&[]),
     symmetric_stiffness: false,
     free_directions: 0,
+    held: Shared::Static(&[]),
     length: 1.0,
     damping: DampingKind::General,
     kernels: Shared::Static(&[]),
