@@ -81,8 +81,8 @@ enum Sides {
     /// Real, and the same on both sides.
     Undamped(Side<f64>),
     General {
-        right: Side<Complex>,
-        left: Side<Complex>,
+        right: Box<Side<Complex>>,
+        left: Box<Side<Complex>>,
     },
 }
 
@@ -130,9 +130,11 @@ impl<'a> Shapes<'a> {
                 };
                 let right = side(linear, &mode.shape, leading.right);
                 let left = side(&transposed(linear), mode.left(), leading.left);
-                right
-                    .zip(left)
-                    .map(|(right, left)| Sides::General { right, left })
+                let both = right.zip(left);
+                both.map(|(right, left)| Sides::General {
+                    right: right.into(),
+                    left: left.into(),
+                })
             }
         };
         Ok(Self {

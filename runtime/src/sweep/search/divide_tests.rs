@@ -68,14 +68,16 @@ impl<F: Fn(f64) -> (Vec<Root>, Vec<Root>)> States for Family<F> {
     }
 }
 
-/// The events from one value to another, in `steps` steps: kind, passage, and place between two others; and the number
-/// of states.
+/// Kind, passage, and place between two others.
+type Found = (Kind, Passage, [f64; 3]);
+
+/// The events from one value to another, in `steps` steps, and the number of states.
 fn search(
     roots: impl Fn(f64) -> (Vec<Root>, Vec<Root>),
     wanted: &Wanted,
     [low, high]: [f64; 2],
     steps: usize,
-) -> (Vec<(Kind, Passage, [f64; 3])>, Division, usize) {
+) -> (Vec<Found>, Division, usize) {
     let (mut events, mut states) = (Vec::new(), 0);
     let mut all = Division::default();
     for step in 0..steps {

@@ -332,10 +332,10 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     change,
                     loses,
                 } => {
-                    let stop = self.critical(special.clone(), change, loses);
+                    let stop = self.critical((*special).clone(), change, loses);
                     let last = located.last().map(|own| &own.special);
-                    let ends = |own: &Located| own.ends_arm && own.special == special;
-                    let arm = located.iter().any(ends) || turns && last == Some(&special);
+                    let ends = |own: &Located| own.ends_arm && own.special == *special;
+                    let arm = located.iter().any(ends) || turns && last == Some(&*special);
                     next = match stop {
                         true => Some(Next::Done),
                         false => self.goes_on(&special, arm, after),

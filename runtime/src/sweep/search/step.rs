@@ -30,7 +30,7 @@ pub(super) struct Step<'a, 'b> {
 pub(super) enum Event {
     /// Stiffness vanishes.
     Critical {
-        special: SpecialPoint,
+        special: Box<SpecialPoint>,
         change: Change,
         /// Whether all stiffness was positive before.
         loses: bool,
@@ -399,7 +399,7 @@ impl<'a, 'b> Step<'a, 'b> {
             found.events.push((
                 t,
                 Event::Critical {
-                    special,
+                    special: special.into(),
                     change: Change::Touch,
                     loses: self.holds_before(t),
                 },
@@ -421,7 +421,7 @@ impl<'a, 'b> Step<'a, 'b> {
             found.events.push((
                 t,
                 Event::Critical {
-                    special,
+                    special: special.into(),
                     change,
                     loses,
                 },
