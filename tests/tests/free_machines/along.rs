@@ -1,6 +1,6 @@
 //! Free machines along an input.
 
-use eigentol::{Behaviour, Input};
+use eigentol::{Behaviour, Coordinate, Input};
 
 use super::common::{close, study};
 
@@ -67,4 +67,32 @@ fn a_ball_on_a_turning_table() {
         let by_speed = slopes.modes[2].frequency().expect("of the rate").by_input[0];
         close(by_speed, 2.0 / 7.0, 1e-10, "by the table's rate");
     }
+}
+
+/// On a table that coasts, the ball is free along it while the table rests; of the motions in which the table turns it
+/// is not.
+#[test]
+fn a_ball_on_a_coasting_table() {
+    let study = study(
+        "mechanism Table {
+            gravity 9.81 m/s^2 along -z;
+            body table: disk(mass: 3 kg, radius: 1 m, axis: z); body base: massless; body mast: massless;
+            body ball: sphere(mass: 1 kg, radius: 5 cm);
+            joint turn: revolute(z) from ground to table, coasting;
+            joint travel: planar(px: x, py: y, yaw: z) from ground to base, yaw driven at 0 rad/s;
+            joint height: prismatic(z) from base to mast at [0, 0, 5 cm];
+            joint roll: universal(alpha: x, beta: y) from mast to ball;
+            point center: ball; point plate: table;
+            constraint contact: rolling(wheel: center, radius: 5 cm, on: plate); }",
+    );
+    let speed = study
+        .description()
+        .coordinates
+        .iter()
+        .position(|own| own.name == *"turn");
+    let study = study.start(Coordinate::new(speed.expect("a speed")), 3.0);
+    let modes = study.modes().expect("modes").modes;
+    let round: Vec<f64> = modes.iter().filter_map(|mode| mode.frequency()).collect();
+    assert_eq!(round.len(), 1);
+    close(round[0], 6.0 / 7.0, 1e-12, "rate");
 }

@@ -1,5 +1,7 @@
 //! The equations, linearised at states where the constraints hold.
 
+use std::ops::Range;
+
 use crate::algebra::{Disturbed, Evaluator, Graph, evaluate};
 use crate::base::ids::{ExprId, SymbolId};
 use crate::mechanics::equations::Equations;
@@ -101,31 +103,46 @@ impl<'a> System<'a> {
     pub(super) fn at_zero(&self, design: u64) -> Option<Linearised> {
         let state = RandomState { design, motion: 1 };
         let free = self.fields.free;
-        let mut place = Place {
-            values: vec![0.0; self.size()],
-            rounding: vec![0.0; self.size()],
-        };
-        if self.size() > free {
-            let columns = self.stiffness[free..].iter().flatten();
-            let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
-            place = self.solve(state, &roots, place.values, free)?;
+        if self.size() == free {
+            let place = Place {
+                values: vec![0.0; free],
+                rounding: vec![0.0; free],
+            };
+            return self.at_place(&place, state);
         }
-        self.at_place(&place, state)
+        let columns = self.stiffness[free..].iter().flatten();
+        let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
+        let mut starts = vec![self.start(state, free..self.context.moving().1)];
+        if starts[0].iter().any(|value| *value != 0.0) {
+            starts.push(vec![0.0; self.size()]);
+        }
+        let found = |start| self.at_place(&self.solve(state, &roots, start, free)?, state);
+        starts.into_iter().find_map(found)
     }
 
-    /// Linearises at equilibria: near all coordinates zero, then near random places.
+    /// Zero except for some coordinates and speeds. Speeds of a family of steady motions are not zero then: at rest,
+    /// more may be free than in motion.
+    fn start(&self, state: RandomState, moving: Range<usize>) -> Vec<f64> {
+        let mut start = vec![0.0; self.size()];
+        for k in moving {
+            let unknown = self.context.symbols.q.ids[k];
+            start[k] = SPREAD * state.value(self.context, unknown);
+        }
+        start
+    }
+
+    /// Linearises at equilibria: near all coordinates zero, then near random places, at last near rest at zero.
     pub(super) fn equilibria(&self, design: u64) -> impl Iterator<Item = Linearised> {
         let columns = self.stiffness.iter().flatten();
         let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
-        (0..STARTS).filter_map(move |motion| {
+        (0..=LAST).filter_map(move |motion| {
             let state = RandomState { design, motion };
-            let mut start = vec![0.0; self.size()];
-            if motion > 0 {
-                let unknowns = &self.context.symbols.q.ids[..self.fields.free];
-                for (start, symbol) in start.iter_mut().zip(unknowns) {
-                    *start = SPREAD * state.value(self.context, *symbol);
-                }
-            }
+            let (free, moving) = (self.fields.free, self.context.moving().1);
+            let start = match motion {
+                0 => self.start(state, free..moving),
+                LAST => vec![0.0; self.size()],
+                _ => self.start(state, 0..moving),
+            };
             let place = self.solve(state, &roots, start, 0)?;
             self.at_place(&place, state)
         })
@@ -234,8 +251,8 @@ impl<'a> System<'a> {
     }
 }
 
-/// Places from which equilibria are sought.
-const STARTS: u64 = 6;
+/// The last place from which equilibria are sought.
+const LAST: u64 = 6;
 /// How far from zero they are, in rad or m.
 const SPREAD: f64 = 0.5;
 /// Steps that may pass without progress.
