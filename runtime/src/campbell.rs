@@ -182,7 +182,7 @@ pub fn campbell_each(
         critical: true,
     };
     let way = (mechanism, (u, b), start);
-    let (found, route) = between(way, following, (input, values), &sought)?;
+    let (found, route) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input).on(route);
     let mut unreached = values.len();
     for &value in values {

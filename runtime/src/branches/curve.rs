@@ -3,7 +3,7 @@
 use super::bordered::Bordered;
 use super::local_scaling::{CurvePosition, Frame, System};
 use super::settings::Continuation;
-use crate::algebra::{Vector, all_finite};
+use crate::algebra::{Matrix, Vector, add_to, all_finite};
 use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
     ACCEPTED, Failure, Judged, OperatingPoint, Policy, Verdict, constraint_state, judge,
@@ -114,13 +114,17 @@ impl<'a> Curve<'a> {
 
     /// The operating point at these inputs, with all constraints.
     pub(crate) fn operating_point<'b>(&'b self, inputs: &'b [f64]) -> OperatingPoint<'b> {
-        OperatingPoint::unchecked(self.mechanism, inputs, self.design).placed(&self.place)
+        OperatingPoint::unchecked(self.mechanism, inputs, self.design)
+            .held_like(&self.place)
+            .placed(&self.place)
     }
 
     /// The curve prepared for branches near a state. In a singular configuration more constraints look redundant than
     /// around it: then those of the first regular state beside it count, or none.
     pub(crate) fn about(mut self, state: &Equilibrium) -> Self {
-        if self.description.free_directions > 0 {
+        if !state.free.held.is_empty() {
+            self.place = state.free.clone();
+        } else if self.description.free_directions > 0 {
             // The state itself may be critical.
             let mut beside = NUDGES.iter();
             let beside = beside.find_map(|&share| self.beside(state, share).ok());
@@ -179,6 +183,11 @@ impl<'a> Curve<'a> {
             .mechanism
             .residual_partials(&at.q, &inputs, self.design);
         let mut by_input = by_inputs.column(self.settings.input.index());
+        for (held, column) in point.held.iter().zip(&self.place.columns) {
+            if let Some(by_input_of_value) = held.by_input.get(self.settings.input.index()) {
+                add_to(&mut by_input, -by_input_of_value, column);
+            }
+        }
         for (value, dropped) in by_input.iter_mut().zip(&self.dropped) {
             if *dropped {
                 *value = 0.0;
@@ -289,7 +298,7 @@ impl<'a> Curve<'a> {
             stability: verdict.stability,
             rounding: verdict.rounding,
             constraints,
-            free: FreeDirections::of(&linear.stiffness, self.description.free_directions),
+            free: self.free_at(&at.q, &linear.stiffness),
             linear,
             residual,
             relative_residual: relative,
@@ -300,6 +309,19 @@ impl<'a> Curve<'a> {
         };
         let modes = verdict.modes;
         Ok(Judged { state, modes })
+    }
+
+    /// The free directions at a point of the branch, and what holds it.
+    fn free_at(&self, q: &[f64], stiffness: &Matrix) -> FreeDirections {
+        let count = self.description.free_directions;
+        let mut held = self.place.held.clone();
+        for held in &mut held {
+            held.value = q[held.unknown];
+        }
+        match held.is_empty() {
+            true => FreeDirections::of(stiffness, count),
+            false => FreeDirections::of_member(stiffness, count, held),
+        }
     }
 
     /// Largest residual, each relative to the forces due to a thousandth of the input range and of the coordinates'

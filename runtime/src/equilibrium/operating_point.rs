@@ -29,7 +29,7 @@ pub(crate) struct OperatingPoint<'a> {
     /// What holds the place along free directions; if `None`, it is found from the stiffness itself.
     place: Option<&'a FreeDirections>,
     /// The unknowns by which the member of a family of steady motions is to be held.
-    pub(super) held: Vec<Held>,
+    pub(crate) held: Vec<Held>,
 }
 
 impl<'a> OperatingPoint<'a> {
@@ -97,7 +97,24 @@ impl<'a> OperatingPoint<'a> {
 
     /// This point, held as a steady motion of another design is: declared values are those of this design.
     pub(crate) fn held_like(self, other: &FreeDirections) -> Self {
-        let mut held = other.held.clone();
+        self.held_by_these(&other.held)
+    }
+
+    /// This point held by these unknowns, or if there are none by those with declared values.
+    pub(crate) fn held_by(self, held: &[Held]) -> Self {
+        match held {
+            [] => self.asked(&[], Vec::new()),
+            held => self.held_by_these(held),
+        }
+    }
+
+    /// Whether it is held as a member of a family of steady motions.
+    pub(crate) fn of_family(&self) -> bool {
+        !self.held.is_empty()
+    }
+
+    fn held_by_these(self, held: &[Held]) -> Self {
+        let mut held = held.to_vec();
         if held.iter().any(|own| own.declared.is_some()) {
             let declared = declared(self.mechanism, self.inputs, self.design);
             for own in &mut held {
@@ -207,10 +224,13 @@ impl<'a> OperatingPoint<'a> {
             }
         }
         if finite && self.free() > 0 {
-            match self.place {
-                Some(place) => place.hold(stiffness),
-                None => fix_place(stiffness, self.free()),
+            if self.place.is_none() {
+                fix_place(stiffness, self.free());
             }
+        }
+        if finite && let Some(place) = self.place {
+            place.hold(stiffness);
+            place.lead(residual, q, &self.held);
         }
         finite
     }

@@ -168,6 +168,14 @@ impl FreeDirections {
         Cow::Owned(held)
     }
 
+    /// Adds to a residual nearby the forces that lead held unknowns to their values. They vanish at the member of the
+    /// family with these values, which is the only solution then.
+    pub(crate) fn lead(&self, residual: &mut [f64], q: &[f64], held: &[Held]) {
+        for (held, column) in held.iter().zip(&self.columns) {
+            add_to(residual, q[held.unknown] - held.value, column);
+        }
+    }
+
     /// Holds the place in a stiffness, which may be that of a state nearby.
     pub(crate) fn hold(&self, stiffness: &mut Matrix) {
         hold(stiffness, &self.columns, &self.rows);

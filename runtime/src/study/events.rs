@@ -204,8 +204,8 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
     fn events(&self, range: Range, lines: &[Line]) -> Result<Events, Error> {
         let Self { kernels, settings } = *self;
         let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(kernels)?;
-        sweep::events(kernels, u, b, &start, settings.following(), range, lines)
+        let (start, following) = settings.way(kernels, range.input, range.low)?;
+        sweep::events(kernels, u, b, &start, following, range, lines)
     }
 
     fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
@@ -227,8 +227,8 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
     fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
         let Self { kernels, settings } = *self;
         let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(kernels)?;
-        sweep::crossings(kernels, u, b, &start, settings.following(), range, line)
+        let (start, following) = settings.way(kernels, range.input, range.low)?;
+        sweep::crossings(kernels, u, b, &start, following, range, line)
     }
 
     fn crossing_tolerances(&self, range: Range, line: Line) -> Result<Vec<EventTolerance>, Error> {
@@ -245,8 +245,8 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
     fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
         let Self { kernels, settings } = *self;
         let (u, b) = (&settings.inputs, &settings.design);
-        let start = settings.assembled_start(kernels)?;
-        sweep::flutter_onsets(kernels, u, b, &start, settings.following(), range)
+        let (start, following) = settings.way(kernels, range.input, range.low)?;
+        sweep::flutter_onsets(kernels, u, b, &start, following, range)
     }
 
     fn flutter_onset_tolerances(&self, range: Range) -> Result<Vec<EventTolerance>, Error> {

@@ -278,10 +278,10 @@ impl Subject<'_, dyn BatchKernels + '_> {
     ) -> Result<Sweep, Error> {
         let Self { kernels, settings } = *self;
         let point = (&settings.inputs[..], &settings.design[..]);
-        let start = settings.assembled_start(kernels)?;
+        let (start, following) = settings.way(kernels, along.0, first_of(along.1))?;
         let watch = settings.watch();
         let each = |found: &SweepPoint| go_on(each(found), watch);
-        sweep::sweep_each(kernels, point, &start, settings.following(), along, each)
+        sweep::sweep_each(kernels, point, &start, following, along, each)
     }
 
     fn sensitivity_sweep(
@@ -291,13 +291,13 @@ impl Subject<'_, dyn BatchKernels + '_> {
     ) -> Result<(), Error> {
         let Self { kernels, settings } = *self;
         let point = (&settings.inputs[..], &settings.design[..]);
-        let start = settings.assembled_start(kernels)?;
+        let (start, following) = settings.way(kernels, along.0, first_of(along.1))?;
         let watch = settings.watch();
         let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
             each(point, slopes);
             go_on(ControlFlow::Continue(()), watch)
         };
-        sweep::sensitivity_sweep(kernels, point, &start, settings.following(), along, each)
+        sweep::sensitivity_sweep(kernels, point, &start, following, along, each)
     }
 
     fn first_order_sweep(
@@ -333,9 +333,10 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
         self.deviating(|own| {
             let Subject { kernels, settings } = *own;
             let point = (&settings.inputs[..], &settings.design[..]);
-            let start = settings.assembled_start(kernels)?;
+            let first = first_of(axes.values);
+            let (start, following) = settings.way(kernels, axes.input, first)?;
             let tolerances = settings.tolerances()?;
-            let (following, watch) = (settings.following(), settings.watch());
+            let watch = settings.watch();
             let each = |found| go_on(each(found), watch);
             campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
         })
@@ -351,6 +352,11 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
         let start = settings.assembled_start(kernels)?;
         branches::branches_each(kernels, point, &start, how, settings.watch(), each)
     }
+}
+
+/// The first of some values.
+fn first_of(values: &[f64]) -> f64 {
+    values.first().copied().unwrap_or(f64::NAN)
 }
 
 /// Reports progress after one more value, and checks whether to stop.

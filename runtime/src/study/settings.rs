@@ -282,12 +282,42 @@ impl Settings {
         varied.map(|(i, _)| Input::new(i)).collect()
     }
 
-    pub(super) fn following(&self) -> Following {
-        Following {
+    /// The start of a way along an input from a value, and what to follow: a start value that is given keeps an unstable
+    /// equilibrium, and picks the member of a family of steady motions.
+    pub(super) fn way(
+        &self,
+        mechanism: &dyn Kernels,
+        input: Input,
+        first: f64,
+    ) -> Result<(Cow<'_, [f64]>, Following), Error> {
+        let start = self.assembled_start(mechanism)?;
+        let following = Following {
             policy: self.policy,
             family: self.family,
             vectors: self.vectors,
+            held: Vec::new(),
+        };
+        let (_, named) = self.beginning(mechanism);
+        let asked = named.contains(&true) || !self.holds.is_empty();
+        if !asked && self.description.held.is_empty() {
+            return Ok((start, following));
         }
+        let mut there = self.clone();
+        if let Some(own) = there.inputs.get_mut(input.index()) {
+            *own = first;
+        }
+        let mut state = there.blank_state();
+        if there.equilibrium_into(mechanism, &mut state).is_err()
+            || state.stability.holds() && state.free.held.is_empty()
+        {
+            return Ok((start, following));
+        }
+        let following = Following {
+            policy: Policy::about(&state),
+            held: state.free.held,
+            ..following
+        };
+        Ok((Cow::Owned(state.coordinates.into()), following))
     }
 
     pub(super) fn range(&self, input: Input, low: Value, high: Value) -> Result<Range, Error> {

@@ -32,6 +32,7 @@ pub fn critical_state(
         policy: Policy::Stable,
         family: Family::of(&description),
         range,
+        held: Vec::new(),
     };
     let sought = Sought {
         critical: true,

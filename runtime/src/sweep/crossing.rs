@@ -50,6 +50,7 @@ fn along<'a>(
         policy: following.policy,
         family: following.family.unwrap_or_else(own),
         range,
+        held: following.held,
     }
 }
 
@@ -122,7 +123,10 @@ fn meetings(
         lines,
         critical: false,
     };
-    let along = Along { family, ..*along };
+    let along = Along {
+        family,
+        ..along.clone()
+    };
     let (events, _) = search(&along, &sought, |event| match event {
         Met::Crossing(crossing) => enough(crossing),
         _ => false,

@@ -61,7 +61,7 @@ pub fn sweep_each(
         ..Sought::default()
     };
     let way = (mechanism as &dyn DirectionalKernels, (u, b), start);
-    let (found, _) = between(way, following, (input, values), &sought)?;
+    let (found, _) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut unreached = values.len();
     let mut last = f64::NAN;
@@ -97,7 +97,7 @@ pub fn sweep_each(
 )]
 pub(crate) fn between(
     (mechanism, values, start): (&dyn DirectionalKernels, (&[f64], &[f64]), &[f64]),
-    following: Following,
+    following: &Following,
     (input, along): (Input, &[f64]),
     sought: &Sought,
 ) -> Result<(Option<Events>, Route), Error> {
@@ -120,6 +120,7 @@ pub(crate) fn between(
             .family
             .unwrap_or_else(|| Family::of(&mechanism.description())),
         range: Range::new(input, *low, *high),
+        held: following.held.clone(),
     };
     let (events, route) = search(&along, sought, |_| false)?;
     Ok((Some(events), route))

@@ -5,7 +5,7 @@ use super::points::SweepPoint;
 use super::search::Route;
 use crate::algebra::Vector;
 use crate::batched::{Block, KERNELS, Workspace, possible};
-use crate::equilibrium::{OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
+use crate::equilibrium::{Held, OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
 use crate::scalar::{Batch, Instructions, WIDTH};
@@ -18,7 +18,7 @@ const RECOGNISED: f64 = 0.8;
 const HALVINGS: usize = 6;
 
 /// The kind of equilibrium and modes to follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Following {
     /// Which equilibrium to follow.
@@ -28,10 +28,18 @@ pub struct Following {
     /// The vector instructions used to solve neighbouring values of a sweep at once, where the mechanism allows it;
     /// `None` solves each value by itself. Results agree up to rounding.
     pub vectors: Option<Instructions>,
+    /// The unknowns that hold a member of a family of steady motions; empty for those that the declaration holds, or
+    /// where there is no family.
+    pub held: Vec<Held>,
 }
 
 impl Following {
-    setters!(policy: Policy, family: Option<Family>, vectors: Option<Instructions>);
+    setters!(
+        policy: Policy,
+        family: Option<Family>,
+        vectors: Option<Instructions>,
+        held: Vec<Held>
+    );
 }
 
 impl Default for Following {
@@ -46,6 +54,7 @@ impl From<Policy> for Following {
             policy,
             family: None,
             vectors: Some(Instructions::best()),
+            held: Vec::new(),
         }
     }
 }
@@ -60,6 +69,7 @@ pub(crate) struct Tracker<'a> {
     policy: Policy,
     family: Family,
     vectors: Option<Instructions>,
+    held: Vec<Held>,
     /// Start of the next solve.
     from: Vector,
     /// The path so far, used to predict the next state.
@@ -92,6 +102,7 @@ impl<'a> Tracker<'a> {
             family: following.family.unwrap_or(Family::of(&description)),
             description,
             vectors: following.vectors,
+            held: following.held,
             from: start.into(),
             path: Path::default(),
             unused: 0,
@@ -133,9 +144,10 @@ impl<'a> Tracker<'a> {
     ) -> Result<Vec<Mode>, Error> {
         let inputs = self.inputs_at(value);
         let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
+        let point = point.held_by(&self.held);
         point.check_start(from)?;
         state.inputs.clone_from(&inputs);
-        let predicted = predicted.filter(|_| policy == Policy::Stable);
+        let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());
         if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state))
         {
             return Ok(modes);
@@ -155,7 +167,8 @@ impl<'a> Tracker<'a> {
     /// Whether blocks of values may be solved at once, as far as can be told in advance.
     pub(super) fn side_by_side(&self) -> bool {
         let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
-        wanted && self.vectors.is_some() && possible(&self.description, &KERNELS)
+        let alone = self.held.is_empty() && self.description.held.is_empty();
+        wanted && alone && self.vectors.is_some() && possible(&self.description, &KERNELS)
     }
 
     /// The workspace for solving blocks of values.

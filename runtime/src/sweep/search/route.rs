@@ -11,7 +11,7 @@ use crate::branches::{
     BranchEnd, Continuation, Curve, CurvePoint, CurvePosition, Located, Pass, SpecialKind,
     SpecialPoint, Trouble,
 };
-use crate::equilibrium::{Policy, equilibrium};
+use crate::equilibrium::{Held, OperatingPoint, Policy, equilibrium_into};
 use crate::error::NotFound;
 use crate::kernels::DirectionalKernels;
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
@@ -32,6 +32,7 @@ pub(crate) struct Sought {
 }
 
 /// Where and how to search.
+#[derive(Clone)]
 pub(crate) struct Along<'a> {
     pub(crate) mechanism: &'a dyn DirectionalKernels,
     pub(crate) values: (&'a [f64], &'a [f64]),
@@ -39,6 +40,8 @@ pub(crate) struct Along<'a> {
     pub(crate) policy: Policy,
     pub(crate) family: Family,
     pub(crate) range: Range,
+    /// The unknowns that hold a member of a family of steady motions.
+    pub(crate) held: Vec<Held>,
 }
 
 /// An event as it is found.
@@ -198,7 +201,11 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let (u, b) = self.along.values;
         let mut inputs = Vector::from(u);
         inputs[self.settings.input.index()] = value;
-        equilibrium(self.along.mechanism, &inputs, b, from, policy)
+        let mechanism = self.along.mechanism;
+        let point = OperatingPoint::new(mechanism, &inputs, b)?.held_by(&self.along.held);
+        let mut state = Equilibrium::blank(&mechanism.description(), &inputs, b);
+        equilibrium_into(&point, from, policy, &mut state)?;
+        Ok(state)
     }
 
     /// The direction of the search.
