@@ -104,6 +104,7 @@ pub fn branches_each(
         upper: start.into(),
         starts: 0,
         seed: 0,
+        held: Vec::new(),
     };
     let search_or_none = search.unwrap_or(&none);
     let mut states = Vec::new();

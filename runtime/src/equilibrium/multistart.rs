@@ -8,6 +8,7 @@ use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{Judged, OperatingPoint, Policy, solve};
 use crate::algebra::Vector;
 use crate::constraints::Structure;
+use crate::free::Held;
 use crate::kernels::Kernels;
 use crate::setters::setters;
 use crate::{Coordinate, Description, Equilibrium, Error, Role, Shared, Stability};
@@ -27,6 +28,10 @@ pub struct Search {
     pub starts: usize,
     /// Seed of the starts; the same seed gives the same starts. Default 0.
     pub seed: u64,
+    /// The unknowns that hold a member of a family of steady motions; empty for those that the declaration holds, or
+    /// where there is no family.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub held: Vec<Held>,
 }
 
 /// Distinct equilibria of one mechanism at one operating point, in the order of discovery. Dereferences to their list.
@@ -60,7 +65,7 @@ impl IntoIterator for Equilibria {
 }
 
 impl Search {
-    setters!(starts: usize, seed: u64);
+    setters!(starts: usize, seed: u64, held: Vec<Held>);
 
     /// Starts about the state `about`: between bounds for the coordinates and speeds that have some, anywhere within half
     /// a turn either way for other angles. Values are SI.
@@ -112,6 +117,7 @@ impl Search {
             upper: upper.into(),
             starts: 32,
             seed: 0,
+            held: Vec::new(),
         }
     }
 }
@@ -139,7 +145,7 @@ pub fn find_equilibria(
     start: &[f64],
     search: &Search,
 ) -> Result<Equilibria, Error> {
-    let point = OperatingPoint::new(mechanism, u, b)?;
+    let point = OperatingPoint::new(mechanism, u, b)?.held_by(&search.held);
     point.check_start(start)?;
     point.check_start(&search.lower)?;
     point.check_start(&search.upper)?;

@@ -73,6 +73,8 @@ impl<M: Kernels> Study<M> {
     pub fn equilibria(&self, search: &Search) -> Result<Equilibria, Error> {
         let (u, b) = (&self.settings.inputs, &self.settings.design);
         let start = self.settings.assembled_start(&self.mechanism)?;
+        let held = self.settings.held_in(Some(search), &start);
+        let search = held.as_ref().unwrap_or(search);
         equilibrium::find_equilibria(&self.mechanism, u, b, &start, search)
     }
 

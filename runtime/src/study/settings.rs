@@ -9,7 +9,7 @@ use super::watcher::Watcher;
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
 use crate::equilibrium;
-use crate::equilibrium::{Assembly, OperatingPoint, Policy};
+use crate::equilibrium::{Assembly, OperatingPoint, Policy, Search};
 use crate::free::{Held, declared};
 use crate::kernels::Kernels;
 use crate::mechanism::ToleranceInfo;
@@ -280,6 +280,17 @@ impl Settings {
         let all = self.input_variations.iter().enumerate();
         let varied = all.filter(|(_, own)| !own.is_none());
         varied.map(|(i, _)| Input::new(i)).collect()
+    }
+
+    /// A search for equilibria held as the study is; if there is none, `None` or only the equilibrium from `start`.
+    pub(super) fn held_in(&self, search: Option<&Search>, start: &[f64]) -> Option<Search> {
+        let own = search.cloned();
+        let own =
+            own.or_else(|| (!self.holds.is_empty()).then(|| Search::new(start, start).starts(0)))?;
+        Some(match own.held.is_empty() {
+            true => own.held(self.holds.clone()),
+            false => own,
+        })
     }
 
     /// The start of a way along an input from a value, and what to follow: a start value that is given keeps an unstable

@@ -96,3 +96,110 @@ fn a_ball_on_a_coasting_table() {
     assert_eq!(round.len(), 1);
     close(round[0], 6.0 / 7.0, 1e-12, "rate");
 }
+
+/// A coin that rolls in circles, faster and faster: sweeps, diagrams and branches follow the members that the
+/// declaration or the user holds, each the one that is found alone.
+#[test]
+fn members_of_a_family_along_an_input() {
+    let coin = |held: &str| {
+        let text = format!(
+            "mechanism Coin {{
+                input rate: rad/s; design r = 50 cm +/- 1%; gravity 9.81 m/s^2 along -z;
+                body base: massless; body mast: massless; body fork: massless;
+                body wheel: disk(mass: 1 kg, radius: r, axis: y);
+                joint travel: planar(forward: x, side: y, yaw: z) from ground to base, coasting;
+                joint height: prismatic(z) from base to mast; joint lean: revolute(x) from mast to fork;
+                joint spin: revolute(y) from fork to wheel, coasting;
+                point hub: wheel; point road: ground;
+                constraint contact: rolling(wheel: hub, axis: y, radius: r, on: road);
+                {held} steady yaw = -rate; }}"
+        );
+        let study = study(&text);
+        let place = |name: &str| {
+            let all = &study.description().coordinates;
+            Coordinate::new(
+                all.iter()
+                    .position(|own| own.name == *name)
+                    .expect("a name"),
+            )
+        };
+        let (height, lean) = (place("height"), place("lean"));
+        (study.guess(height, 0.5), lean)
+    };
+    let (declared, _) = coin("steady lean = 20 deg;");
+    let (asked, lean) = coin("");
+    let asked = asked.hold(lean, 20_f64.to_radians());
+    let rates = [1.0, 1.3, 1.6, 2.0];
+    for study in [declared, asked] {
+        let found = study.sweep(Input::new(0), &rates).expect("a sweep");
+        assert!(found.critical.is_empty() && found.flutter_onsets.is_empty());
+        for (point, &rate) in found.points.iter().zip(&rates) {
+            let alone = study.clone().input(Input::new(0), rate);
+            let state = point.equilibrium.as_ref().expect("a state");
+            let modes = point.modes.as_ref().expect("modes");
+            let expected = alone.equilibrium().expect("a state");
+            for (a, b) in state.coordinates.iter().zip(&expected.coordinates) {
+                close(*a, *b, 1e-9, "a coordinate");
+            }
+            let [own, other] = [modes, &alone.modes().expect("modes")].map(|modes| {
+                let all = modes.modes.iter().filter_map(|mode| mode.frequency());
+                all.fold(0.0, f64::max)
+            });
+            close(own, other, 1e-10, "the frequency");
+        }
+        let diagram = study
+            .campbell(Input::new(0), &[1.0, 2.0], &[1.0])
+            .expect("a diagram");
+        for crossing in &diagram.crossings {
+            let there = study.clone().input(Input::new(0), crossing.value);
+            let modes = there.modes().expect("modes").modes;
+            let all = modes.iter().filter_map(|mode| mode.frequency());
+            let nearest = all.map(|own| (own - crossing.value).abs());
+            assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-9);
+        }
+        let branches = study.branches(Input::new(0), 1.0, 2.0).expect("branches");
+        let branch = &branches.branches[0];
+        let last = branch.points.last().expect("a point");
+        close(last.value, 2.0, 1e-12, "the end of the branch");
+        let expected = study
+            .clone()
+            .input(Input::new(0), 2.0)
+            .equilibrium()
+            .expect("a state");
+        for (a, b) in last
+            .equilibrium
+            .coordinates
+            .iter()
+            .zip(&expected.coordinates)
+        {
+            close(*a, *b, 1e-9, "a coordinate at the end");
+        }
+    }
+}
+
+/// A pendulum kept upright by its start stays there along an input.
+#[test]
+fn an_upright_pendulum_along_an_input() {
+    let study = study(
+        "mechanism Up {
+            input speed: rad/s; gravity 9.81 m/s^2 along -z;
+            body shaft: massless; joint turn: revolute(z) from ground to shaft, driven at speed;
+            body bar: rod(mass: 3 kg, length: 1 m, along: -z); joint q: revolute(y) from shaft to bar; }",
+    );
+    let upright = study.start(Coordinate::new(0), std::f64::consts::PI);
+    let found = upright
+        .sweep(Input::new(0), &[0.0, 1.0, 3.0])
+        .expect("a sweep");
+    for point in &found.points {
+        let state = point.equilibrium.as_ref().expect("a state");
+        let modes = point.modes.as_ref().expect("modes");
+        close(state.coordinates[0], std::f64::consts::PI, 1e-12, "upright");
+        let growth = (1.5 * 9.81 + point.value * point.value).sqrt();
+        assert!(
+            modes
+                .modes
+                .iter()
+                .any(|own| (own.s.re - growth).abs() < 1e-10)
+        );
+    }
+}

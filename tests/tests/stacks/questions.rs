@@ -207,6 +207,7 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
             answered(s.chances_by(&wanted(s), &s.sampling()));
         }),
         ("reliability", |s, _| replied(s.reliability(&wanted(s)))),
+        ("probability", |s, _| replied(s.probability(&wanted(s)))),
         ("rare_failure", |s, _| {
             let settings = SamplingSettings {
                 samples: SAMPLES,
