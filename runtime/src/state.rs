@@ -49,6 +49,9 @@ pub struct Equilibrium {
     pub free: FreeDirections,
     /// The solver passed through an unstable region: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
+    /// It was asked for whatever its stability: neighbouring designs are solved for the equilibrium next to it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub kept: bool,
     /// What a user should know about how it was found.
     pub notes: Vec<Note>,
     /// The mechanism it belongs to.
@@ -105,6 +108,7 @@ impl Equilibrium {
             constraints: ConstraintState::open(n),
             free: FreeDirections::default(),
             left_unstable_region: false,
+            kept: false,
             notes: Vec::new(),
             description: description.clone(),
         }
@@ -118,9 +122,11 @@ impl Equilibrium {
     /// Reassigns this state to the mechanism with deviating inputs, all deviations zero.
     #[must_use]
     pub fn with_deviations<K: Kernels + ?Sized>(&self, of: &DeviatingInputs<'_, K>) -> Self {
+        let inputs: Vec<usize> = of.inputs().map(|input| input.index()).collect();
         Self {
             design: of.design(&self.design),
             description: of.description(),
+            free: self.free.with_deviations(&inputs),
             ..self.clone()
         }
     }

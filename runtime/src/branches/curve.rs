@@ -10,7 +10,7 @@ use crate::equilibrium::{
     relative_residual, solve,
 };
 use crate::error::NotFound;
-use crate::free::FreeDirections;
+use crate::free::{FreeDirections, Held};
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::rounding;
 use crate::{Description, Equilibrium, Error, Shared, Watch};
@@ -298,12 +298,13 @@ impl<'a> Curve<'a> {
             stability: verdict.stability,
             rounding: verdict.rounding,
             constraints,
-            free: self.free_at(&at.q, &linear.stiffness),
+            free: self.free_at(at, &linear.stiffness),
             linear,
             residual,
             relative_residual: relative,
             iterations,
             left_unstable_region: false,
+            kept: false,
             notes: Vec::new(),
             description: self.description.clone(),
         };
@@ -312,16 +313,29 @@ impl<'a> Curve<'a> {
     }
 
     /// The free directions at a point of the branch, and what holds it.
-    fn free_at(&self, q: &[f64], stiffness: &Matrix) -> FreeDirections {
+    fn free_at(&self, at: &CurvePosition, stiffness: &Matrix) -> FreeDirections {
         let count = self.description.free_directions;
-        let mut held = self.place.held.clone();
-        for held in &mut held {
-            held.value = q[held.unknown];
-        }
-        match held.is_empty() {
+        match self.place.held.is_empty() {
             true => FreeDirections::of(stiffness, count),
-            false => FreeDirections::of_member(stiffness, count, held),
+            false => FreeDirections::of_member(stiffness, count, self.held_at(at)),
         }
+    }
+
+    /// What holds a critical point of the branch: what holds its other points.
+    pub(crate) fn place_at(&self, at: &CurvePosition) -> FreeDirections {
+        FreeDirections {
+            held: self.held_at(at),
+            ..self.place.clone()
+        }
+    }
+
+    fn held_at(&self, at: &CurvePosition) -> Vec<Held> {
+        let inputs = self.inputs_at(at.p);
+        let mut held = self.operating_point(&inputs).held;
+        for held in &mut held {
+            held.value = at.q[held.unknown];
+        }
+        held
     }
 
     /// Largest residual, each relative to the forces due to a thousandth of the input range and of the coordinates'

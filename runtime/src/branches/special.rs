@@ -94,6 +94,7 @@ impl Curve<'_> {
             .state;
         let (v, w) = normalised(&equilibrium.linear, self.structure, v, w)
             .ok_or(Trouble::Missed(NotFound::DependentVectors))?;
+        equilibrium.free = self.place_at(place);
         make_critical(&mut equilibrium, zero);
         Ok(SpecialPoint {
             kind,

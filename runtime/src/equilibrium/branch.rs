@@ -84,7 +84,10 @@ impl<'a> Branch<'a> {
         let negative = |factors: &Lu| factors.negative_determinant();
         let factors = |stiffness: &Matrix| Lu::new(&self.nominal.free.held(stiffness));
         let here = factors(&at(q).1);
-        let (residual, stiffness) = at(start);
+        let (mut residual, stiffness) = at(start);
+        let free = &self.nominal.free;
+        let point = OperatingPoint::unchecked(self.mechanism, inputs, design).held_like(free);
+        free.lead(&mut residual, start, &point.held);
         let there = factors(&stiffness);
         if here.as_ref().map(negative) != there.as_ref().map(negative) {
             return false;

@@ -56,6 +56,7 @@ pub(super) fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Jud
         constraints,
         free: FreeDirections::default(),
         left_unstable_region: found.left_unstable_region,
+        kept: false,
         notes: Vec::new(),
         description: point.description.clone(),
     };

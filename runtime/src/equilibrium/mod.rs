@@ -64,9 +64,10 @@ pub enum Policy {
 }
 
 impl Policy {
-    /// The policy for designs near that of a known equilibrium: about an unstable one, the equilibrium next to it.
+    /// The policy for designs near that of a known equilibrium: about an unstable one, or one that was asked for whatever
+    /// its stability, the equilibrium next to it.
     pub(crate) fn about(known: &Equilibrium) -> Self {
-        match known.stability.holds() {
+        match known.stability.holds() && !known.kept {
             true => Self::Stable,
             false => Self::Nearest,
         }

@@ -168,6 +168,16 @@ impl FreeDirections {
         Cow::Owned(held)
     }
 
+    /// The same if the deviations of these inputs follow the design variables.
+    pub(crate) fn with_deviations(&self, inputs: &[usize]) -> Self {
+        let mut own = self.clone();
+        for held in own.held.iter_mut().filter(|held| held.declared.is_some()) {
+            let deviations = inputs.iter().map(|&input| held.by_input[input]);
+            held.by_design = held.by_design.iter().copied().chain(deviations).collect();
+        }
+        own
+    }
+
     /// Adds to a residual nearby the forces that lead held unknowns to their values. They vanish at the member of the
     /// family with these values, which is the only solution then.
     pub(crate) fn lead(&self, residual: &mut [f64], q: &[f64], held: &[Held]) {
@@ -187,27 +197,6 @@ pub(crate) fn fix_place(stiffness: &mut Matrix, count: usize) {
     let mut space = NullSpace::of(stiffness, count);
     space.columns.truncate(count);
     hold(stiffness, &space.columns, &space.rows);
-}
-
-/// [`fix_place`] of a stiffness that is also singular along one more direction, which a border takes out: of what is left,
-/// `count` directions are free.
-pub(crate) fn fix_place_beside(stiffness: &mut Matrix, border: &[f64], count: usize) {
-    if count == 0 {
-        return;
-    }
-    let n = border.len();
-    let whole = Matrix::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
-        (true, true) => stiffness[i][j],
-        (true, false) => border[i],
-        (false, true) => border[j],
-        (false, false) => 0.0,
-    });
-    let space = NullSpace::of(&whole, count);
-    let inner = |vectors: &[Vector]| -> Vec<Vector> {
-        let own = vectors.iter().take(count);
-        own.map(|vector| vector[..n].into()).collect()
-    };
-    hold(stiffness, &inner(&space.columns), &inner(&space.rows));
 }
 
 fn hold(stiffness: &mut Matrix, columns: &[Vector], rows: &[Vector]) {

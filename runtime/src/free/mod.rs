@@ -11,6 +11,6 @@ mod directions;
 mod null_space;
 
 pub(crate) use declared::declared;
+pub(crate) use directions::fix_place;
 pub use directions::{FreeDirections, Held};
-pub(crate) use directions::{fix_place, fix_place_beside};
 pub(crate) use null_space::NullSpace;

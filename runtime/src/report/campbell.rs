@@ -41,7 +41,7 @@ impl Campbell {
         let events = self.critical.iter().chain(&self.flutter_onsets);
         for event in events.chain(&self.crossings) {
             let mut row = vec![
-                what_happens(&event.event, &info.name),
+                what_happens(&event.event, event.change, &info.name),
                 in_unit(event.value, &info.unit),
             ];
             row.extend(match &event.spread {

@@ -8,7 +8,7 @@ use super::relevance::of_its_kind;
 use super::table::{Table, cells};
 use super::title::{title, title_along};
 use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState, Equilibria, Note};
-use crate::sweep::{Condition, CriticalState, Crossing};
+use crate::sweep::{Change, Condition, CriticalState, Crossing};
 use crate::{Description, Equilibrium, Role, Stability, Text};
 
 impl fmt::Display for Stability {
@@ -38,8 +38,8 @@ impl fmt::Display for Stability {
     }
 }
 
-/// The event of mode number `mode` at a value of the input called `name`.
-pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
+/// The event of mode number `mode` at a value of the input called `name`, where growth changes like this.
+pub(super) fn meeting(mode: usize, condition: Condition, change: Change, name: &str) -> String {
     let mode = mode + 1;
     match condition {
         Condition::Line(line) if line.offset == 0.0 => {
@@ -50,7 +50,13 @@ pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
             given(line.ratio),
             given(line.offset)
         ),
-        Condition::FlutterOnset => format!("onset of flutter of mode {mode}"),
+        Condition::FlutterOnset => match change {
+            Change::End => format!("end of flutter of mode {mode}"),
+            Change::Touch => format!("mode {mode} keeps its amplitude"),
+            Change::ToDivergence => format!("flutter of mode {mode} turns into divergence"),
+            Change::ToFlutter => format!("divergence turns into flutter of mode {mode}"),
+            _ => format!("onset of flutter of mode {mode}"),
+        },
     }
 }
 
@@ -310,7 +316,7 @@ impl fmt::Display for Crossing {
         let d = &self.equilibrium.description;
         if let Some(info) = d.inputs.get(self.input.index()) {
             let value = with_unit(in_unit(self.value, &info.unit), &info.unit);
-            let what = meeting(self.mode, self.condition, &info.name);
+            let what = meeting(self.mode, self.condition, self.change, &info.name);
             let title = title_along(d, &self.equilibrium.inputs, self.input);
             writeln!(f, "{title}: {what} at {} = {value}", info.name)?;
         }

@@ -2,7 +2,7 @@
 
 use super::equilibrium::meeting;
 use crate::response::Response;
-use crate::sweep::Condition;
+use crate::sweep::{Change, Condition};
 use crate::{Description, Quantity, Text, Unit};
 
 impl Quantity {
@@ -48,7 +48,10 @@ impl Response {
                     Condition::Line(_) => "where",
                     Condition::FlutterOnset => "at the",
                 };
-                format!("{name} {link} {}", meeting(*mode, *condition, name))
+                format!(
+                    "{name} {link} {}",
+                    meeting(*mode, *condition, Change::Onset, name)
+                )
             }
         }
     }

@@ -16,7 +16,7 @@ use super::table::{Table, cells, undamped};
 use super::title::{title, title_along};
 use crate::judge::Doubt;
 use crate::modes::Family;
-use crate::sweep::{Event, EventTolerance};
+use crate::sweep::{Change, Event, EventTolerance};
 use crate::tolerance::{Counts, ModeTolerance, OutputTolerances, Spread, Statistics};
 use crate::{FirstOrder, MonteCarlo};
 
@@ -368,7 +368,7 @@ impl MonteCarlo {
 }
 
 /// The event, without the value: `frequency 1 is 2 times speed (backward)`.
-pub(super) fn what_happens(event: &Event, name: &str) -> String {
+pub(super) fn what_happens(event: &Event, change: Change, name: &str) -> String {
     match event {
         Event::Critical => "critical".to_owned(),
         Event::Crossing {
@@ -378,7 +378,7 @@ pub(super) fn what_happens(event: &Event, name: &str) -> String {
             ..
         } => {
             let sense = whirl.map_or(String::new(), |whirl| format!(" ({})", whirl.sense()));
-            format!("{}{sense}", meeting(*mode, *condition, name))
+            format!("{}{sense}", meeting(*mode, *condition, change, name))
         }
     }
 }
@@ -391,7 +391,11 @@ impl fmt::Display for EventTolerance {
         };
         let (name, unit) = (&info.name, &info.unit);
         let title = title_along(d, &self.inputs, self.input);
-        write!(f, "{title}: {} at {name}", what_happens(&self.event, name))?;
+        write!(
+            f,
+            "{title}: {} at {name}",
+            what_happens(&self.event, self.change, name)
+        )?;
         let value = in_unit(self.value, unit);
         let spread = match &self.spread {
             Ok(spread) => spread,

@@ -412,7 +412,9 @@ impl Settings {
         let point = OperatingPoint::unchecked(mechanism, &self.inputs, &self.design);
         let (_, named) = self.beginning(mechanism);
         let point = point.asked(&named, self.holds.clone());
-        equilibrium::equilibrium_into(&point, &start, self.policy, state)
+        let modes = equilibrium::equilibrium_into(&point, &start, self.policy, state)?;
+        state.kept = self.policy == Policy::Nearest;
+        Ok(modes)
     }
 
     /// An equilibrium that is regular, so that it has derivatives.

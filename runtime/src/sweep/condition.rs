@@ -65,6 +65,9 @@ pub struct Crossing {
     pub condition: Condition,
     /// Whether an instability begins or ends there.
     pub change: Change,
+    /// Two eigenvalues merge there, so the value has no derivative.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub merging: bool,
     /// Position of the mode in `modes`.
     pub mode: usize,
     /// The equilibrium at the crossing.

@@ -6,7 +6,6 @@ use crate::algebra::{Matrix, Values, Vector, all_finite, dot, largest, times};
 use crate::branches::{Bordered, SpecialKind, critical_inertia};
 use crate::constraints::Structure;
 use crate::error::NoDerivative;
-use crate::free::fix_place_beside;
 use crate::kernels::{DirectionalKernels, Gradient, Kernels};
 use crate::sensitivity::{check_state, outside_domain, sensitivities};
 use crate::{Equilibrium, Error};
@@ -30,7 +29,8 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
         let count = all.modes.len();
         return Err(Error::NoSuchMode { mode, count });
     };
-    if crossing.condition == Condition::FlutterOnset && there.condition > MERGED {
+    let merges = crossing.merging || there.condition > MERGED;
+    if crossing.condition == Condition::FlutterOnset && merges {
         return Err(Error::NoSensitivity {
             reason: NoDerivative::Merge,
         });
@@ -103,7 +103,9 @@ pub fn critical_sensitivity(
             reason: NoDerivative::UnknownInput,
         });
     }
-    let (by_input, by_design) = kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    let mut partials = kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    at.free.add_to_partials(&mut partials);
+    let (by_input, by_design) = partials;
     let force_input = by_input.column(input);
     let forces_design = by_design.transpose();
     match critical.kind {
@@ -129,12 +131,7 @@ pub(crate) fn bordered(critical: &CriticalState) -> Result<Bordered, Error> {
         &critical_inertia(linear, structure, &critical.v),
         &critical.v,
     );
-    let mut stiffness = linear.stiffness.clone();
-    fix_place_beside(
-        &mut stiffness,
-        &border,
-        critical.equilibrium.description.free_directions,
-    );
+    let stiffness = critical.equilibrium.held_stiffness();
     Bordered::new(&stiffness, [&border], [&border], [[0.0]]).ok_or(Error::ClusteredMode { mode: 0 })
 }
 

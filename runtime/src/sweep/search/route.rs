@@ -354,10 +354,11 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     node,
                     mode,
                     change,
+                    merging,
                 } => {
                     let ends = (t == 0.0 && self.route.points.len() <= 1, t == 1.0 && closes);
                     if counts(condition, change, &node, ends)
-                        && self.crossing((value, condition, change), &node, mode)
+                        && self.crossing((value, condition, change), (&node, mode, merging))
                     {
                         next = Some(Next::Done);
                     }
@@ -492,8 +493,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     fn crossing(
         &mut self,
         (value, condition, change): (f64, Condition, Change),
-        node: &Node,
-        mode: usize,
+        (node, mode, merging): (&Node, usize, bool),
     ) -> bool {
         let modes = self.labelled(node);
         let own = &node.modes.modes[mode];
@@ -504,6 +504,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             value,
             condition,
             change,
+            merging,
             mode: found.unwrap_or(mode),
             equilibrium: node.point.equilibrium.clone(),
             modes,

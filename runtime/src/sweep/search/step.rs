@@ -45,6 +45,8 @@ pub(super) enum Event {
         /// Position of the mode at the node.
         mode: usize,
         change: Change,
+        /// Whether two eigenvalues merge.
+        merging: bool,
     },
 }
 
@@ -305,6 +307,7 @@ impl<'a, 'b> Step<'a, 'b> {
                 node,
                 mode,
                 change,
+                merging: matches!(kind, Kind::Merging | Kind::Turning),
             },
         ))
     }

@@ -126,17 +126,20 @@ fn acting(
     along: &[f64],
     causes: &[(Cause, Vec<ExprId>)],
 ) -> Vec<usize> {
+    let acts = |k: &usize| works(system, design, along, &causes[*k].1);
+    (0..causes.len()).filter(acts).collect()
+}
+
+/// Whether a part of the equations does work along a direction.
+pub(super) fn works(system: &System, design: u64, along: &[f64], part: &[ExprId]) -> bool {
     let state = RandomState { design, motion: 1 };
     let along = vec![exact(along)];
     let Some(place) = system.at(state, Friction::None) else {
-        return Vec::new();
+        return false;
     };
-    let works = |k: &usize| {
-        let (part, operations) = system.values(&causes[*k].1, state);
-        let power = powers(&place, &along, &part, system.fields.free);
-        power.iter().any(|power| !power.is_rounding(operations))
-    };
-    (0..causes.len()).filter(works).collect()
+    let (part, operations) = system.values(part, state);
+    let power = powers(&place, &along, &part, system.fields.free);
+    power.iter().any(|power| !power.is_rounding(operations))
 }
 
 fn mistake(loads: &[&Cause], directions: &[Direction]) -> Diagnostic {

@@ -17,11 +17,11 @@ use crate::base::diagnostics::{Diagnostics, listed};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::FreeDirections;
 use crate::mechanics::linear::Jacobians;
-use crate::mechanics::setup::Context;
+use crate::mechanics::setup::{Context, columns};
 
 use count::{Proof, at_random, count};
 use fields::Fields;
-use loads::{causes, mistakes, unbalanced};
+use loads::{causes, mistakes, unbalanced, works};
 use state::{Friction, System};
 use words::{described, note};
 
@@ -80,8 +80,22 @@ pub(crate) fn free_directions(
     if context.mechanism.kernels_only {
         return Ok(free);
     }
+    let of_inputs = columns(g, &equations.rest, &context.symbols.u);
     let causes = causes(g, context);
     let system = System::new(g, context, equations, jacobians, &fields);
+    let (chosen, loaded): (Vec<_>, Vec<_>) = loaded.into_iter().partition(|along| {
+        of_inputs
+            .iter()
+            .any(|part| works(&system, NOMINAL, along, part))
+    });
+    if !chosen.is_empty() {
+        let text = |along: &Vec<f64>| described(context, &fields, along).text;
+        let texts: Vec<String> = chosen.iter().map(text).collect();
+        free.notes.push(format!(
+            "the loads along {} balance for some values of the inputs only; there is no equilibrium for others",
+            listed(&texts)
+        ));
+    }
     let named = |along: Vec<f64>| {
         let direction = described(context, &fields, &along);
         (along, direction)
