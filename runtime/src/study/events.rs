@@ -210,7 +210,7 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
 
     fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
         let Self { kernels, settings } = *self;
-        let start = settings.assembled_start(kernels)?;
+        let (start, _) = settings.way(kernels, range.input, range.low)?;
         sweep::critical_state(kernels, &settings.inputs, &settings.design, &start, range)
     }
 

@@ -349,8 +349,8 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
     ) -> Result<Branches, Error> {
         let Self { kernels, settings } = *self;
         let point = (&settings.inputs[..], &settings.design[..]);
-        let start = settings.assembled_start(kernels)?;
         let (continuation, search) = how;
+        let (start, _) = settings.way(kernels, continuation.input, continuation.low)?;
         let held = settings.held_in(search, &start);
         let how = (continuation, held.as_ref());
         branches::branches_each(kernels, point, &start, how, settings.watch(), each)

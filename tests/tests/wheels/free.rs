@@ -47,11 +47,19 @@ fn a_disk_without_drag() {
                 "{refused:?}"
             );
         }
-        // A branch would be one of many: the heading is free.
+        // The branch is that of the held member.
         let critical = study.critical_state(RollingDisk::spin, 20.0, 25.0);
         assert!(
-            matches!(critical, Err(Error::BranchLost { value: 20.0, .. })),
+            matches!(critical, Err(Error::NotInRange { .. })),
             "{critical:?}"
+        );
+        let critical = study.critical_state(RollingDisk::spin, 0.0, 25.0);
+        let least = (m * 9.81 * r * a / (k * c)).sqrt();
+        close(
+            critical.expect("a value").value,
+            least,
+            0.0,
+            "the speed above which it rolls upright",
         );
         // A torque would keep accelerating it.
         let turned = study.input(RollingDisk::torque, 0.1).equilibrium();
