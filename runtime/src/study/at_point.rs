@@ -85,9 +85,8 @@ impl<M: Kernels> Study<M> {
     pub fn search(&self, bounds: &[(Coordinate<M>, f64, f64)]) -> Result<Search, Error> {
         let start = self.settings.assembled_start(&self.mechanism)?;
         let bounds = bounds.iter();
-        let bounds: Vec<_> = bounds
-            .map(|(own, low, high)| (own.any(), *low, *high))
-            .collect();
+        let bounds = bounds.map(|(own, low, high)| (own.any(), *low, *high));
+        let bounds: Vec<_> = self.settings.held_bounds().chain(bounds).collect();
         Search::within(&self.settings.description, &start, &bounds)
     }
 

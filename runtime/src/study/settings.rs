@@ -282,6 +282,12 @@ impl Settings {
         varied.map(|(i, _)| Input::new(i)).collect()
     }
 
+    /// Bounds of the unknowns that are held: their values.
+    pub(super) fn held_bounds(&self) -> impl Iterator<Item = (Coordinate, f64, f64)> {
+        let bounds = |held: &Held| (Coordinate::new(held.unknown), held.value, held.value);
+        self.holds.iter().map(bounds)
+    }
+
     /// A search for equilibria held as the study is; if there is none, `None` or only the equilibrium from `start`.
     pub(super) fn held_in(&self, search: Option<&Search>, start: &[f64]) -> Option<Search> {
         let own = search.cloned();
