@@ -178,7 +178,7 @@ fn campbell() {
     let weave = ["whipple_bicycle.mechanism", "--sweep", "v=2..8m/s"];
     let text = answer(&[&["campbell"], &weave[..]].concat());
     for part in [
-        "onset of flutter of mode 2 (forward)",
+        "end of flutter of mode 2 (forward)",
         "forward, then backward  grows (flutter), then decays",
     ] {
         assert!(text.contains(part), "{part}: {text}");
