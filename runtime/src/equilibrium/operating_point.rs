@@ -100,12 +100,11 @@ impl<'a> OperatingPoint<'a> {
         self.held_by_these(&other.held)
     }
 
-    /// This point held by these unknowns, or if there are none by those with declared values.
+    /// This point held by these unknowns and by those with declared values.
     pub(crate) fn held_by(self, held: &[Held]) -> Self {
-        match held {
-            [] => self.asked(&[], Vec::new()),
-            held => self.held_by_these(held),
-        }
+        let point = self.held_by_these(held);
+        let held = point.held.clone();
+        point.asked(&[], held)
     }
 
     /// Whether it is held as a member of a family of steady motions.

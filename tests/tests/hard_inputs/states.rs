@@ -190,7 +190,13 @@ fn exactly_at_the_critical_speed() {
                     assert!(!spread.trusted(), "{spread:?}");
                 }
                 let run = study.monte_carlo().expect("samples");
-                assert_eq!((run.counts.total(), run.counts.stable), (300, 300));
+                assert_eq!(run.counts.total(), 300);
+                if policy == Policy::Nearest {
+                    // They stay with the upright state, which half of them make unstable.
+                    assert!((120..=180).contains(&run.counts.stable), "{run}");
+                    continue;
+                }
+                assert_eq!(run.counts.stable, 300);
                 let found = run.modes[0].as_ref().expect("values");
                 // The true deviation stays finite.
                 let sigma = found.sigma.expect("many values");
