@@ -79,7 +79,7 @@ pub(super) struct Shapes<'a> {
 /// The deflated pencil of a mode.
 enum Sides {
     /// Real, and the same on both sides.
-    Undamped(Side<f64>),
+    Undamped(Box<Side<f64>>),
     General {
         right: Box<Side<Complex>>,
         left: Box<Side<Complex>>,
@@ -116,7 +116,8 @@ impl<'a> Shapes<'a> {
                     |i: usize, j: usize| linear.stiffness[i][j] - mode.lambda * linear.mass[i][j];
                 let slope = times(&linear.mass, &shape).iter().map(|own| -own).collect();
                 let normalised = (size, first_of(&mode.shape, leading.right));
-                Side::new(linear, pencil, (&shape, slope), scale, normalised).map(Sides::Undamped)
+                Side::new(linear, pencil, (&shape, slope), scale, normalised)
+                    .map(|side| Sides::Undamped(side.into()))
             }
             Family::General => {
                 let side = |linear: &Linear, shape: &[Complex], leading: usize| {

@@ -222,14 +222,13 @@ impl<'a> OperatingPoint<'a> {
                 fix_gauge(stiffness, self.structure);
             }
         }
-        if finite && self.free() > 0 {
-            if self.place.is_none() {
-                fix_place(stiffness, self.free());
+        match self.place {
+            Some(place) if finite => {
+                place.hold(stiffness);
+                place.lead(residual, q, &self.held);
             }
-        }
-        if finite && let Some(place) = self.place {
-            place.hold(stiffness);
-            place.lead(residual, q, &self.held);
+            None if finite && self.free() > 0 => fix_place(stiffness, self.free()),
+            _ => {}
         }
         finite
     }

@@ -53,13 +53,13 @@ fn a_disk_without_drag() {
             matches!(critical, Err(Error::NotInRange { .. })),
             "{critical:?}"
         );
-        let critical = study.critical_state(RollingDisk::spin, 0.0, 25.0);
+        let critical = study.critical_state(RollingDisk::spin, 25.0, 0.0);
         let least = (m * 9.81 * r * a / (k * c)).sqrt();
         close(
             critical.expect("a value").value,
             least,
             0.0,
-            "the speed above which it rolls upright",
+            "the spin below which it falls",
         );
         // A torque would keep accelerating it.
         let turned = study.input(RollingDisk::torque, 0.1).equilibrium();
