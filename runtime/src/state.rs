@@ -72,8 +72,8 @@ pub enum Note {
         /// How far it is from its start value.
         distance: f64,
     },
-    /// It is one of a family of steady motions with this number of parameters; [`FreeDirections::held`] says what holds
-    /// it, also in derivatives.
+    /// It is one of a family of steady motions with this number of parameters;
+    /// [`FreeDirections::held`](field@FreeDirections::held) says what holds it.
     Member {
         /// Number of parameters of the family.
         dimension: usize,

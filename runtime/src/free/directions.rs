@@ -18,7 +18,7 @@ const REMAINDER: f64 = 1e-6;
 /// derivatives hold it: `rows . dq = 0`. What depends on the place has no derivative.
 ///
 /// Others lead to another member of a family of steady motions, as for a wheel that may roll in a circle of any size:
-/// each of these is fixed by an unknown that is [held](Self::held), and derivatives hold it too.
+/// each of these is fixed by an unknown that is [held](field@Self::held), and derivatives hold it too.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
