@@ -595,7 +595,9 @@ fn explained(critical: &[Candidate]) -> bool {
 fn holds(point: &CurvePoint) -> bool {
     // Two directions without stiffness leave the determinant of a non-symmetric one positive.
     let diverges = matches!(point.equilibrium.stability, Stability::Divergent { .. });
-    point.stiff() && !diverges
+    // What holds the member of a family decides the sign of its determinant.
+    let family = !point.equilibrium.free.held.is_empty();
+    (family || point.stiff()) && !diverges
 }
 
 /// Number of growing oscillations.
