@@ -74,115 +74,39 @@
 #[cfg(test)]
 extern crate self as eigentol;
 
-mod mechanism;
-pub mod scalar;
+pub use eigentol_macros::mechanism;
+pub use eigentol_contract::{
+    Any, Array, BodyInfo, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo, DesignVariable, Dual,
+    ElementInfo, Gradient, GradientOf, Input, InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo,
+    List, Mechanism, Output, OutputInfo, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf,
+    RestParts, Role, Shared, SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
+};
+#[doc(inline)]
+pub use eigentol_contract::scalar;
 
-#[cfg(feature = "std")]
-mod algebra;
-#[cfg(feature = "std")]
-pub mod allocation;
-#[cfg(feature = "std")]
-mod arguments;
-#[cfg(feature = "std")]
-mod batched;
-#[cfg(feature = "std")]
-pub mod branches;
-#[cfg(feature = "std")]
-pub mod campbell;
-#[cfg(feature = "std")]
-pub mod clusters;
-#[cfg(feature = "std")]
-mod constraints;
-#[cfg(feature = "std")]
-mod eigenproblem;
-#[cfg(feature = "std")]
-pub mod equilibrium;
-#[cfg(feature = "std")]
-pub mod error;
-#[cfg(feature = "std")]
-mod free;
-#[cfg(feature = "std")]
-pub mod judge;
-#[cfg(feature = "std")]
-pub mod kernels;
-#[cfg(feature = "std")]
-mod limits;
-#[cfg(feature = "std")]
-pub mod modes;
-#[cfg(feature = "std")]
-pub mod motion;
-#[cfg(feature = "std")]
-pub mod picture;
-#[cfg(feature = "std")]
-pub mod propagation;
-#[cfg(feature = "std")]
-pub mod report;
-#[cfg(feature = "std")]
-pub mod requirement;
-#[cfg(feature = "std")]
-pub mod response;
-#[cfg(feature = "std")]
-mod rounding;
-#[cfg(feature = "std")]
-pub mod second_order;
-#[cfg(feature = "std")]
-pub mod sensitivity;
-#[cfg(feature = "std")]
-mod setters;
-#[cfg(feature = "std")]
-pub mod shapes;
-#[cfg(feature = "std")]
-mod state;
 #[cfg(feature = "std")]
 mod study;
-#[cfg(feature = "std")]
-pub mod summary;
-#[cfg(feature = "std")]
-pub mod sweep;
-#[cfg(feature = "std")]
-pub mod tolerance;
-#[cfg(feature = "std")]
-mod watch;
-
-pub use eigentol_macros::mechanism;
-pub use mechanism::{Any, Coordinate, DesignVariable, Input, Output};
-pub use mechanism::{
-    Array, CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo,
-    Law, Linear, LinearPartials, List, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Shared,
-    Text, ToleranceInfo, Unit, Violation,
-};
-pub use mechanism::{
-    BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind,
-    WheelInfo,
-};
-pub use mechanism::{GradientOf, PartialsOf, ResidualPartialsOf, Square};
-pub use scalar::{Dual, Real};
 
 #[cfg(feature = "std")]
-pub use algebra::{Matrix, Vector};
+#[doc(inline)]
+pub use eigentol_analysis::{
+    allocation, branches, campbell, campbell::Campbell, clusters, judge, motion, picture, propagation, report, requirement, response,
+    second_order, shapes, summary, sweep,
+};
 #[cfg(feature = "std")]
-pub use campbell::Campbell;
+#[doc(inline)]
+pub use eigentol_solve::{equilibrium, error, error::Error, kernels, kernels::Kernels, modes, sensitivity, Behaviour, Equilibrium, Family, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch};
 #[cfg(feature = "std")]
-pub use equilibrium::Policy;
+#[doc(inline)]
+pub use eigentol_tolerance::{tolerance, FirstOrder, MonteCarlo, Tolerances};
 #[cfg(feature = "std")]
-pub use error::Error;
-#[cfg(feature = "std")]
-pub use kernels::Kernels;
-#[cfg(feature = "std")]
-pub use modes::{Behaviour, Family, Mode, Modes};
+#[doc(inline)]
+pub use eigentol_numerics::algebra::{Matrix, Vector};
 /// A complex number.
 #[cfg(feature = "std")]
 pub use num_complex::Complex64 as Complex;
 #[cfg(feature = "std")]
-pub use sensitivity::{Quantity, Sensitivities};
-#[cfg(feature = "std")]
-pub use state::{Equilibrium, Stability};
-#[cfg(feature = "std")]
 pub use study::{InDeclaredUnit, Parameter, Solved, Study, Value};
-#[cfg(feature = "std")]
-pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};
-#[cfg(feature = "std")]
-pub use watch::Watch;
 
 /// The example of the README, compiled and run.
 #[cfg(all(doctest, feature = "std"))]

@@ -264,11 +264,12 @@ impl<M: DirectionalKernels> Study<M> {
 impl Subject<'_, dyn BatchKernels + '_> {
     fn sweep(&self, along: (Input, &[f64])) -> Result<Sweep, Error> {
         let mut points = Vec::with_capacity(along.1.len());
-        let found = self.sweep_each(along, &mut |point| {
+        let mut whole = self.sweep_each(along, &mut |point| {
             points.push(point.clone());
             ControlFlow::Continue(())
         })?;
-        Ok(Sweep { points, ..found })
+        whole.points = points;
+        Ok(whole)
     }
 
     fn sweep_each(
@@ -318,11 +319,12 @@ impl Subject<'_, dyn BatchKernels + '_> {
 impl Subject<'_, dyn DirectionalKernels + '_> {
     fn campbell(&self, axes: &Axes<'_>) -> Result<Campbell, Error> {
         let mut points = Vec::with_capacity(axes.values.len());
-        let found = self.campbell_each(axes, &mut |point| {
+        let mut whole = self.campbell_each(axes, &mut |point| {
             points.push(point);
             ControlFlow::Continue(())
         })?;
-        Ok(Campbell { points, ..found })
+        whole.points = points;
+        Ok(whole)
     }
 
     fn campbell_each(

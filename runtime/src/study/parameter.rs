@@ -1,6 +1,6 @@
 //! Parameters that may have a tolerance.
 
-use crate::mechanism::Any;
+use crate::Any;
 use crate::{DesignVariable, Input};
 
 /// A design variable or an input, either of which may have a tolerance. Converts from the handle of either.

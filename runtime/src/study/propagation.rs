@@ -175,11 +175,9 @@ impl SolvedSubject<'_, dyn SummaryKernels + '_> {
         sampler: &Sampler<'_>,
     ) -> Result<Samples, Error> {
         let watch = self.settings.watch();
-        let sampler = Sampler {
-            progress: sampler.progress.or(watch.progress),
-            stop: sampler.stop.or(watch.stop),
-            ..sampler.clone()
-        };
+        let mut sampler = sampler.clone();
+        sampler.progress = sampler.progress.or(watch.progress);
+        sampler.stop = sampler.stop.or(watch.stop);
         self.about(wanted, Watch::default(), |_, responses, tolerances| {
             propagation::sampled(responses, tolerances, &sampler)
         })

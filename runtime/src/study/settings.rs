@@ -6,13 +6,13 @@ use super::parameter::Parameter;
 use super::value::Value;
 use super::variation::Variation;
 use super::watcher::Watcher;
-use crate::algebra::{Matrix, Vector};
-use crate::constraints::Structure;
+use crate::{Matrix, Vector};
+use eigentol_solve::constraints::Structure;
 use crate::equilibrium;
 use crate::equilibrium::{Assembly, OperatingPoint, Policy, Search};
-use crate::free::{Held, declared};
+use eigentol_solve::free::{Held, declared};
 use crate::kernels::Kernels;
-use crate::mechanism::ToleranceInfo;
+use crate::ToleranceInfo;
 use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
@@ -114,11 +114,7 @@ impl Settings {
         self.set_start(unknown, value, true);
         if let Some(&value) = self.start.get(unknown.index()) {
             self.holds.retain(|held| held.unknown != unknown.index());
-            self.holds.push(Held {
-                unknown: unknown.index(),
-                value,
-                ..Held::default()
-            });
+            self.holds.push(Held::at(unknown.index(), value));
         }
     }
 
@@ -308,12 +304,9 @@ impl Settings {
         first: f64,
     ) -> Result<(Cow<'_, [f64]>, Following), Error> {
         let start = self.assembled_start(mechanism)?;
-        let following = Following {
-            policy: self.policy,
-            family: self.family,
-            vectors: self.vectors,
-            held: Vec::new(),
-        };
+        let following = Following::from(self.policy)
+            .family(self.family)
+            .vectors(self.vectors);
         let (_, named) = self.beginning(mechanism);
         let asked = named.contains(&true) || !self.holds.is_empty();
         if !asked && self.description.held.is_empty() {
@@ -329,11 +322,8 @@ impl Settings {
         {
             return Ok((start, following));
         }
-        let following = Following {
-            policy: Policy::about(&state),
-            held: state.free.held,
-            ..following
-        };
+        let mut following = following.policy(Policy::about(&state));
+        following.held = state.free.held;
         Ok((Cow::Owned(state.coordinates.into()), following))
     }
 
@@ -359,17 +349,16 @@ impl Settings {
 
     pub(super) fn sampling(&self) -> Sampling<'_> {
         let watch = self.watch();
-        Sampling {
-            samples: self.samples,
-            seed: self.seed,
-            stream: self.stream,
-            threads: self.threads,
-            keep_samples: self.keep_samples,
-            vectors: self.vectors,
-            range: None,
-            progress: watch.progress,
-            stop: watch.stop,
-        }
+        let mut sampling = Sampling::default()
+            .samples(self.samples)
+            .seed(self.seed)
+            .stream(self.stream)
+            .threads(self.threads)
+            .keep_samples(self.keep_samples)
+            .vectors(self.vectors);
+        sampling.progress = watch.progress;
+        sampling.stop = watch.stop;
+        sampling
     }
 
     pub(super) fn assembly(&self, mechanism: &dyn Kernels) -> Result<Assembly, Error> {

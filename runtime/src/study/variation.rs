@@ -1,7 +1,7 @@
 //! How the parameters of a study vary.
 
 use crate::Error;
-use crate::mechanism::{Law, ToleranceInfo};
+use crate::{Law, ToleranceInfo};
 use crate::tolerance::{Distribution, distribution};
 
 /// The variation of a parameter.

@@ -1,0 +1,161 @@
+//! The choice of the best affordable method.
+
+use super::quadrature::{cost, quadrature, refuse_discrete};
+use super::result::Propagation;
+use super::sampled::sampled;
+use super::sampler::{Points, Sampler};
+use super::space::Space;
+use super::taylor::{first_order, second_order};
+use crate::Error;
+use crate::judge::doubts_of_models;
+use crate::kernels::CurvatureKernels;
+use crate::response::Responses;
+use crate::setters;
+use crate::tolerance::Tolerances;
+
+/// Quadrature levels that are worth their points.
+const LEVELS: core::ops::RangeInclusive<usize> = 2..=6;
+/// Fewer samples are not informative.
+const FEW: u64 = 64;
+
+/// The effort an answer may cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Effort {
+    /// Number of equilibrium solutions allowed: one for each design, and one more for each step of the range of each
+    /// critical value or crossing.
+    pub solutions: u64,
+    /// Number of samples, if the solutions allow as many.
+    pub samples: u64,
+    /// Seed of the samples.
+    pub seed: u64,
+    /// Which independent sequence of the seed to use.
+    pub stream: u64,
+    /// Number of threads; 0 uses all available.
+    pub threads: usize,
+}
+
+impl Effort {
+    setters!(
+        solutions: u64,
+        samples: u64,
+        seed: u64,
+        stream: u64,
+        threads: usize,
+    );
+}
+
+impl Default for Effort {
+    /// 100,000 solutions, 4096 samples.
+    fn default() -> Self {
+        Self {
+            solutions: 100_000,
+            samples: 4096,
+            seed: 0,
+            stream: 0,
+            threads: 0,
+        }
+    }
+}
+
+/// Computes how tolerances spread responses, by the best affordable method; [`Propagation::reason`] says why it was
+/// chosen.
+///
+/// The first choice is sampling at scrambled Sobol' points, if affordable: it works for every response and
+/// distribution, gives quantiles, and counts failures. It may be too expensive if critical values or crossings must be
+/// searched for in every design. Then fewer samples are drawn, but at least 64, where distances to other states cast
+/// doubt on models ([`Propagation::doubts`]); otherwise the choice is quadrature, if few variables vary and none is
+/// discrete, and fewer samples if one of its nodes has no value. The next choice is second order, if every response
+/// has second derivatives; the last is first order.
+///
+/// ```
+#[doc = include_str!("example.txt")]
+/// use eigentol::propagation::{Effort, Method, Points, propagate};
+///
+/// let all = propagate(&Pendulum, &responses, &tolerances, Effort::default())?;
+/// assert_eq!(all.method, Method::Sampled(Points::Sobol));
+/// let dear = propagate(&Pendulum, &responses, &tolerances, Effort::default().solutions(20))?;
+/// assert_eq!(dear.method, Method::Tensor { nodes: 7 });
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+///
+/// # Errors
+/// As the method that is chosen: [`sampled`], [`quadrature`], [`second_order`], [`first_order`].
+pub fn propagate(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    effort: Effort,
+) -> Result<Propagation, Error> {
+    let space = Space::new(responses.nominal(), tolerances)?;
+    let dimensions = space.dimensions();
+    let with = |found: Result<Propagation, Error>, reason: String| {
+        found.map(|found| Propagation { reason, ..found })
+    };
+    if dimensions == 0 {
+        let found = first_order(mechanism, responses, tolerances);
+        return with(found, "no tolerance is declared".to_owned());
+    }
+    let price = responses.price();
+    let affordable = effort.solutions / price;
+    let sample = |samples: u64, reason: String| {
+        let sampler = Sampler::new(Points::Sobol)
+            .samples(samples)
+            .seed(effort.seed)
+            .stream(effort.stream)
+            .threads(effort.threads)
+            .stop(responses.watch().stop);
+        let samples = sampled(responses, tolerances, &sampler)?;
+        responses.go_on()?;
+        with(samples.propagation(), reason)
+    };
+    if effort.samples <= affordable {
+        let spent = effort.samples * price;
+        return sample(
+            effort.samples,
+            format!(
+                "samples cost {spent} solutions of the {} allowed, and hold for any response",
+                effort.solutions
+            ),
+        );
+    }
+    let dear = format!(
+        "{} samples would cost {} solutions, more than the {} allowed",
+        effort.samples,
+        effort.samples.saturating_mul(price),
+        effort.solutions
+    );
+    let doubted = doubts_of_models(responses, tolerances);
+    if affordable >= FEW && !doubted.iter().all(Vec::is_empty) {
+        let reason = format!("{dear}; distances cast doubt on any model: so fewer samples");
+        return sample(affordable, reason);
+    }
+    let levels = LEVELS
+        .rev()
+        .filter(|level| cost(dimensions, *level).is_some_and(|cost| cost <= affordable));
+    if let (Some(level), Ok(())) = (levels.max(), refuse_discrete(tolerances)) {
+        match quadrature(responses, tolerances, level, effort.threads) {
+            Err(Error::NoResponse { response, .. }) if affordable >= FEW => {
+                let reason = format!(
+                    "{dear}; quadrature has a node without response {}: so fewer samples",
+                    response + 1
+                );
+                return sample(affordable, reason);
+            }
+            Err(Error::NoResponse { .. }) => {}
+            found => {
+                return with(
+                    found,
+                    format!("{dear}; {dimensions} variables are few enough for quadrature"),
+                );
+            }
+        }
+    }
+    let second = second_order(mechanism, responses, tolerances)?;
+    if second.spreads.iter().all(Option::is_some) {
+        return with(Ok(second), format!("{dear}, and so would quadrature"));
+    }
+    let reason = format!("{dear}, so would quadrature, and a response has no second derivatives");
+    with(first_order(mechanism, responses, tolerances), reason)
+}

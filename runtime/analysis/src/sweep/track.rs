@@ -1,0 +1,340 @@
+//! Follows one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes
+//! keep their identity.
+
+use super::points::SweepPoint;
+use super::search::Route;
+use crate::algebra::Vector;
+use crate::batched::{Block, KERNELS, Workspace, possible};
+use crate::equilibrium::{Held, OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
+use crate::kernels::{BatchKernels, Kernels};
+use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
+use crate::scalar::{Batch, Instructions, WIDTH};
+use crate::setters;
+use crate::{Description, Equilibrium, Error, Input, Mode, Modes, Shared, Stability};
+
+/// Assurance below which a mode counts as not recognised, and a smaller step is tried.
+const RECOGNISED: f64 = 0.8;
+/// Maximum number of times a step may be halved.
+const HALVINGS: usize = 6;
+
+/// The kind of equilibrium and modes to follow.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Following {
+    /// Which equilibrium to follow.
+    pub policy: Policy,
+    /// Which modes to follow; `None` for the family that neglects nothing ([`Family::of`]).
+    pub family: Option<Family>,
+    /// The vector instructions used to solve neighbouring values of a sweep at once, where the mechanism allows it;
+    /// `None` solves each value by itself. Results agree up to rounding.
+    pub vectors: Option<Instructions>,
+    /// The unknowns that hold a member of a family of steady motions; empty for those that the declaration holds, or
+    /// where there is no family.
+    pub held: Vec<Held>,
+}
+
+impl Following {
+    setters!(
+        policy: Policy,
+        family: Option<Family>,
+        vectors: Option<Instructions>,
+        held: Vec<Held>
+    );
+}
+
+impl Default for Following {
+    fn default() -> Self {
+        Policy::default().into()
+    }
+}
+
+impl From<Policy> for Following {
+    fn from(policy: Policy) -> Self {
+        Self {
+            policy,
+            family: None,
+            vectors: Some(Instructions::best()),
+            held: Vec::new(),
+        }
+    }
+}
+
+/// Follows an equilibrium along an input.
+pub(crate) struct Tracker<'a> {
+    pub(crate) mechanism: &'a dyn Kernels,
+    pub(crate) description: Shared<Description>,
+    pub(crate) input: Input,
+    inputs: Vector,
+    design: Vector,
+    policy: Policy,
+    family: Family,
+    vectors: Option<Instructions>,
+    held: Vec<Held>,
+    /// Start of the next solve.
+    from: Vector,
+    /// The path so far, used to predict the next state.
+    path: Path,
+    /// The smallest label not yet used; labels of modes that have ended are not reused.
+    unused: usize,
+    /// States along the way, found by a search for events.
+    route: Route,
+    /// The last point with modes.
+    pub(crate) last: Option<Box<SweepPoint>>,
+    /// A buffer for the next point.
+    spare: Option<Box<SweepPoint>>,
+}
+
+impl<'a> Tracker<'a> {
+    pub(crate) fn new(
+        mechanism: &'a dyn Kernels,
+        (u, b): (&[f64], &[f64]),
+        start: &[f64],
+        following: Following,
+        input: Input,
+    ) -> Self {
+        let description = mechanism.description();
+        Self {
+            mechanism,
+            input,
+            inputs: u.into(),
+            design: b.into(),
+            policy: following.policy,
+            family: following.family.unwrap_or(Family::of(&description)),
+            description,
+            vectors: following.vectors,
+            held: following.held,
+            from: start.into(),
+            path: Path::default(),
+            unused: 0,
+            route: Route::default(),
+            last: None,
+            spare: None,
+        }
+    }
+
+    /// The tracker on its way along the states that a search for events has passed.
+    pub(crate) fn on(mut self, route: Route) -> Self {
+        self.unused = route.unused;
+        self.route = route;
+        self
+    }
+
+    /// The family of the followed modes.
+    pub(crate) fn family(&self) -> Family {
+        self.family
+    }
+
+    /// All inputs when the varied one has this value.
+    pub(super) fn inputs_at(&self, value: f64) -> Vector {
+        let mut inputs = self.inputs.clone();
+        if let Some(place) = inputs.get_mut(self.input.index()) {
+            *place = value;
+        }
+        inputs
+    }
+
+    /// Solves the equilibrium at a value of the input into `state`, starting from the prediction if that converges at
+    /// once, otherwise from `from`. Returns its general modes if they were needed to judge its stability.
+    fn equilibrium_into(
+        &self,
+        (value, policy): (f64, Policy),
+        from: &[f64],
+        predicted: Option<&[f64]>,
+        state: &mut Equilibrium,
+    ) -> Result<Vec<Mode>, Error> {
+        let inputs = self.inputs_at(value);
+        let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
+        let point = point.held_by(&self.held);
+        point.check_start(from)?;
+        state.inputs.clone_from(&inputs);
+        let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());
+        if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state))
+        {
+            return Ok(modes);
+        }
+        solve_into(&point, from, policy, state)
+            .map_err(|failure| failure.explain(&point.description))
+    }
+
+    /// An empty state and its modes, to be overwritten.
+    fn blank(&self) -> (Equilibrium, Modes) {
+        (
+            Equilibrium::blank(&self.description, &self.inputs, &self.design),
+            Modes::empty(self.family, &self.description),
+        )
+    }
+
+    /// Whether blocks of values may be solved at once, as far as can be told in advance.
+    pub(super) fn side_by_side(&self) -> bool {
+        let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
+        let alone = self.held.is_empty() && self.description.held.is_empty();
+        wanted && alone && self.vectors.is_some() && possible(&self.description, &KERNELS)
+    }
+
+    /// The workspace for solving blocks of values.
+    pub(super) fn workspace<'m>(
+        &self,
+        memory: &'m mut Vec<Batch>,
+        with_slopes: bool,
+    ) -> Workspace<'m> {
+        let values = (&*self.inputs, &*self.design);
+        *memory = Workspace::memory(self.mechanism.sizes(), with_slopes);
+        Workspace::new(memory, self.mechanism, values, with_slopes)
+    }
+
+    /// Solves the first of `values` as one block where the path so far is smooth. Returns how many of them, counted
+    /// from the first, agree with a one-by-one solution.
+    pub(super) fn solve_block(
+        &self,
+        kernels: &dyn BatchKernels,
+        workspace: &mut Workspace<'_>,
+        values: &[f64],
+    ) -> usize {
+        let (Some(vectors), Some(last), Some(past)) =
+            (self.vectors, &self.last, self.path.last_three())
+        else {
+            return 0;
+        };
+        let sound = |(state, modes): &(&Equilibrium, &Modes)| {
+            state.stability == Stability::Stable
+                && modes.modes.len() == self.from.len()
+                && last.value == past[0].0
+        };
+        let Some((_, modes)) = last.solved().ok().filter(sound) else {
+            return 0;
+        };
+        let mut inputs = self.inputs.clone();
+        let possible = |value: &&f64| {
+            inputs[self.input.index()] = **value;
+            self.mechanism.violation(&inputs, &self.design).is_none()
+        };
+        let number = values.iter().take(WIDTH).take_while(possible).count();
+        let values = (self.input, &values[..number]);
+        workspace.solve((kernels, vectors), values, &past, &modes.real_shapes())
+    }
+
+    /// Extends the path to the last of the first `number` states of a block, which already is the last point.
+    pub(super) fn commit(&mut self, block: &Block<'_>, number: usize) {
+        for lane in number.saturating_sub(3)..number {
+            let state = block.state_of(lane);
+            self.path.go(block.values.0[lane], state.clone());
+            self.from.assign(state);
+        }
+    }
+
+    /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new
+    /// point is [`Self::last`]; a point without modes is returned instead.
+    pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
+        self.join(value);
+        let (equilibrium, error) = match self.go(value) {
+            Ok(None) => return None,
+            Ok(Some((point, error))) => (point.equilibrium, error),
+            Err(error) => (Err(error.clone()), error),
+        };
+        Some(SweepPoint {
+            value,
+            equilibrium,
+            modes: Err(error),
+        })
+    }
+
+    /// Goes to the state of the route nearest to a value, unless the last point is as near to that value as the states of
+    /// the route are to each other.
+    fn join(&mut self, value: f64) {
+        let last = self.last.as_ref().map(|point| point.value);
+        let Some(points) = self.route.towards(last, value) else {
+            return;
+        };
+        self.path = Path::default();
+        for point in points {
+            if let Ok(state) = &point.equilibrium {
+                self.path.go(point.value, state.coordinates.iter().copied());
+                self.from.clone_from(&state.coordinates);
+                self.last = Some(Box::new(point.clone()));
+            }
+        }
+    }
+
+    /// Like [`Self::advance`], but returns a state whose modes fail together with the error.
+    fn go(&mut self, value: f64) -> Result<Option<(Box<SweepPoint>, Error)>, Error> {
+        // The next value, how often its step may still be halved, and the values after it.
+        let (mut next, mut halvings) = (value, HALVINGS);
+        let mut after = Vec::new();
+        loop {
+            match self.step(next, halvings) {
+                Ok(step) => match (step, after.pop()) {
+                    (Step::TooFar(middle), place) => {
+                        after.extend(place);
+                        halvings -= 1;
+                        after.push((next, halvings));
+                        next = middle;
+                    }
+                    (_, Some(place)) => (next, halvings) = place,
+                    (Step::WithoutModes(point, error), None) => return Ok(Some((point, error))),
+                    (Step::Arrived, None) => return Ok(None),
+                },
+                Err(error) => match after.pop() {
+                    None => return Err(error),
+                    // Accept this value, doubtful or not.
+                    Some((place, _)) => (next, halvings) = (place, 0),
+                },
+            }
+        }
+    }
+
+    fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
+        let predicted = self.path.at(value);
+        let mut point = self.spare.take().unwrap_or_else(|| {
+            let (equilibrium, modes) = self.blank();
+            Box::new(SweepPoint {
+                value,
+                equilibrium: Ok(equilibrium),
+                modes: Ok(modes),
+            })
+        });
+        point.value = value;
+        let (state, found) = point.solved_mut().map_err(|error| error.clone())?;
+        let at = (value, self.policy);
+        let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
+        if let Err(error) = found.solve_at(state, judged) {
+            self.from.clone_from(&state.coordinates);
+            self.path.go(value, state.coordinates.iter().copied());
+            return Ok(Step::WithoutModes(point, error));
+        }
+        if let Some(last) = &self.last
+            && let Ok(modes) = &last.modes
+        {
+            let order = match_with_assurance(modes, found, &state.linear);
+            // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
+            let repeated = |r: usize| merged(found, r) || near_another(found, r, CLUSTER_GAP);
+            let doubtful = order
+                .iter()
+                .flatten()
+                .any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
+            let middle = 0.5 * (last.value + value);
+            let between = (middle - last.value) * (value - middle) > 0.0;
+            if doubtful && halvings > 0 && between {
+                self.spare = Some(point);
+                return Ok(Step::TooFar(middle));
+            }
+            let order = order.map(position);
+            found.arrange(modes, &order, self.unused);
+        }
+        self.from.clone_from(&state.coordinates);
+        self.path.go(value, state.coordinates.iter().copied());
+        let labels = found.modes.iter().map(|mode| mode.label + 1);
+        self.unused = labels.fold(self.unused, usize::max);
+        self.spare = self.last.replace(point);
+        Ok(Step::Arrived)
+    }
+}
+
+/// The outcome of a step.
+enum Step {
+    /// Reached a state with modes: the last point.
+    Arrived,
+    /// Reached a state without modes; the modes stored in the point are invalid.
+    WithoutModes(Box<SweepPoint>, Error),
+    /// Modes were not recognised; an intermediate value to try.
+    TooFar(f64),
+}

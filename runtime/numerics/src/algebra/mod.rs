@@ -1,0 +1,47 @@
+//! Linear algebra on matrices whose size is known at run time: products, and one factorisation of each kind.
+//!
+//! Sums are formed in the order of the indices, so that results have the same bits on every machine.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+mod buffer;
+mod cholesky;
+mod lu;
+mod matrix;
+mod nalgebra;
+#[cfg(feature = "serde")]
+mod serial;
+mod vector;
+
+pub use matrix::Matrix;
+pub use vector::Vector;
+
+#[doc(hidden)]
+pub use cholesky::{Cholesky, factor_rows, solve_rows};
+#[doc(hidden)]
+pub use lu::{Field, Lu};
+#[doc(hidden)]
+pub use matrix::{
+    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, times, times_columns,
+    times_complex,
+};
+#[doc(hidden)]
+pub use vector::{
+    Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,
+};
+
+/// Calls `work` with the size, as a constant if it is small, so that code inlined into `work` is compiled for that
+/// size: without loop counters and bounds checks.
+#[inline(always)]
+#[doc(hidden)]
+pub fn for_size<R>(n: usize, work: impl FnOnce(usize) -> R) -> R {
+    match n {
+        1 => work(1),
+        2 => work(2),
+        3 => work(3),
+        4 => work(4),
+        n => work(n),
+    }
+}

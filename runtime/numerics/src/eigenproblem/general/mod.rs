@@ -1,0 +1,87 @@
+//! The general eigenproblem `(s^2 M + s C + K) phi = 0`, `psi^T (s^2 M + s C + K) = 0` with symmetric positive definite
+//! `M` and any real `C` and `K`; also `A phi = s phi`, the case `M = 0`, `C = I`, `K = -A`.
+//!
+//! The eigenvalues come from a bounded QR iteration on a balanced linearisation ([`schur`]), the vectors and the last
+//! digits from the pencil itself ([`pair`]). Eigenvalues that the pencil cannot distinguish are merged ([`cluster`]),
+//! every error is estimated ([`accuracy`]), and eigenvalues that are still inaccurate are found by a second method
+//! ([`aberth`]). No library does this well enough: nalgebra's general Schur form is not bounded and has no vectors, and
+//! faer's left vectors fail where eigenvalues meet.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+mod aberth;
+mod accuracy;
+mod census;
+mod cluster;
+mod driver;
+mod eigenspaces;
+mod gyroscopic;
+mod hessenberg;
+mod iteration;
+mod linearisation;
+mod lu;
+mod measure;
+mod order;
+mod pair;
+mod pencil;
+mod polished;
+mod powers;
+mod prediction;
+mod reference;
+mod scaled_pencil;
+mod scaling;
+mod schur;
+mod scratch;
+mod search;
+mod shifted;
+mod solver;
+#[cfg(test)]
+pub(crate) mod tests;
+
+use num_complex::Complex64;
+
+#[doc(hidden)]
+pub use driver::{solve as roots_of, solve_near as roots_near};
+#[doc(hidden)]
+pub use prediction::Near;
+#[doc(hidden)]
+pub use reference::{Reference, ReferencePair};
+#[doc(hidden)]
+pub use scaled_pencil::Eigenproblem;
+
+use super::symmetric::Trouble;
+use crate::algebra::Vector;
+use crate::linear::Linear;
+
+/// One eigenvalue, or one of a conjugate pair, with its vectors.
+#[derive(Clone, Debug, PartialEq)]
+#[doc(hidden)]
+pub struct Root {
+    /// Eigenvalue, 1/s; `Im s >= 0`.
+    #[doc(hidden)]
+    pub s: Complex64,
+    /// `phi` with `phi^H M phi = 1` and its largest component real and positive.
+    #[doc(hidden)]
+    pub right: Vector<Complex64>,
+    /// `psi`, normalised in the same way.
+    #[doc(hidden)]
+    pub left: Vector<Complex64>,
+    /// Largest component of `Q(s) phi` and of `psi^T Q(s)`, relative to the terms in it.
+    #[doc(hidden)]
+    pub residual: f64,
+    /// Estimated absolute error of `s`.
+    #[doc(hidden)]
+    pub error: f64,
+    /// Condition number of `s` as an eigenvalue of the balanced linearisation; infinite for a defective one.
+    #[doc(hidden)]
+    pub condition: f64,
+}
+
+/// Solves the general eigenproblem of `linear`.
+#[doc(hidden)]
+pub fn solve(linear: &Linear) -> Result<Vec<Root>, Trouble> {
+    driver::solve(Eigenproblem::Quadratic(linear))
+}

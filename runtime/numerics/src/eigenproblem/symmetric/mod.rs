@@ -1,0 +1,309 @@
+//! The symmetric generalised eigenproblem `K phi = lambda M phi`, with separate code for each small size.
+
+mod large;
+mod refine;
+mod residual;
+
+use nalgebra::{SMatrix, SymmetricEigen};
+
+use crate::algebra::{Matrix, Vector, for_size, largest};
+use refine::refine;
+use residual::Matrices;
+
+/// Why the eigenproblem was not solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
+pub enum Trouble {
+    /// The mass matrix has no positive pivot in this row.
+    SingularMass(usize),
+    /// This pair failed its residual check.
+    Inaccurate { mode: usize, residual: f64 },
+}
+
+/// Eigenvalues, ascending; `shapes[r]` is the vector of eigenvalue `r` with `phi^T M phi = 1` and its largest component
+/// positive.
+#[derive(Debug, Default)]
+#[doc(hidden)]
+pub struct Pairs {
+    #[doc(hidden)]
+    pub lambda: Vector,
+    #[doc(hidden)]
+    pub shapes: Matrix,
+    #[doc(hidden)]
+    pub residuals: Vector,
+    /// How far each eigenvalue may be off by rounding.
+    #[doc(hidden)]
+    pub errors: Vector,
+}
+
+impl Pairs {
+    /// Number of eigenvalues below zero.
+    #[doc(hidden)]
+    pub fn negative(&self) -> usize {
+        self.lambda.iter().filter(|&&value| value < 0.0).count()
+    }
+}
+
+/// Largest residual of an accepted pair, relative to `|K| + |lambda| |M|`.
+const ACCEPTED: f64 = 1e-9;
+/// Residual of a pair that is exact up to rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Residual above which a pair is improved by inverse iteration.
+#[doc(hidden)]
+pub const INACCURATE: f64 = 1e-13;
+
+/// Share of the largest eigenvalue below which an eigenvalue may be no more than the effect of other modes in its
+/// shape.
+const SMALL: f64 = 1e-6;
+
+/// Sizes with code of their own.
+const SMALL_SIZE: usize = 8;
+
+/// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
+#[doc(hidden)]
+pub fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
+    let mut pairs = Pairs::default();
+    solve_into(stiffness, mass, &mut pairs)?;
+    Ok(pairs)
+}
+
+/// Like [`solve`], overwriting existing pairs.
+#[doc(hidden)]
+pub fn solve_into(
+    stiffness: &Matrix,
+    mass: &Matrix,
+    pairs: &mut Pairs,
+) -> Result<(), Trouble> {
+    let n = mass.row_count();
+    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
+    let lambda = pairs.lambda.make_room(n);
+    let shapes = pairs.shapes.make_room(n, n);
+    match n {
+        0 => {}
+        1 => one(k, m, lambda, shapes)?,
+        2 => two(k, m, lambda, shapes)?,
+        3 => small_3(k, m, lambda, shapes)?,
+        4 => small_4(k, m, lambda, shapes)?,
+        5 => small_5(k, m, lambda, shapes)?,
+        6 => small_6(k, m, lambda, shapes)?,
+        7 => small_7(k, m, lambda, shapes)?,
+        8 => small_8(k, m, lambda, shapes)?,
+        _ => {}
+    }
+    let (residuals, errors) = (pairs.residuals.make_room(n), pairs.errors.make_room(n));
+    if n > SMALL_SIZE {
+        let matrices = Matrices { n, k, m };
+        return large::solve(&matrices, lambda, shapes, (residuals, errors));
+    }
+    for_size(
+        n,
+        #[inline(always)]
+        |n| {
+            let (k, m) = (&k[..n * n], &m[..n * n]);
+            let sizes = (&mut residuals[..n], &mut errors[..n]);
+            let (lambda, shapes) = (&mut lambda[..n], &mut shapes[..n * n]);
+            finish(n, &Matrices { n, k, m }, lambda, shapes, sizes)
+        },
+    )
+}
+
+#[inline]
+fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+    if !(m[0] > 0.0 && m[0].is_finite()) {
+        return Err(Trouble::SingularMass(0));
+    }
+    lambda[0] = k[0] / m[0];
+    vectors[0] = 1.0 / m[0].sqrt();
+    Ok(())
+}
+
+/// Size two directly: explicit Cholesky reduction and one Jacobi rotation.
+#[inline]
+fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+    let threshold = 16.0 * f64::EPSILON;
+    if !(m[0] > 0.0 && m[0].is_finite()) {
+        return Err(Trouble::SingularMass(0));
+    }
+    // Reciprocals of the diagonal of L.
+    let r0 = 1.0 / m[0].sqrt();
+    let l10 = m[2] * r0;
+    let pivot = m[3] - l10 * l10;
+    if !(pivot > threshold * m[3].abs() && pivot.is_finite()) {
+        return Err(Trouble::SingularMass(1));
+    }
+    let r1 = 1.0 / pivot.sqrt();
+    // A = L^-1 K L^-T
+    let a00 = k[0] * r0 * r0;
+    let k10 = k[2] * r0;
+    let a10 = (k10 - l10 * a00) * r1;
+    let a11 = (k[3] - l10 * (2.0 * k10 - l10 * a00)) * r1 * r1;
+    let (cosine, tangent) = if a10 == 0.0 {
+        (1.0, 0.0)
+    } else {
+        let ratio = (a11 - a00) / (2.0 * a10);
+        let size = ratio.abs() + (1.0 + ratio * ratio).sqrt();
+        let tangent = (1.0 / size).copysign(ratio);
+        (1.0 / (1.0 + tangent * tangent).sqrt(), tangent)
+    };
+    lambda[0] = a00 - tangent * a10;
+    lambda[1] = a11 + tangent * a10;
+    // phi = L^-T y with y = (c, -s) and (s, c)
+    let sine = tangent * cosine;
+    for (r, (y0, y1)) in [(cosine, -sine), (sine, cosine)].into_iter().enumerate() {
+        let x1 = y1 * r1;
+        vectors[2 * r] = (y0 - l10 * x1) * r0;
+        vectors[2 * r + 1] = x1;
+    }
+    Ok(())
+}
+
+/// Defines one function per size.
+macro_rules! small {
+    ($($name:ident $size:literal)*) => {$(
+        fn $name(
+            k: &[f64],
+            m: &[f64],
+            lambda: &mut [f64],
+            vectors: &mut [f64],
+        ) -> Result<(), Trouble> {
+            let lower = factor($size, m)?;
+            let lower = SMatrix::<f64, $size, $size>::from_row_slice(&lower[..$size * $size]);
+            let mut reduced = SMatrix::<f64, $size, $size>::from_row_slice(k);
+            lower.solve_lower_triangular_mut(&mut reduced);
+            let mut reduced = reduced.transpose();
+            lower.solve_lower_triangular_mut(&mut reduced);
+            let reduced = (reduced + reduced.transpose()) * 0.5;
+            let found = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * $size);
+            let eigen = found.ok_or_else(not_found)?;
+            let mut shapes = eigen.eigenvectors;
+            lower.tr_solve_lower_triangular_mut(&mut shapes);
+            lambda.copy_from_slice(eigen.eigenvalues.as_slice());
+            vectors.copy_from_slice(shapes.as_slice());
+            Ok(())
+        }
+    )*};
+}
+small! { small_3 3 small_4 4 small_5 5 small_6 6 small_7 7 small_8 8 }
+
+/// Lower Cholesky factor of a mass matrix of size up to 8, row by row.
+fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], Trouble> {
+    let mut lower = [0.0; 64];
+    factor_into(n, m, &mut lower)?;
+    Ok(lower)
+}
+
+/// Lower Cholesky factor of a mass matrix, row by row; the part of `lower` above the diagonal is unchanged.
+pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), Trouble> {
+    let threshold = 8.0 * n as f64 * f64::EPSILON;
+    for i in 0..n {
+        for j in 0..=i {
+            let mut sum = m[i * n + j];
+            for k in 0..j {
+                sum -= lower[i * n + k] * lower[j * n + k];
+            }
+            if i != j {
+                lower[i * n + j] = sum / lower[j * n + j];
+            } else if sum > threshold * m[i * n + i].abs() && sum.is_finite() {
+                lower[i * n + i] = sum.sqrt();
+            } else {
+                return Err(Trouble::SingularMass(i));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Sorts, refines where needed, fixes signs and checks each residual.
+#[inline(always)]
+fn finish(
+    n: usize,
+    matrices: &Matrices,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
+) -> Result<(), Trouble> {
+    sort(n, lambda, shapes, (residuals, errors));
+    let mut refined = false;
+    for r in 0..n {
+        let own = r * n..(r + 1) * n;
+        (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[own.clone()]);
+        if residuals[r] > INACCURATE {
+            refine(matrices, lambda, shapes, r);
+            (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[own.clone()]);
+            refined = true;
+        }
+        residuals[r] = accepted(matrices, (lambda[r], &shapes[own]), (r, residuals[r]))?;
+    }
+    if refined {
+        sort(n, lambda, shapes, (residuals, errors));
+    }
+    let small = SMALL * largest(lambda);
+    for r in 0..n {
+        if lambda[r].abs() <= small {
+            errors[r] += matrices.error_of_shape(lambda, shapes, r);
+        }
+    }
+    for r in 0..n {
+        fix_sign(&mut shapes[r * n..(r + 1) * n]);
+    }
+    Ok(())
+}
+
+/// The residual of pair `mode`, if it passes the check.
+#[inline(always)]
+fn accepted(
+    matrices: &Matrices,
+    (lambda, shape): (f64, &[f64]),
+    (mode, residual): (usize, f64),
+) -> Result<f64, Trouble> {
+    if residual <= ACCEPTED {
+        return Ok(residual);
+    }
+    // Relative to the matrices, because the terms are rounding themselves.
+    let rounding = matrices.is_rounding(lambda, shape).then_some(ROUNDING);
+    rounding.ok_or(Trouble::Inaccurate { mode, residual })
+}
+
+/// The error for a spectrum that was not found.
+pub(super) fn not_found() -> Trouble {
+    Trouble::Inaccurate {
+        mode: 0,
+        residual: f64::INFINITY,
+    }
+}
+
+#[inline(always)]
+fn sort(
+    n: usize,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
+) {
+    for i in 1..n {
+        let mut j = i;
+        while j > 0 && lambda[j] < lambda[j - 1] {
+            lambda.swap(j, j - 1);
+            residuals.swap(j, j - 1);
+            errors.swap(j, j - 1);
+            for k in 0..n {
+                shapes.swap(j * n + k, (j - 1) * n + k);
+            }
+            j -= 1;
+        }
+    }
+}
+
+/// Makes the largest component positive; a margin keeps the choice stable when two are equal up to rounding.
+#[inline(always)]
+#[doc(hidden)]
+pub fn fix_sign(shape: &mut [f64]) {
+    let mut lead = 0;
+    for i in 1..shape.len() {
+        if shape[i].abs() > shape[lead].abs() * (1.0 + 1e-9) {
+            lead = i;
+        }
+    }
+    if !shape.is_empty() && shape[lead] < 0.0 {
+        shape.iter_mut().for_each(|value| *value = -*value);
+    }
+}

@@ -1,0 +1,28 @@
+//! The subject of a report: a mechanism at an operating point.
+
+use crate::numbers::{given_in, with_unit};
+use eigentol_contract::{Description, Input};
+
+/// `Rotor at speed = 3000 rpm, load = 2 N`.
+pub fn title(description: &Description, inputs: &[f64]) -> String {
+    named(description, inputs, None)
+}
+
+/// The title of a computation along one input: only the others have values.
+pub fn title_along(description: &Description, inputs: &[f64], varied: Input) -> String {
+    named(description, inputs, Some(varied.index()))
+}
+
+fn named(d: &Description, inputs: &[f64], varied: Option<usize>) -> String {
+    let each = d.inputs.iter().zip(inputs).enumerate();
+    let fixed = each.filter(|(k, _)| Some(*k) != varied);
+    let values = fixed.map(|(_, (info, &value))| {
+        let value = with_unit(given_in(value, &info.unit), &info.unit);
+        format!("{} = {value}", info.name)
+    });
+    let values: Vec<String> = values.collect();
+    match values.is_empty() {
+        true => d.name.to_string(),
+        false => format!("{} at {}", d.name, values.join(", ")),
+    }
+}

@@ -1,0 +1,132 @@
+//! From a solution to a finished state: reactions determined, measured, stability judged.
+
+use super::acceptance::{Candidate, Found, Measured};
+use super::convergence::{ACCEPTED, relative_residual};
+use super::operating_point::{Failure, OperatingPoint};
+use super::regularity::constraint_state;
+use super::stability::{self, Verdict};
+use crate::algebra::{Vector, add_to, dot};
+use crate::constraints::{Structure, all_rows, placed};
+use crate::error::NotFound;
+use crate::free::FreeDirections;
+use crate::kernels::Linear;
+use crate::rounding::CheckedState;
+use crate::{DampingKind, Equilibrium, Mode, Stability};
+
+/// A finished state.
+#[doc(hidden)]
+pub struct Judged {
+    #[doc(hidden)]
+    pub state: Equilibrium,
+    /// Its general modes if they were needed to judge its stability; empty otherwise.
+    #[doc(hidden)]
+    pub modes: Vec<Mode>,
+}
+
+/// The finished state at these coordinates and reactions.
+pub(super) fn finished(point: &OperatingPoint<'_>, q: Vector) -> Result<Judged, Failure> {
+    finish(point, Found::new(Candidate::at(point, q), 0))
+}
+
+pub(super) fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failure> {
+    let Measured {
+        linear,
+        relative_residual: relative,
+    } = match found.measured.take() {
+        Some(measured) => measured,
+        None => measure(point, &mut found)?,
+    };
+    if relative.is_nan() || relative > ACCEPTED {
+        return Err(Failure::NotFound {
+            reason: NotFound::Inaccurate,
+            coordinates: found.coordinates.into(),
+            iterations: found.iterations,
+            relative,
+        });
+    }
+    let constraints = constraint_state(point, &found.coordinates, &found.residual, &linear)?;
+    let mut state = Equilibrium {
+        coordinates: found.coordinates,
+        inputs: point.inputs.into(),
+        design: point.design.into(),
+        stability: Stability::Undecided,
+        rounding: 0.0,
+        linear,
+        residual: found.residual,
+        relative_residual: relative,
+        iterations: found.iterations,
+        pose: None,
+        constraints,
+        free: FreeDirections::default(),
+        left_unstable_region: found.left_unstable_region,
+        kept: false,
+        notes: Vec::new(),
+        description: point.description.clone(),
+    };
+    let modes = judge(point, &mut state)?;
+    Ok(Judged { state, modes })
+}
+
+/// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
+#[doc(hidden)]
+pub fn judge(
+    point: &OperatingPoint<'_>,
+    state: &mut Equilibrium,
+) -> Result<Vec<Mode>, Failure> {
+    state.free = FreeDirections::of(&state.linear.stiffness, point.free());
+    let verdict = if state.constraints.singular {
+        Verdict::undecided()
+    } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
+        Verdict::without_modes(Stability::Stable, 0.0)
+    } else {
+        let place = CheckedState {
+            coordinates: &state.coordinates,
+            inputs: point.inputs,
+            design: point.design,
+            residual: &state.residual,
+        };
+        stability::judge(point.mechanism, &place, &state.linear, point.nearby)?
+    };
+    state.pose = point
+        .mechanism
+        .pose_margin(&state.coordinates, point.inputs, point.design);
+    (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
+    Ok(verdict.modes)
+}
+
+/// Determines the reactions of a state, and measures the state.
+fn measure(point: &OperatingPoint<'_>, found: &mut Found) -> Result<Measured, Failure> {
+    let mut linear = point.linear(&found.coordinates)?;
+    if point.structure.constraints() > 1 {
+        if let Some(least) = least_reactions(&found.coordinates, &linear, point.structure) {
+            linear = point.linear(&least)?;
+            found.coordinates = least;
+        }
+        // Includes the gaps of constraints that were left out.
+        found.residual = point.residual(&found.coordinates);
+    }
+    let (q, residual) = (&found.coordinates, &found.residual);
+    Ok(Measured {
+        relative_residual: relative_residual(point, q, residual, &linear.stiffness),
+        linear,
+    })
+}
+
+/// Whether positive masses and stiffnesses alone make a state stable.
+fn at_rest_by_stiffness(point: &OperatingPoint<'_>) -> bool {
+    let undamped = point.description.damping == DampingKind::Zero;
+    undamped && point.description.symmetric_stiffness && point.structure.open()
+}
+
+/// The state with the smallest reactions among those that redundant constraints allow; `None` if the reactions are
+/// determined.
+fn least_reactions(x: &[f64], linear: &Linear, structure: Structure) -> Option<Vector> {
+    let rows = all_rows(&linear.stiffness, structure);
+    let mut least = Vector::from(x);
+    for k in 0..rows.dependent() {
+        let along = placed(structure, &rows.null_left(k));
+        let amount = dot(x, &placed(structure, &rows.null_left_scaled(k)));
+        add_to(&mut least, -amount, &along);
+    }
+    (rows.dependent() > 0).then_some(least)
+}

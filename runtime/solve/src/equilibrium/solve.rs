@@ -1,0 +1,313 @@
+//! From a start value to a finished equilibrium, by the way that suits the mechanism.
+
+use super::acceptance::{Found, Measured};
+use super::convergence::{SMALL_MOTION, relative_residual};
+use super::descent;
+use super::finish::{Judged, finish, judge};
+use super::operating_point::{Failure, OperatingPoint};
+use super::prediction::confirmed;
+use super::regularity::unbalanced;
+use super::{Equilibrium, Policy, assembly, member, newton, newton_fast_path, search_space};
+use crate::algebra::{Cholesky, Vector, add_scaled};
+use crate::constraints::Tangent;
+use crate::error::NotFound;
+use crate::state::Note;
+use crate::{DampingKind, Mode, Stability};
+
+/// Like [`equilibrium`](super::equilibrium), for validated values.
+#[doc(hidden)]
+pub fn solve(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    policy: Policy,
+) -> Result<Judged, Failure> {
+    let mut state = point.blank_state();
+    let modes = solve_into(point, start, policy, &mut state)?;
+    Ok(Judged { state, modes })
+}
+
+/// Like [`solve`], but overwrites a state of the same mechanism at these inputs and design variables, and returns
+/// [`Judged::modes`].
+#[doc(hidden)]
+pub fn solve_into(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    policy: Policy,
+    state: &mut Equilibrium,
+) -> Result<Vec<Mode>, Failure> {
+    if point.structure.holonomic() {
+        member::refuse_held(point)?;
+    }
+    let found = if policy == Policy::Stable && has_open_potential(point) {
+        let place = descent::SearchState::first(start);
+        match newton_fast_path::newton_fast_path(point, place, state) {
+            Ok(()) => return judge(point, state),
+            Err(place) => from_afar(point, start, &place)?,
+        }
+    } else {
+        solve_slowly(point, start, policy)?
+    };
+    *state = found.state;
+    Ok(found.modes)
+}
+
+/// Whether stable states are minima of a potential in coordinates that no constraint restricts.
+fn has_open_potential(point: &OperatingPoint<'_>) -> bool {
+    point.description.symmetric_stiffness && point.structure.open() && point.free() == 0
+}
+
+/// Like [`solve`], for mechanisms with constraints or without a potential.
+fn solve_slowly(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    policy: Policy,
+) -> Result<Judged, Failure> {
+    let structure = point.structure;
+    let closed;
+    let start = if structure.open() {
+        start
+    } else {
+        closed = assembly::closed(point, start, &vec![false; point.size()])?.0;
+        &closed
+    };
+    let potential = point.description.symmetric_stiffness && structure.holonomic();
+    if policy == Policy::Nearest || !potential {
+        let mut found = nearest_beside(point, start)?;
+        if !structure.holonomic() {
+            found = member::settled(point, start, found)?;
+        }
+        if policy == Policy::Nearest {
+            found
+                .state
+                .notes
+                .extend(far(point, start, &found.state.coordinates));
+        }
+        return Ok(found);
+    }
+    let mut found = from_afar(point, start, &descent::SearchState::first(start));
+    for _ in 0..descent::MAX_DEPARTURES {
+        let Err(Failure::Unbalanced {
+            coordinates,
+            downhill,
+            ..
+        }) = found
+        else {
+            return found;
+        };
+        let start = departed(point, &coordinates, &downhill)?;
+        found = from_afar(point, &start, &descent::SearchState::first(&start));
+        if let Ok(found) = &mut found {
+            found.state.left_unstable_region = true;
+        }
+    }
+    found
+}
+
+/// What to say if the nearest equilibrium is far from the start values that were given.
+fn far(point: &OperatingPoint<'_>, start: &[f64], q: &[f64]) -> Option<Note> {
+    let away = |unknown: usize| (start[unknown] - q[unknown]).abs();
+    let share = |unknown: usize| away(unknown) / point.description.large(unknown);
+    let unknown = point
+        .named()
+        .max_by(|a, b| share(*a).total_cmp(&share(*b)))?;
+    let distance = away(unknown);
+    (share(unknown) > FAR).then_some(Note::Far { unknown, distance })
+}
+
+/// Distance from a start value, relative to a large change, that is worth a note.
+const FAR: f64 = 0.1;
+
+/// Leaves a singular configuration in the direction in which the forces drive.
+#[cold]
+fn departed(point: &OperatingPoint<'_>, from: &[f64], downhill: &[f64]) -> Result<Vector, Failure> {
+    let beside = add_scaled(from, descent::DEPARTURE, downhill);
+    assembly::closed(point, &beside, &vec![false; point.size()]).map(|(start, _)| start)
+}
+
+/// Like [`solve_into`], for the stable equilibrium next to a predicted state; `last` is the one before it.
+///
+/// `None` unless the fast path leads to a state that confirms the prediction. For mechanisms with a potential and
+/// without constraints.
+#[doc(hidden)]
+pub fn solve_from_prediction(
+    point: &OperatingPoint<'_>,
+    last: &[f64],
+    predicted: &[f64],
+    state: &mut Equilibrium,
+) -> Option<Vec<Mode>> {
+    if !has_open_potential(point) {
+        return None;
+    }
+    let place = descent::SearchState::first(predicted);
+    newton_fast_path::newton_fast_path(point, place, state).ok()?;
+    if !confirmed(&state.coordinates, predicted, last) {
+        return None;
+    }
+    judge(point, state).ok()
+}
+
+/// Like [`solve`], for a stable equilibrium that the fast path does not reach; the search continues at `place`.
+#[cold]
+fn from_afar(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    place: &descent::SearchState,
+) -> Result<Judged, Failure> {
+    let structure = point.structure;
+    if let Some(named) = stays(point, start) {
+        return Ok(named);
+    }
+    if let Some(held) = gyroscopically_stabilised(point, start) {
+        return Ok(held);
+    }
+    let found = if structure.open() {
+        descent::stable::<search_space::Unconstrained>(point, start, place, |place| {
+            straight(point, place)
+        })
+    } else {
+        descent::stable::<search_space::ConstraintManifold>(point, start, place, |_| None)
+            .and_then(|found| polished(point, found))
+    };
+    found
+        .or_else(|failure| match failure {
+            Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
+            _ => nearest(point, start).map_err(|_| failure),
+        })
+        .and_then(|found| finish(point, found))
+        .map_err(|failure| match failure {
+            Failure::NotFound {
+                ref coordinates, ..
+            } if !structure.open() => unbalanced(point, coordinates).unwrap_or(failure),
+            _ => failure,
+        })
+}
+
+/// The equilibrium whose coordinates are the start values that were given, if these are those of one: it is the answer
+/// whatever its stability. Coordinates without a given value are free to adapt.
+#[cold]
+fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
+    let count = point.named().count();
+    if count == 0 {
+        return None;
+    }
+    if point.structure.open() && count == point.size() {
+        let (residual, stiffness) = point.evaluate(start)?;
+        if relative_residual(point, start, &residual, &stiffness) > NAMED {
+            return None;
+        }
+    }
+    let found = nearest(point, start).ok()?;
+    let is_there = |unknown: usize| {
+        let (asked, found) = (start[unknown], found.coordinates[unknown]);
+        (asked - found).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
+    };
+    if !point.named().all(is_there) {
+        return None;
+    }
+    let mut judged = finish(point, found).ok()?;
+    if !judged.state.stability.holds() {
+        judged.state.notes.push(Note::Stays);
+    }
+    Some(judged)
+}
+
+/// Residual at start values, and change of them, relative to forces and coordinates, up to which they are those of an
+/// equilibrium.
+const NAMED: f64 = 1e-8;
+
+/// The minimum that the fast path finds from `place`.
+fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<Found> {
+    let mut state = point.blank_state();
+    newton_fast_path::newton_fast_path(point, place, &mut state).ok()?;
+    Some(Found {
+        coordinates: state.coordinates,
+        residual: state.residual,
+        measured: Some(Measured {
+            linear: state.linear,
+            relative_residual: state.relative_residual,
+        }),
+        iterations: state.iterations,
+        left_unstable_region: false,
+    })
+}
+
+/// Like [`nearest`], also where the search comes to rest at a state whose stiffness is singular, as from a critical state:
+/// it goes on from either side of it. Of two results, one that is stable is preferred.
+fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Judged, Failure> {
+    let search = |start: &[f64]| nearest(point, start).and_then(|found| finish(point, found));
+    search(start).or_else(|failure| {
+        let Failure::NotFound {
+            reason: NotFound::Minimum,
+            coordinates,
+            ..
+        } = &failure
+        else {
+            return Err(failure);
+        };
+        let structure = point.structure;
+        let sides = if structure.open() || !structure.holonomic() {
+            let independent = point.without_redundant(coordinates);
+            newton::beside::<search_space::Unconstrained>(&independent, coordinates)
+        } else {
+            newton::beside::<search_space::ConstraintManifold>(point, coordinates)
+        };
+        let sides = sides.unwrap_or_default().into_iter();
+        let found = sides.filter_map(|side| search(&side).ok());
+        let best = found.reduce(|first, second| {
+            if second.state.stability.holds() && !first.state.stability.holds() {
+                second
+            } else {
+                first
+            }
+        });
+        best.ok_or(failure)
+    })
+}
+
+/// The equilibrium nearest to `start`, a state that meets the constraints. Searches along the positions that meet them
+/// if there are only constraints on positions, otherwise over all unknowns together.
+fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure> {
+    let structure = point.structure;
+    let whole = || {
+        let independent = point.without_redundant(start);
+        newton::nearest::<search_space::Unconstrained>(&independent, start)
+    };
+    if structure.open() || !structure.holonomic() {
+        return whole();
+    }
+    newton::nearest::<search_space::ConstraintManifold>(point, start)
+        .and_then(|found| polished(point, found))
+        .or_else(|failure| whole().map_err(|_| failure))
+}
+
+/// Takes the last steps in coordinates and reactions together.
+fn polished(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> {
+    let independent = point.without_redundant(&found.coordinates);
+    let last = newton::nearest::<search_space::Unconstrained>(&independent, &found.coordinates)?;
+    Ok(Found {
+        iterations: found.iterations + last.iterations,
+        left_unstable_region: found.left_unstable_region,
+        ..last
+    })
+}
+
+/// The equilibrium nearest to `start` if it is a saddle held by gyroscopic forces; descent would leave it.
+fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
+    if point.description.damping == DampingKind::Zero {
+        return None;
+    }
+    let structure = point.structure;
+    let stiffness = if structure.open() {
+        point.evaluate(start)?.1
+    } else {
+        let linear = point.linear(start).ok()?;
+        Tangent::new(&linear, structure).reduce(&linear.stiffness)
+    };
+    if Cholesky::new(&stiffness).is_ok() {
+        return None;
+    }
+    let found = nearest(point, start).ok()?;
+    let judged = finish(point, found).ok()?;
+    let stability = judged.state.stability;
+    matches!(stability, Stability::GyroscopicallyStabilised { .. }).then_some(judged)
+}

@@ -1,0 +1,245 @@
+//! Stability of an equilibrium according to the linearised mechanism.
+
+use super::operating_point::Failure;
+use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element};
+use crate::constraints::{Structure, Tangent};
+use crate::eigenproblem::symmetric;
+use crate::free::FreeDirections;
+use crate::kernels::{Kernels, Linear};
+use crate::modes::{Family, Modes, SYMMETRIC, change_to_zero, deflated, free_pairs, solve_modes};
+use crate::rounding::{self, CheckedState, Sign, of_form, sign};
+use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
+
+/// The judgement of a state.
+#[doc(hidden)]
+pub struct Verdict {
+    #[doc(hidden)]
+    pub stability: Stability,
+    /// Eigenvalues `lambda` up to this size cannot be distinguished from zero.
+    #[doc(hidden)]
+    pub rounding: f64,
+    /// The general modes if they were needed; empty where theorems decided.
+    #[doc(hidden)]
+    pub modes: Vec<Mode>,
+}
+
+impl Verdict {
+    /// The verdict for a state whose stability cannot be decided.
+    #[doc(hidden)]
+    pub fn undecided() -> Self {
+        Self::without_modes(Stability::Undecided, 0.0)
+    }
+
+    pub(super) fn without_modes(stability: Stability, rounding: f64) -> Self {
+        Self {
+            stability,
+            rounding,
+            modes: Vec::new(),
+        }
+    }
+}
+
+/// Whether `Khat` is positive definite beyond doubt.
+#[inline]
+pub(crate) fn clearly_definite(linear: &Linear) -> bool {
+    Cholesky::new(&linear.stiffness).is_ok_and(|factors| rounding::clear(factors.pivots(), linear))
+}
+
+/// Whether `Mhat` and `Khat` are positive definite, `Khat` beyond doubt.
+#[inline]
+pub(super) fn clearly_stable(linear: &Linear) -> bool {
+    for_size(
+        linear.mass.row_count(),
+        #[inline(always)]
+        |n| {
+            let mut factors = Cholesky::default();
+            factors.factor_of(n, &linear.mass).is_ok()
+                && factors.factor_of(n, &linear.stiffness).is_ok()
+                && rounding::clear(&factors.pivots()[..n], linear)
+        },
+    )
+}
+
+/// Judges stability by theorems where they decide, otherwise by the general eigenvalues.
+///
+/// A positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is stable (Kelvin, Tait, Chetaev);
+/// `det Khat < 0` has a growing real solution whatever `Chat` is. The general eigenvalues decide all other cases,
+/// including an odd number of negative directions next to free ones. With constraints on positions the theorems hold
+/// for the directions they leave free. With speeds or constraints on velocities the general eigenvalues decide; they
+/// are found from the modes `nearby`, if given.
+#[doc(hidden)]
+pub fn judge(
+    mechanism: &dyn Kernels,
+    at: &CheckedState<'_>,
+    linear: &Linear,
+    nearby: &[Mode],
+) -> Result<Verdict, Failure> {
+    let description = &mechanism.description();
+    let structure = Structure::of(description);
+    let free = FreeDirections::of(&linear.stiffness, description.free_directions);
+    let held = free.held(&linear.stiffness);
+    let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, &held, (lambda, phi));
+    let general = |unstable, floor| by_eigenvalues((linear, nearby), description, unstable, floor);
+    if structure.open() {
+        return judge_free(description, linear, linear, &doubt, &general);
+    }
+    let tangent = Tangent::new(linear, structure);
+    if structure.holonomic() && tangent.freedom == 0 {
+        return Ok(Verdict::without_modes(Stability::Stable, 0.0));
+    }
+    if !structure.holonomic() {
+        return Ok(general((0, 0), 0.0));
+    }
+    let reduced = tangent.reduce_linear(linear);
+    judge_free(description, linear, &reduced, &doubt, &general).map_err(|failure| match failure {
+        Failure::SingularMass(direction) => Failure::SingularMass(tangent.foremost(direction)),
+        other => other,
+    })
+}
+
+/// Like [`judge`], for the matrices along the free directions.
+///
+/// `whole` are the matrices over all unknowns, `doubt` tells how far rounding of the data moves an eigenvalue, and
+/// `general` judges by the general eigenvalues ([`by_eigenvalues`]).
+fn judge_free(
+    description: &Shared<Description>,
+    whole: &Linear,
+    linear: &Linear,
+    doubt: &dyn Fn(f64, &[f64]) -> f64,
+    general: &dyn Fn((usize, usize), f64) -> Verdict,
+) -> Result<Verdict, Failure> {
+    if let Err(row) = Cholesky::new(&linear.mass) {
+        return Err(Failure::SingularMass(row));
+    }
+    // Stability is that of the other motions.
+    let rest = deflated(linear, description.free_directions);
+    let free = linear.mass.row_count() - rest.as_ref().map_or(linear, |rest| rest).mass.row_count();
+    let linear = rest.as_ref().unwrap_or(linear);
+    if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
+        let negative =
+            Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
+        return Ok(if negative {
+            Verdict::without_modes(Stability::Divergent { negative: 1 }, 0.0)
+        } else {
+            general((0, 0), 0.0)
+        });
+    }
+    let (mut negative, mut zero, mut floor) = (0, free, 0.0_f64);
+    if !clearly_definite(linear) {
+        let pairs = free_pairs(whole, description)?;
+        for (&lambda, phi) in pairs.lambda.iter().zip(pairs.shapes.iter()).skip(free) {
+            if lambda.abs() < rounding::SLOW {
+                let moved = doubt(lambda, phi);
+                floor = floor.max(if moved.is_finite() { moved } else { 0.0 });
+            }
+        }
+        for (&lambda, &error) in pairs.lambda.iter().zip(&pairs.errors).skip(free) {
+            match sign(lambda, error.max(floor)) {
+                Sign::Negative => negative += 1,
+                Sign::Zero => zero += 1,
+                Sign::Positive => {}
+            }
+        }
+    }
+    let damped = description.damping != DampingKind::Zero
+        && linear
+            .damping
+            .as_flattened()
+            .iter()
+            .any(|&value| value != 0.0);
+    let stability = if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
+        Stability::Divergent { negative }
+    } else if negative > 0 || (damped && feeds_energy(linear)?) {
+        return Ok(general((negative, zero), floor));
+    } else if zero > 0 {
+        Stability::Neutral { zero }
+    } else {
+        Stability::Stable
+    };
+    Ok(Verdict::without_modes(stability, floor))
+}
+
+/// Judges by the general eigenvalues, with `negative` directions of negative and `free` ones of zero stiffness; a
+/// `lambda` not beyond `floor` counts as zero.
+fn by_eigenvalues(
+    (linear, nearby): (&Linear, &[Mode]),
+    description: &Shared<Description>,
+    (negative, free): (usize, usize),
+    floor: f64,
+) -> Verdict {
+    let mut found = Modes::empty(Family::General, description);
+    if found
+        .solve_near(linear, (description.free_directions, floor), nearby)
+        .is_err()
+    {
+        return Verdict::without_modes(Stability::Undecided, floor);
+    }
+    let count = |wanted: fn(Behaviour) -> bool| {
+        let behaviours = found.modes.iter().map(|mode| mode.behaviour);
+        behaviours.filter(|&behaviour| wanted(behaviour)).count()
+    };
+    let divergent = count(|behaviour| matches!(behaviour, Behaviour::Divergent(_)));
+    let growing = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));
+    let zero = count(|behaviour| matches!(behaviour, Behaviour::Free | Behaviour::Neutral));
+    let constant = count(|behaviour| matches!(behaviour, Behaviour::Oscillating(_)));
+    let stability = if divergent > 0 {
+        Stability::Divergent {
+            negative: divergent,
+        }
+    } else if growing > 0 {
+        Stability::Flutter { growing }
+    } else if zero > 0 {
+        // A direction without resistance has two zero eigenvalues `s`.
+        Stability::Neutral {
+            zero: if free > 0 { free } else { zero },
+        }
+    } else if constant == 0 {
+        Stability::Stable
+    } else if negative > 0 && skew(&linear.damping) {
+        Stability::GyroscopicallyStabilised { negative }
+    } else {
+        Stability::Marginal
+    };
+    Verdict {
+        stability,
+        rounding: floor,
+        modes: found.modes,
+    }
+}
+
+/// Judges a critical state by its general eigenvalues, of which the `zero` smallest count as zero.
+#[doc(hidden)]
+pub fn judge_critical(
+    linear: &Linear,
+    description: &Shared<Description>,
+    zero: usize,
+) -> Option<Verdict> {
+    /// Both eigenvalues of a direction without stiffness are as far from zero as each other but for rounding.
+    const MARGIN: f64 = 4.0;
+    let mut modes = solve_modes(linear, Family::General, description, 0.0)
+        .ok()?
+        .modes;
+    modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+    let critical = modes.get(zero.checked_sub(1)?)?;
+    let floor = MARGIN * change_to_zero(linear, critical);
+    Some(by_eigenvalues((linear, &[]), description, (0, zero), floor))
+}
+
+/// Whether a matrix is skew-symmetric to rounding.
+fn skew(matrix: &Matrix) -> bool {
+    let threshold = SYMMETRIC * largest_element(matrix);
+    (0..matrix.row_count())
+        .all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
+}
+
+/// Whether the symmetric part of `Chat` has a negative eigenvalue beyond rounding.
+fn feeds_energy(linear: &Linear) -> Result<bool, Failure> {
+    let damping = &linear.damping;
+    let n = damping.row_count();
+    let symmetric_part = Matrix::from_fn(n, n, |i, j| 0.5 * (damping[i][j] + damping[j][i]));
+    let pairs = symmetric::solve(&symmetric_part, &linear.mass)?;
+    Ok((0..n).any(|r| {
+        let error = pairs.errors[r].max(of_form(damping, &pairs.shapes[r]));
+        sign(pairs.lambda[r], error) == Sign::Negative
+    }))
+}

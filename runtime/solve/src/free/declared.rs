@@ -1,0 +1,74 @@
+//! The values that a declaration gives to unknowns in steady motion, with their derivatives.
+
+use super::Held;
+use crate::algebra::{Matrix, Vector};
+use crate::kernels::{Kernels, Second};
+use crate::scalar::Dual;
+
+/// The unknowns with declared values, in the order of the declaration.
+#[doc(hidden)]
+pub fn declared(mechanism: &dyn Kernels, u: &[f64], b: &[f64]) -> Vec<Held> {
+    let places = &mechanism.description().held;
+    if places.is_empty() {
+        return Vec::new();
+    }
+    let still = (Vector::zeros(u.len()), Vector::zeros(b.len()));
+    let found = derivatives(mechanism, (u, b), (&still.0, &still.1));
+    let held = places.iter().enumerate().map(|(k, &unknown)| {
+        let (by_input, by_design) = found.first[k].split_at(u.len());
+        Held {
+            unknown,
+            value: found.values[k],
+            by_input: by_input.into(),
+            by_design: by_design.into(),
+            declared: Some(k),
+        }
+    });
+    held.collect()
+}
+
+/// Declared values, one after the other.
+pub(super) struct Derivatives {
+    pub(super) values: Vector,
+    /// By input, then by design variable.
+    pub(super) first: Matrix,
+    /// Derivative of `first` along a direction.
+    pub(super) along: Matrix,
+}
+
+/// Declared values with their first derivatives, and the derivatives of these along a direction.
+pub(super) fn derivatives(
+    mechanism: &dyn Kernels,
+    (u, b): (&[f64], &[f64]),
+    (du, db): (&[f64], &[f64]),
+) -> Derivatives {
+    let count = mechanism.description().held.len();
+    let size = u.len() + b.len();
+    let mut found = Derivatives {
+        values: Vector::zeros(count),
+        first: Matrix::zeros(count, size),
+        along: Matrix::zeros(count, size),
+    };
+    let moving = u.iter().chain(b).zip(du.iter().chain(db));
+    let mut numbers: Vec<Second> = moving
+        .map(|(&value, &slope)| Dual::fixed(Dual { value, slope }))
+        .collect();
+    let mut values = vec![Second::fixed(Dual::fixed(0.0)); count];
+    let mut evaluate = |numbers: &[Second]| {
+        let (u, b) = numbers.split_at(u.len());
+        mechanism.held_values_into(u, b, &mut values);
+        values.clone()
+    };
+    for (own, value) in found.values.iter_mut().zip(evaluate(&numbers)) {
+        *own = value.value.value;
+    }
+    for j in 0..size {
+        numbers[j].slope.value = 1.0;
+        for (k, value) in evaluate(&numbers).iter().enumerate() {
+            found.first[k][j] = value.slope.value;
+            found.along[k][j] = value.slope.slope;
+        }
+        numbers[j].slope.value = 0.0;
+    }
+    found
+}

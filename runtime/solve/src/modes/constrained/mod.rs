@@ -1,0 +1,270 @@
+//! Modes of mechanisms with constraints and speeds.
+//!
+//! The bordered pencil `s^2 Mhat + s Chat + Khat` has a singular `Mhat` and as many finite eigenvalues as there are
+//! motions that the constraints leave free. They are the eigenvalues of a smaller problem in coordinates `y`,
+//! `delta q = P y`, along the null space of the constraints. That problem is symmetric ([`pairs`]), quadratic
+//! ([`quadratic`]) or, with speeds or constraints on velocities, of first order in positions and independent velocities
+//! ([`first_order`]). Its vectors are completed with the reactions; every pair is measured, and its eigenvalue
+//! improved, on the bordered pencil itself ([`measure`]).
+
+mod first_order;
+mod measure;
+#[cfg(test)]
+mod measure_tests;
+mod pairs;
+mod quadratic;
+mod system;
+
+#[doc(hidden)]
+pub use pairs::{free_pairs, free_pairs_into};
+
+use super::pencil::pencil_times;
+use crate::algebra::{Matrix, Vector, dot, times, times_complex};
+use crate::constraints::{Structure, Tangent};
+use crate::eigenproblem::{Root, Trouble};
+use crate::kernels::Linear;
+use crate::{Complex, Description};
+use measure::Measure;
+
+/// All roots of the bordered pencil with `Im s >= 0`.
+///
+/// Those of `free` directions come first.
+pub(super) fn general_roots(
+    linear: &Linear,
+    structure: Structure,
+    free: usize,
+) -> Result<Vec<Root>, Trouble> {
+    let tangent = Tangent::new(linear, structure);
+    if structure.holonomic() {
+        quadratic::roots(linear, &tangent, free)
+    } else {
+        first_order::roots(linear, &tangent, free)
+    }
+}
+
+/// Completes the motion of a vector with its reactions: `x` with `P(s) x = 0` by coordinate and speed.
+fn with_reactions(
+    linear: &Linear,
+    tangent: &Tangent,
+    s: Complex,
+    motion: &[Complex],
+) -> Vector<Complex> {
+    let force = pencil_times(linear, s, motion).map(|value| -value);
+    let re = tangent.multipliers(&force.map(|value| value.re));
+    let im = tangent.multipliers(&force.map(|value| value.im));
+    let motions = tangent.structure.motions();
+    Vector::from_fn(motion.len(), |i| {
+        if i < motions {
+            motion[i]
+        } else {
+            Complex::new(re[i], im[i])
+        }
+    })
+}
+
+/// `P y`, by coordinate.
+fn lift(tangent: &Tangent, y: &[Complex]) -> Vector<Complex> {
+    let mut x = Vector::zeros(tangent.structure.size());
+    for (y, direction) in y.iter().zip(&tangent.basis) {
+        for (x, along) in x.iter_mut().zip(direction) {
+            *x += y * along;
+        }
+    }
+    x
+}
+
+/// `P^T matrix P`.
+fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
+    let images: Vec<_> = tangent.basis.iter().map(|x| times(matrix, x)).collect();
+    Matrix::from_fn(tangent.freedom, tangent.freedom, |i, j| {
+        dot(&tangent.basis[i], &images[j])
+    })
+}
+
+/// How the vectors of a mode are normalised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
+pub enum Normalisation {
+    /// `x^H Mhat x = 1`, with the leading component real and positive.
+    Mass,
+    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass that `Mhat`
+    /// contains.
+    Largest,
+}
+
+/// Number of first components among which the leading (largest) one is sought, for either vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
+pub struct Leading {
+    #[doc(hidden)]
+    pub right: usize,
+    #[doc(hidden)]
+    pub left: usize,
+}
+
+impl Normalisation {
+    /// The normalisation for the modes of a mechanism. The leading component belongs to a coordinate or a speed. For
+    /// left vectors with speeds or constraints on velocities it may belong to any unknown, because such a vector may
+    /// consist of reactions only.
+    #[doc(hidden)]
+    pub fn of(description: &Description) -> (Self, Leading) {
+        let structure = Structure::of(description);
+        let motions = if structure.open() {
+            usize::MAX
+        } else {
+            structure.motions()
+        };
+        if structure.holonomic() {
+            let leading = Leading {
+                right: motions,
+                left: motions,
+            };
+            (Self::Mass, leading)
+        } else {
+            let leading = Leading {
+                right: motions,
+                left: description.coordinates.len(),
+            };
+            (Self::Largest, leading)
+        }
+    }
+}
+
+/// Normalises a vector of an open mechanism: `x^H Mhat x = 1`, its largest component real and positive.
+pub(super) fn normalise_by_mass(x: &mut [Complex], mass: &Matrix) -> bool {
+    let all = x.len();
+    normalise(x, mass, Normalisation::Mass, all)
+}
+
+/// Normalises a vector; the first `leading` components fix the phase.
+fn normalise(x: &mut [Complex], mass: &Matrix, size: Normalisation, leading: usize) -> bool {
+    let lead = super::lead(&x[..leading]);
+    let Some(most) = x.get(lead).copied().filter(|value| value.norm() > 0.0) else {
+        return false;
+    };
+    let factor = match size {
+        Normalisation::Largest => most.inv(),
+        Normalisation::Mass => {
+            let weighted = times_complex(mass, x);
+            let square: f64 = x
+                .iter()
+                .zip(&weighted)
+                .map(|(x, w)| (x.conj() * w).re)
+                .sum();
+            most.conj() / (most.norm() * square.sqrt())
+        }
+    };
+    for value in x.iter_mut() {
+        *value *= factor;
+    }
+    x[lead].im = 0.0;
+    x.iter().all(|value| value.is_finite())
+}
+
+/// Collects roots: measures each pair on the bordered pencil, improves its eigenvalue and checks it.
+struct Gathered<'a> {
+    linear: &'a Linear,
+    structure: Structure,
+    size: Normalisation,
+    roots: Vec<Root>,
+}
+
+impl<'a> Gathered<'a> {
+    fn new(linear: &'a Linear, structure: Structure, size: Normalisation) -> Self {
+        Self {
+            linear,
+            structure,
+            size,
+            roots: Vec::new(),
+        }
+    }
+
+    /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and
+    /// stay equal.
+    fn add(
+        &mut self,
+        reduced: &Root,
+        shared: bool,
+        mut right: Vector<Complex>,
+        mut left: Vector<Complex>,
+    ) -> Result<(), Trouble> {
+        let inaccurate = |residual| Trouble::Inaccurate {
+            mode: self.roots.len(),
+            residual,
+        };
+        let motions = self.structure.motions();
+        // A left vector may consist of reactions only.
+        let left_leading = match self.size {
+            Normalisation::Mass => motions,
+            Normalisation::Largest => left.len(),
+        };
+        let settle = |right: &mut [Complex], left: &mut [Complex]| {
+            normalise(right, &self.linear.mass, self.size, motions)
+                && normalise(left, &self.linear.mass, self.size, left_leading)
+        };
+        if !settle(&mut right, &mut left) {
+            return Err(inaccurate(f64::INFINITY));
+        }
+        let mut s = reduced.s;
+        let mut found = Measure::new(self.linear, motions, s, &right, &left);
+        let simple = !shared && reduced.condition.is_finite();
+        if simple {
+            let unimproved = (s, right.clone(), left.clone(), found);
+            for _ in 0..2 {
+                // A step this long is not rounding of the smaller problem.
+                let next = s - found.newton;
+                let near = found.newton.norm() <= 1e-6 * (s.norm() + reduced.error);
+                if !near || (s.im > 0.0) != (next.im > 0.0) {
+                    break;
+                }
+                s = next;
+                found = Measure::new(self.linear, motions, s, &right, &left);
+                if found.residual <= measure::INACCURATE {
+                    break;
+                }
+                let improved = measure::inverse_iteration(self.linear, s, &right, &left);
+                let Some((mut new_right, mut new_left)) = improved else {
+                    break;
+                };
+                if !settle(&mut new_right, &mut new_left) {
+                    break;
+                }
+                let better = Measure::new(self.linear, motions, s, &new_right, &new_left);
+                if better.residual < found.residual {
+                    (right, left, found) = (new_right, new_left, better);
+                }
+            }
+            // Next to a double root the step is a quotient of two rounding errors.
+            if found.residual > measure::INACCURATE.max(unimproved.3.residual) {
+                (s, right, left, found) = unimproved;
+            }
+        }
+        if found.residual.is_nan() || found.residual > measure::ACCEPTED {
+            if !found.rounding_only {
+                return Err(inaccurate(found.residual));
+            }
+            found.residual = measure::ROUNDING;
+        }
+        let own = found.doubt + 2.0 * found.newton.norm() + f64::EPSILON * s.norm();
+        let error = if reduced.condition.is_finite() && own.is_finite() {
+            reduced.error.max(own)
+        } else {
+            reduced.error
+        };
+        self.roots.push(Root {
+            s,
+            right,
+            left,
+            residual: found.residual,
+            error,
+            condition: reduced.condition,
+        });
+        Ok(())
+    }
+}
+
+/// Whether an eigenvalue occurs more than once in a list.
+fn is_shared(roots: &[Root], i: usize) -> bool {
+    let others = roots.iter().enumerate().filter(|(j, _)| *j != i);
+    others.map(|(_, other)| other.s).any(|s| s == roots[i].s)
+}

@@ -1,0 +1,154 @@
+//! The symmetric problem `P^T (K_c - lambda M) P y = 0`: gives undamped modes and the number of directions of negative
+//! stiffness.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+use super::quadratic::tangent_trouble;
+use super::{measure, projected};
+use crate::Description;
+use crate::algebra::{Matrix, Vector, dot, largest, largest_element, times};
+use crate::constraints::{Structure, Tangent};
+use crate::eigenproblem::{Pairs, Trouble, symmetric};
+use crate::kernels::Linear;
+use crate::modes::deflation;
+use crate::rounding::of_form;
+
+/// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that the constraints of `description` leave free.
+///
+/// There are as many pairs as free directions; their vectors include the reactions.
+///
+/// # Errors
+/// Fails as inaccurate for a mechanism with speeds or constraints on velocities, which has no such pairs.
+#[doc(hidden)]
+pub fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, Trouble> {
+    let mut pairs = Pairs::default();
+    free_pairs_into(linear, description, &mut pairs)?;
+    Ok(pairs)
+}
+
+/// Like [`free_pairs`], overwriting existing pairs.
+#[doc(hidden)]
+pub fn free_pairs_into(
+    linear: &Linear,
+    description: &Description,
+    pairs: &mut Pairs,
+) -> Result<(), Trouble> {
+    let structure = Structure::of(description);
+    if structure.open() {
+        let free = description.free_directions;
+        return deflation::pairs(&linear.stiffness, &linear.mass, free, pairs);
+    }
+    if !structure.holonomic() {
+        return Err(Trouble::Inaccurate {
+            mode: 0,
+            residual: f64::INFINITY,
+        });
+    }
+    let tangent = Tangent::new(linear, structure);
+    *pairs = reduced_pairs(linear, &tangent, description.free_directions)?;
+    Ok(())
+}
+
+fn reduced_pairs(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Pairs, Trouble> {
+    let mut mass = projected(&linear.mass, tangent);
+    let mut stiffness = projected(&linear.stiffness, tangent);
+    symmetrise(&mut mass);
+    symmetrise(&mut stiffness);
+    let mut pairs = Pairs::default();
+    deflation::pairs(&stiffness, &mass, free, &mut pairs)
+        .map_err(|trouble| tangent_trouble(trouble, tangent))?;
+    let reduced = pairs.shapes;
+    pairs.shapes = Matrix::zeros(tangent.freedom, tangent.structure.size());
+    for (r, y) in reduced.iter().enumerate() {
+        let mut x = tangent.lift(y);
+        symmetric::fix_sign(&mut x[..tangent.structure.motions()]);
+        let lambda = &mut pairs.lambda[r];
+        if r < free && *lambda == 0.0 {
+            let shape = with_reactions(linear, tangent, 0.0, &x);
+            pairs.shapes[r].copy_from_slice(&shape);
+            continue;
+        }
+        // The quotient does not depend on the reactions: constraint forces cancel in it.
+        let complete = with_reactions(linear, tangent, *lambda, &x);
+        let (numerator, rounding) = quotient(linear, *lambda, &complete);
+        *lambda += numerator;
+        pairs.errors[r] = pairs.errors[r].max(rounding);
+        let shape = with_reactions(linear, tangent, *lambda, &x);
+        let residual = residual(linear, tangent, *lambda, &shape);
+        pairs.shapes[r].copy_from_slice(&shape);
+        pairs.residuals[r] = residual;
+        if residual.is_nan() || residual > ACCEPTED {
+            return Err(Trouble::Inaccurate { mode: r, residual });
+        }
+    }
+    Ok(pairs)
+}
+
+/// Accepted residual of a pair relative to the terms in it.
+const ACCEPTED: f64 = 1e-9;
+
+fn symmetrise(matrix: &mut Matrix) {
+    for i in 0..matrix.row_count() {
+        for j in 0..i {
+            let mean = 0.5 * (matrix[i][j] + matrix[j][i]);
+            (matrix[i][j], matrix[j][i]) = (mean, mean);
+        }
+    }
+}
+
+fn with_reactions(linear: &Linear, tangent: &Tangent, lambda: f64, x: &[f64]) -> Vector {
+    let (k, m) = (times(&linear.stiffness, x), times(&linear.mass, x));
+    let force = Vector::from_fn(x.len(), |i| lambda * m[i] - k[i]);
+    let reactions = tangent.multipliers(&force);
+    let motions = tangent.structure.motions();
+    Vector::from_fn(x.len(), |i| if i < motions { x[i] } else { reactions[i] })
+}
+
+/// `phi^T (K - lambda M) phi` and a bound on its rounding, per `phi^T M phi = 1`.
+fn quotient(linear: &Linear, lambda: f64, phi: &[f64]) -> (f64, f64) {
+    let (k, m) = (times(&linear.stiffness, phi), times(&linear.mass, phi));
+    let size = dot(phi, &m);
+    let numerator = dot(phi, &k) - lambda * size;
+    let rounding = of_form(&linear.stiffness, phi) + lambda.abs() * of_form(&linear.mass, phi);
+    (numerator / size, rounding / size)
+}
+
+/// Largest component of `(K - lambda M) phi` relative to the sums of absolute terms, over the equations of motion and
+/// the constraints.
+fn residual(linear: &Linear, tangent: &Tangent, lambda: f64, phi: &[f64]) -> f64 {
+    let motions = tangent.structure.motions();
+    let (mut most, mut terms) = (0.0_f64, 0.0_f64);
+    let mut violation = 0.0_f64;
+    let greatest = largest(&phi[..motions]);
+    let n = phi.len();
+    for i in 0..n {
+        let (mut sum, mut size, mut row) = (0.0, 0.0, 0.0_f64);
+        for j in 0..n {
+            let (k, m) = (linear.stiffness[i][j], lambda * linear.mass[i][j]);
+            sum += (k - m) * phi[j];
+            size += (k.abs() + m.abs()) * phi[j].abs();
+            row = row.max(k.abs());
+        }
+        if !f64::is_finite(sum) {
+            return f64::INFINITY;
+        }
+        if i < motions {
+            most = most.max(f64::abs(sum));
+            terms = terms.max(size);
+        } else if sum != 0.0 {
+            violation = violation.max(f64::abs(sum) / (row * greatest));
+        }
+    }
+    let mut motion = if most == 0.0 { 0.0 } else { most / terms };
+    if motion > ACCEPTED {
+        // A shape that `K` maps to zero contains nothing but rounding, so its terms are no measure.
+        let matrices =
+            largest_element(&linear.stiffness) + lambda.abs() * largest_element(&linear.mass);
+        if most <= measure::ROUNDING * n as f64 * matrices * largest(phi) {
+            motion = measure::ROUNDING;
+        }
+    }
+    motion.max(violation)
+}

@@ -1,0 +1,516 @@
+//! Natural modes of small vibrations about an equilibrium.
+//!
+//! Undamped modes solve `Khat phi = lambda Mhat phi`; they describe the motion completely where `Chat` is zero and
+//! `Khat` symmetric. Every other case needs general modes, `(s^2 Mhat + s Chat + Khat) phi = 0` with left vectors
+//! `psi^T (s^2 Mhat + s Chat + Khat) = 0`. One type describes both: an undamped mode has `s^2 = -lambda`.
+//!
+//! With constraints and speeds the same equations hold over all unknowns, reactions included; the number of modes is
+//! the number of motions that the constraints leave free.
+
+mod assurance;
+mod constrained;
+mod deflation;
+mod kinetic;
+mod mode;
+mod pencil;
+mod whirl;
+
+#[doc(hidden)]
+pub use assurance::{
+    EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another,
+    position,
+};
+pub use assurance::{assurance, clusters, match_modes};
+#[doc(hidden)]
+pub use constrained::{Normalisation, free_pairs};
+pub(crate) use deflation::deflated;
+#[doc(hidden)]
+pub use kinetic::inertia;
+pub use mode::{Behaviour, Mode};
+#[doc(hidden)]
+pub use pencil::{pencil_slope_times, pencil_times, transposed};
+pub use whirl::{Sense, Whirl, whirls};
+
+use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
+use crate::constraints::Structure;
+use crate::eigenproblem::{Eigenproblem, Pairs, Root, Trouble, roots_near};
+use crate::kernels::{DeviatingInputs, Kernels, Linear};
+use crate::rounding::{Sign, sign};
+use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
+
+/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances: rounding mixes their
+/// shapes.
+#[doc(hidden)]
+pub const CLUSTER_GAP: f64 = 1e-6;
+
+/// The equation that a set of modes solves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Family {
+    /// `Khat phi = lambda Mhat phi`, `Khat` symmetric.
+    Undamped,
+    /// `(s^2 Mhat + s Chat + Khat) phi = 0`.
+    General,
+}
+
+impl Family {
+    /// The family that neglects nothing: undamped if the compiler proved `Chat` zero and `Khat` symmetric.
+    #[must_use]
+    pub fn of(description: &Description) -> Self {
+        if description.damping == DampingKind::Zero && description.symmetric_stiffness {
+            Self::Undamped
+        } else {
+            Self::General
+        }
+    }
+}
+
+/// All modes at one equilibrium.
+///
+/// Undamped modes are sorted by `lambda`, general ones by `|s|`, both ascending, unless they follow the order of
+/// another set.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Modes {
+    /// The modes.
+    pub modes: Vec<Mode>,
+    /// The equation they solve.
+    pub family: Family,
+    /// `Chat` is non-zero here and was neglected: these are the modes of `Mhat` and `Khat` alone.
+    pub damping_ignored: bool,
+    /// The inputs they belong to, SI; empty for the modes of given matrices.
+    pub inputs: Vector,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+impl Modes {
+    /// Frequencies of all modes, in order, rad/s.
+    pub fn frequencies(&self) -> Vec<Option<f64>> {
+        self.modes.iter().map(Mode::frequency).collect()
+    }
+
+    /// The modal matrix: column `r` is the shape of mode `r`, row `i` belongs to unknown `i`.
+    ///
+    /// ```
+    /// # use eigentol::{Study, mechanism};
+    /// # mechanism! {
+    /// #     mechanism Pendulum {
+    /// #         body bar: rod(mass: 3 kg, length: 2 m, along: -z);
+    /// #         gravity 9.81 m/s^2 along -z;
+    /// #         joint theta: revolute(y) from ground to bar;
+    /// #     }
+    /// # }
+    /// use eigentol::Complex;
+    /// use nalgebra::DMatrix;
+    ///
+    /// let study = Study::new(Pendulum);
+    /// let solved = study.solve()?;
+    /// let shapes = DMatrix::from(solved.modes.shapes());
+    /// let mass = DMatrix::from(&solved.equilibrium.linear.mass).map(Complex::from);
+    /// let product = shapes.adjoint() * mass * &shapes;
+    /// assert!((product[(0, 0)].re - 1.0).abs() < 1e-12);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn shapes(&self) -> Matrix<Complex> {
+        self.columns(|mode| &mode.shape)
+    }
+
+    /// The matrix of left vectors: column `r` is [`Mode::left`] of mode `r`.
+    #[must_use]
+    pub fn left_shapes(&self) -> Matrix<Complex> {
+        self.columns(Mode::left)
+    }
+
+    fn columns(&self, of: fn(&Mode) -> &[Complex]) -> Matrix<Complex> {
+        let rows = self.modes.first().map_or(0, |mode| of(mode).len());
+        Matrix::from_fn(rows, self.modes.len(), |i, r| of(&self.modes[r])[i])
+    }
+
+    /// Reassigns these modes to the mechanism with deviating inputs, all deviations zero.
+    #[must_use]
+    pub fn with_deviations<K: Kernels + ?Sized>(&self, of: &DeviatingInputs<'_, K>) -> Self {
+        Self {
+            description: of.description(),
+            ..self.clone()
+        }
+    }
+
+    /// The modes if they are general, otherwise an empty slice.
+    pub(crate) fn general(&self) -> &[Mode] {
+        match self.family {
+            Family::General => &self.modes,
+            Family::Undamped => &[],
+        }
+    }
+
+    /// Real parts of the shapes, one shape per row.
+    #[doc(hidden)]
+    pub fn real_shapes(&self) -> Matrix {
+        let columns = self.modes.first().map_or(0, |mode| mode.shape.len());
+        Matrix::from_fn(self.modes.len(), columns, |r, i| self.modes[r].shape[i].re)
+    }
+
+    /// Positions, ascending, of the modes whose eigenvalues rounding cannot distinguish from that of mode `mode`,
+    /// itself included.
+    ///
+    /// They form a chain in which each eigenvalue is within 1e-6 of the next, relative to the larger. Tolerances can
+    /// merge more modes ([`clusters::clusters`](crate::clusters::clusters)). Empty if there is no such mode.
+    #[must_use]
+    pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
+        let mut members: Vec<usize> = (mode < self.modes.len())
+            .then_some(mode)
+            .into_iter()
+            .collect();
+        let mut next = 0;
+        while let Some(&of) = members.get(next) {
+            let near = (0..self.modes.len()).filter(|&r| near(self, of, r, CLUSTER_GAP));
+            let new: Vec<usize> = near.filter(|r| !members.contains(r)).collect();
+            members.extend(new);
+            next += 1;
+        }
+        members.sort_unstable();
+        members
+    }
+
+    /// Whether no small disturbance grows exponentially. Neutral modes count as stable: nothing resists a motion along
+    /// them, which a disturbance may continue for ever.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        !self.modes.iter().any(|mode| mode.behaviour.grows())
+    }
+}
+
+/// The modes about an equilibrium, in the family that neglects nothing ([`Family::of`]).
+///
+/// # Errors
+/// [`Error::SingularMass`] if a coordinate moves no mass, [`Error::ModesNotFound`] if a pair fails its residual check,
+/// [`Error::SingularConfiguration`] where constraints become dependent.
+pub fn modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
+    equilibrium.regular()?;
+    let family = Family::of(&equilibrium.description);
+    modes_at(equilibrium, family, Vec::new())
+}
+
+/// Undamped modes about an equilibrium: `Chat` is neglected, and the result says so where it is non-zero.
+///
+/// # Errors
+/// Those of [`modes`], [`Error::NonsymmetricStiffness`] if `Khat` is not symmetric, and [`Error::NoUndampedModes`] with
+/// speeds or constraints on velocities.
+pub fn undamped_modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
+    equilibrium.regular()?;
+    modes_at(equilibrium, Family::Undamped, Vec::new())
+}
+
+/// The modes of the given family about an equilibrium; for `judged` see [`Modes::solve_at`].
+pub(crate) fn modes_at(
+    at: &Equilibrium,
+    family: Family,
+    judged: Vec<Mode>,
+) -> Result<Modes, Error> {
+    let mut found = Modes::empty(family, &at.description);
+    found.solve_at(at, judged)?;
+    Ok(found)
+}
+
+/// Modes of given matrices that belong to the mechanism described by `description`.
+///
+/// The elements are assumed to be accurate to rounding: only an [`Equilibrium`] knows where an element is a small
+/// difference of large terms, as at a critical speed.
+///
+/// # Errors
+/// Those of [`undamped_modes`], and [`Error::WrongLength`] if the matrices do not have the size that `description`
+/// gives.
+pub fn modes_of(
+    linear: &Linear,
+    family: Family,
+    description: &Shared<Description>,
+) -> Result<Modes, Error> {
+    check_sizes(linear, description)?;
+    solve_modes(linear, family, description, 0.0).map_err(|failure| failure.explain(description))
+}
+
+/// Refuses matrices that are not square or differ in size. Mechanisms with constraints or speeds also fix the size;
+/// open ones accept any.
+fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> {
+    let expected = if Structure::of(description).open() {
+        linear.mass.row_count()
+    } else {
+        description.coordinates.len()
+    };
+    let sizes = |matrix: &Matrix| [matrix.row_count(), matrix.column_count()];
+    let matrices = [&linear.mass, &linear.damping, &linear.stiffness];
+    match matrices
+        .into_iter()
+        .flat_map(sizes)
+        .find(|&size| size != expected)
+    {
+        None => Ok(()),
+        Some(found) => Err(Error::WrongLength {
+            kind: "rows or columns of a matrix",
+            found,
+            expected,
+        }),
+    }
+}
+
+/// Why there are no modes; the error allocates nothing.
+#[doc(hidden)]
+pub enum ModesFailure {
+    Asymmetric(f64),
+    /// Undamped modes were requested, but speeds or constraints on velocities rule them out.
+    NotHolonomic,
+    Pencil(Trouble),
+    /// The square of this eigenvalue exceeds the range of a double.
+    Range {
+        mode: usize,
+        size: f64,
+    },
+}
+
+impl ModesFailure {
+    #[cold]
+    pub(crate) fn explain(self, description: &Description) -> Error {
+        match self {
+            Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
+            Self::NotHolonomic => Error::NoUndampedModes,
+            Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
+            Self::Pencil(Trouble::SingularMass(row)) => Error::SingularMass {
+                coordinate: description.unknown_name(row),
+            },
+            Self::Pencil(Trouble::Inaccurate { mode, residual }) => {
+                Error::ModesNotFound { mode, residual }
+            }
+        }
+    }
+}
+
+/// Relative asymmetry up to which `Khat` counts as symmetric.
+pub(crate) const SYMMETRIC: f64 = 1e-11;
+
+/// The modes of given matrices; a `lambda` not beyond `floor` counts as zero.
+#[doc(hidden)]
+pub fn solve_modes(
+    linear: &Linear,
+    family: Family,
+    description: &Shared<Description>,
+    floor: f64,
+) -> Result<Modes, ModesFailure> {
+    let mut modes = Modes::empty(family, description);
+    modes.solve_near(linear, (description.free_directions, floor), &[])?;
+    Ok(modes)
+}
+
+impl Modes {
+    /// An empty set of modes.
+    #[inline]
+    #[doc(hidden)]
+    pub fn empty(family: Family, description: &Shared<Description>) -> Self {
+        Self {
+            modes: Vec::new(),
+            family,
+            damping_ignored: false,
+            inputs: Vector::default(),
+            description: description.clone(),
+        }
+    }
+
+    /// Overwrites this set with the modes about an equilibrium. `judged` holds its general modes if they were needed to
+    /// judge its stability, and is empty otherwise.
+    #[doc(hidden)]
+    pub fn solve_at(&mut self, at: &Equilibrium, judged: Vec<Mode>) -> Result<(), Error> {
+        self.solve_judged(at, judged, &[])
+            .map_err(|failure| failure.explain(&at.description))?;
+        self.inputs.set(&at.inputs, |value| *value);
+        Ok(())
+    }
+
+    /// Like [`Self::solve_at`], but leaves the inputs alone and starts from all modes of a nearby equilibrium, if
+    /// given.
+    #[doc(hidden)]
+    pub fn solve_judged(
+        &mut self,
+        at: &Equilibrium,
+        judged: Vec<Mode>,
+        nearby: &[Mode],
+    ) -> Result<(), ModesFailure> {
+        let alone = at.free.held.is_empty();
+        if self.family == Family::General && !judged.is_empty() && alone {
+            self.modes = judged;
+            return Ok(());
+        }
+        let free = at.description.free_directions + at.free.held.len();
+        self.solve_near(&at.linear, (free, at.rounding), nearby)
+    }
+
+    /// Overwrites this set with the modes of these matrices, reusing its vectors. There are `free` directions that lead to
+    /// neighbouring steady motions, and a `lambda` not beyond `floor` counts as zero. For damped modes of an open mechanism, passing all modes of a nearby one saves time.
+    pub(crate) fn solve_near(
+        &mut self,
+        linear: &Linear,
+        (free, floor): (usize, f64),
+        nearby: &[Mode],
+    ) -> Result<(), ModesFailure> {
+        let damping = linear.damping.as_flattened();
+        self.damping_ignored = self.family == Family::Undamped
+            && self.description.damping != DampingKind::Zero
+            && damping.iter().any(|&value| value != 0.0);
+        match self.family {
+            Family::Undamped => undamped(linear, &self.description, floor, &mut self.modes),
+            Family::General => {
+                let limits = (free, floor);
+                damped(linear, &self.description, limits, nearby, &mut self.modes)
+            }
+        }
+    }
+}
+
+fn undamped(
+    linear: &Linear,
+    description: &Description,
+    floor: f64,
+    modes: &mut Vec<Mode>,
+) -> Result<(), ModesFailure> {
+    if !Structure::of(description).holonomic() {
+        return Err(ModesFailure::NotHolonomic);
+    }
+    if !description.symmetric_stiffness {
+        let asymmetry = asymmetry(&linear.stiffness);
+        if asymmetry.is_nan() || asymmetry > SYMMETRIC {
+            return Err(ModesFailure::Asymmetric(asymmetry));
+        }
+    }
+    let mut pairs = Pairs::default();
+    constrained::free_pairs_into(linear, description, &mut pairs).map_err(ModesFailure::Pencil)?;
+    let count = pairs.lambda.len();
+    modes.reserve_exact(count.saturating_sub(modes.len()));
+    modes.resize_with(count, Mode::blank);
+    for (r, mode) in modes.iter_mut().enumerate() {
+        let (lambda, error) = (pairs.lambda[r], pairs.errors[r].max(floor));
+        let from = &pairs.shapes[r];
+        let shape = mode.make_undamped(r, (lambda, error), pairs.residuals[r], from.len());
+        for (to, from) in shape.iter_mut().zip(from) {
+            *to = Complex::from(*from);
+        }
+    }
+    for mode in modes.iter_mut().take(description.free_directions) {
+        if mode.behaviour == Behaviour::Neutral {
+            mode.behaviour = Behaviour::Free;
+        }
+    }
+    Ok(())
+}
+
+fn damped(
+    linear: &Linear,
+    description: &Description,
+    (free, floor): (usize, f64),
+    nearby: &[Mode],
+    modes: &mut Vec<Mode>,
+) -> Result<(), ModesFailure> {
+    let structure = Structure::of(description);
+    let roots = if structure.open() && free > 0 {
+        deflation::roots(linear, free, |rest| {
+            roots_near(Eigenproblem::Quadratic(rest), &[])
+        })
+    } else if structure.open() {
+        let nearby: Vec<_> = nearby.iter().map(Mode::near).collect();
+        roots_near(Eigenproblem::Quadratic(linear), &nearby)
+    } else {
+        constrained::general_roots(linear, structure, free)
+    };
+    let roots = roots.map_err(ModesFailure::Pencil)?;
+    // Without dissipation, a motion that stays bounded has imaginary eigenvalues.
+    let conservative =
+        description.symmetric_stiffness && description.damping != DampingKind::General;
+    modes.clear();
+    let mut free_left = free;
+    // Without dissipation two real zeros are one motion, as a pair of small imaginary ones is: which of the two they are
+    // is rounding.
+    let in_pairs = conservative && structure.holonomic();
+    let mut second_zero = false;
+    for (r, root) in roots.into_iter().enumerate() {
+        let mut s = root.s;
+        let error = if floor > 0.0 {
+            root.error.max(moved_by(linear, &root, floor))
+        } else {
+            root.error
+        };
+        let zero = sign(s.norm(), error) == Sign::Zero;
+        let keeps_amplitude = sign(s.re, error) == Sign::Zero;
+        if zero && s.im == 0.0 && in_pairs && free_left == 0 {
+            second_zero = !second_zero;
+            if !second_zero {
+                continue;
+            }
+        }
+        if zero {
+            s = Complex::ZERO;
+        } else if s.im > 0.0 && keeps_amplitude && conservative {
+            s.re = 0.0;
+        }
+        let behaviour = match (zero, s.im > 0.0, s.re > 0.0) {
+            (true, ..) if free_left > 0 => {
+                free_left -= 1;
+                Behaviour::Free
+            }
+            (true, ..) => Behaviour::Neutral,
+            (_, true, _) if keeps_amplitude => Behaviour::Oscillating(s.im),
+            (_, true, false) => Behaviour::Damped(s.im),
+            (_, true, true) => Behaviour::Flutter(s.im),
+            (_, false, false) => Behaviour::Decaying(-s.re),
+            (_, false, true) => Behaviour::Divergent(s.re),
+        };
+        let lambda = -(s * s).re;
+        if !lambda.is_finite() {
+            let size = s.norm();
+            return Err(ModesFailure::Range { mode: r, size });
+        }
+        modes.push(Mode {
+            s,
+            lambda,
+            shape: root.right,
+            left: root.left,
+            behaviour,
+            residual: root.residual,
+            error,
+            condition: root.condition,
+            label: modes.len(),
+        });
+    }
+    Ok(())
+}
+
+/// How far a change `floor phi^H Mhat phi` of the pencil moves a root: `d` with
+/// `d (|psi^T (2 s M + C) phi| + d) = floor`.
+#[cold]
+fn moved_by(linear: &Linear, root: &Root, floor: f64) -> f64 {
+    let slope = slope(linear, root.s, (&root.left, &root.right));
+    2.0 * floor / (slope + (slope * slope + 4.0 * floor).sqrt())
+}
+
+/// The change of the pencil, in the sense of [`moved_by`], that moves a mode to zero.
+pub(crate) fn change_to_zero(linear: &Linear, mode: &Mode) -> f64 {
+    let distance = mode.s.norm();
+    distance * (slope(linear, mode.s, (&mode.left, &mode.shape)) + distance)
+}
+
+/// `|psi^T (2 s M + C) phi|`.
+fn slope(linear: &Linear, s: Complex, (left, right): (&[Complex], &[Complex])) -> f64 {
+    dot_complex(left, &pencil_slope_times(linear, s, right)).norm()
+}
+
+/// Position of the component that fixes the phase of a vector: the largest one, with a margin that keeps the choice
+/// stable when two are equal up to rounding.
+#[doc(hidden)]
+pub fn lead(x: &[Complex]) -> usize {
+    let mut lead = 0;
+    for (i, value) in x.iter().enumerate().skip(1) {
+        if value.norm() > x[lead].norm() * (1.0 + 1e-9) {
+            lead = i;
+        }
+    }
+    lead
+}

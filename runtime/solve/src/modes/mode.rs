@@ -1,0 +1,194 @@
+//! One mode and its interpretation.
+
+use crate::Complex;
+use crate::algebra::Vector;
+use crate::eigenproblem::Near;
+use crate::rounding::{Sign, sign};
+
+/// How a disturbance along a mode develops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Behaviour {
+    /// It oscillates and neither grows nor decays within rounding; angular frequency, rad/s.
+    Oscillating(f64),
+    /// It oscillates and decays; angular frequency, rad/s.
+    Damped(f64),
+    /// It oscillates and grows (dynamic instability); angular frequency, rad/s.
+    Flutter(f64),
+    /// It decays without oscillation (overdamped); rate, 1/s.
+    Decaying(f64),
+    /// Nothing depends on where the mechanism stands along it, whatever the design: its eigenvalue is exactly zero.
+    Free,
+    /// Nothing resists it here: its eigenvalue is zero within rounding.
+    Neutral,
+    /// It grows without oscillation (static instability); rate, 1/s.
+    Divergent(f64),
+}
+
+impl Behaviour {
+    /// Whether a small disturbance grows.
+    #[must_use]
+    pub fn grows(self) -> bool {
+        matches!(self, Self::Flutter(_) | Self::Divergent(_))
+    }
+
+    /// Angular frequency of the oscillation, rad/s; `None` without one.
+    #[must_use]
+    pub fn frequency(self) -> Option<f64> {
+        match self {
+            Self::Oscillating(omega) | Self::Damped(omega) | Self::Flutter(omega) => Some(omega),
+            Self::Decaying(_) | Self::Free | Self::Neutral | Self::Divergent(_) => None,
+        }
+    }
+}
+
+/// One mode.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Mode {
+    /// Eigenvalue, 1/s: the motion varies as `exp(s t)`. For a conjugate pair, the one with positive imaginary part;
+    /// for an undamped divergent mode, the growing one.
+    pub s: Complex,
+    /// `-Re s^2`, 1/s^2. For an undamped mode, the eigenvalue of `Khat phi = lambda Mhat phi`: the square of the
+    /// frequency, negative for divergence.
+    pub lambda: f64,
+    /// Right vector `phi` over all unknowns, reactions of constraints included: `phi^H Mhat phi = 1`, with its largest
+    /// coordinate component real and positive. With speeds or constraints on velocities, where a mode may move speeds
+    /// only, the largest component of a coordinate or speed is one. Real for an undamped mode.
+    pub shape: Vector<Complex>,
+    /// Left vector of a general mode; empty for an undamped one.
+    pub(crate) left: Vector<Complex>,
+    /// What `s` means physically.
+    pub behaviour: Behaviour,
+    /// Largest component of the mode's equation, left or right, relative to the terms in it.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+    pub residual: f64,
+    /// Estimated absolute error of `s`, 1/s.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+    pub error: f64,
+    /// Condition number of `s` as an eigenvalue of the balanced first-order system: 1 for an undamped mode, large where
+    /// eigenvalues and their vectors are about to merge, infinite where they have merged.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+    pub condition: f64,
+    /// Identifies the motion: modes with the same label along a sweep are one motion. Without a sweep, the position.
+    pub label: usize,
+}
+
+impl Mode {
+    /// This mode as a predictor for the modes of a nearby problem.
+    #[doc(hidden)]
+    pub fn near(&self) -> Near<'_> {
+        Near {
+            s: self.s,
+            right: &self.shape,
+            left: self.left(),
+        }
+    }
+
+    /// Left vector `psi`, normalised as [`shape`](Self::shape), except that with speeds or constraints on velocities
+    /// the largest of all its components is one. For an undamped mode it is the shape.
+    #[must_use]
+    pub fn left(&self) -> &[Complex] {
+        if self.left.is_empty() {
+            &self.shape
+        } else {
+            &self.left
+        }
+    }
+
+    /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` if it does not oscillate.
+    #[must_use]
+    pub fn frequency(&self) -> Option<f64> {
+        self.behaviour.frequency()
+    }
+
+    /// Natural angular frequency `|s|`, rad/s; `None` if the mode does not oscillate.
+    #[must_use]
+    pub fn natural_frequency(&self) -> Option<f64> {
+        self.frequency().map(|_| self.s.norm())
+    }
+
+    /// Damping ratio `-Re s / |s|`; negative for a growing mode, `None` for a neutral one.
+    #[must_use]
+    pub fn damping_ratio(&self) -> Option<f64> {
+        match self.behaviour {
+            Behaviour::Oscillating(_) => Some(0.0),
+            Behaviour::Free | Behaviour::Neutral => None,
+            _ => Some(-self.s.re / self.s.norm()),
+        }
+    }
+
+    /// An empty mode, to be overwritten.
+    pub(super) fn blank() -> Self {
+        Self {
+            s: Complex::ZERO,
+            lambda: 0.0,
+            shape: Vector::default(),
+            left: Vector::default(),
+            behaviour: Behaviour::Neutral,
+            residual: 0.0,
+            error: 0.0,
+            condition: 1.0,
+            label: 0,
+        }
+    }
+
+    /// Overwrites this mode with an undamped mode given by its eigenvalue and error, reusing the vectors. Returns the
+    /// place into which the caller writes the shape, of `n` components.
+    #[inline(always)]
+    #[doc(hidden)]
+    pub fn make_undamped(
+        &mut self,
+        label: usize,
+        (lambda, error): (f64, f64),
+        residual: f64,
+        n: usize,
+    ) -> &mut [Complex] {
+        let rate = lambda.abs().sqrt();
+        (self.s, self.behaviour) = match sign(lambda, error) {
+            Sign::Positive => (Complex::new(0.0, rate), Behaviour::Oscillating(rate)),
+            Sign::Negative => (Complex::new(rate, 0.0), Behaviour::Divergent(rate)),
+            Sign::Zero => (Complex::ZERO, Behaviour::Neutral),
+        };
+        self.lambda = lambda;
+        self.left.make_room(0);
+        self.residual = residual;
+        // `sqrt(error)`, or `error / rate` if that is smaller.
+        self.error = if rate * rate > error {
+            error / rate
+        } else {
+            error.sqrt()
+        };
+        self.condition = 1.0;
+        self.label = label;
+        self.shape.make_room(n)
+    }
+
+    /// Real part of the shape, which is all of it for an undamped mode.
+    #[doc(hidden)]
+    pub fn real_shape(&self) -> Vector {
+        self.shape.map(|value| value.re)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_general_modes_have_a_left_vector_of_their_own() {
+        let [i, two] = [Complex::new(0.0, 1.0), Complex::new(2.0, 0.0)];
+        let general = Mode {
+            shape: [Complex::ONE, i].into(),
+            left: [i, two].into(),
+            ..Mode::blank()
+        };
+        assert_eq!(general.left(), [i, two]);
+        let mut undamped = general;
+        let shape = undamped.make_undamped(0, (4.0, 0.0), 0.0, 2);
+        shape.copy_from_slice(&[1.0, 0.5].map(Complex::from));
+        assert_eq!(undamped.left(), [Complex::ONE, Complex::new(0.5, 0.0)]);
+        assert_eq!(undamped.near().left, &undamped.shape[..]);
+    }
+}

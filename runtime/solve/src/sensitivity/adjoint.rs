@@ -1,0 +1,292 @@
+//! Derivatives of all modes with respect to all variables by the adjoint method.
+//!
+//! For undamped modes `dlambda/db = da/db - (dg/db)^T w`, `a = phi^T (Khat - lambda Mhat) phi`. For general modes the
+//! same holds with `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both cases
+//! `Khat^T w = da/dq`.
+
+use super::gradients::{Source, changes, of_general, rate};
+use super::pencil::{ComplexGradient, Form, form_gradient};
+use super::{
+    Method, ModeSensitivity, Sensitivities, assemble_into, check_state, place, redundancy,
+};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
+use crate::kernels::{
+    Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros,
+};
+use crate::modes::{Family, pencil_slope_times};
+use crate::{Complex, Equilibrium, Error, Mode, Modes};
+
+/// Total derivatives of every mode with respect to every input and design variable.
+///
+/// # Errors
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::ClosesHereOnly`] if redundant constraints contradict each
+/// other as soon as a variable changes, [`Error::OutsideDomain`] if a derivative is not finite.
+pub fn sensitivities(
+    mechanism: &dyn Kernels,
+    at: &Equilibrium,
+    modes: &Modes,
+) -> Result<Sensitivities, Error> {
+    let mut found = Sensitivities::blank(at, modes, Method::Adjoint);
+    Adjoint::new(mechanism, modes.family).sensitivities_into(at, modes, &mut found)?;
+    Ok(found)
+}
+
+/// Computes [`sensitivities`] for a sequence of states.
+#[doc(hidden)]
+pub struct Adjoint<'a> {
+    mechanism: &'a dyn Kernels,
+    source: Source,
+    /// Explicit partials, if gradients are computed from them; sized for no variables otherwise.
+    matrices: PartialMatrices,
+    residual: ResidualPartials,
+}
+
+impl<'a> Adjoint<'a> {
+    #[doc(hidden)]
+    pub fn new(mechanism: &'a dyn Kernels, family: Family) -> Self {
+        let sizes = mechanism.sizes();
+        let source = Source::cheapest(mechanism.costs(), sizes, family);
+        let where_used = |used| if used { sizes } else { Sizes::default() };
+        Self {
+            mechanism,
+            source,
+            matrices: PartialMatrices::zeros(where_used(source == Source::Partials)),
+            residual: residual_partials_zeros(where_used(source != Source::Reverse)),
+        }
+    }
+
+    /// Overwrites derivatives of modes of the same family.
+    #[doc(hidden)]
+    pub fn sensitivities_into(
+        &mut self,
+        at: &Equilibrium,
+        modes: &Modes,
+        found: &mut Sensitivities,
+    ) -> Result<(), Error> {
+        let Self {
+            mechanism,
+            source,
+            matrices,
+            residual,
+        } = self;
+        check_state(*mechanism, at)?;
+        redundancy::check(*mechanism, at)?;
+        place::check(*mechanism, at)?;
+        let factors = Factors::new(at)?;
+        let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+        let (matrices, residual) = match source {
+            Source::Partials => {
+                mechanism.partials_into(q, u, b, matrices, residual);
+                at.free.add_to_partials(residual);
+                (Some(&*matrices), Some(&*residual))
+            }
+            Source::ResidualPartials => {
+                mechanism.residual_partials_into(q, u, b, residual);
+                at.free.add_to_partials(residual);
+                (None, Some(&*residual))
+            }
+            Source::Reverse => (None, None),
+        };
+        let sizes = mechanism.sizes();
+        let shared = Shared {
+            mechanism: *mechanism,
+            at,
+            factors: &factors,
+            residual,
+        };
+        match (modes.family, matrices, residual) {
+            (Family::Undamped, Some(matrices), Some(residual)) => {
+                assemble_into(at, modes, found, |own, mode| {
+                    shared.undamped_from_partials(matrices, residual, own, mode);
+                })
+            }
+            (Family::Undamped, ..) => {
+                let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
+                assemble_into(at, modes, found, |own, mode| {
+                    shared.undamped(&mut gradient, &mut room, own, mode);
+                })
+            }
+            (Family::General, ..) => {
+                let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
+                let mut room = Gradient::zeros(sizes);
+                assemble_into(at, modes, found, |own, mode| {
+                    shared.general(matrices, &mut gradient, &mut room, own, mode);
+                })
+            }
+        }
+    }
+}
+
+/// Data shared by all modes.
+struct Shared<'a> {
+    mechanism: &'a dyn Kernels,
+    at: &'a Equilibrium,
+    factors: &'a Factors,
+    /// Explicit partials of the residual, if its gradients are computed from them.
+    residual: Option<&'a ResidualPartials>,
+}
+
+impl Shared<'_> {
+    /// The derivatives of an undamped mode from explicit partials alone.
+    fn undamped_from_partials(
+        &self,
+        matrices: &PartialMatrices,
+        (by_input, by_design): &ResidualPartials,
+        own: &mut ModeSensitivity,
+        mode: &Mode,
+    ) {
+        let symmetric = self.at.description.symmetric_stiffness;
+        let [inputs, design] = own.make_undamped(mode, self.at.inputs.len(), self.at.design.len());
+        for_size(
+            mode.shape.len(),
+            #[inline(always)]
+            |n| {
+                let (mut phi, mut w) = (Vector::zeros(n), Vector::zeros(n));
+                let (phi, w) = (&mut phi[..n], &mut w[..n]);
+                for (phi, value) in phi.iter_mut().zip(&mode.shape[..n]) {
+                    *phi = value.re;
+                }
+                for (w, change) in w.iter_mut().zip(changes(n, matrices.by_coordinate())) {
+                    *w = rate(n, change, phi, mode.lambda, symmetric);
+                }
+                self.factors.solve(n, w);
+                let form = (&*phi, mode.lambda, symmetric);
+                total_rates(n, form, matrices.by_input(), (w, by_input), inputs);
+                total_rates(n, form, matrices.by_design(), (w, by_design), design);
+            },
+        );
+    }
+
+    /// The derivatives of an undamped mode, with the gradient of its form from reverse differentiation.
+    fn undamped(
+        &self,
+        gradient: &mut Gradient,
+        room: &mut Gradient,
+        own: &mut ModeSensitivity,
+        mode: &Mode,
+    ) {
+        let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
+        let phi = mode.real_shape();
+        self.mechanism
+            .mode_gradient_into(q, u, b, &phi, mode.lambda, gradient);
+        self.total(gradient, room);
+        let (inputs, design) = (gradient.inputs.iter(), gradient.design.iter());
+        own.set_undamped(mode, inputs.copied(), design.copied());
+    }
+
+    /// The derivatives of a general mode.
+    fn general(
+        &self,
+        matrices: Option<&PartialMatrices>,
+        gradient: &mut ComplexGradient,
+        room: &mut Gradient,
+        own: &mut ModeSensitivity,
+        mode: &Mode,
+    ) {
+        match matrices {
+            Some(matrices) => of_general(matrices, mode, gradient),
+            None => {
+                let form = Form::of(mode.left(), mode.s, &mode.shape);
+                form_gradient(self.mechanism, self.at, &form, room, gradient);
+            }
+        }
+        for part in gradient.iter_mut() {
+            self.total(part, room);
+        }
+        let [re, im] = &*gradient;
+        let scale = -normaliser(self.at, mode);
+        let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
+        let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
+        let by_design = re.design.iter().zip(&im.design).map(slope);
+        own.set_general(mode, by_input, by_design);
+    }
+
+    /// Adds the effect of the equilibrium shift to a gradient.
+    fn total(&self, direct: &mut Gradient, shift: &mut Gradient) {
+        let w = &mut direct.coordinates;
+        self.factors.solve(w.len(), w);
+        match self.residual {
+            Some((by_input, by_design)) => {
+                combine(w, by_input, &mut shift.inputs);
+                combine(w, by_design, &mut shift.design);
+            }
+            None => {
+                let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
+                self.mechanism.residual_gradient_into(q, u, b, w, shift);
+                let free = &self.at.free;
+                free.add_to_gradient(w, &mut shift.inputs, &mut shift.design);
+            }
+        }
+        add_to(&mut direct.inputs, -1.0, &shift.inputs);
+        add_to(&mut direct.design, -1.0, &shift.design);
+    }
+}
+
+/// Factors of the transposed `Khat`.
+enum Factors {
+    Definite(Cholesky),
+    General(Lu<f64>),
+}
+
+impl Factors {
+    fn new(at: &Equilibrium) -> Result<Self, Error> {
+        let stiffness = &*at.held_stiffness();
+        if at.description.symmetric_stiffness
+            && let Ok(factors) = Cholesky::new(stiffness)
+        {
+            return Ok(Self::Definite(factors));
+        }
+        let factors = Lu::of(stiffness.transpose());
+        factors.map(Self::General).ok_or(Error::CriticalState)
+    }
+
+    /// Solves in place for a right-hand side of `n` numbers; see [`for_size`].
+    #[inline(always)]
+    fn solve(&self, n: usize, x: &mut [f64]) {
+        match self {
+            Self::Definite(factors) => factors.solve_of(n, x),
+            Self::General(factors) => x.copy_from_slice(&factors.solve(x)),
+        }
+    }
+}
+
+/// `phi^T (dKhat - lambda dMhat) phi - w^T dg` for several variables, from the derivatives of matrices and residual
+/// with respect to them.
+#[inline(always)]
+fn total_rates(
+    n: usize,
+    (phi, lambda, symmetric): (&[f64], f64, bool),
+    matrices: &[f64],
+    (w, residual): (&[f64], &Matrix),
+    to: &mut [f64],
+) {
+    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
+        let direct = rate(n, change, phi, lambda, symmetric);
+        *to = direct - column_times(n, w, residual, k);
+    }
+}
+
+/// `w^T partials` in column `k`; `partials` has `n` rows.
+#[inline(always)]
+fn column_times(n: usize, w: &[f64], partials: &Matrix, k: usize) -> f64 {
+    let (columns, entries) = (partials.column_count(), partials.as_flattened());
+    (0..n).fold(0.0, |sum, i| sum + w[i] * entries[i * columns + k])
+}
+
+/// `sum = w^T partials`.
+fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
+    sum.fill(0.0);
+    let rows = partials.as_flattened().chunks_exact(sum.len().max(1));
+    for (w, row) in w.iter().zip(rows) {
+        add_to(sum, *w, row);
+    }
+}
+
+/// `psi^T (2 s Mhat + Chat) phi`; zero where the eigenvalue has merged with another.
+#[doc(hidden)]
+pub fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
+    dot_complex(
+        mode.left(),
+        &pencil_slope_times(&at.linear, mode.s, &mode.shape),
+    )
+}

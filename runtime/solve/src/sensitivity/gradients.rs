@@ -1,0 +1,131 @@
+//! Gradients of the forms of the modes at one state: by reverse differentiation, with one kernel call each, or from
+//! explicit partial derivatives, which all modes share. A small mechanism has few partials, so they cost less.
+
+use super::pencil::ComplexGradient;
+use crate::algebra::Matrix;
+use crate::kernels::{Costs, PartialMatrices, Sizes, entries_of, parts};
+use crate::mechanism::Linear;
+use crate::modes::Family;
+use crate::{Complex, Mode};
+
+/// Where the gradients of all modes come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[doc(hidden)]
+pub enum Source {
+    /// Explicit partials of the matrices and of the residual.
+    Partials,
+    /// Reverse differentiation for the forms, explicit partials for the residual.
+    ResidualPartials,
+    /// Reverse differentiation for everything.
+    Reverse,
+}
+
+impl Source {
+    /// The cheapest source for the modes of a mechanism.
+    #[doc(hidden)]
+    pub fn cheapest(costs: Costs, sizes: Sizes, family: Family) -> Self {
+        let n = sizes.coordinates;
+        let variables = sizes.inputs + sizes.design;
+        // Operations per mode with partials, and gradients needed per mode without them.
+        let (matrices, form, residual, forces) = match family {
+            Family::Undamped => (
+                2 * n * (n + 1) * (n + variables),
+                (costs.mode_gradient, 1),
+                2 * n * variables,
+                1,
+            ),
+            Family::General => (
+                6 * n * n * (n + variables),
+                (costs.pencil_gradient, 4),
+                4 * n * variables,
+                2,
+            ),
+        };
+        let force = (costs.residual_gradient, forces);
+        if pays(n, (costs.linear_partials, matrices), form) {
+            Self::Partials
+        } else if pays(n, (costs.residual_partials, residual), force) {
+            Self::ResidualPartials
+        } else {
+            Self::Reverse
+        }
+    }
+}
+
+/// Whether one call of `shared` plus `use_of_it` operations per mode costs less than `calls` of `own` per mode.
+fn pays(
+    modes: usize,
+    (shared, use_of_it): (Option<usize>, usize),
+    (own, calls): (Option<usize>, usize),
+) -> bool {
+    match (shared, own) {
+        (Some(shared), Some(own)) => shared + modes * use_of_it < modes * calls * own,
+        _ => false,
+    }
+}
+
+/// The changes of matrices of size `n` with each variable, one after the other.
+#[inline(always)]
+pub(crate) fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[f64]> {
+    all.chunks_exact(entries_of(n).max(1))
+}
+
+/// `phi^T (dKhat - lambda dMhat) phi` for a change of matrices of size `n`, with vector and eigenvalue held fixed;
+/// `symmetric` refers to `dKhat`.
+#[inline(always)]
+pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
+    let Linear {
+        mass, stiffness, ..
+    } = parts(&change[..entries_of(n)]);
+    let (mut own, mut mixed) = (-0.0, -0.0);
+    for i in 0..n {
+        own += phi[i] * phi[i] * (stiffness[i * n + i] - lambda * mass[i * n + i]);
+        for j in 0..i {
+            let below = stiffness[i * n + j];
+            let stiffness = if symmetric {
+                below
+            } else {
+                0.5 * (below + stiffness[j * n + i])
+            };
+            mixed += phi[i] * phi[j] * (stiffness - lambda * mass[i * n + j]);
+        }
+    }
+    own + (mixed + mixed)
+}
+
+/// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi` from explicit partials, with vectors and eigenvalue held fixed.
+pub(crate) fn of_general(partials: &PartialMatrices, mode: &Mode, gradient: &mut ComplexGradient) {
+    let n = mode.shape.len();
+    let s = mode.s;
+    let left = mode.left();
+    let weights = Matrix::from_fn(n, n, |i, j| left[i] * mode.shape[j]);
+    let rate = |change: &[f64]| {
+        let (mut k, mut c, mut m) = (Complex::ZERO, Complex::ZERO, Complex::ZERO);
+        let Linear {
+            mass,
+            damping,
+            stiffness,
+        } = parts(change);
+        let elements = stiffness.iter().zip(damping).zip(mass);
+        for (weight, ((stiffness, damping), mass)) in weights.as_flattened().iter().zip(elements) {
+            k += weight * stiffness;
+            c += weight * damping;
+            m += weight * mass;
+        }
+        k + s * (c + s * m)
+    };
+    let [re, im] = gradient;
+    for (re, im, changes) in [
+        (
+            &mut re.coordinates,
+            &mut im.coordinates,
+            partials.by_coordinate(),
+        ),
+        (&mut re.inputs, &mut im.inputs, partials.by_input()),
+        (&mut re.design, &mut im.design, partials.by_design()),
+    ] {
+        for ((re, im), change) in re.iter_mut().zip(im).zip(self::changes(n, changes)) {
+            Complex { re: *re, im: *im } = rate(change);
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The quadratic pencil `s^2 Mhat + s Chat + Khat` between complex vectors, evaluated with the real kernels.
+
+use crate::algebra::{Values, Vector};
+use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear};
+use crate::{Complex, Equilibrium, Mode};
+
+/// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of its four
+/// vectors, in this order.
+#[doc(hidden)]
+pub struct Form {
+    re: [Vector; 4],
+    im: [Vector; 4],
+}
+
+/// Selects the real or the imaginary part of a form.
+type Part = fn(&Form) -> &[Vector; 4];
+const RE: Part = |form| &form.re;
+const IM: Part = |form| &form.im;
+
+impl Form {
+    /// `psi^T (s^2 Mhat + s Chat + Khat) phi`.
+    #[doc(hidden)]
+    pub fn of(left: &[Complex], s: Complex, right: &[Complex]) -> Self {
+        let acceleration = right.map(|value| s * s * value);
+        let velocity = right.map(|value| s * value);
+        Self::new([left, &acceleration, &velocity, right])
+    }
+
+    /// How the form of a mode changes with its vectors and its eigenvalue.
+    #[doc(hidden)]
+    pub fn along(mode: &Mode, dleft: &[Complex], ds: Complex, dright: &[Complex]) -> Self {
+        let (s, right) = (mode.s, &mode.shape);
+        let n = right.len();
+        let acceleration = Vector::from_fn(n, |i| s * (2.0 * ds * right[i] + s * dright[i]));
+        let velocity = Vector::from_fn(n, |i| ds * right[i] + s * dright[i]);
+        Self::new([dleft, &acceleration, &velocity, dright])
+    }
+
+    fn new(vectors: [&[Complex]; 4]) -> Self {
+        Self {
+            re: vectors.map(|vector| vector.map(|value| value.re)),
+            im: vectors.map(|vector| vector.map(|value| value.im)),
+        }
+    }
+
+    fn is_real(&self) -> bool {
+        self.im.iter().flatten().all(|value| *value == 0.0)
+    }
+
+    /// The left vector from one part and the other vectors from another, as kernels take them.
+    fn parts(&self, left: Part, others: Part) -> [&[f64]; 4] {
+        let ([left, ..], [_, acceleration, velocity, position]) = (left(self), others(self));
+        [left, acceleration, velocity, position]
+    }
+}
+
+/// A direction in coordinates, inputs and design variables.
+#[doc(hidden)]
+pub struct Direction {
+    #[doc(hidden)]
+    pub coordinates: Vector,
+    #[doc(hidden)]
+    pub inputs: Vector,
+    #[doc(hidden)]
+    pub design: Vector,
+}
+
+impl Direction {
+    #[doc(hidden)]
+    pub fn parts(&self) -> [&[f64]; 3] {
+        [&self.coordinates, &self.inputs, &self.design]
+    }
+
+    /// Total derivatives of the linearised matrices along this direction.
+    #[doc(hidden)]
+    pub fn linear(&self, mechanism: &dyn DirectionalKernels, at: &Equilibrium) -> Linear {
+        mechanism.linear_along(&at.coordinates, &at.inputs, &at.design, self.parts())
+    }
+}
+
+/// The gradients of the real and the imaginary part of a complex number.
+#[doc(hidden)]
+pub type ComplexGradient = [Gradient; 2];
+
+/// A complex gradient from real kernel calls.
+///
+/// `call(left, others, ..)` must be linear in both of the parts of the form that it selects. `room` is scratch space.
+fn complex(
+    [re, im]: &mut ComplexGradient,
+    room: &mut Gradient,
+    real: bool,
+    call: impl Fn(Part, Part, &mut Gradient),
+) {
+    call(RE, RE, re);
+    if real {
+        each(im, re, |im, _| *im = 0.0);
+        return;
+    }
+    call(IM, IM, room);
+    subtract(re, room);
+    call(RE, IM, im);
+    call(IM, RE, room);
+    each(im, room, |im, product| *im += product);
+}
+
+#[doc(hidden)]
+pub fn subtract(from: &mut Gradient, gradient: &Gradient) {
+    each(from, gradient, |from, value| *from -= value);
+}
+
+fn each(to: &mut Gradient, from: &Gradient, f: impl Fn(&mut f64, f64)) {
+    for (to, from) in [
+        (&mut to.coordinates, &from.coordinates),
+        (&mut to.inputs, &from.inputs),
+        (&mut to.design, &from.design),
+    ] {
+        for (to, from) in to.iter_mut().zip(from) {
+            f(to, *from);
+        }
+    }
+}
+
+/// Gradient of a form with respect to coordinates, inputs and design variables, its vectors held fixed.
+#[doc(hidden)]
+pub fn form_gradient(
+    mechanism: &dyn Kernels,
+    at: &Equilibrium,
+    form: &Form,
+    room: &mut Gradient,
+    gradient: &mut ComplexGradient,
+) {
+    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+    complex(gradient, room, form.is_real(), |left, others, gradient| {
+        mechanism.pencil_gradient_into(q, u, b, form.parts(left, others), gradient);
+    });
+}
+
+/// Derivative of [`form_gradient`] along a direction in which the vectors of the form move by `change`.
+#[doc(hidden)]
+pub fn form_gradient_along(
+    mechanism: &dyn CurvatureKernels,
+    at: &Equilibrium,
+    (form, change): (&Form, &Form),
+    along: &Direction,
+    room: &mut Gradient,
+    gradient: &mut ComplexGradient,
+) {
+    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+    let real = form.is_real() && change.is_real();
+    complex(gradient, room, real, |left, others, gradient| {
+        let (vectors, changes) = (form.parts(left, others), change.parts(left, others));
+        mechanism.pencil_gradient_along_into(q, u, b, vectors, along.parts(), changes, gradient);
+    });
+}

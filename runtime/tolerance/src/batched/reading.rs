@@ -1,0 +1,92 @@
+//! Converts one lane of a block to a state, as if it had been solved alone.
+
+use super::block::Block;
+use crate::algebra::for_size;
+use crate::kernels::Kernels;
+use crate::scalar::{Batch, WIDTH};
+use crate::{Equilibrium, Modes, Sensitivities, Stability};
+
+impl Block<'_> {
+    /// The coordinates.
+    #[doc(hidden)]
+    pub fn state_of(&self, lane: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
+        of(self.coordinates, lane)
+    }
+
+    /// Writes the equilibrium; inputs and design are already set, and there is no damping.
+    #[doc(hidden)]
+    pub fn read_state(&self, lane: usize, kernels: &dyn Kernels, state: &mut Equilibrium) {
+        for_size(
+            self.coordinates.len(),
+            #[inline(always)]
+            |n| {
+                read(n, self.coordinates, lane, &mut state.coordinates);
+                read(n, self.residual, lane, &mut state.residual);
+                let mass = state.linear.mass.as_flattened_mut();
+                read(n * n, self.linear.mass, lane, mass);
+                let stiffness = state.linear.stiffness.as_flattened_mut();
+                read(n * n, self.linear.stiffness, lane, stiffness);
+            },
+        );
+        state.stability = Stability::Stable;
+        state.rounding = 0.0;
+        state.relative_residual = self.relative_residual.0[lane];
+        state.iterations = self.iterations.0[lane] as usize;
+        state.pose = kernels.pose_margin(&state.coordinates, &state.inputs, &state.design);
+        state.left_unstable_region = false;
+    }
+
+    /// Writes the modes, keeping order and labels.
+    #[doc(hidden)]
+    pub fn read_modes(&self, lane: usize, modes: &mut Modes) {
+        for_size(
+            self.lambda.len(),
+            #[inline(always)]
+            |n| {
+                for (r, mode) in modes.modes.iter_mut().enumerate() {
+                    let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
+                    let residual = self.mode_residuals[r].0[lane];
+                    let from = &self.shapes[r * n..][..n];
+                    let shape = &mut mode.make_undamped(mode.label, lambda, residual, n)[..n];
+                    for i in 0..n {
+                        shape[i] = from[i].0[lane].into();
+                    }
+                }
+            },
+        );
+    }
+
+    /// Writes the derivatives of these modes.
+    #[doc(hidden)]
+    pub fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
+        let (inputs, design) = (self.inputs.len(), self.design.len());
+        for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
+            let [by_input, by_design] = own.make_undamped(mode, inputs, design);
+            read(inputs, &self.by_input[r * inputs..], lane, by_input);
+            read(design, &self.by_design[r * design..], lane, by_design);
+        }
+    }
+}
+
+/// All numbers of a lane.
+#[inline]
+fn of(batches: &[Batch], lane: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
+    let lane = lane % WIDTH;
+    batches.iter().map(move |batch| batch.0[lane])
+}
+
+/// Reads the first numbers of a lane.
+#[inline(always)]
+fn read(count: usize, from: &[Batch], lane: usize, to: &mut [f64]) {
+    let lane = lane % WIDTH;
+    let (from, to) = (&from[..count], &mut to[..count]);
+    for_size(
+        count,
+        #[inline(always)]
+        |count| {
+            for k in 0..count {
+                to[k] = from[k].0[lane];
+            }
+        },
+    );
+}

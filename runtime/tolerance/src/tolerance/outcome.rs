@@ -1,0 +1,157 @@
+//! Outcomes of samples.
+
+use crate::Stability;
+use crate::equilibrium::Failure;
+
+/// The outcome of one sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Outcome {
+    /// A stable equilibrium, or one that is marginal, held by gyroscopic forces, or free in some directions.
+    Stable,
+    /// An equilibrium that is unstable without oscillation.
+    Divergent,
+    /// An equilibrium that is unstable in a growing oscillation.
+    Flutter,
+    /// An equilibrium whose stability could not be decided.
+    Undecided,
+    /// No equilibrium was found.
+    NoEquilibrium,
+    /// The constraints cannot be met: the loops do not close.
+    NotAssembled,
+    /// The design describes bodies that cannot exist, or lies outside the domain of an expression.
+    Unphysical,
+    /// The eigenproblem could not be solved.
+    NoModes,
+}
+
+impl Outcome {
+    /// All outcomes.
+    pub const ALL: [Self; 8] = [
+        Self::Stable,
+        Self::Divergent,
+        Self::Flutter,
+        Self::Undecided,
+        Self::NoEquilibrium,
+        Self::NotAssembled,
+        Self::Unphysical,
+        Self::NoModes,
+    ];
+
+    /// Whether the design certainly has no stable equilibrium, or none was found.
+    #[doc(hidden)]
+    pub fn lost(self) -> bool {
+        matches!(
+            self,
+            Self::Divergent | Self::Flutter | Self::NoEquilibrium | Self::NotAssembled
+        )
+    }
+}
+
+impl From<&Failure> for Outcome {
+    fn from(failure: &Failure) -> Self {
+        match failure {
+            Failure::NotFound { .. } | Failure::Unbalanced { .. } | Failure::Held { .. } => {
+                Self::NoEquilibrium
+            }
+            Failure::NotAssembled { .. } => Self::NotAssembled,
+            Failure::OutsideDomain { .. } | Failure::SingularMass(_) => Self::Unphysical,
+            Failure::Mode { .. } => Self::NoModes,
+        }
+    }
+}
+
+impl From<Stability> for Outcome {
+    fn from(stability: Stability) -> Self {
+        match stability {
+            Stability::Divergent { .. } => Self::Divergent,
+            Stability::Flutter { .. } => Self::Flutter,
+            Stability::Undecided => Self::Undecided,
+            _ => Self::Stable,
+        }
+    }
+}
+
+/// The number of samples with each outcome; they sum to the number of samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Counts {
+    /// [`Outcome::Stable`].
+    pub stable: usize,
+    /// [`Outcome::Divergent`].
+    pub divergent: usize,
+    /// [`Outcome::Flutter`].
+    pub flutter: usize,
+    /// [`Outcome::Undecided`].
+    pub undecided: usize,
+    /// [`Outcome::NoEquilibrium`].
+    pub no_equilibrium: usize,
+    /// [`Outcome::NotAssembled`].
+    pub not_assembled: usize,
+    /// [`Outcome::Unphysical`].
+    pub unphysical: usize,
+    /// [`Outcome::NoModes`].
+    pub no_modes: usize,
+}
+
+impl Counts {
+    /// Sum over all outcomes.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.stable
+            + self.divergent
+            + self.flutter
+            + self.undecided
+            + self.no_equilibrium
+            + self.not_assembled
+            + self.unphysical
+            + self.no_modes
+    }
+
+    /// Counts from numbers in the order of [`Outcome::ALL`].
+    #[doc(hidden)]
+    pub fn of_all(numbers: &[u64]) -> Self {
+        let mut counts = Self::default();
+        for (outcome, number) in Outcome::ALL.into_iter().zip(numbers) {
+            counts.add(outcome, *number as usize);
+        }
+        counts
+    }
+
+    /// The number of samples with this outcome.
+    #[must_use]
+    pub fn of(mut self, outcome: Outcome) -> usize {
+        *self.place(outcome)
+    }
+
+    #[doc(hidden)]
+    pub fn add(&mut self, outcome: Outcome, number: usize) {
+        *self.place(outcome) += number;
+    }
+
+    fn place(&mut self, outcome: Outcome) -> &mut usize {
+        match outcome {
+            Outcome::Stable => &mut self.stable,
+            Outcome::Divergent => &mut self.divergent,
+            Outcome::Flutter => &mut self.flutter,
+            Outcome::Undecided => &mut self.undecided,
+            Outcome::NoEquilibrium => &mut self.no_equilibrium,
+            Outcome::NotAssembled => &mut self.not_assembled,
+            Outcome::Unphysical => &mut self.unphysical,
+            Outcome::NoModes => &mut self.no_modes,
+        }
+    }
+
+    #[doc(hidden)]
+    pub fn merge(&mut self, other: &Self) {
+        self.stable += other.stable;
+        self.divergent += other.divergent;
+        self.flutter += other.flutter;
+        self.undecided += other.undecided;
+        self.no_equilibrium += other.no_equilibrium;
+        self.not_assembled += other.not_assembled;
+        self.unphysical += other.unphysical;
+        self.no_modes += other.no_modes;
+    }
+}
