@@ -7,6 +7,7 @@ pub mod branches;
 pub mod campbell;
 pub mod clusters;
 pub mod judge;
+#[doc(hidden)]
 pub mod limits;
 pub mod motion;
 pub mod picture;
@@ -19,14 +20,13 @@ pub mod shapes;
 pub mod summary;
 pub mod sweep;
 
-use eigentol_contract::{mechanism, scalar};
-use eigentol_contract::{Any, Array, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo, DesignVariable, Gradient, Input, InputInfo, Law, Linear, LinearPartials, List, Mechanism, Output, OutputInfo, PictureInfo, PoseMargin, Real, RestParts, Role, Shared, SolidInfo, SolidKind, Text, ToleranceInfo, Unit, Violation};
-use eigentol_numerics::algebra::{Matrix, Vector};
+use eigentol_contract::scalar;
+use eigentol_contract::{Any, DampingKind, Description, Input, InputInfo, Output, PictureInfo, Role, Shared, SolidInfo, SolidKind, Text, Unit};
+use eigentol_numerics::algebra::Vector;
 use eigentol_numerics::{Complex, algebra, eigenproblem};
 use eigentol_results::setters;
-use eigentol_solve::{arguments, constraints, equilibrium, error, free, kernels, modes, rounding, sensitivity, state, watch};
-use eigentol_solve::{Behaviour, Equilibrium, Error, Family, Kernels, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch};
+use eigentol_solve::{arguments, constraints, equilibrium, error, free, kernels, modes, rounding, sensitivity};
+use eigentol_solve::{Behaviour, Equilibrium, Error, Kernels, Mode, Modes, Quantity, Sensitivities, Stability, Watch};
 use eigentol_tolerance::{batched, tolerance};
-use eigentol_tolerance::{FirstOrder, MonteCarlo, Tolerances};
 
 pub use campbell::Campbell;

@@ -2,9 +2,13 @@
 //!
 //! An internal part of `eigentol`, which re-exports what its users need. It promises nothing to others.
 
+#[doc(hidden)]
 pub mod algebra;
+#[doc(hidden)]
 pub mod eigenproblem;
+#[doc(hidden)]
 pub mod linear;
+#[doc(hidden)]
 pub mod rounding;
 
 use eigentol_contract::scalar;

@@ -45,6 +45,7 @@ impl<'a> Shares<'a> {
         self.columns.len() <= COLUMNS
     }
 
+    /// The headings of the columns.
     pub fn head(&self) -> Vec<String> {
         if !self.side_by_side() {
             return vec!["variance mostly from".to_owned()];

@@ -13,10 +13,12 @@ pub struct Table {
 const WIDTH: usize = 150;
 
 impl Table {
+    /// A table with this header.
     pub fn new(head: Vec<String>) -> Self {
         Self { rows: vec![head] }
     }
 
+    /// Appends a row.
     pub fn row(&mut self, cells: Vec<String>) {
         self.rows.push(cells);
     }
@@ -90,6 +92,7 @@ impl fmt::Display for Table {
     }
 }
 
+/// The texts as cells of a row.
 pub fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
     texts.map(str::to_owned).to_vec()
 }

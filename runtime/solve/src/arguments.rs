@@ -4,7 +4,6 @@ use crate::algebra::all_finite;
 use crate::{Description, Error, Input, Text};
 
 /// Refuses a list with the wrong number of values.
-#[doc(hidden)]
 pub fn check_count(kind: &'static str, values: &[f64], count: usize) -> Result<(), Error> {
     if values.len() == count {
         return Ok(());
@@ -37,7 +36,6 @@ pub(crate) fn check_finite<'n>(
 }
 
 /// Refuses the handle of an input that the mechanism does not have.
-#[doc(hidden)]
 pub fn check_input(input: Input, description: &Description) -> Result<(), Error> {
     let (index, count) = (input.index(), description.inputs.len());
     if index < count {

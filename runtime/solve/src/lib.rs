@@ -2,23 +2,29 @@
 //!
 //! An internal part of `eigentol`, which re-exports what its users need. It promises nothing to others.
 
+#[doc(hidden)]
 pub mod arguments;
+#[doc(hidden)]
 pub mod constraints;
 pub mod equilibrium;
 pub mod error;
+#[doc(hidden)]
 pub mod free;
 pub mod kernels;
 pub mod modes;
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod rounding;
 pub mod sensitivity;
+#[doc(hidden)]
 pub mod state;
+#[doc(hidden)]
 pub mod watch;
 
 use eigentol_contract::{mechanism, scalar};
-use eigentol_contract::{Any, Array, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo, DesignVariable, Gradient, Input, InputInfo, Law, Linear, LinearPartials, List, Mechanism, Output, OutputInfo, PoseMargin, Real, RestParts, Role, Shared, Text, ToleranceInfo, Unit, Violation};
+use eigentol_contract::{Coordinate, CoordinateInfo, DampingKind, Description, DesignVariable, Input, PoseMargin, Real, Role, Shared, Text, Unit};
 use eigentol_numerics::{Complex, algebra, eigenproblem};
-use eigentol_numerics::algebra::{Matrix, Vector};
 use eigentol_results::setters;
 
 pub use error::Error;

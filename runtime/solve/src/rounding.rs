@@ -11,15 +11,10 @@ pub use eigentol_numerics::rounding::{Sign, of_elements, of_form, sign};
 const OF_DATA: f64 = 8.0 * f64::EPSILON;
 
 /// A state and its remaining residual.
-#[doc(hidden)]
 pub struct CheckedState<'a> {
-    #[doc(hidden)]
     pub coordinates: &'a [f64],
-    #[doc(hidden)]
     pub inputs: &'a [f64],
-    #[doc(hidden)]
     pub design: &'a [f64],
-    #[doc(hidden)]
     pub residual: &'a [f64],
 }
 
@@ -81,5 +76,4 @@ pub(crate) fn clear(pivots: &[f64], linear: &Linear) -> bool {
 const CANCELLED: f64 = 1e-6;
 /// Smallest eigenvalue, 1/s^2, that needs no closer check: the rounding of terms up to 1e12 1/s^2 stays below it.
 /// Ordinary states are thus spared the derivatives that the check needs.
-#[doc(hidden)]
 pub const SLOW: f64 = 1e-3;

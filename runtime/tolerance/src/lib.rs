@@ -2,16 +2,17 @@
 //!
 //! An internal part of `eigentol`, which re-exports what its users need. It promises nothing to others.
 
+#[doc(hidden)]
 pub mod batched;
+#[doc(hidden)]
 pub mod report;
 pub mod tolerance;
 
 use eigentol_contract::{mechanism, scalar};
-use eigentol_contract::{Any, Array, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo, DesignVariable, Gradient, Input, InputInfo, Law, Linear, LinearPartials, List, Mechanism, Output, OutputInfo, PoseMargin, Real, RestParts, Role, Shared, Text, ToleranceInfo, Unit, Violation};
-use eigentol_numerics::algebra::{Matrix, Vector};
+use eigentol_contract::{DampingKind, Description, Input, Shared};
 use eigentol_numerics::{Complex, algebra, eigenproblem};
 use eigentol_results::setters;
-use eigentol_solve::{arguments, constraints, equilibrium, error, free, kernels, modes, rounding, sensitivity, state, watch};
-use eigentol_solve::{Behaviour, Equilibrium, Error, Family, Kernels, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch};
+use eigentol_solve::{constraints, equilibrium, kernels, modes, rounding, sensitivity};
+use eigentol_solve::{Behaviour, Equilibrium, Error, Mode, Modes, Policy, Sensitivities, Stability, Watch};
 
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};

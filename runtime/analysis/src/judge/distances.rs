@@ -1,18 +1,13 @@
 //! The doubts that distances raise about first order.
 
 use super::Doubt;
-use crate::modes::Family;
 use crate::response::{Response, Responses};
-use crate::sensitivity::{Quantity, sensitivities};
-use crate::tolerance::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, Tolerances, first_order};
-use crate::{Behaviour, Error};
+use crate::sensitivity::sensitivities;
+use crate::tolerance::{FirstOrder, Tolerances, first_order};
+use crate::Error;
 
 /// A first-order standard deviation with a larger error is not to be trusted.
 pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
-
-fn near(distance: f64) -> bool {
-    distance < TRUSTED_DISTANCE
-}
 
 /// First order at the nominal design, which knows the distances to other states.
 pub(crate) fn distances(

@@ -3,7 +3,7 @@
 use super::events::meeting;
 use crate::response::Response;
 use crate::sweep::{Change, Condition};
-use crate::{Description, Quantity, Text, Unit};
+use crate::{Description, Quantity, Unit};
 
 impl Response {
     /// Its name in texts and tables, for example `frequency 1` or `critical speed`.

@@ -571,6 +571,7 @@ pub trait Mechanism: Clone + Sync + Sized {
 /// stay in registers.
 const FEW_PARTIALS: usize = 256;
 
+/// Whether computing all partials in one function pays.
 #[doc(hidden)]
 pub const fn few_partials<M: Mechanism>() -> bool {
     let n = M::Coordinates::<f64>::LEN;

@@ -68,7 +68,6 @@ pub trait Real:
 /// Power by repeated squaring, written out because the standard library does not specify which products are formed.
 #[cfg(any(feature = "std", feature = "libm"))]
 #[inline(always)]
-#[doc(hidden)]
 pub fn integer_power<T: Real>(base: T, exponent: i32) -> T {
     let (mut power, mut square) = (T::constant(1.0), base);
     let mut rest = exponent.unsigned_abs();

@@ -72,7 +72,6 @@ pub(crate) fn sin_cos_within<V: Lanes>(x: V) -> (V, V) {
 /// Sine and cosine of an angle in full turns, between zero and one, to a few rounding units of one.
 #[inline(always)]
 #[cfg(feature = "std")]
-#[doc(hidden)]
 pub fn sin_cos_of_turns<V: Lanes>(turns: V) -> (V, V) {
     let number = V::constant;
     let quarters = turns * number(4.0);

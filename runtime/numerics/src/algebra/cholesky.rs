@@ -6,7 +6,6 @@ use super::vector::Vector;
 
 /// `matrix = L D L^T`: Cholesky factors without square roots.
 #[derive(Clone, Debug, Default)]
-#[doc(hidden)]
 pub struct Cholesky {
     /// `L` below the diagonal, which is one.
     lower: Matrix,
@@ -17,7 +16,6 @@ pub struct Cholesky {
 impl Cholesky {
     /// Factors `matrix`; `Err` names the first row whose pivot is not above rounding.
     #[inline]
-    #[doc(hidden)]
     pub fn new(matrix: &Matrix) -> Result<Self, usize> {
         let mut factors = Self::default();
         factors.factor(matrix)?;
@@ -26,7 +24,6 @@ impl Cholesky {
 
     /// Overwrites the factors with those of `matrix`; `Err` as in [`Self::new`].
     #[inline]
-    #[doc(hidden)]
     pub fn factor(&mut self, matrix: &Matrix) -> Result<(), usize> {
         for_size(
             matrix.row_count(),
@@ -37,7 +34,6 @@ impl Cholesky {
 
     /// Like [`Self::factor`], for a matrix of size `n`; see [`for_size`].
     #[inline(always)]
-    #[doc(hidden)]
     pub fn factor_of(&mut self, n: usize, matrix: &Matrix) -> Result<(), usize> {
         let (lower, pivots) = self.room(n);
         factor_rows(n, matrix.as_flattened(), lower, pivots)
@@ -45,20 +41,17 @@ impl Cholesky {
 
     /// Makes room for the entries of `L`, row by row, and for the pivots; the contents are unspecified.
     #[inline(always)]
-    #[doc(hidden)]
     pub fn room(&mut self, n: usize) -> (&mut [f64], &mut [f64]) {
         (self.lower.make_room(n, n), self.pivots.make_room(n))
     }
 
     /// The diagonal of `D`.
     #[inline]
-    #[doc(hidden)]
     pub fn pivots(&self) -> &[f64] {
         &self.pivots
     }
 
     /// Orthonormalises vectors `x_i` whose products form `matrix`: `sum_j x_j L^-T D^-1/2`.
-    #[doc(hidden)]
     pub fn orthonormalise(&self, vectors: &mut [Vector]) {
         for i in 0..vectors.len() {
             let (before, own) = vectors.split_at_mut(i);
@@ -77,7 +70,6 @@ impl Cholesky {
     }
 
     #[inline]
-    #[doc(hidden)]
     pub fn solve(&self, right: &[f64]) -> Vector {
         let mut x = Vector::from(right);
         self.solve_in_place(&mut x);
@@ -96,7 +88,6 @@ impl Cholesky {
 
     /// Like [`Self::solve_in_place`], for `n` unknowns; see [`for_size`].
     #[inline(always)]
-    #[doc(hidden)]
     pub fn solve_of(&self, n: usize, x: &mut [f64]) {
         solve_rows(n, self.lower.as_flattened(), &self.pivots, x);
     }
@@ -104,7 +95,6 @@ impl Cholesky {
 
 /// [`Cholesky::factor_of`] for matrices given row by row.
 #[inline(always)]
-#[doc(hidden)]
 pub fn factor_rows(
     n: usize,
     matrix: &[f64],
@@ -143,7 +133,6 @@ pub fn factor_rows(
 
 /// [`Cholesky::solve_of`] with factors given row by row.
 #[inline(always)]
-#[doc(hidden)]
 pub fn solve_rows(n: usize, lower: &[f64], pivots: &[f64], x: &mut [f64]) {
     let (lower, pivots, x) = (&lower[..n * n], &pivots[..n], &mut x[..n]);
     for i in 0..n {

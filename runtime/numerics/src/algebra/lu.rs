@@ -6,7 +6,6 @@ use super::vector::Vector;
 use crate::Complex;
 
 /// Scalars of a linear system: real or complex numbers.
-#[doc(hidden)]
 pub trait Field:
     Copy
     + Default
@@ -36,7 +35,6 @@ impl Field for Complex {
 
 /// Factors with row exchanges.
 #[derive(Clone, Debug)]
-#[doc(hidden)]
 pub struct Lu<T = f64> {
     factors: Matrix<T>,
     order: Vector<usize>,
@@ -47,13 +45,11 @@ impl<T: Field> Lu<T> {
     /// Factors `matrix`; `None` if it is singular up to rounding: if nothing but the rounding of what has been
     /// subtracted is left of the elements that could be a pivot. This depends neither on the units of rows nor on those
     /// of columns.
-    #[doc(hidden)]
     pub fn new(matrix: &Matrix<T>) -> Option<Self> {
         Self::of(matrix.clone())
     }
 
     /// Like [`Self::new`], in place.
-    #[doc(hidden)]
     pub fn of(matrix: Matrix<T>) -> Option<Self> {
         let n = matrix.row_count();
         let mut lu = Self {
@@ -105,7 +101,6 @@ impl<T: Field> Lu<T> {
         true
     }
 
-    #[doc(hidden)]
     pub fn solve(&self, right: &[T]) -> Vector<T> {
         let mut x = Vector::zeros(right.len());
         for_size(
@@ -118,7 +113,6 @@ impl<T: Field> Lu<T> {
 
     /// Solves for several right-hand sides at once, the columns of a matrix; each has the bits of [`Self::solve`].
     #[inline(always)]
-    #[doc(hidden)]
     pub fn solve_columns(&self, right: &Matrix<T>) -> Matrix<T> {
         let (n, count) = (right.row_count(), right.column_count());
         let (factors, order) = (&self.factors.as_flattened()[..n * n], &self.order[..n]);
@@ -205,7 +199,6 @@ fn pivot_row<T: Field>(n: usize, k: usize, factors: &[T], size: &[f64]) -> Optio
 
 impl Lu<f64> {
     /// Whether the determinant is negative.
-    #[doc(hidden)]
     pub fn negative_determinant(&self) -> bool {
         (0..self.order.len()).fold(self.odd, |negative, i| {
             negative != (self.factors[i][i] < 0.0)
@@ -213,7 +206,6 @@ impl Lu<f64> {
     }
 
     /// Solves with the transposed matrix.
-    #[doc(hidden)]
     pub fn solve_transposed(&self, right: &[f64]) -> Vector {
         let n = right.len();
         let mut y = Vector::from(right);

@@ -153,7 +153,6 @@ impl<T> Matrix<T> {
 
     /// Exchanges two rows.
     #[inline]
-    #[doc(hidden)]
     pub fn swap(&mut self, i: usize, k: usize) {
         for j in 0..self.columns {
             self.entries
@@ -208,14 +207,12 @@ impl<T: fmt::Debug> fmt::Debug for Matrix<T> {
 
 /// `matrix x`.
 #[inline]
-#[doc(hidden)]
 pub fn times(matrix: &Matrix, x: &[f64]) -> Vector {
     matrix.iter().map(|row| dot(row, x)).collect()
 }
 
 /// `matrix x` for several vectors at once, the columns of `x`; each has the bits of [`times`].
 #[inline(always)]
-#[doc(hidden)]
 pub fn times_columns(matrix: &Matrix, x: &Matrix) -> Matrix {
     let count = x.column_count();
     let mut product = Matrix::zeros(matrix.row_count(), count);
@@ -231,7 +228,6 @@ pub fn times_columns(matrix: &Matrix, x: &Matrix) -> Matrix {
 }
 
 /// `matrix x` for a complex vector.
-#[doc(hidden)]
 pub fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
     let row = |row: &[f64]| {
         row.iter()
@@ -242,7 +238,6 @@ pub fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
 }
 
 /// Bilinear form `x^T matrix y` of vectors of one length; rows and columns of the matrix beyond it do not matter.
-#[doc(hidden)]
 pub fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
     let (columns, entries) = (matrix.columns, matrix.as_flattened());
     for_size(
@@ -260,27 +255,23 @@ pub fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
 }
 
 /// Largest absolute element.
-#[doc(hidden)]
 pub fn largest_element(matrix: &Matrix) -> f64 {
     largest(matrix.as_flattened())
 }
 
 /// Whether no element is NaN or infinite.
 #[inline]
-#[doc(hidden)]
 pub fn all_finite_matrix(matrix: &Matrix) -> bool {
     let values = matrix.as_flattened().iter();
     values.fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
 /// Whether mirrored elements are equal to the last bit.
-#[doc(hidden)]
 pub fn is_symmetric(matrix: &Matrix) -> bool {
     (0..matrix.row_count()).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]))
 }
 
 /// Largest difference of mirrored elements, relative to the largest element.
-#[doc(hidden)]
 pub fn asymmetry(matrix: &Matrix) -> f64 {
     let size = largest_element(matrix);
     let mut most = 0.0;

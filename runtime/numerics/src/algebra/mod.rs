@@ -18,16 +18,12 @@ mod vector;
 pub use matrix::Matrix;
 pub use vector::Vector;
 
-#[doc(hidden)]
 pub use cholesky::{Cholesky, factor_rows, solve_rows};
-#[doc(hidden)]
 pub use lu::{Field, Lu};
-#[doc(hidden)]
 pub use matrix::{
     all_finite_matrix, asymmetry, form, is_symmetric, largest_element, times, times_columns,
     times_complex,
 };
-#[doc(hidden)]
 pub use vector::{
     Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,
 };
@@ -35,7 +31,6 @@ pub use vector::{
 /// Calls `work` with the size, as a constant if it is small, so that code inlined into `work` is compiled for that
 /// size: without loop counters and bounds checks.
 #[inline(always)]
-#[doc(hidden)]
 pub fn for_size<R>(n: usize, work: impl FnOnce(usize) -> R) -> R {
     match n {
         1 => work(1),

@@ -65,14 +65,12 @@ impl<T: Copy + Default> Vector<T> {
 impl<T: Copy + Default> Vector<T> {
     /// Resizes to `n` in the same storage, to be overwritten; the contents are unspecified.
     #[inline(always)]
-    #[doc(hidden)]
     pub fn make_room(&mut self, n: usize) -> &mut [T] {
         self.entries.make_room(n)
     }
 
     /// Overwrites the entries with `f` of other numbers, in the same storage.
     #[inline(always)]
-    #[doc(hidden)]
     pub fn set<S>(&mut self, from: &[S], f: impl Fn(&S) -> T) {
         for (to, from) in self.make_room(from.len()).iter_mut().zip(from) {
             *to = f(from);
@@ -81,7 +79,6 @@ impl<T: Copy + Default> Vector<T> {
 
     /// Overwrites the entries with other values, in the same storage.
     #[inline]
-    #[doc(hidden)]
     pub fn assign(&mut self, values: impl ExactSizeIterator<Item = T>) {
         for (place, value) in self.make_room(values.len()).iter_mut().zip(values) {
             *place = value;
@@ -237,7 +234,6 @@ impl<T> AsRef<[T]> for Vector<T> {
 }
 
 /// Extension methods for slices of numbers.
-#[doc(hidden)]
 pub trait Values<T> {
     /// Applies `f` to every entry.
     fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Vector<R>;
@@ -252,14 +248,12 @@ impl<T: Copy> Values<T> for [T] {
 
 /// `x^T y`.
 #[inline]
-#[doc(hidden)]
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     // The neutral element of addition, so that the first addition costs nothing.
     x.iter().zip(y).fold(-0.0, |sum, (x, y)| sum + x * y)
 }
 
 /// `x^T y`, without conjugation.
-#[doc(hidden)]
 pub fn dot_complex(x: &[Complex], y: &[Complex]) -> Complex {
     x.iter()
         .zip(y)
@@ -268,14 +262,12 @@ pub fn dot_complex(x: &[Complex], y: &[Complex]) -> Complex {
 
 /// `a + factor * b`.
 #[inline]
-#[doc(hidden)]
 pub fn add_scaled(a: &[f64], factor: f64, b: &[f64]) -> Vector {
     a.iter().zip(b).map(|(a, b)| a + factor * b).collect()
 }
 
 /// Adds `factor * b` to `a`.
 #[inline]
-#[doc(hidden)]
 pub fn add_to(a: &mut [f64], factor: f64, b: &[f64]) {
     for (a, b) in a.iter_mut().zip(b) {
         *a += factor * b;
@@ -284,28 +276,24 @@ pub fn add_to(a: &mut [f64], factor: f64, b: &[f64]) {
 
 /// Largest absolute value.
 #[inline]
-#[doc(hidden)]
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |most, value| greater(most, value.abs()))
 }
 
 /// The larger of two numbers, or the first one if the second is NaN; one instruction, unlike [`f64::max`].
 #[inline]
-#[doc(hidden)]
 pub fn greater(most: f64, value: f64) -> f64 {
     if value > most { value } else { most }
 }
 
 /// Whether no value is NaN or infinite, without a branch per value.
 #[inline]
-#[doc(hidden)]
 pub fn all_finite(x: &[f64]) -> bool {
     x.iter().fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
 /// Zero if the value is finite, NaN otherwise.
 #[inline]
-#[doc(hidden)]
 pub fn unless_finite(value: f64) -> f64 {
     0.0 * value
 }

@@ -11,7 +11,6 @@ const STEPS: usize = 40;
 
 /// Fills `values` with the eigenvalues of the `n` x `n` matrix (row by row), in no particular order, and destroys the
 /// matrix. Returns `false` if the iteration did not converge. Elements must be finite.
-#[doc(hidden)]
 pub fn eigenvalues(matrix: &mut [Complex], values: &mut [Complex]) -> bool {
     let n = values.len();
     let size = matrix

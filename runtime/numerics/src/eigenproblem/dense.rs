@@ -10,8 +10,7 @@ const ROWS: usize = 2;
 
 /// `x . y`.
 #[inline(always)]
-#[doc(hidden)]
-pub fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     let (mut sums, mut rest) = ([0.0; PARTS], 0.0);
     let (x, x_rest) = x.as_chunks::<PARTS>();
     let (y, y_rest) = y.as_chunks::<PARTS>();

@@ -17,7 +17,6 @@ const SWEEPS: usize = 40;
 /// On return its diagonal holds the eigenvalues, in no particular order, accurate to a few rounding errors of the
 /// largest. `vector` becomes `Q^T vector`, where the columns of `Q` are the eigenvectors; it may be empty. Elements
 /// must be finite and their sum must not overflow.
-#[doc(hidden)]
 pub fn diagonalise(matrix: &mut [f64], n: usize, vector: &mut [f64]) {
     if n < LARGE || !tridiagonal(matrix, n, vector) {
         jacobi(matrix, n, vector);

@@ -9,7 +9,6 @@
 const STEPS: usize = 60;
 
 /// Workspace for matrices of one size.
-#[doc(hidden)]
 pub struct Tridiagonal {
     diagonal: Vec<f64>,
     /// The element between `i` and `i + 1`.
@@ -18,7 +17,6 @@ pub struct Tridiagonal {
 }
 
 impl Tridiagonal {
-    #[doc(hidden)]
     pub fn new(n: usize) -> Self {
         Self {
             diagonal: vec![0.0; n],
@@ -33,7 +31,6 @@ impl Tridiagonal {
     ///
     /// Householder's reduction and QL with implicit shifts (Golub and Van Loan, Matrix Computations, sections 8.3.1 and
     /// 8.3.3).
-    #[doc(hidden)]
     pub fn eigenvalues(&mut self, matrix: &mut [f64]) -> Option<&[f64]> {
         let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         if size == 0.0 {

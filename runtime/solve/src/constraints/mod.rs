@@ -12,7 +12,8 @@ pub(crate) use state::curvature;
 #[doc(hidden)]
 pub use structure::Structure;
 #[doc(hidden)]
-pub use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, redundant_rows};
+pub(crate) use tangent::all_rows;
+pub use tangent::{Tangent, fix_gauge, inertias, placed, redundant_rows};
 
 #[cfg(test)]
 mod tests;

@@ -19,7 +19,6 @@ use crate::kernels::Linear;
 
 /// The directions that constraints leave free at one state.
 #[derive(Clone, Debug)]
-#[doc(hidden)]
 pub struct Tangent {
     pub(crate) structure: Structure,
     /// Number of directions in which the coordinates can move, `f`.
@@ -147,7 +146,6 @@ impl Tangent {
 }
 
 /// Puts values by constraint, numbered from zero, at the positions of their rows; zero elsewhere.
-#[doc(hidden)]
 pub fn placed(structure: Structure, by_constraint: &[f64]) -> Vector {
     let mut placed = Vector::zeros(structure.size());
     placed[structure.constraint_rows()].copy_from_slice(by_constraint);
@@ -158,7 +156,6 @@ pub fn placed(structure: Structure, by_constraint: &[f64]) -> Vector {
 ///
 /// The gauge yields to multipliers as the largest stiffness yields to forces. If it yielded more, the rounding of its
 /// vectors would open gaps under large multipliers.
-#[doc(hidden)]
 pub fn fix_gauge(stiffness: &mut Matrix, structure: Structure) {
     let rows = all_rows(stiffness, structure);
     if rows.dependent() == 0 {
@@ -184,7 +181,6 @@ pub fn fix_gauge(stiffness: &mut Matrix, structure: Structure) {
 }
 
 /// A choice of constraints, at the positions of their rows, that follow from the others.
-#[doc(hidden)]
 pub fn redundant_rows(stiffness: &Matrix, structure: Structure) -> Vec<bool> {
     let rows = all_rows(stiffness, structure);
     let mut redundant = vec![false; structure.size()];
@@ -195,8 +191,7 @@ pub fn redundant_rows(stiffness: &Matrix, structure: Structure) -> Vec<bool> {
 }
 
 /// All constraints over coordinates and speeds, in the balanced metric.
-#[doc(hidden)]
-pub fn all_rows(stiffness: &Matrix, structure: Structure) -> Rows {
+pub(crate) fn all_rows(stiffness: &Matrix, structure: Structure) -> Rows {
     first_rows(stiffness, structure, structure.constraints())
 }
 
@@ -219,7 +214,6 @@ fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64
 
 /// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a lower limit relative to the
 /// largest; one if there are none, and at reactions.
-#[doc(hidden)]
 pub fn inertias(linear: &Linear, structure: Structure) -> Vector {
     let mut mass = Vector::filled(structure.size(), 1.0_f64);
     for block in [0..structure.coordinates, structure.speed_range()] {

@@ -10,28 +10,22 @@ use crate::algebra::{Matrix, Vector, for_size, greater, largest};
 use crate::kernels::RestParts;
 
 /// Relative residual that counts as solved once it no longer falls.
-#[doc(hidden)]
 pub const TOLERANCE: f64 = 1e-10;
 /// Largest relative residual of a result; beyond it, a state is no equilibrium.
-#[doc(hidden)]
 pub const ACCEPTED: f64 = 2.0 * TOLERANCE;
 /// A step this small, relative to the coordinates, changes nothing.
 pub(crate) const FLOOR: f64 = 2.0 * f64::EPSILON;
 /// A displacement this small may be rounding of the residual.
-#[doc(hidden)]
 pub const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A Newton step this small leaves a remainder at rounding.
-#[doc(hidden)]
 pub const LAST_STEP: f64 = 1e-8;
 /// A residual that keeps this share in a step has stopped falling: Newton steps leave less than 1/e of it even where
 /// `Khat` is singular at the solution.
 const STALLED: f64 = 0.5;
 /// Displacement (rad or m) against which coordinates near zero are measured.
-#[doc(hidden)]
 pub const SMALL_MOTION: f64 = 1e-3;
 /// Share of a coordinate that counts as a displacement in the scale of a residual. Multiplied by [`TOLERANCE`] it is
 /// about seven rounding units of the coordinate, the resolution of a large coordinate.
-#[doc(hidden)]
 pub const ROUNDED: f64 = 1.5e-5;
 /// Distance, relative to the state where the residual last fell, beyond which an unchanged residual means that the
 /// state runs away.
@@ -69,7 +63,7 @@ impl Watch {
     /// Judges a state by its residual and the full step that would come next; without a step, by the residual alone.
     #[inline]
     #[doc(hidden)]
-    pub fn judge(
+    pub(crate) fn judge(
         &mut self,
         point: &OperatingPoint<'_>,
         q: &[f64],
@@ -155,7 +149,6 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
 /// that is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions
 /// open. A residual that is not small by this is compared with what the constraints pass on from other equations too:
 /// where links carry no load, all of their own forces are rounding.
-#[doc(hidden)]
 pub fn relative_residual(
     point: &OperatingPoint<'_>,
     q: &[f64],

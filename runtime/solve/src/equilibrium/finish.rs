@@ -14,7 +14,6 @@ use crate::rounding::CheckedState;
 use crate::{DampingKind, Equilibrium, Mode, Stability};
 
 /// A finished state.
-#[doc(hidden)]
 pub struct Judged {
     #[doc(hidden)]
     pub state: Equilibrium,
@@ -68,8 +67,7 @@ pub(super) fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Jud
 }
 
 /// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
-#[doc(hidden)]
-pub fn judge(
+pub(crate) fn judge(
     point: &OperatingPoint<'_>,
     state: &mut Equilibrium,
 ) -> Result<Vec<Mode>, Failure> {

@@ -112,7 +112,6 @@ pub fn equilibrium(
 
 /// Like [`equilibrium`], but overwrites a blank state of this point, whose values are checked here, and returns
 /// [`Judged::modes`].
-#[doc(hidden)]
 pub fn equilibrium_into(
     point: &OperatingPoint<'_>,
     start: &[f64],

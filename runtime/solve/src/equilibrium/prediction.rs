@@ -3,19 +3,15 @@
 use crate::algebra::{Vector, all_finite, greater, largest};
 
 /// Share of the distance by which a prediction may miss.
-#[doc(hidden)]
 pub const MISSED: f64 = 0.25;
 /// Largest difference between coordinates that count as unchanged.
-#[doc(hidden)]
 pub const STILL: f64 = 1e-9;
 
 /// A value of the input and the state there.
-#[doc(hidden)]
 pub type Passed<'a> = (f64, &'a [f64]);
 
 /// The last states of the path, at most three.
 #[derive(Clone, Debug, Default)]
-#[doc(hidden)]
 pub struct Path {
     /// In a ring.
     states: [(f64, Vector); 3],

@@ -32,7 +32,6 @@ const TAKES_PART: f64 = 1e-3;
 ///
 /// # Errors
 /// [`Failure::Unbalanced`] if they do not.
-#[doc(hidden)]
 pub fn constraint_state(
     point: &OperatingPoint<'_>,
     q: &[f64],

@@ -3,7 +3,6 @@
 
 /// A bracket `[low, high]` with the values of the function at both ends.
 #[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
 pub struct Bracket {
     #[doc(hidden)]
     pub low: f64,
@@ -19,7 +18,6 @@ pub struct Bracket {
 ///
 /// `function` returns its value and, if known, its slope; `None` if it is not defined: the point then counts as lying
 /// on the side of `high`.
-#[doc(hidden)]
 pub fn refine(
     mut bracket: Bracket,
     mut function: impl FnMut(f64) -> Option<(f64, Option<f64>)>,

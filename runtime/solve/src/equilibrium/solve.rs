@@ -15,7 +15,6 @@ use crate::state::Note;
 use crate::{DampingKind, Mode, Stability};
 
 /// Like [`equilibrium`](super::equilibrium), for validated values.
-#[doc(hidden)]
 pub fn solve(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -28,7 +27,6 @@ pub fn solve(
 
 /// Like [`solve`], but overwrites a state of the same mechanism at these inputs and design variables, and returns
 /// [`Judged::modes`].
-#[doc(hidden)]
 pub fn solve_into(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -128,7 +126,6 @@ fn departed(point: &OperatingPoint<'_>, from: &[f64], downhill: &[f64]) -> Resul
 ///
 /// `None` unless the fast path leads to a state that confirms the prediction. For mechanisms with a potential and
 /// without constraints.
-#[doc(hidden)]
 pub fn solve_from_prediction(
     point: &OperatingPoint<'_>,
     last: &[f64],

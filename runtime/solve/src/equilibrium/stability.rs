@@ -11,7 +11,6 @@ use crate::rounding::{self, CheckedState, Sign, of_form, sign};
 use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
 
 /// The judgement of a state.
-#[doc(hidden)]
 pub struct Verdict {
     #[doc(hidden)]
     pub stability: Stability,
@@ -67,7 +66,6 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
 /// including an odd number of negative directions next to free ones. With constraints on positions the theorems hold
 /// for the directions they leave free. With speeds or constraints on velocities the general eigenvalues decide; they
 /// are found from the modes `nearby`, if given.
-#[doc(hidden)]
 pub fn judge(
     mechanism: &dyn Kernels,
     at: &CheckedState<'_>,
@@ -208,7 +206,6 @@ fn by_eigenvalues(
 }
 
 /// Judges a critical state by its general eigenvalues, of which the `zero` smallest count as zero.
-#[doc(hidden)]
 pub fn judge_critical(
     linear: &Linear,
     description: &Shared<Description>,

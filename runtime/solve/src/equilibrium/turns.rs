@@ -13,7 +13,6 @@ const CLOSE_SINGULAR: f64 = 1e-4;
 const ROUNDED: f64 = 1e-10;
 
 /// Turns the angles of `q` towards `other` by full turns.
-#[doc(hidden)]
 pub fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Vector {
     Vector::from_fn(q.len(), |i| {
         let angle = description.coordinates[i].unit.symbol == *"rad";
@@ -27,7 +26,6 @@ pub fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Ve
 }
 
 /// Whether coordinates and speeds are equal up to rounding. Reactions follow from them, but less accurately.
-#[doc(hidden)]
 pub fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description) -> bool {
     let close = if singular { CLOSE_SINGULAR } else { CLOSE };
     let motions = Structure::of(description).motions();
@@ -37,7 +35,6 @@ pub fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description)
 
 /// Whether the mechanism is the same in two states that differ by full turns, so that no spring or screw counts the
 /// turns.
-#[doc(hidden)]
 pub fn turns_do_not_count(point: &OperatingPoint<'_>, q: &[f64], turned: &[f64]) -> bool {
     let (Some(a), Some(b)) = (point.evaluate_plain(q), point.evaluate_plain(turned)) else {
         return false;

@@ -6,7 +6,6 @@ use crate::kernels::{Kernels, Second};
 use crate::scalar::Dual;
 
 /// The unknowns with declared values, in the order of the declaration.
-#[doc(hidden)]
 pub fn declared(mechanism: &dyn Kernels, u: &[f64], b: &[f64]) -> Vec<Held> {
     let places = &mechanism.description().held;
     if places.is_empty() {

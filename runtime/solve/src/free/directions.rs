@@ -212,7 +212,6 @@ impl FreeDirections {
 }
 
 /// Holds the place along `count` free directions, of which the stiffness away from an equilibrium need not be free.
-#[doc(hidden)]
 pub fn fix_place(stiffness: &mut Matrix, count: usize) {
     let mut space = NullSpace::of(stiffness, count);
     space.columns.truncate(count);

@@ -12,7 +12,6 @@ use crate::kernels::Linear;
 use crate::{Behaviour, Complex, Modes};
 
 /// Largest share of the assurance that a difference of eigenvalues can remove: it decides between modes of equal shape.
-#[doc(hidden)]
 pub const EIGENVALUE_SHARE: f64 = 0.05;
 /// Above this assurance a mode is recognised without looking at the other modes of its set.
 const CERTAIN: f64 = 0.6;
@@ -111,13 +110,11 @@ pub fn match_modes(from: &Modes, to: &Modes, linear: &Linear) -> Vec<Option<usiz
 
 /// The position in a match found by [`match_with_assurance`].
 #[inline]
-#[doc(hidden)]
 pub fn position(found: Option<(usize, f64)>) -> Option<usize> {
     found.map(|(position, _)| position)
 }
 
 /// Like [`match_modes`], with the assurance of each pair.
-#[doc(hidden)]
 pub fn match_with_assurance(
     from: &Modes,
     to: &Modes,
@@ -197,7 +194,6 @@ impl Modes {
 ///
 /// A merged mode has no derivative, and shares its shapes with the other.
 #[inline]
-#[doc(hidden)]
 pub fn merged(modes: &Modes, r: usize) -> bool {
     /// Semisimple eigenvalues that meet are conditioned far better; defective ones that can still be told apart, far
     /// worse.
@@ -215,7 +211,6 @@ pub fn merged(modes: &Modes, r: usize) -> bool {
 
 /// The groups of equal eigenvalues, each with the positions of its modes, ascending. The shapes in a group are an
 /// arbitrary basis, so its modes have no identity but their order.
-#[doc(hidden)]
 pub fn equal_groups(modes: &Modes) -> Vec<Vec<usize>> {
     let all = 0..modes.modes.len();
     let groups = all.filter_map(|r| {
@@ -227,7 +222,6 @@ pub fn equal_groups(modes: &Modes) -> Vec<Vec<usize>> {
 
 /// Puts what continues a group of equal modes in ascending order of `size`, by exchanging it with `swap`.
 #[inline]
-#[doc(hidden)]
 pub fn in_order<T>(
     group: &[usize],
     all: &mut T,
@@ -255,7 +249,6 @@ pub fn clusters(modes: &Modes, gap: f64) -> Vec<bool> {
 
 /// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.
 #[inline(always)]
-#[doc(hidden)]
 pub fn near_another(modes: &Modes, i: usize, gap: f64) -> bool {
     let own = &modes.modes[i];
     let mut others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
@@ -264,7 +257,6 @@ pub fn near_another(modes: &Modes, i: usize, gap: f64) -> bool {
 
 /// Whether two eigenvalues are within `gap`, relative to the larger of the two.
 #[inline(always)]
-#[doc(hidden)]
 pub fn near(modes: &Modes, i: usize, j: usize, gap: f64) -> bool {
     near_each_other(modes.family, &modes.modes[i], &modes.modes[j], gap)
 }

@@ -30,7 +30,6 @@ pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matri
 /// The inertia of displacements, times `rate`, and of speeds: `Mhat`, with the columns of the speeds from `Chat`.
 ///
 /// Where one of the shapes moves no mass, every component weighs the same.
-#[doc(hidden)]
 pub fn inertia<'a>(
     linear: &Linear,
     structure: Structure,

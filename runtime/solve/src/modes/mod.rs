@@ -40,7 +40,6 @@ use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
 
 /// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances: rounding mixes their
 /// shapes.
-#[doc(hidden)]
 pub const CLUSTER_GAP: f64 = 1e-6;
 
 /// The equation that a set of modes solves.
@@ -291,7 +290,6 @@ impl ModesFailure {
 pub(crate) const SYMMETRIC: f64 = 1e-11;
 
 /// The modes of given matrices; a `lambda` not beyond `floor` counts as zero.
-#[doc(hidden)]
 pub fn solve_modes(
     linear: &Linear,
     family: Family,
@@ -504,7 +502,6 @@ fn slope(linear: &Linear, s: Complex, (left, right): (&[Complex], &[Complex])) -
 
 /// Position of the component that fixes the phase of a vector: the largest one, with a margin that keeps the choice
 /// stable when two are equal up to rounding.
-#[doc(hidden)]
 pub fn lead(x: &[Complex]) -> usize {
     let mut lead = 0;
     for (i, value) in x.iter().enumerate().skip(1) {

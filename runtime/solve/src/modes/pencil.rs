@@ -5,7 +5,6 @@ use crate::algebra::{Matrix, Vector, times_complex};
 use crate::kernels::Linear;
 
 /// `(s^2 M + s C + K) x` for the given matrices.
-#[doc(hidden)]
 pub fn pencil_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
     Vector::from_fn(linear.mass.row_count(), |i| {
         let rows = linear.mass[i].iter().zip(&linear.damping[i]);
@@ -19,7 +18,6 @@ pub fn pencil_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Comple
 }
 
 /// `(2 s M + C) x`: the derivative of the pencil with respect to `s`, times `x`.
-#[doc(hidden)]
 pub fn pencil_slope_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
     let m = times_complex(&linear.mass, x);
     let c = times_complex(&linear.damping, x);
@@ -27,7 +25,6 @@ pub fn pencil_slope_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<
 }
 
 /// The three matrices transposed.
-#[doc(hidden)]
 pub fn transposed(linear: &Linear) -> Linear {
     Linear {
         mass: linear.mass.transpose(),

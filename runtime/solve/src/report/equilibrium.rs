@@ -2,10 +2,10 @@
 
 use core::fmt;
 
-use eigentol_results::numbers::{given, given_in, heading, in_unit, rough_in, with_unit};
+use eigentol_results::numbers::{given_in, heading, in_unit, rough_in, with_unit};
 use eigentol_results::relevance::of_its_kind;
 use eigentol_results::table::{Table, cells};
-use eigentol_results::title::{title, title_along};
+use eigentol_results::title::title;
 use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState, Equilibria, Note};
 use crate::{Description, Equilibrium, Role, Stability, Text};
 

@@ -32,7 +32,6 @@ pub fn sensitivities(
 }
 
 /// Computes [`sensitivities`] for a sequence of states.
-#[doc(hidden)]
 pub struct Adjoint<'a> {
     mechanism: &'a dyn Kernels,
     source: Source,
@@ -283,7 +282,6 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
 }
 
 /// `psi^T (2 s Mhat + Chat) phi`; zero where the eigenvalue has merged with another.
-#[doc(hidden)]
 pub fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
     dot_complex(
         mode.left(),

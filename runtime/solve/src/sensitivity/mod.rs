@@ -140,7 +140,6 @@ fn assemble_into(
 }
 
 /// Refuses a state of another mechanism.
-#[doc(hidden)]
 pub fn check_state(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
     let sizes = mechanism.sizes();
     check_count("coordinates", &at.coordinates, sizes.coordinates)?;
@@ -149,7 +148,6 @@ pub fn check_state(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Erro
 }
 
 /// Refuses modes of another mechanism.
-#[doc(hidden)]
 pub fn check_modes(at: &Equilibrium, modes: &Modes) -> Result<(), Error> {
     let expected = at.coordinates.len();
     let mut lengths = modes.modes.iter().map(|mode| mode.shape.len());

@@ -248,7 +248,6 @@ impl ModeSensitivity {
 
 /// `|ds / dlambda|` of an undamped mode with non-zero `s`, real or imaginary: `s^2 = -lambda`.
 #[inline(always)]
-#[doc(hidden)]
 pub fn root_rate(s: Complex) -> f64 {
     0.5 / greater(s.re, s.im)
 }

@@ -6,7 +6,6 @@ use crate::{Complex, Equilibrium, Mode};
 
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of its four
 /// vectors, in this order.
-#[doc(hidden)]
 pub struct Form {
     re: [Vector; 4],
     im: [Vector; 4],
@@ -55,7 +54,6 @@ impl Form {
 }
 
 /// A direction in coordinates, inputs and design variables.
-#[doc(hidden)]
 pub struct Direction {
     #[doc(hidden)]
     pub coordinates: Vector,
@@ -79,7 +77,6 @@ impl Direction {
 }
 
 /// The gradients of the real and the imaginary part of a complex number.
-#[doc(hidden)]
 pub type ComplexGradient = [Gradient; 2];
 
 /// A complex gradient from real kernel calls.
@@ -103,7 +100,7 @@ fn complex(
     each(im, room, |im, product| *im += product);
 }
 
-#[doc(hidden)]
+/// Subtracts every component.
 pub fn subtract(from: &mut Gradient, gradient: &Gradient) {
     each(from, gradient, |from, value| *from -= value);
 }
@@ -121,7 +118,6 @@ fn each(to: &mut Gradient, from: &Gradient, f: impl Fn(&mut f64, f64)) {
 }
 
 /// Gradient of a form with respect to coordinates, inputs and design variables, its vectors held fixed.
-#[doc(hidden)]
 pub fn form_gradient(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
@@ -136,7 +132,6 @@ pub fn form_gradient(
 }
 
 /// Derivative of [`form_gradient`] along a direction in which the vectors of the form move by `change`.
-#[doc(hidden)]
 pub fn form_gradient_along(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,

@@ -98,7 +98,6 @@ impl Quantity {
 }
 
 /// For undamped modes: the derivative of `s` from that of `lambda = -s^2`.
-#[doc(hidden)]
 pub fn eigenvalue_slope(s: Complex, dlambda: f64) -> Complex {
     over((-0.5 * dlambda).into(), s)
 }
@@ -110,7 +109,6 @@ fn over(a: Complex, s: Complex) -> Complex {
 }
 
 /// Second derivative of `s` from its first derivatives and the second derivative of `lambda = -s^2`.
-#[doc(hidden)]
 pub fn eigenvalue_curvature(s: Complex, a: Complex, b: Complex, ddlambda: f64) -> Complex {
     -(over((0.5 * ddlambda).into(), s) + a * over(b, s))
 }

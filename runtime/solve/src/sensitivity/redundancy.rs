@@ -7,8 +7,7 @@ use crate::kernels::Kernels;
 use crate::{Equilibrium, Error};
 
 /// Relative remainder below which the terms of a sum count as cancelling.
-#[doc(hidden)]
-pub const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 /// Checks that redundant constraints stay consistent: with `n` their left null vectors, `n^T dPhi/du = 0` and
 /// `n^T dPhi/db = 0`. Otherwise the mechanism closes only at these values, and nothing has a derivative.

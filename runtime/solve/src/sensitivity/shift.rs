@@ -52,7 +52,6 @@ pub fn equilibrium_shift(
 
 /// The directions in which a state moves with each input and each design variable, including the shift of the
 /// equilibrium.
-#[doc(hidden)]
 pub fn directions(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
@@ -90,7 +89,7 @@ fn solve_columns(factors: &Lu<f64>, mut partials: Matrix) -> Matrix {
     partials
 }
 
-#[doc(hidden)]
+/// Says that a derivative does not exist here.
 pub fn outside_domain(at: &Equilibrium) -> Error {
     Error::OutsideDomain {
         mechanism: at.description.name.clone(),

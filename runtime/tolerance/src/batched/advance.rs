@@ -12,9 +12,7 @@ use crate::kernels::{BatchKernels, Kernels, Sizes};
 use crate::scalar::{Batch, Instructions, WIDTH};
 
 /// A block, and the buffers that are rewritten for each block.
-#[doc(hidden)]
 pub struct Workspace<'a> {
-    #[doc(hidden)]
     pub block: Block<'a>,
     scratch: Scratch<'a>,
     /// For derivatives of the modes, if wanted.
@@ -23,7 +21,6 @@ pub struct Workspace<'a> {
 
 impl<'a> Workspace<'a> {
     /// Memory for one workspace.
-    #[doc(hidden)]
     pub fn memory(sizes: Sizes, with_slopes: bool) -> Vec<Batch> {
         let slopes = if with_slopes { Slopes::size(sizes) } else { 0 };
         let size = Block::size(sizes) + Scratch::size(sizes.coordinates) + slopes;
@@ -31,7 +28,6 @@ impl<'a> Workspace<'a> {
     }
 
     /// A workspace in memory of its size, for a given design and inputs, one of which will vary.
-    #[doc(hidden)]
     pub fn new(
         memory: &'a mut [Batch],
         kernels: &dyn Kernels,
@@ -51,7 +47,6 @@ impl<'a> Workspace<'a> {
     ///
     /// `shapes` are the modes of the last state, one per row. Returns how many consecutive states passed every check;
     /// their modes have derivatives if wanted.
-    #[doc(hidden)]
     pub fn solve(
         &mut self,
         (kernels, instructions): (&dyn BatchKernels, Instructions),

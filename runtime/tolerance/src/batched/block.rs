@@ -9,7 +9,6 @@ use crate::scalar::Batch;
 use crate::{DampingKind, Description};
 
 /// Smallest pivot of a clearly positive definite matrix, relative to its diagonal element.
-#[doc(hidden)]
 pub const POSITIVE: f64 = 1e-10;
 
 /// The last three values of the input with their states, the latest first.
@@ -17,9 +16,7 @@ pub(crate) type Past<'a> = [Passed<'a>; 3];
 
 /// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input.
 /// Matrices are stored row by row.
-#[doc(hidden)]
 pub struct Block<'a> {
-    #[doc(hidden)]
     pub values: Batch,
     pub(super) inputs: &'a mut [Batch],
     pub(super) design: &'a mut [Batch],
@@ -43,7 +40,6 @@ pub struct Block<'a> {
 
 /// Whether the kind of mechanism allows it: generated code, undamped modes of a potential, no constraints, few
 /// coordinates.
-#[doc(hidden)]
 pub fn possible(description: &Description, kernels: &[&str]) -> bool {
     let n = description.coordinates.len();
     (1..=LARGEST).contains(&n)
@@ -56,7 +52,6 @@ pub fn possible(description: &Description, kernels: &[&str]) -> bool {
 }
 
 /// The kernels that a block needs.
-#[doc(hidden)]
 pub const KERNELS: [&str; 5] = [
     "residual_and_stiffness",
     "residual_parts",

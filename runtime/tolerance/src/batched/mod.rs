@@ -18,7 +18,5 @@ pub(crate) mod room;
 mod slopes;
 mod state;
 
-#[doc(hidden)]
 pub use advance::Workspace;
-#[doc(hidden)]
 pub use block::{Block, KERNELS, POSITIVE, possible};

@@ -8,13 +8,11 @@ use crate::{Equilibrium, Modes, Sensitivities, Stability};
 
 impl Block<'_> {
     /// The coordinates.
-    #[doc(hidden)]
     pub fn state_of(&self, lane: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
         of(self.coordinates, lane)
     }
 
     /// Writes the equilibrium; inputs and design are already set, and there is no damping.
-    #[doc(hidden)]
     pub fn read_state(&self, lane: usize, kernels: &dyn Kernels, state: &mut Equilibrium) {
         for_size(
             self.coordinates.len(),
@@ -37,7 +35,6 @@ impl Block<'_> {
     }
 
     /// Writes the modes, keeping order and labels.
-    #[doc(hidden)]
     pub fn read_modes(&self, lane: usize, modes: &mut Modes) {
         for_size(
             self.lambda.len(),
@@ -57,7 +54,6 @@ impl Block<'_> {
     }
 
     /// Writes the derivatives of these modes.
-    #[doc(hidden)]
     pub fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
         let (inputs, design) = (self.inputs.len(), self.design.len());
         for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {

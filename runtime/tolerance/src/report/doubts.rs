@@ -25,7 +25,6 @@ fn shared(all: &[impl AsRef<[Doubt]>]) -> Vec<(Vec<usize>, &Doubt)> {
 }
 
 /// Each doubt in a sentence, with all the modes that share it.
-#[doc(hidden)]
 pub fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
     let sentence =
         |(modes, doubt): &(Vec<usize>, &Doubt)| format!("{}: {doubt}", capital(named(modes)));
@@ -33,7 +32,6 @@ pub fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
 }
 
 /// How a number stands about which there is a doubt.
-#[doc(hidden)]
 pub fn standing(doubt: &Doubt) -> &'static str {
     match doubt.certain() {
         true => "Not to be trusted",
@@ -42,7 +40,6 @@ pub fn standing(doubt: &Doubt) -> &'static str {
 }
 
 /// Writes the doubts of a result that only distances judge, and who judges better.
-#[doc(hidden)]
 pub fn doubted(f: &mut fmt::Formatter<'_>, all: &[impl AsRef<[Doubt]>]) -> fmt::Result {
     let mut open = false;
     for (modes, doubt) in shared(all) {

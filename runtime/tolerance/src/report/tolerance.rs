@@ -6,20 +6,18 @@ use eigentol_statistics::reliability::sampling::wilson;
 
 use super::doubts::doubted;
 use eigentol_results::numbers::{
-    CLUSTER, given, heading, in_unit, number, of_mode, optional, or_dash, per, percent, rough,
-    rough_in, short, with_unit,
+    CLUSTER, given, heading, number, of_mode, optional, or_dash, rough, short,
 };
-use eigentol_results::relevance::{BELOW, NOTHING_VARIES, names, relevant, unless_rounding};
+use eigentol_results::relevance::{NOTHING_VARIES, names, unless_rounding};
 use eigentol_results::shares::Shares;
 use eigentol_results::table::{Table, cells};
 use eigentol_solve::report::undamped;
-use eigentol_results::title::{title, title_along};
+use eigentol_results::title::title;
 use crate::modes::Family;
 use crate::tolerance::{Counts, Doubt, ModeTolerance, OutputTolerances, Spread, Statistics};
 use crate::{FirstOrder, MonteCarlo};
 
 /// The standard deviation, or zero if it is rounding compared to the mean.
-#[doc(hidden)]
 pub fn spread_of(spread: &Spread) -> f64 {
     unless_rounding(spread.sigma, spread.mean)
 }
@@ -60,7 +58,6 @@ impl fmt::Display for OutputTolerances {
 }
 
 /// A distance in standard deviations; `-` if it is infinite.
-#[doc(hidden)]
 pub fn far(distance: f64) -> String {
     or_dash(
         Some(distance).filter(|distance| distance.is_finite()),
@@ -69,7 +66,6 @@ pub fn far(distance: f64) -> String {
 }
 
 /// Whether no tolerance moves the mode, alone or relative to others.
-#[doc(hidden)]
 pub fn unmoved(mode: &ModeTolerance) -> bool {
     let moved = |spread: Option<Spread>| spread.is_some_and(|own| spread_of(&own) != 0.0);
     !mode.clustered

@@ -60,7 +60,6 @@ fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
 
 /// Runs the given number of work items on a mechanism of `n` unknowns and `p` design variables, each thread with its
 /// own workspace, and returns the results in order. 0 threads means as many as the machine has.
-#[doc(hidden)]
 pub fn run<R, T: Send>(
     threads: usize,
     (n, p): (usize, usize),

@@ -14,7 +14,6 @@ use crate::Error;
     derive(serde::Serialize, serde::Deserialize),
     serde(into = "u32", try_from = "u32")
 )]
-#[doc(hidden)]
 pub struct Format;
 
 #[cfg(feature = "serde")]
@@ -48,7 +47,6 @@ impl TryFrom<u32> for Format {
 /// Identity of a run, and the numbering of its samples: one randomisation after the other.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[doc(hidden)]
 pub struct Run {
     #[doc(hidden)]
     pub fingerprint: Fingerprint,
@@ -131,7 +129,8 @@ impl Run {
 
     /// Refuses data that cannot be samples of this run: the first `outcomes` counts must count each sample once.
     #[cfg(feature = "serde")]
-    pub(crate) fn check_parts(
+    #[doc(hidden)]
+    pub fn check_parts(
         &self,
         parts: &[Partial],
         quantities: usize,

@@ -28,7 +28,6 @@ pub struct Sample {
 }
 
 /// The solution of a sample, in a workspace reused by the next one.
-#[doc(hidden)]
 pub struct Solution {
     #[doc(hidden)]
     pub outcome: Outcome,

@@ -11,7 +11,6 @@ use crate::scalar::WIDTH;
 pub(crate) type Bits = [u64; WIDTH];
 
 /// Draws designs in sequence, starting at a given sample.
-#[doc(hidden)]
 pub struct Draw<'a> {
     random: RandomNumbers,
     nominal: &'a [f64],

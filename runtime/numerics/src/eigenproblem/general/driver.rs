@@ -20,13 +20,11 @@ use crate::eigenproblem::symmetric::{Trouble, not_found};
 const DIRECT: usize = 8;
 
 /// Roots with `Im s >= 0`, without their conjugates, ascending in `|s|`, then in `Im s`, then in `Re s`.
-#[doc(hidden)]
 pub fn solve(problem: Eigenproblem) -> Result<Vec<Root>, Trouble> {
     solve_near(problem, &[])
 }
 
 /// Like [`solve`], but starts from the roots of a nearby problem if they predict all roots.
-#[doc(hidden)]
 pub fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Root>, Trouble> {
     let n = problem.size();
     if n == 0 {

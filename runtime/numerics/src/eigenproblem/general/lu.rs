@@ -8,8 +8,7 @@ use super::pencil::bound;
 use crate::algebra::for_size;
 use crate::scalar::Real;
 
-#[doc(hidden)]
-pub struct Lu<'a> {
+pub(crate) struct Lu<'a> {
     n: usize,
     /// `L` below the diagonal (with a unit diagonal), `U` above, with rows and columns exchanged.
     factors: &'a [Complex64],
@@ -84,8 +83,7 @@ impl<'a> Lu<'a> {
     }
 
     /// Solves `matrix x = b`; zero pivots are replaced by something tiny. `work` needs `n` numbers.
-    #[doc(hidden)]
-    pub fn solve(&self, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
+    pub(crate) fn solve(&self, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
         for_size(
             self.n,
             #[inline(always)]

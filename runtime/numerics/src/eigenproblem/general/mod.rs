@@ -43,13 +43,9 @@ pub(crate) mod tests;
 
 use num_complex::Complex64;
 
-#[doc(hidden)]
 pub use driver::{solve as roots_of, solve_near as roots_near};
-#[doc(hidden)]
 pub use prediction::Near;
-#[doc(hidden)]
 pub use reference::{Reference, ReferencePair};
-#[doc(hidden)]
 pub use scaled_pencil::Eigenproblem;
 
 use super::symmetric::Trouble;
@@ -58,30 +54,22 @@ use crate::linear::Linear;
 
 /// One eigenvalue, or one of a conjugate pair, with its vectors.
 #[derive(Clone, Debug, PartialEq)]
-#[doc(hidden)]
 pub struct Root {
     /// Eigenvalue, 1/s; `Im s >= 0`.
-    #[doc(hidden)]
     pub s: Complex64,
     /// `phi` with `phi^H M phi = 1` and its largest component real and positive.
-    #[doc(hidden)]
     pub right: Vector<Complex64>,
     /// `psi`, normalised in the same way.
-    #[doc(hidden)]
     pub left: Vector<Complex64>,
     /// Largest component of `Q(s) phi` and of `psi^T Q(s)`, relative to the terms in it.
-    #[doc(hidden)]
     pub residual: f64,
     /// Estimated absolute error of `s`.
-    #[doc(hidden)]
     pub error: f64,
     /// Condition number of `s` as an eigenvalue of the balanced linearisation; infinite for a defective one.
-    #[doc(hidden)]
     pub condition: f64,
 }
 
 /// Solves the general eigenproblem of `linear`.
-#[doc(hidden)]
 pub fn solve(linear: &Linear) -> Result<Vec<Root>, Trouble> {
     driver::solve(Eigenproblem::Quadratic(linear))
 }

@@ -16,8 +16,7 @@ const MODERATE: f64 = 1e8;
 /// Relative step from which the vectors are computed again.
 const SMALL: f64 = 1e-6;
 /// Residual above which the vectors are improved.
-#[doc(hidden)]
-pub const INACCURATE: f64 = 1e-13;
+pub(crate) const INACCURATE: f64 = 1e-13;
 
 impl Solver<'_> {
     /// Relative rounding error of a component of `Q(s) x`.

@@ -27,8 +27,7 @@ pub(super) enum Degree {
 
 impl Degree {
     /// Number of eigenvalues of a pencil of size `n`.
-    #[doc(hidden)]
-    pub fn eigenvalues(self, n: usize) -> usize {
+    pub(crate) fn eigenvalues(self, n: usize) -> usize {
         match self {
             Self::One => n,
             Self::Two => 2 * n,

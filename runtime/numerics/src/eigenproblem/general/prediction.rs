@@ -10,13 +10,9 @@ const NEAR: f64 = 0.1;
 
 /// An eigenvalue of a nearby problem, `Im s >= 0`, with its vectors.
 #[derive(Clone, Copy)]
-#[doc(hidden)]
 pub struct Near<'a> {
-    #[doc(hidden)]
     pub s: Complex64,
-    #[doc(hidden)]
     pub right: &'a [Complex64],
-    #[doc(hidden)]
     pub left: &'a [Complex64],
 }
 

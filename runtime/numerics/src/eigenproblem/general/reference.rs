@@ -10,38 +10,27 @@ use crate::algebra::{Matrix, Vector};
 use crate::linear::Linear;
 
 /// The units of a pencil, and all of its pairs in these units.
-#[doc(hidden)]
 pub struct Reference {
     /// Units of vectors: powers of two.
-    #[doc(hidden)]
     pub units: Vector,
     /// Unit of eigenvalues, 1/s.
-    #[doc(hidden)]
     pub rate: f64,
-    #[doc(hidden)]
     pub pairs: Vec<ReferencePair>,
 }
 
 /// An eigenvalue, `Im s >= 0`, with its vectors and the order of elimination.
-#[doc(hidden)]
 pub struct ReferencePair {
-    #[doc(hidden)]
     pub s: Complex64,
-    #[doc(hidden)]
     pub right: Vector<Complex64>,
-    #[doc(hidden)]
     pub left: Vector<Complex64>,
     /// Rows and columns of `Q(s)` in the order of complete pivoting: the singular ones come last.
-    #[doc(hidden)]
     pub rows: Vec<usize>,
-    #[doc(hidden)]
     pub columns: Vec<usize>,
 }
 
 impl Reference {
     /// The reference for a pencil whose first `motions` unknowns have masses and whose others are the reactions of as
     /// many constraints; `None` unless the pairs represent all eigenvalues, conjugates included.
-    #[doc(hidden)]
     pub fn new(linear: &Linear, motions: usize, pairs: &[Near]) -> Option<Self> {
         let n = linear.mass.row_count();
         let values = pairs.iter().map(|pair| 1 + usize::from(pair.s.im > 0.0));

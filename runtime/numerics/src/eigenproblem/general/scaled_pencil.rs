@@ -9,7 +9,6 @@ use crate::linear::Linear;
 
 /// An eigenproblem.
 #[derive(Clone, Copy)]
-#[doc(hidden)]
 pub enum Eigenproblem<'a> {
     /// `(s^2 mass + s damping + stiffness) phi = 0`.
     Quadratic(&'a Linear),

@@ -4,8 +4,7 @@ use super::hessenberg::balance;
 use super::powers::{exponent, power_of_two};
 
 /// Largest absolute value; infinite if one is not finite.
-#[doc(hidden)]
-pub fn largest(x: &[f64]) -> f64 {
+pub(crate) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |most: f64, value| {
         if value.is_finite() {
             most.max(value.abs())

@@ -43,8 +43,7 @@ pub(super) fn linear_values(
 
 /// Values from which the search starts.
 #[derive(Clone, Copy)]
-#[doc(hidden)]
-pub struct Values<'a> {
+pub(crate) struct Values<'a> {
     values: &'a [Complex64],
     /// Vectors close to their own are known.
     near: bool,

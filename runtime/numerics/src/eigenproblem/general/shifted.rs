@@ -144,8 +144,7 @@ impl Shifted {
     }
 
     /// `(H - s) x = b` in place.
-    #[doc(hidden)]
-    pub fn solve(&self, x: &mut Parts) {
+    pub(crate) fn solve(&self, x: &mut Parts) {
         for k in 0..self.n.saturating_sub(1) {
             if self.exchanged[k] {
                 x.swap(k, k + 1);

@@ -14,8 +14,7 @@ const CORRECTIONS: usize = 6;
 const MIXED: f64 = 0.1;
 
 /// Fills in all pairs, ascending; shape `r` is row `r`.
-#[doc(hidden)]
-pub fn solve(
+pub(crate) fn solve(
     matrices: &Matrices,
     lambda: &mut [f64],
     shapes: &mut [f64],

@@ -12,7 +12,6 @@ use residual::Matrices;
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[doc(hidden)]
 pub enum Trouble {
     /// The mass matrix has no positive pivot in this row.
     SingularMass(usize),
@@ -23,22 +22,16 @@ pub enum Trouble {
 /// Eigenvalues, ascending; `shapes[r]` is the vector of eigenvalue `r` with `phi^T M phi = 1` and its largest component
 /// positive.
 #[derive(Debug, Default)]
-#[doc(hidden)]
 pub struct Pairs {
-    #[doc(hidden)]
     pub lambda: Vector,
-    #[doc(hidden)]
     pub shapes: Matrix,
-    #[doc(hidden)]
     pub residuals: Vector,
     /// How far each eigenvalue may be off by rounding.
-    #[doc(hidden)]
     pub errors: Vector,
 }
 
 impl Pairs {
     /// Number of eigenvalues below zero.
-    #[doc(hidden)]
     pub fn negative(&self) -> usize {
         self.lambda.iter().filter(|&&value| value < 0.0).count()
     }
@@ -49,7 +42,6 @@ const ACCEPTED: f64 = 1e-9;
 /// Residual of a pair that is exact up to rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Residual above which a pair is improved by inverse iteration.
-#[doc(hidden)]
 pub const INACCURATE: f64 = 1e-13;
 
 /// Share of the largest eigenvalue below which an eigenvalue may be no more than the effect of other modes in its
@@ -60,7 +52,6 @@ const SMALL: f64 = 1e-6;
 const SMALL_SIZE: usize = 8;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
-#[doc(hidden)]
 pub fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
     let mut pairs = Pairs::default();
     solve_into(stiffness, mass, &mut pairs)?;
@@ -68,7 +59,6 @@ pub fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
 }
 
 /// Like [`solve`], overwriting existing pairs.
-#[doc(hidden)]
 pub fn solve_into(
     stiffness: &Matrix,
     mass: &Matrix,
@@ -295,7 +285,6 @@ fn sort(
 
 /// Makes the largest component positive; a margin keeps the choice stable when two are equal up to rounding.
 #[inline(always)]
-#[doc(hidden)]
 pub fn fix_sign(shape: &mut [f64]) {
     let mut lead = 0;
     for i in 1..shape.len() {

@@ -6,13 +6,11 @@ use crate::kernels::Linear;
 use crate::modes::pencil::{pencil_slope_times, pencil_times, pencil_transposed_times, transposed};
 
 /// Largest residual that is accepted.
-#[doc(hidden)]
-pub const ACCEPTED: f64 = 1e-9;
+pub(crate) const ACCEPTED: f64 = 1e-9;
 /// Residual above which vectors are improved.
 pub(super) const INACCURATE: f64 = 1e-13;
 /// Residual of vectors that are exact up to rounding.
-#[doc(hidden)]
-pub const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A measured pair.
 #[derive(Clone, Copy, Debug)]

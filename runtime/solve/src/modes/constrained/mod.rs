@@ -16,7 +16,8 @@ mod quadratic;
 mod system;
 
 #[doc(hidden)]
-pub use pairs::{free_pairs, free_pairs_into};
+pub use pairs::free_pairs;
+pub(crate) use pairs::free_pairs_into;
 
 use super::pencil::pencil_times;
 use crate::algebra::{Matrix, Vector, dot, times, times_complex};
@@ -83,7 +84,6 @@ fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
 
 /// How the vectors of a mode are normalised.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[doc(hidden)]
 pub enum Normalisation {
     /// `x^H Mhat x = 1`, with the leading component real and positive.
     Mass,
@@ -94,7 +94,6 @@ pub enum Normalisation {
 
 /// Number of first components among which the leading (largest) one is sought, for either vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[doc(hidden)]
 pub struct Leading {
     #[doc(hidden)]
     pub right: usize,

@@ -21,7 +21,6 @@ use crate::rounding::of_form;
 ///
 /// # Errors
 /// Fails as inaccurate for a mechanism with speeds or constraints on velocities, which has no such pairs.
-#[doc(hidden)]
 pub fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, Trouble> {
     let mut pairs = Pairs::default();
     free_pairs_into(linear, description, &mut pairs)?;
@@ -29,8 +28,7 @@ pub fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, T
 }
 
 /// Like [`free_pairs`], overwriting existing pairs.
-#[doc(hidden)]
-pub fn free_pairs_into(
+pub(crate) fn free_pairs_into(
     linear: &Linear,
     description: &Description,
     pairs: &mut Pairs,

@@ -62,7 +62,6 @@ impl<'a> Prepared<'a> {
 
 /// Whether samples of a mechanism may be solved in vectors for modes of this family: few unknowns, no constraints
 /// except on positions, and either undamped modes of a potential or general modes with some damping.
-#[doc(hidden)]
 pub fn possible(description: &Description, family: Family) -> bool {
     let undamped = description.damping == DampingKind::Zero;
     (1..=MOST).contains(&description.coordinates.len())

@@ -54,8 +54,7 @@ pub(super) fn distribute<const N: usize>(prepared: &TaylorModel<'_, N>, design: 
 }
 
 /// One for the members whose bodies can exist.
-#[doc(hidden)]
-pub fn possible<const N: usize>(
+pub(super) fn possible<const N: usize>(
     prepared: &TaylorModel<'_, N>,
     design: &[Batch],
     members: usize,
