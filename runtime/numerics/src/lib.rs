@@ -2,6 +2,10 @@
 //!
 //! An internal part of `eigentol`, which re-exports what its users need. It promises nothing to others.
 
+// Tests share files with those of another crate.
+#[cfg(test)]
+extern crate self as eigentol_numerics;
+
 #[doc(hidden)]
 pub mod algebra;
 #[doc(hidden)]

@@ -2,6 +2,10 @@
 //!
 //! An internal part of `eigentol`, which re-exports what its users need. It promises nothing to others.
 
+// Mechanisms declared in unit tests refer to the door by its name.
+#[cfg(test)]
+extern crate eigentol_contract as eigentol;
+
 #[doc(hidden)]
 pub mod arguments;
 #[doc(hidden)]

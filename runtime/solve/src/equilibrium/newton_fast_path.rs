@@ -158,7 +158,7 @@ mod tests {
     use crate::equilibrium::acceptance::{Candidate, Found};
     use crate::equilibrium::descent::stable;
     use crate::equilibrium::search_space::Unconstrained;
-    use crate::mechanism;
+    use eigentol_macros::mechanism;
 
     mechanism! {
         mechanism DoublePendulum {

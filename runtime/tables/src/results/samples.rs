@@ -101,6 +101,6 @@ pub(super) fn outcome(outcome: Outcome) -> Option<String> {
         Outcome::NotAssembled => "not assembled",
         Outcome::Unphysical => "unphysical",
         Outcome::NoModes => "no modes",
-        _ => "other",
+
     })
 }

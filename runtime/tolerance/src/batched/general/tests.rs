@@ -1,6 +1,8 @@
 //! Modes in lanes compared with those of the solver for one state.
 
 mod ill_conditioned;
+#[path = "../../../../numerics/src/eigenproblem/general/tests/pencils.rs"]
+mod pencils;
 
 use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
@@ -9,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng;
 use super::*;
 use crate::algebra;
 use crate::batched::algebra::{LARGEST, load_matrix};
-use crate::eigenproblem::general::tests::near::{moved, near, pencil, with_errors};
+use pencils::{moved, near, pencil, with_errors};
 use crate::eigenproblem::{Eigenproblem, roots_of};
 use crate::kernels::Linear;
 use crate::scalar::{Batch, Instructions, Task, WIDTH};

@@ -1,7 +1,7 @@
 //! The path of conservative gyroscopic pencils beside the general one.
 
 use super::families::{random_conservative, rotors};
-use super::near::with_errors;
+use super::pencils::with_errors;
 use super::*;
 use crate::eigenproblem::general::gyroscopic::oscillations;
 use crate::eigenproblem::general::scaled_pencil::{Eigenproblem, scaled};

@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::torture::{symmetric, uniform};
+use super::pencils::{symmetric, uniform};
 use super::{Linear, Matrix, diagonal, identity, linear, zeros};
 
 /// `A (x) B` with a 2 x 2 matrix `B`: two directions at each place.

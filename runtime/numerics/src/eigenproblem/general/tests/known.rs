@@ -2,9 +2,9 @@
 //! `C = R^T (S C0 S^-1) R`, `K = R^T (S K0 S^-1) R`. Nothing is rounded.
 
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
 
 use super::checks::{check, check_product, check_sum, cross, rank};
+use super::pencils::below;
 use super::*;
 
 /// An exact root with its algebraic and geometric multiplicity.
@@ -18,10 +18,6 @@ pub(super) struct Exact {
 pub(super) struct Known {
     pub(super) linear: Linear,
     pub(super) spectrum: Vec<Exact>,
-}
-
-pub(super) fn below(rng: &mut ChaCha8Rng, bound: u32) -> u32 {
-    rng.next_u32() % bound
 }
 
 /// Roots of one block: a pair of integers, real or conjugate.

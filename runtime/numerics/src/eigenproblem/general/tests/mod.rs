@@ -6,43 +6,20 @@ mod conservative;
 mod families;
 mod hard;
 mod known;
-pub(crate) mod near;
+mod near;
 mod parts;
+mod pencils;
 mod scale;
 mod stored;
-pub(crate) mod torture;
+mod torture;
 
 use num_complex::Complex64;
 
 use super::{Root, solve};
+use pencils::{diagonal, identity, linear, zeros};
 use crate::algebra::{Matrix, Vector};
 use crate::eigenproblem::symmetric::Trouble;
 use crate::linear::Linear;
-
-fn linear(
-    mass: impl Into<Matrix>,
-    damping: impl Into<Matrix>,
-    stiffness: impl Into<Matrix>,
-) -> Linear {
-    Linear {
-        mass: mass.into(),
-        damping: damping.into(),
-        stiffness: stiffness.into(),
-    }
-}
-
-fn zeros(n: usize) -> Matrix {
-    Matrix::zeros(n, n)
-}
-
-fn identity(n: usize) -> Matrix {
-    diagonal(&vec![1.0; n])
-}
-
-fn diagonal(elements: &[f64]) -> Matrix {
-    let n = elements.len();
-    Matrix::from_fn(n, n, |i, j| if i == j { elements[i] } else { 0.0 })
-}
 
 /// All roots, including conjugates.
 fn all(roots: &[Root]) -> Vec<Complex64> {

@@ -4,56 +4,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::checks::check;
-use super::torture::{integers, mass, symmetric, uniform};
+use super::pencils::{moved, near, pencil, symmetric, uniform, with_errors};
 use super::*;
 use crate::eigenproblem::general::prediction::predict;
-use crate::eigenproblem::general::{Eigenproblem, Near, roots_near};
-
-/// Gyroscopic, damped and circulatory pencils, with eigenvalues that meet or vanish.
-pub(crate) fn pencil(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Linear {
-    let any = Matrix::from_fn(n, n, |_, _| uniform(rng));
-    let stiffness = symmetric(&any, 1.0);
-    match kind {
-        0 => linear(identity(n), symmetric(&any, -1.0), stiffness),
-        1 => linear(mass(n, rng, 0.5), any, stiffness),
-        2 => linear(identity(n), integers(n, rng, 1), integers(n, rng, 1)),
-        _ => linear(mass(n, rng, 0.0), zeros(n), stiffness),
-    }
-}
-
-/// The pencil with every element changed by up to this share, keeping symmetric parts and signs.
-pub(crate) fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear {
-    let n = pencil.mass.row_count();
-    let factors = Matrix::from_fn(n, n, |_, _| 0.5 * share * uniform(rng));
-    let factor = |i: usize, j: usize| 1.0 + factors[i][j] + factors[j][i];
-    let change = |matrix: &Matrix| Matrix::from_fn(n, n, |i, j| matrix[i][j] * factor(i, j));
-    linear(
-        change(&pencil.mass),
-        change(&pencil.damping),
-        change(&pencil.stiffness),
-    )
-}
-
-pub(crate) fn near(roots: &[Root]) -> Vec<Near<'_>> {
-    fn near(root: &Root) -> Near<'_> {
-        Near {
-            s: root.s,
-            right: &root.right,
-            left: &root.left,
-        }
-    }
-    roots.iter().map(near).collect()
-}
-
-/// All roots with their errors, including conjugates.
-pub(crate) fn with_errors(roots: &[Root]) -> Vec<(Complex64, f64)> {
-    let both = |root: &Root| {
-        let conjugate = (root.s.im > 0.0).then(|| root.s.conj());
-        let values = [Some(root.s), conjugate].into_iter().flatten();
-        values.map(|s| (s, root.error)).collect::<Vec<_>>()
-    };
-    roots.iter().flat_map(both).collect()
-}
+use crate::eigenproblem::general::{Eigenproblem, roots_near};
 
 fn compare(rounds: usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(16);

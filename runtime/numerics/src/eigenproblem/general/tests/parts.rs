@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::known::below;
+use super::pencils::below;
 use super::*;
 use crate::eigenproblem::general::lu::Lu;
 use crate::eigenproblem::general::pencil::Pencil;

@@ -1,40 +1,16 @@
 //! Large numbers of degenerate, defective and badly scaled pencils.
 
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
 
 use super::checks::{check, check_product, check_sum};
-use super::known::{below, check_known, known};
+use super::known::{check_known, known};
+use super::pencils::{below, integers, mass, symmetric, uniform};
 use super::*;
-
-/// Uniform in -1 .. 1.
-pub(crate) fn uniform(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-}
-
-pub(super) fn integers(n: usize, rng: &mut ChaCha8Rng, most: u32) -> Matrix {
-    Matrix::from_fn(n, n, |_, _| below(rng, 2 * most + 1) as f64 - most as f64)
-}
-
-pub(super) fn symmetric(matrix: &Matrix, sign: f64) -> Matrix {
-    let n = matrix.row_count();
-    Matrix::from_fn(n, n, |i, j| matrix[i][j] + sign * matrix[j][i])
-}
 
 fn graded(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
     Matrix::from_fn(n, n, |_, _| {
         uniform(rng) * 10.0_f64.powf(spread * uniform(rng))
-    })
-}
-
-/// Well conditioned, with coordinates then scaled by up to `10^spread` either way.
-pub(super) fn mass(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
-    let units = Vector::from_fn(n, |_| 10.0_f64.powf(spread * uniform(rng)));
-    let coupling = Matrix::from_fn(n, n, |_, _| 0.4 * uniform(rng) / n as f64);
-    Matrix::from_fn(n, n, |i, j| {
-        let element = coupling[i][j] + coupling[j][i];
-        let one = if i == j { 1.0 } else { 0.0 };
-        (element + one) * units[i] * units[j]
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::algebra::Matrix;
-use crate::eigenproblem::general::tests::torture::uniform;
+use super::pencils::uniform;
 use crate::modes::{Family, Mode, Modes, match_modes, solve_modes};
 use crate::{DampingKind, Description, Shared};
 
