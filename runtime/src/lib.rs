@@ -74,15 +74,16 @@
 #[cfg(test)]
 extern crate self as eigentol;
 
-pub use eigentol_macros::mechanism;
-pub use eigentol_contract::{
-    Any, Array, BodyInfo, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo, DesignVariable, Dual,
-    ElementInfo, Gradient, GradientOf, Input, InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo,
-    List, Mechanism, Output, OutputInfo, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf,
-    RestParts, Role, Shared, SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
-};
 #[doc(inline)]
 pub use eigentol_contract::scalar;
+pub use eigentol_contract::{
+    Any, Array, BodyInfo, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo,
+    DesignVariable, Dual, ElementInfo, Gradient, GradientOf, Input, InputInfo, JointInfo,
+    KernelInfo, Law, Linear, LinearPartials, LinkInfo, List, Mechanism, Output, OutputInfo,
+    PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, Role,
+    Shared, SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
+};
+pub use eigentol_macros::mechanism;
 
 #[cfg(feature = "std")]
 mod study;
@@ -90,18 +91,28 @@ mod study;
 #[cfg(feature = "std")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    allocation, branches, campbell, campbell::Campbell, clusters, judge, motion, picture, propagation, report, requirement, response,
-    second_order, shapes, summary, sweep,
+    allocation, branches, campbell, campbell::Campbell, clusters, judge, motion, picture,
+    propagation, report, requirement, response, second_order, shapes, summary, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]
-pub use eigentol_solve::{equilibrium, error, error::Error, kernels, kernels::Kernels, modes, sensitivity, Behaviour, Equilibrium, Family, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch};
+pub use eigentol_solve::{
+    Behaviour, Equilibrium, Family, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch,
+    equilibrium, error, error::Error, kernels, kernels::Kernels, modes, sensitivity,
+};
 #[cfg(feature = "std")]
-#[doc(inline)]
-pub use eigentol_tolerance::{tolerance, FirstOrder, MonteCarlo, Tolerances};
+pub mod tolerance {
+    //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
+    #![doc = include_str!("where_first_order_fails.md")]
+
+    pub use eigentol_tolerance::tolerance::*;
+}
 #[cfg(feature = "std")]
 #[doc(inline)]
 pub use eigentol_numerics::algebra::{Matrix, Vector};
+#[cfg(feature = "std")]
+#[doc(inline)]
+pub use eigentol_tolerance::{FirstOrder, MonteCarlo, Tolerances};
 /// A complex number.
 #[cfg(feature = "std")]
 pub use num_complex::Complex64 as Complex;

@@ -17,4 +17,5 @@ pub mod rounding;
 
 use eigentol_contract::scalar;
 
+pub use algebra::{Matrix, Vector};
 pub use num_complex::Complex64 as Complex;

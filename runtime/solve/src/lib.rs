@@ -26,15 +26,18 @@ pub mod state;
 #[doc(hidden)]
 pub mod watch;
 
+use eigentol_contract::{
+    Coordinate, CoordinateInfo, DampingKind, Description, DesignVariable, Input, PoseMargin, Real,
+    Role, Shared, Text, Unit,
+};
 use eigentol_contract::{mechanism, scalar};
-use eigentol_contract::{Coordinate, CoordinateInfo, DampingKind, Description, DesignVariable, Input, PoseMargin, Real, Role, Shared, Text, Unit};
 use eigentol_numerics::{Complex, algebra, eigenproblem};
 use eigentol_results::setters;
 
+pub use equilibrium::Policy;
 pub use error::Error;
 pub use kernels::Kernels;
 pub use modes::{Behaviour, Family, Mode, Modes};
 pub use sensitivity::{Quantity, Sensitivities};
 pub use state::{Equilibrium, Stability};
-pub use equilibrium::Policy;
 pub use watch::Watch;

@@ -108,13 +108,21 @@ impl<M: Kernels> Study<M> {
         Ok(solved)
     }
 
-    /// Computes the natural modes ([`modes`](crate::modes::modes)).
+    /// Computes the natural modes ([`modes`](crate::modes::modes)). Their shapes are normalised by the mass matrix.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
+    /// use eigentol::Complex;
+    /// use nalgebra::DMatrix;
+    ///
     /// for mode in &study.modes()?.modes {
     ///     println!("{:?} rad/s", mode.frequency());
     /// }
+    /// let solved = study.solve()?;
+    /// let shapes = DMatrix::from(solved.modes.shapes());
+    /// let mass = DMatrix::from(&solved.equilibrium.linear.mass).map(Complex::from);
+    /// let product = shapes.adjoint() * mass * &shapes;
+    /// assert!((product[(0, 0)].re - 1.0).abs() < 1e-12);
     /// # Ok::<(), eigentol::Error>(())
     /// ```
     ///
@@ -473,6 +481,11 @@ impl<M: BatchKernels> Study<M> {
     /// all.merge(study.samples_between(0..1000)?)?;
     /// all.check_complete()?;
     /// assert_eq!(all.result(), study.monte_carlo()?);
+    ///
+    /// // The samples themselves, if they are kept.
+    /// let mut part = study.keep_samples(true).samples_between(300..400)?;
+    /// let samples = part.take_samples();
+    /// assert_eq!((samples.len(), samples[0].0), (100, 300));
     /// # Ok::<(), eigentol::Error>(())
     /// ```
     ///

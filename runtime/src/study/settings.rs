@@ -6,13 +6,10 @@ use super::parameter::Parameter;
 use super::value::Value;
 use super::variation::Variation;
 use super::watcher::Watcher;
-use crate::{Matrix, Vector};
-use eigentol_solve::constraints::Structure;
+use crate::ToleranceInfo;
 use crate::equilibrium;
 use crate::equilibrium::{Assembly, OperatingPoint, Policy, Search};
-use eigentol_solve::free::{Held, declared};
 use crate::kernels::Kernels;
-use crate::ToleranceInfo;
 use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
@@ -21,6 +18,9 @@ use crate::{
     Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Mode, Modes, Shared, Unit,
     Watch,
 };
+use crate::{Matrix, Vector};
+use eigentol_solve::constraints::Structure;
+use eigentol_solve::free::{Held, declared};
 
 /// The operating point, the tolerances and the solver options.
 #[derive(Clone, Debug, PartialEq)]

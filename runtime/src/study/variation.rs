@@ -1,8 +1,8 @@
 //! How the parameters of a study vary.
 
 use crate::Error;
-use crate::{Law, ToleranceInfo};
 use crate::tolerance::{Distribution, distribution};
+use crate::{Law, ToleranceInfo};
 
 /// The variation of a parameter.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,11 +8,14 @@ pub mod batched;
 pub mod report;
 pub mod tolerance;
 
-use eigentol_contract::{mechanism, scalar};
 use eigentol_contract::{DampingKind, Description, Input, Shared};
+use eigentol_contract::{mechanism, scalar};
 use eigentol_numerics::{Complex, algebra, eigenproblem};
 use eigentol_results::setters;
+pub use eigentol_solve::Error;
+use eigentol_solve::{
+    Behaviour, Equilibrium, Mode, Modes, Policy, Sensitivities, Stability, Watch,
+};
 use eigentol_solve::{constraints, equilibrium, kernels, modes, rounding, sensitivity};
-use eigentol_solve::{Behaviour, Equilibrium, Error, Mode, Modes, Policy, Sensitivities, Stability, Watch};
 
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};

@@ -1,10 +1,10 @@
 //! The doubts that distances raise about first order.
 
 use super::Doubt;
+use crate::Error;
 use crate::response::{Response, Responses};
 use crate::sensitivity::sensitivities;
 use crate::tolerance::{FirstOrder, Tolerances, first_order};
-use crate::Error;
 
 /// A first-order standard deviation with a larger error is not to be trusted.
 pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;

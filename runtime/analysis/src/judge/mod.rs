@@ -11,8 +11,8 @@ mod distances;
 mod event;
 mod judged;
 
-pub use distances::TRUSTED_SIGMA_ERROR;
 pub use crate::tolerance::{Doubt, Measured};
+pub use distances::TRUSTED_SIGMA_ERROR;
 pub use judged::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR, Unjudged};
 
 pub use cost::BUDGET;

@@ -3,10 +3,10 @@
 use core::fmt;
 
 use super::margin::chance;
+use crate::allocation::Allocation;
 use eigentol_results::numbers::{given, heading, in_unit, or_dash, rough, rough_in, short};
 use eigentol_results::table::{Table, cells};
 use eigentol_results::title::title;
-use crate::allocation::Allocation;
 
 impl fmt::Display for Allocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -2,12 +2,14 @@
 
 use core::fmt;
 
-use eigentol_results::numbers::{heading, in_unit, number, rough, with_unit};
-use eigentol_results::relevance::{EVERYTHING, largest, names, of_its_kind, shown, unless_rounding};
-use eigentol_results::table::{Table, cells};
-use eigentol_results::title::title_along;
 use crate::branches::{Branch, BranchEnd, BranchPoint, Branches, SpecialKind, SpecialPoint};
 use crate::{Description, Equilibrium, Input, Role};
+use eigentol_results::numbers::{heading, in_unit, number, rough, with_unit};
+use eigentol_results::relevance::{
+    EVERYTHING, largest, names, of_its_kind, shown, unless_rounding,
+};
+use eigentol_results::table::{Table, cells};
+use eigentol_results::title::title_along;
 
 impl fmt::Display for SpecialKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -2,18 +2,20 @@
 
 use core::fmt;
 
-use eigentol_results::numbers::{given_in, heading, in_unit, number, optional, or_dash, rough, rough_in};
-use eigentol_results::relevance::{EVERYTHING, shown};
-use eigentol_results::shares::mostly;
-use eigentol_results::table::{Table, cells, not_reached};
-use eigentol_solve::report::undamped;
-use eigentol_results::title::title_along;
 use super::events::what_happens;
-use eigentol_tolerance::report::spread_of;
 use crate::campbell::{Campbell, CampbellMode};
 use crate::modes::{Family, Sense};
 use crate::tolerance::Spread;
 use crate::{Behaviour, InputInfo};
+use eigentol_results::numbers::{
+    given_in, heading, in_unit, number, optional, or_dash, rough, rough_in,
+};
+use eigentol_results::relevance::{EVERYTHING, shown};
+use eigentol_results::shares::mostly;
+use eigentol_results::table::{Table, cells, not_reached};
+use eigentol_results::title::title_along;
+use eigentol_solve::report::undamped;
+use eigentol_tolerance::report::spread_of;
 
 impl fmt::Display for Campbell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

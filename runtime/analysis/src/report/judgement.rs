@@ -3,8 +3,8 @@
 use core::fmt;
 
 use super::margin::chance;
-use eigentol_results::numbers::{counted, percent, rough, short};
 use crate::judge::{Judged, Judgement, Unjudged};
+use eigentol_results::numbers::{counted, percent, rough, short};
 
 impl fmt::Display for Judged {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

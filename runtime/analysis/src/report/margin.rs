@@ -2,14 +2,16 @@
 
 use core::fmt;
 
-use eigentol_results::numbers::{given_in, heading, in_unit, per, rough, rough_in, short, with_unit};
+use crate::second_order::Margin;
+use crate::setters;
+use crate::{Description, Unit};
+use eigentol_results::numbers::{
+    given_in, heading, in_unit, per, rough, rough_in, short, with_unit,
+};
 use eigentol_results::relevance::{BELOW, CHANCE, largest, names, relevant};
 use eigentol_results::table::{Table, cells};
 use eigentol_results::title::title;
 use eigentol_tolerance::report::far;
-use crate::second_order::Margin;
-use crate::setters;
-use crate::{Description, Unit};
 
 /// Prints a margin with the name and unit of its quantity and the names of the design variables.
 #[derive(Clone, Debug)]

@@ -4,17 +4,17 @@ use core::fmt;
 
 use eigentol_statistics::sensitivity::Estimate;
 
-use eigentol_tolerance::report::standing;
-use eigentol_results::numbers::{heading, in_unit, or_dash, percent, short};
-use eigentol_results::relevance::{BELOW, names, relevant, unless_rounding};
-use eigentol_results::table::{Table, cells};
-use eigentol_results::title::title;
 use crate::propagation::{
     Controlled, Estimated, Influence, Method, Points, Propagation, QUANTILES, VariableInfluence,
     WorstCase,
 };
 use crate::response::Response;
 use crate::{Description, Unit};
+use eigentol_results::numbers::{heading, in_unit, or_dash, percent, short};
+use eigentol_results::relevance::{BELOW, names, relevant, unless_rounding};
+use eigentol_results::table::{Table, cells};
+use eigentol_results::title::title;
+use eigentol_tolerance::report::standing;
 
 fn labelled(response: &Response, d: &Description) -> (String, Unit) {
     let unit = response.unit(d);

@@ -4,15 +4,17 @@ use core::fmt;
 
 use super::judgement::verdict;
 use super::margin::chance;
-use eigentol_results::numbers::{counted, given_in, heading, in_unit, or_dash, rough, short, with_unit};
-use eigentol_results::relevance::{BELOW, CHANCE, NOTHING_VARIES, names, relevant};
-use eigentol_results::table::{Table, cells};
-use eigentol_results::title::title;
 use crate::requirement::{
     Chances, DesignPoint, Edge, FailureProbability, Found, Limit, LimitReliability, Probabilities,
     RareFailure, Reliability, Requirement, Tally,
 };
 use crate::{Description, Unit};
+use eigentol_results::numbers::{
+    counted, given_in, heading, in_unit, or_dash, rough, short, with_unit,
+};
+use eigentol_results::relevance::{BELOW, CHANCE, NOTHING_VARIES, names, relevant};
+use eigentol_results::table::{Table, cells};
+use eigentol_results::title::title;
 
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;

@@ -2,16 +2,16 @@
 
 use core::fmt;
 
-use eigentol_tolerance::report::doubted;
 use super::judgement::verdict;
 use super::margin::MarginTable;
+use crate::judge::Doubt;
+use crate::second_order::{ModeMargin, SecondOrder};
 use eigentol_results::naming::named;
 use eigentol_results::numbers::{heading, number, rough};
 use eigentol_results::relevance::{CHANCE, NOTHING_VARIES, unless_rounding};
 use eigentol_results::table::{Table, cells};
 use eigentol_results::title::title;
-use crate::judge::Doubt;
-use crate::second_order::{ModeMargin, SecondOrder};
+use eigentol_tolerance::report::doubted;
 
 impl fmt::Display for SecondOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -2,19 +2,19 @@
 
 use core::fmt;
 
-use eigentol_results::naming::named;
-use eigentol_results::numbers::{number, optional, or_dash, rough, short};
-use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
-use eigentol_results::shares::mostly;
-use eigentol_results::table::{Table, cells};
-use eigentol_solve::report::undamped;
-use eigentol_results::title::title;
-use eigentol_tolerance::report::{far, spread_of, unmoved};
 use crate::Quantity;
 use crate::clusters::{ClusterSpread, ClusterTolerance, MemberSpread, SortedSpread};
 use crate::judge::Doubt;
 use crate::summary::Summary;
 use crate::tolerance::Statistics;
+use eigentol_results::naming::named;
+use eigentol_results::numbers::{number, optional, or_dash, rough, short};
+use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
+use eigentol_results::shares::mostly;
+use eigentol_results::table::{Table, cells};
+use eigentol_results::title::title;
+use eigentol_solve::report::undamped;
+use eigentol_tolerance::report::{far, spread_of, unmoved};
 
 fn statistics(name: String, value: Option<&Statistics>) -> Vec<String> {
     let of = |pick: fn(&Statistics) -> Option<f64>| optional(value.and_then(pick));

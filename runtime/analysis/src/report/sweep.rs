@@ -2,13 +2,13 @@
 
 use core::fmt;
 
+use crate::Mode;
+use crate::sweep::Sweep;
 use eigentol_results::numbers::{given_in, heading, in_unit, optional, with_unit};
 use eigentol_results::relevance::{EVERYTHING, names, of_its_kind, shown};
 use eigentol_results::table::{Table, not_reached};
-use eigentol_solve::report::undamped;
 use eigentol_results::title::title_along;
-use crate::Mode;
-use crate::sweep::Sweep;
+use eigentol_solve::report::undamped;
 
 impl fmt::Display for Sweep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -20,7 +20,9 @@ pub use picture::{
     BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind,
     WheelInfo,
 };
-pub use results::{Gradient, Linear, LinearPartials, PoseMargin, RestParts, Sizes, Violation, Zeros};
+pub use results::{
+    Gradient, Linear, LinearPartials, PoseMargin, RestParts, Sizes, Violation, Zeros,
+};
 pub use shared::{List, Shared, Text};
 pub use tolerance::{Law, ToleranceInfo};
 

@@ -7,6 +7,7 @@
 /// if there are no pieces.
 ///
 /// ```
+/// # use eigentol_contract as eigentol;
 /// use eigentol::scalar::spline;
 ///
 /// // x^2 from 0 on, 0 before

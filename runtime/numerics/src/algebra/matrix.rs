@@ -18,6 +18,7 @@ const FEW: usize = 16;
 /// directions keep rows as rows:
 ///
 /// ```
+/// # use eigentol_numerics as eigentol;
 /// use eigentol::{Matrix, Vector};
 /// use nalgebra::{DMatrix, DVector};
 ///

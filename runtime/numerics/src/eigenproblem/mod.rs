@@ -9,8 +9,6 @@ mod tridiagonal;
 
 pub use complex::eigenvalues;
 pub use diagonalise::diagonalise;
-pub use general::{
-    Eigenproblem, Near, Reference, ReferencePair, Root, roots_near, roots_of,
-};
+pub use general::{Eigenproblem, Near, Reference, ReferencePair, Root, roots_near, roots_of};
 pub use symmetric::{INACCURATE, Pairs, Trouble};
 pub use tridiagonal::Tridiagonal;

@@ -67,11 +67,7 @@ impl<'a> OperatingPoint<'a> {
 
     /// Skips the checks: inputs and design variables must be validated.
     #[doc(hidden)]
-    pub fn unchecked(
-        mechanism: &'a dyn Kernels,
-        inputs: &'a [f64],
-        design: &'a [f64],
-    ) -> Self {
+    pub fn unchecked(mechanism: &'a dyn Kernels, inputs: &'a [f64], design: &'a [f64]) -> Self {
         let description = mechanism.description();
         Self {
             mechanism,

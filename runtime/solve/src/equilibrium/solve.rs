@@ -15,11 +15,7 @@ use crate::state::Note;
 use crate::{DampingKind, Mode, Stability};
 
 /// Like [`equilibrium`](super::equilibrium), for validated values.
-pub fn solve(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    policy: Policy,
-) -> Result<Judged, Failure> {
+pub fn solve(point: &OperatingPoint<'_>, start: &[f64], policy: Policy) -> Result<Judged, Failure> {
     let mut state = point.blank_state();
     let modes = solve_into(point, start, policy, &mut state)?;
     Ok(Judged { state, modes })

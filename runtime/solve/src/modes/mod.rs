@@ -91,27 +91,6 @@ impl Modes {
     }
 
     /// The modal matrix: column `r` is the shape of mode `r`, row `i` belongs to unknown `i`.
-    ///
-    /// ```
-    /// # use eigentol::{Study, mechanism};
-    /// # mechanism! {
-    /// #     mechanism Pendulum {
-    /// #         body bar: rod(mass: 3 kg, length: 2 m, along: -z);
-    /// #         gravity 9.81 m/s^2 along -z;
-    /// #         joint theta: revolute(y) from ground to bar;
-    /// #     }
-    /// # }
-    /// use eigentol::Complex;
-    /// use nalgebra::DMatrix;
-    ///
-    /// let study = Study::new(Pendulum);
-    /// let solved = study.solve()?;
-    /// let shapes = DMatrix::from(solved.modes.shapes());
-    /// let mass = DMatrix::from(&solved.equilibrium.linear.mass).map(Complex::from);
-    /// let product = shapes.adjoint() * mass * &shapes;
-    /// assert!((product[(0, 0)].re - 1.0).abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
     #[must_use]
     pub fn shapes(&self) -> Matrix<Complex> {
         self.columns(|mode| &mode.shape)

@@ -2,12 +2,12 @@
 
 use core::fmt;
 
+use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState, Equilibria, Note};
+use crate::{Description, Equilibrium, Role, Stability, Text};
 use eigentol_results::numbers::{given_in, heading, in_unit, rough_in, with_unit};
 use eigentol_results::relevance::of_its_kind;
 use eigentol_results::table::{Table, cells};
 use eigentol_results::title::title;
-use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState, Equilibria, Note};
-use crate::{Description, Equilibrium, Role, Stability, Text};
 
 impl fmt::Display for Stability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -40,6 +40,7 @@ impl Stability {
     /// The state after "the equilibrium is", in a sentence.
     ///
     /// ```
+    /// # use eigentol_solve as eigentol;
     /// use eigentol::Stability;
     ///
     /// let state = Stability::Flutter { growing: 1 }.predicate();

@@ -3,12 +3,12 @@
 use core::f64::consts::{LN_2, TAU};
 use core::fmt;
 
+use crate::modes::{Family, Mode, Sense, Whirl};
+use crate::{Behaviour, Complex, CoordinateInfo, Modes, Role};
 use eigentol_results::numbers::{optional, or_dash, rough};
 use eigentol_results::relevance::{COLUMNS, EVERYTHING, largest, names, relevant, unless_rounding};
 use eigentol_results::table::{Table, cells};
 use eigentol_results::title::title;
-use crate::modes::{Family, Mode, Sense, Whirl};
-use crate::{Behaviour, Complex, CoordinateInfo, Modes, Role};
 
 impl fmt::Display for Behaviour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

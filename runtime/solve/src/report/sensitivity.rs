@@ -2,15 +2,15 @@
 
 use core::fmt;
 
+use crate::Sensitivities;
+use crate::modes::Family;
+use crate::report::undamped;
+use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
+use crate::{Description, Text, Unit};
 use eigentol_results::numbers::{heading, number, of_mode, per, rough, with_unit};
 use eigentol_results::relevance::{BELOW, largest, names, relevant, unless_rounding};
 use eigentol_results::table::{Table, cells};
-use crate::report::undamped;
 use eigentol_results::title::title;
-use crate::Sensitivities;
-use crate::modes::Family;
-use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
-use crate::{Description, Text, Unit};
 
 /// Name, unit and value (SI) of each variable, inputs first.
 fn variables<'a>(

@@ -166,12 +166,7 @@ impl ModeSensitivity {
     /// Like [`Self::set_undamped`], but returns the places into which the caller writes the derivatives.
     #[inline(always)]
     #[doc(hidden)]
-    pub fn make_undamped(
-        &mut self,
-        mode: &Mode,
-        inputs: usize,
-        design: usize,
-    ) -> [&mut [f64]; 2] {
+    pub fn make_undamped(&mut self, mode: &Mode, inputs: usize, design: usize) -> [&mut [f64]; 2] {
         self.clustered = false;
         self.value = mode.s;
         self.undamped = true;

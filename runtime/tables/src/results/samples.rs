@@ -101,6 +101,5 @@ pub(super) fn outcome(outcome: Outcome) -> Option<String> {
         Outcome::NotAssembled => "not assembled",
         Outcome::Unphysical => "unphysical",
         Outcome::NoModes => "no modes",
-
     })
 }

@@ -2,9 +2,9 @@
 
 use core::fmt;
 
+use crate::tolerance::{Doubt, TRUSTED_DISTANCE};
 use eigentol_results::naming::{capital, named};
 use eigentol_results::numbers::short;
-use crate::tolerance::{Doubt, TRUSTED_DISTANCE};
 
 /// Each doubt once, with all the modes that share it; one list of doubts for each mode.
 fn shared(all: &[impl AsRef<[Doubt]>]) -> Vec<(Vec<usize>, &Doubt)> {

@@ -5,17 +5,17 @@ use core::fmt;
 use eigentol_statistics::reliability::sampling::wilson;
 
 use super::doubts::doubted;
+use crate::modes::Family;
+use crate::tolerance::{Counts, Doubt, ModeTolerance, OutputTolerances, Spread, Statistics};
+use crate::{FirstOrder, MonteCarlo};
 use eigentol_results::numbers::{
     CLUSTER, given, heading, number, of_mode, optional, or_dash, rough, short,
 };
 use eigentol_results::relevance::{NOTHING_VARIES, names, unless_rounding};
 use eigentol_results::shares::Shares;
 use eigentol_results::table::{Table, cells};
-use eigentol_solve::report::undamped;
 use eigentol_results::title::title;
-use crate::modes::Family;
-use crate::tolerance::{Counts, Doubt, ModeTolerance, OutputTolerances, Spread, Statistics};
-use crate::{FirstOrder, MonteCarlo};
+use eigentol_solve::report::undamped;
 
 /// The standard deviation, or zero if it is rounding compared to the mean.
 pub fn spread_of(spread: &Spread) -> f64 {

@@ -1,5 +1,4 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
-#![doc = include_str!("where_first_order_fails.md")]
 
 mod batched;
 mod distances;
@@ -30,11 +29,11 @@ mod spread;
 mod standard_normal;
 mod tolerances;
 
+pub use doubt::{Doubt, Measured};
 /// Statistics of samples with their quantiles and histograms, from [`eigentol_statistics`].
 pub use eigentol_statistics::summary::{Histogram, Sketch, Statistics};
 /// Distributions of one and of several variables, from [`eigentol_statistics`].
 pub use eigentol_statistics::{Distribution, Joint};
-pub use doubt::{Doubt, Measured};
 pub use fingerprint::Fingerprint;
 pub use first_order::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, first_order};
 pub use law::distribution;

@@ -96,24 +96,6 @@ impl PartialMonteCarlo {
     /// Takes out the kept samples, each with its number in the run, counted from 0; none if samples were not kept.
     ///
     /// The statistics stay, and later merges keep no samples: a run of any length needs only the memory of one part.
-    ///
-    /// ```
-    /// # use eigentol::{Study, mechanism};
-    /// # mechanism! {
-    /// #     mechanism Pendulum {
-    /// #         design l = 2 m +/- 1 %;
-    /// #         gravity 9.81 m/s^2 along -z;
-    /// #         body bar: rod(mass: 3 kg, length: l, along: -z);
-    /// #         joint theta: revolute(y) from ground to bar;
-    /// #     }
-    /// # }
-    /// let study = Study::new(Pendulum).samples(1000).keep_samples(true);
-    /// let mut part = study.samples_between(300..400)?;
-    /// let samples = part.take_samples();
-    /// assert_eq!((samples.len(), samples[0].0), (100, 300));
-    /// assert_eq!(part.result().samples, 100);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
     pub fn take_samples(&mut self) -> Vec<(u64, Sample)> {
         self.kept.take().unwrap_or_default()
     }

@@ -11,6 +11,7 @@ use crate::{Description, Error};
 /// How the design variables vary about their nominal values.
 ///
 /// ```
+/// # use eigentol_tolerance as eigentol;
 /// use eigentol::Tolerances;
 /// use eigentol::tolerance::Distribution;
 ///
@@ -187,6 +188,7 @@ impl Tolerances {
     /// not finite.
     ///
     /// ```
+    /// # use eigentol_tolerance as eigentol;
     /// use eigentol::tolerance::Tolerances;
     ///
     /// let tolerances = Tolerances::new([0.03], 3.0, None)?;

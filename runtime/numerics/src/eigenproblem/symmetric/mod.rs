@@ -59,11 +59,7 @@ pub fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
 }
 
 /// Like [`solve`], overwriting existing pairs.
-pub fn solve_into(
-    stiffness: &Matrix,
-    mass: &Matrix,
-    pairs: &mut Pairs,
-) -> Result<(), Trouble> {
+pub fn solve_into(stiffness: &Matrix, mass: &Matrix, pairs: &mut Pairs) -> Result<(), Trouble> {
     let n = mass.row_count();
     let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
     let lambda = pairs.lambda.make_room(n);

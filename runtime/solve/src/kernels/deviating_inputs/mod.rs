@@ -24,42 +24,6 @@ use crate::{DesignVariable, Error};
 /// given.
 ///
 /// It provides every kind of kernel table that `K` provides, even if `K` is itself such a table: `dyn BatchKernels`.
-///
-/// ```
-/// # use eigentol::mechanism;
-/// # mechanism! {
-/// #     mechanism RotatingPendulum {
-/// #         input  omega: rad/s;
-/// #         design m = 3.0 kg;
-/// #         design l = 1.0 m +/- 3%;
-/// #         gravity 9.81 m/s^2 along -z;
-/// #         body shaft: massless;
-/// #         body bar: rod(mass: m, length: l, along: -z);
-/// #         joint spin:  revolute(z) from ground to shaft, driven at omega;
-/// #         joint theta: revolute(y) from shaft to bar;
-/// #     }
-/// # }
-/// use eigentol::kernels::DeviatingInputs;
-/// use eigentol::{Policy, Tolerances, equilibrium, modes, sensitivity, tolerance};
-///
-/// let wandering = DeviatingInputs::new(&RotatingPendulum, &[RotatingPendulum::omega.any()])?;
-/// let (u, b) = ([5.0], wandering.design(&[3.0, 1.0]));
-/// let state = equilibrium::equilibrium(&wandering, &u, &b, &[1.0], Policy::Stable)?;
-/// let found = modes::modes(&state)?;
-///
-/// // Exact mass and length, a speed of 5 rad/s +/- 0.3 rad/s.
-/// let tolerances = Tolerances::new([0.0, 0.0, 0.3], 3.0, None)?;
-/// let slopes = sensitivity::sensitivities(&wandering, &state, &found)?;
-/// let spread = tolerance::first_order(&found, &slopes, &tolerances)?;
-/// let sigma = spread.modes[0].frequency().map(|frequency| frequency.sigma);
-///
-/// // The frequency is sqrt(u^2 - (3 g / 2 l)^2 / u^2).
-/// let (speed, natural) = (5.0_f64, 1.5 * 9.81);
-/// let frequency = (speed.powi(2) - (natural / speed).powi(2)).sqrt();
-/// let slope = (speed + natural.powi(2) / speed.powi(3)) / frequency;
-/// assert!((sigma.expect("it swings") - 0.1 * slope).abs() < 1e-13);
-/// # Ok::<(), eigentol::Error>(())
-/// ```
 #[derive(Debug)]
 pub struct DeviatingInputs<'a, K: ?Sized> {
     kernels: &'a K,

@@ -11,10 +11,10 @@ use rand_chacha::rand_core::SeedableRng;
 use super::*;
 use crate::algebra;
 use crate::batched::algebra::{LARGEST, load_matrix};
-use pencils::{moved, near, pencil, with_errors};
 use crate::eigenproblem::{Eigenproblem, roots_of};
 use crate::kernels::Linear;
 use crate::scalar::{Batch, Instructions, Task, WIDTH};
+use pencils::{moved, near, pencil, with_errors};
 
 /// Matrices of eight states, row by row.
 struct Lanes8<'a> {

@@ -16,10 +16,10 @@ mod torture;
 use num_complex::Complex64;
 
 use super::{Root, solve};
-use pencils::{diagonal, identity, linear, zeros};
 use crate::algebra::{Matrix, Vector};
 use crate::eigenproblem::symmetric::Trouble;
 use crate::linear::Linear;
+use pencils::{diagonal, identity, linear, zeros};
 
 /// All roots, including conjugates.
 fn all(roots: &[Root]) -> Vec<Complex64> {

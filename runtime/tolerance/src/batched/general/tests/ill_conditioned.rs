@@ -1,8 +1,8 @@
 //! Modes whose eigenvalues are sensitive to rounding: those of random pencils in skew coordinates.
 
+use super::pencils::uniform;
 use super::*;
 use crate::algebra::Matrix;
-use super::pencils::uniform;
 use crate::modes::{Family, Mode, Modes, match_modes, solve_modes};
 use crate::{DampingKind, Description, Shared};
 
