@@ -89,7 +89,7 @@ impl Policy {
 ///
 /// `u` are inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an
 /// unstable equilibrium is left along its most unstable mode, towards positive values of the mode's largest component;
-/// a [`Study`](crate::Study) stays there if that start was given.
+/// a `Study` stays there if that start was given.
 ///
 /// A mechanism with constraints is first moved from `start` to the nearest position that closes its loops ([`assemble`]
 /// does that with some coordinates held); the reactions in `start` are ignored.

@@ -6,7 +6,7 @@ use crate::algebra::Matrix;
 
 /// Gradients of modes and outputs in dual numbers.
 pub trait CurvatureKernels: DirectionalKernels {
-    /// [`Mechanism::mode_gradient_along`](crate::Mechanism::mode_gradient_along); `direction` is `dq`, `du`, `db`,
+    /// [`Mechanism::mode_gradient_along`](eigentol_contract::Mechanism::mode_gradient_along); `direction` is `dq`, `du`, `db`,
     /// `dphi`.
     #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along_into(
@@ -39,7 +39,7 @@ pub trait CurvatureKernels: DirectionalKernels {
         }
     }
 
-    /// [`Mechanism::pencil_gradient_along`](crate::Mechanism::pencil_gradient_along); `direction` is `dq`, `du`, `db`,
+    /// [`Mechanism::pencil_gradient_along`](eigentol_contract::Mechanism::pencil_gradient_along); `direction` is `dq`, `du`, `db`,
     /// and `changes` is the change of `vectors`.
     #[allow(clippy::too_many_arguments)]
     fn pencil_gradient_along_into(
@@ -53,7 +53,7 @@ pub trait CurvatureKernels: DirectionalKernels {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::output_partials_along`](crate::Mechanism::output_partials_along); `direction` is `dq`, `du`, `db`.
+    /// [`Mechanism::output_partials_along`](eigentol_contract::Mechanism::output_partials_along); `direction` is `dq`, `du`, `db`.
     fn output_partials_along_into(
         &self,
         q: &[f64],

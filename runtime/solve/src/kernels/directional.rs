@@ -4,7 +4,7 @@ use super::{Gradient, Kernels, Linear};
 
 /// The kernels with a derivative along a direction.
 pub trait DirectionalKernels: Kernels {
-    /// [`Mechanism::linear_along`](crate::Mechanism::linear_along); `direction` is `dq`, `du`, `db`.
+    /// [`Mechanism::linear_along`](eigentol_contract::Mechanism::linear_along); `direction` is `dq`, `du`, `db`.
     fn linear_along_into(
         &self,
         q: &[f64],
@@ -14,7 +14,7 @@ pub trait DirectionalKernels: Kernels {
         linear: &mut Linear,
     );
 
-    /// [`Mechanism::residual_gradient_along`](crate::Mechanism::residual_gradient_along); `direction` is `dq`, `du`,
+    /// [`Mechanism::residual_gradient_along`](eigentol_contract::Mechanism::residual_gradient_along); `direction` is `dq`, `du`,
     /// `db`, `dw`.
     fn residual_gradient_along_into(
         &self,

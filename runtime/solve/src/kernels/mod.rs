@@ -1,7 +1,7 @@
 //! The kernels of a mechanism as a table over slices, as the solvers see them. A compiled mechanism provides them
 //! through its contract, a mechanism read at run time through the interpreter.
 //!
-//! Arguments are those of [`Mechanism`](crate::Mechanism): `q` the unknowns, `u` the inputs, `b` the design variables,
+//! Arguments are those of [`Mechanism`](eigentol_contract::Mechanism): `q` the unknowns, `u` the inputs, `b` the design variables,
 //! SI. A method named `.._into` overwrites every entry of buffers that have the sizes of the mechanism; the one without
 //! the suffix allocates them.
 //!
@@ -88,13 +88,13 @@ pub trait Kernels: Sync {
         Costs::of(&self.description())
     }
 
-    /// [`Mechanism::residual`](crate::Mechanism::residual).
+    /// [`Mechanism::residual`](eigentol_contract::Mechanism::residual).
     fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]);
 
-    /// [`Mechanism::residual_parts`](crate::Mechanism::residual_parts).
+    /// [`Mechanism::residual_parts`](eigentol_contract::Mechanism::residual_parts).
     fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts);
 
-    /// [`Mechanism::residual_and_stiffness`](crate::Mechanism::residual_and_stiffness), with the matrix row by row.
+    /// [`Mechanism::residual_and_stiffness`](eigentol_contract::Mechanism::residual_and_stiffness), with the matrix row by row.
     fn residual_and_stiffness_into(
         &self,
         q: &[f64],
@@ -104,7 +104,7 @@ pub trait Kernels: Sync {
         stiffness: &mut [f64],
     );
 
-    /// [`Mechanism::linear`](crate::Mechanism::linear).
+    /// [`Mechanism::linear`](eigentol_contract::Mechanism::linear).
     fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear);
 
     /// [`Kernels::residual_parts_into`] and [`Kernels::linear_into`]; common terms are computed once where that pays.
@@ -120,7 +120,7 @@ pub trait Kernels: Sync {
         self.linear_into(q, u, b, linear);
     }
 
-    /// [`Mechanism::residual_partials`](crate::Mechanism::residual_partials).
+    /// [`Mechanism::residual_partials`](eigentol_contract::Mechanism::residual_partials).
     fn residual_partials_into(
         &self,
         q: &[f64],
@@ -129,7 +129,7 @@ pub trait Kernels: Sync {
         partials: &mut ResidualPartials,
     );
 
-    /// [`Mechanism::linear_partials`](crate::Mechanism::linear_partials).
+    /// [`Mechanism::linear_partials`](eigentol_contract::Mechanism::linear_partials).
     fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices);
 
     /// Partial derivatives of the matrices and of the residual; common terms are computed once where that pays.
@@ -145,7 +145,7 @@ pub trait Kernels: Sync {
         self.residual_partials_into(q, u, b, residual);
     }
 
-    /// [`Mechanism::mode_gradient`](crate::Mechanism::mode_gradient).
+    /// [`Mechanism::mode_gradient`](eigentol_contract::Mechanism::mode_gradient).
     fn mode_gradient_into(
         &self,
         q: &[f64],
@@ -156,7 +156,7 @@ pub trait Kernels: Sync {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::pencil_gradient`](crate::Mechanism::pencil_gradient); `vectors` are `left`, `acceleration`,
+    /// [`Mechanism::pencil_gradient`](eigentol_contract::Mechanism::pencil_gradient); `vectors` are `left`, `acceleration`,
     /// `velocity` and `position`.
     fn pencil_gradient_into(
         &self,
@@ -167,7 +167,7 @@ pub trait Kernels: Sync {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::residual_gradient`](crate::Mechanism::residual_gradient).
+    /// [`Mechanism::residual_gradient`](eigentol_contract::Mechanism::residual_gradient).
     fn residual_gradient_into(
         &self,
         q: &[f64],
@@ -177,26 +177,26 @@ pub trait Kernels: Sync {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::whirl`](crate::Mechanism::whirl).
+    /// [`Mechanism::whirl`](eigentol_contract::Mechanism::whirl).
     fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2];
 
-    /// [`Mechanism::violation`](crate::Mechanism::violation).
+    /// [`Mechanism::violation`](eigentol_contract::Mechanism::violation).
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>>;
 
     /// Whether certainly no design within `reach` of `b`, each variable independently, has a violation. `false` means
     /// unknown.
     fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool;
 
-    /// [`Mechanism::pose_margin`](crate::Mechanism::pose_margin).
+    /// [`Mechanism::pose_margin`](eigentol_contract::Mechanism::pose_margin).
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>>;
 
-    /// [`Mechanism::held_values`](crate::Mechanism::held_values) with first and second derivatives.
+    /// [`Mechanism::held_values`](eigentol_contract::Mechanism::held_values) with first and second derivatives.
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]);
 
-    /// [`Mechanism::outputs`](crate::Mechanism::outputs).
+    /// [`Mechanism::outputs`](eigentol_contract::Mechanism::outputs).
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]);
 
-    /// [`Mechanism::output_partials`](crate::Mechanism::output_partials), with respect to unknowns, inputs and design
+    /// [`Mechanism::output_partials`](eigentol_contract::Mechanism::output_partials), with respect to unknowns, inputs and design
     /// variables, one row per output.
     fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]);
 }

@@ -5,7 +5,7 @@ use crate::algebra::{Matrix, Vector};
 
 /// The equations of motion and their linearisation along any motion.
 pub trait MotionKernels: DirectionalKernels {
-    /// [`Mechanism::motion_residual`](crate::Mechanism::motion_residual).
+    /// [`Mechanism::motion_residual`](eigentol_contract::Mechanism::motion_residual).
     fn motion_residual_into(
         &self,
         acceleration: &[f64],
@@ -16,7 +16,7 @@ pub trait MotionKernels: DirectionalKernels {
         residual: &mut [f64],
     );
 
-    /// [`Mechanism::motion`](crate::Mechanism::motion).
+    /// [`Mechanism::motion`](eigentol_contract::Mechanism::motion).
     fn motion_into(
         &self,
         velocity: &[f64],
@@ -27,7 +27,7 @@ pub trait MotionKernels: DirectionalKernels {
         right: &mut [f64],
     );
 
-    /// [`Mechanism::motion_linear`](crate::Mechanism::motion_linear).
+    /// [`Mechanism::motion_linear`](eigentol_contract::Mechanism::motion_linear).
     fn motion_linear_into(
         &self,
         acceleration: &[f64],

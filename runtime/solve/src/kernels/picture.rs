@@ -5,9 +5,9 @@ use crate::mechanism::{PictureInfo, Shared};
 
 /// The visible geometry of a mechanism.
 pub trait PictureKernels: Kernels {
-    /// [`Mechanism::PICTURE`](crate::Mechanism::PICTURE).
+    /// [`Mechanism::PICTURE`](eigentol_contract::Mechanism::PICTURE).
     fn picture_info(&self) -> Shared<PictureInfo>;
 
-    /// [`Mechanism::picture`](crate::Mechanism::picture): one number for each position in [`PictureInfo::computed`].
+    /// [`Mechanism::picture`](eigentol_contract::Mechanism::picture): one number for each position in [`PictureInfo::computed`].
     fn picture_into(&self, q: &[f64], u: &[f64], b: &[f64], computed: &mut [f64]);
 }

@@ -135,7 +135,7 @@ impl Modes {
     /// itself included.
     ///
     /// They form a chain in which each eigenvalue is within 1e-6 of the next, relative to the larger. Tolerances can
-    /// merge more modes ([`clusters::clusters`](crate::clusters::clusters)). Empty if there is no such mode.
+    /// merge more modes (`clusters::clusters`). Empty if there is no such mode.
     #[must_use]
     pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
         let mut members: Vec<usize> = (mode < self.modes.len())

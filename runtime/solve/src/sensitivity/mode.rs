@@ -61,7 +61,7 @@ pub struct ModeSensitivity {
     pub lambda: Slopes<f64>,
     /// The mode belongs to a cluster of nearly equal eigenvalues ([`Modes::cluster_of`](crate::Modes::cluster_of)):
     /// these numbers hold for the computed basis of the cluster and would differ in another. Only its
-    /// [`directional_derivatives`](crate::clusters::directional_derivatives) are well defined.
+    /// `directional_derivatives` are well defined.
     pub clustered: bool,
     /// The eigenvalue `s` of the mode.
     value: Complex,

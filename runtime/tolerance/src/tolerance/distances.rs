@@ -28,7 +28,7 @@ impl ModeTolerance {
 impl FirstOrder {
     /// The doubts that distances raise about the standard deviations of a mode, each on the mode it belongs to. They do
     /// not tell how large an error is: a distance may be small and first order right by chance, as
-    /// [`summary`](crate::summary::summary) finds out by samples.
+    /// `summary` finds out by samples.
     #[must_use]
     pub fn doubts(&self, mode: usize) -> Vec<Doubt> {
         let mut doubts = Vec::new();
@@ -71,7 +71,7 @@ impl FirstOrder {
 
     /// Whether distances leave no doubt about any mode ([`Self::doubts`]).
     ///
-    /// It considers each mode alone; [`summary`](crate::summary::summary) also detects which modes mix and how
+    /// It considers each mode alone; `summary` also detects which modes mix and how
     /// nonlinear frequencies are, and lets samples decide where distances are small.
     #[must_use]
     pub fn trusted(&self) -> bool {

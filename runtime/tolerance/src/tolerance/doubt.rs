@@ -90,7 +90,7 @@ pub enum Doubt {
     Inaccurate {
         /// The quantity.
         quantity: Quantity,
-        /// The error, as in [`Check::first_order_error`](crate::summary::Check::first_order_error).
+        /// The error, as in `Check::first_order_error`.
         error: Measured,
     },
     /// The standard deviation is due to values too rare to be among the samples, such as an outlier in a list of measured

@@ -40,12 +40,12 @@ pub struct ModeTolerance {
     /// Distance, in standard deviations of the difference, between this mode's eigenvalue and the nearest one. Where it
     /// is small, samples exchange the two modes or mix their shapes. Infinite for a single mode or if nothing moves the
     /// difference, as between the modes of two equal oscillators, which the difference of their stiffnesses mixes
-    /// without moving: see [`clusters`](crate::clusters::clusters).
+    /// without moving: see `clusters`.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_neighbour: f64,
     /// The mode belongs to a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to
     /// it, and the numbers here hold for the computed basis of the cluster. Whether tolerances mix modes farther apart
-    /// is reported by [`clusters`](crate::clusters::clusters) and [`summary`](crate::summary::summary).
+    /// is reported by `clusters` and `summary`.
     pub clustered: bool,
     /// The nominal eigenvalue.
     value: Complex,

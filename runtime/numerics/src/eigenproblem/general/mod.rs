@@ -1,10 +1,10 @@
 //! The general eigenproblem `(s^2 M + s C + K) phi = 0`, `psi^T (s^2 M + s C + K) = 0` with symmetric positive definite
 //! `M` and any real `C` and `K`; also `A phi = s phi`, the case `M = 0`, `C = I`, `K = -A`.
 //!
-//! The eigenvalues come from a bounded QR iteration on a balanced linearisation ([`schur`]), the vectors and the last
-//! digits from the pencil itself ([`pair`]). Eigenvalues that the pencil cannot distinguish are merged ([`cluster`]),
-//! every error is estimated ([`accuracy`]), and eigenvalues that are still inaccurate are found by a second method
-//! ([`aberth`]). No library does this well enough: nalgebra's general Schur form is not bounded and has no vectors, and
+//! The eigenvalues come from a bounded QR iteration on a balanced linearisation (`schur`), the vectors and the last
+//! digits from the pencil itself (`pair`). Eigenvalues that the pencil cannot distinguish are merged (`cluster`),
+//! every error is estimated (`accuracy`), and eigenvalues that are still inaccurate are found by a second method
+//! (`aberth`). No library does this well enough: nalgebra's general Schur form is not bounded and has no vectors, and
 //! faer's left vectors fail where eigenvalues meet.
 
 #![allow(

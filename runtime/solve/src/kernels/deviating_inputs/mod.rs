@@ -20,7 +20,7 @@ use crate::{DesignVariable, Error};
 /// tolerances of inputs as well, even while the input itself is swept. Values located along an input are set values.
 ///
 /// A deviation has the name, the unit and the declared tolerance of its input, unless that tolerance is a fraction of
-/// the value, which is unknown here: the deviation then has no tolerance, and [`Tolerances`](crate::Tolerances) must be
+/// the value, which is unknown here: the deviation then has no tolerance, and `Tolerances` must be
 /// given.
 ///
 /// It provides every kind of kernel table that `K` provides, even if `K` is itself such a table: `dyn BatchKernels`.
