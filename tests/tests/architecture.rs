@@ -41,45 +41,152 @@ const MECHANICS: [&str; 8] = [
 /// The types that the subfolders of `mechanics` share with other rooms.
 const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
-/// The rooms of the runtime, in order: each may import the earlier ones. The first eighteen are the core: contract,
-/// equilibrium, modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 35] = [
-    "setters",
-    "algebra",
-    "scalar",
-    "mechanism",
-    "error",
-    "arguments",
-    "watch",
-    "kernels",
-    "constraints",
-    "free",
-    "rounding",
-    "eigenproblem",
-    "state",
-    "modes",
-    "equilibrium",
-    "sensitivity",
-    "batched",
-    "tolerance",
-    // beyond the core
-    "branches",
-    "sweep",
-    "shapes",
-    "clusters",
-    "response",
-    "limits",
-    "judge",
-    "second_order",
-    "propagation",
-    "requirement",
-    "allocation",
-    "summary",
-    "campbell",
-    "picture",
-    "motion",
-    "report",
-    "study",
+/// The crates of the product, in order: each may depend on those named here, and has at most this many lines outside its
+/// tests. Whoever needs more decides so here.
+const CRATES: [(&str, &[&str], usize); 18] = [
+    ("runtime/contract", &[], 3_000),
+    ("runtime/statistics", &[], 9_800),
+    (
+        "runtime/numerics",
+        &["eigentol-contract", "eigentol-statistics"],
+        7_400,
+    ),
+    ("runtime/results", &["eigentol-contract"], 600),
+    (
+        "runtime/solve",
+        &[
+            "eigentol-contract",
+            "eigentol-numerics",
+            "eigentol-results",
+            "eigentol-statistics",
+        ],
+        14_800,
+    ),
+    (
+        "runtime/tolerance",
+        &[
+            "eigentol-contract",
+            "eigentol-numerics",
+            "eigentol-results",
+            "eigentol-solve",
+            "eigentol-statistics",
+        ],
+        7_400,
+    ),
+    (
+        "runtime/analysis",
+        &[
+            "eigentol-contract",
+            "eigentol-numerics",
+            "eigentol-results",
+            "eigentol-solve",
+            "eigentol-statistics",
+            "eigentol-tolerance",
+        ],
+        23_200,
+    ),
+    (
+        "runtime",
+        &[
+            "eigentol-analysis",
+            "eigentol-contract",
+            "eigentol-macros",
+            "eigentol-numerics",
+            "eigentol-solve",
+            "eigentol-statistics",
+            "eigentol-tolerance",
+        ],
+        3_900,
+    ),
+    ("macros/compiler", &[], 28_800),
+    ("macros", &["eigentol-compiler"], 14),
+    ("macros/build", &["eigentol-compiler"], 1_100),
+    ("macros/urdf", &["eigentol-compiler"], 2_400),
+    (
+        "runtime/interpreter",
+        &["eigentol", "eigentol-compiler"],
+        1_900,
+    ),
+    ("runtime/tables", &["eigentol"], 3_500),
+    ("runtime/figures", &["eigentol"], 4_400),
+    (
+        "runtime/report",
+        &["eigentol", "eigentol-figures", "eigentol-tables"],
+        2_300,
+    ),
+    (
+        "runtime/command",
+        &[
+            "eigentol",
+            "eigentol-compiler",
+            "eigentol-figures",
+            "eigentol-interpreter",
+            "eigentol-report",
+            "eigentol-tables",
+            "eigentol-urdf",
+        ],
+        4_300,
+    ),
+    (
+        "runtime/python",
+        &[
+            "eigentol",
+            "eigentol-compiler",
+            "eigentol-interpreter",
+            "eigentol-report",
+            "eigentol-tables",
+            "eigentol-urdf",
+        ],
+        5_500,
+    ),
+];
+
+/// The rooms of the larger crates of the runtime, in order: each may import the earlier ones.
+const CRATE_ROOMS: [(&str, &[&str]); 5] = [
+    ("contract", &["scalar", "mechanism"]),
+    (
+        "numerics",
+        &["algebra", "linear", "rounding", "eigenproblem"],
+    ),
+    (
+        "solve",
+        &[
+            "error",
+            "arguments",
+            "watch",
+            "kernels",
+            "constraints",
+            "free",
+            "rounding",
+            "state",
+            "modes",
+            "equilibrium",
+            "sensitivity",
+            "report",
+        ],
+    ),
+    ("tolerance", &["batched", "tolerance", "report"]),
+    (
+        "analysis",
+        &[
+            "branches",
+            "sweep",
+            "shapes",
+            "clusters",
+            "response",
+            "limits",
+            "judge",
+            "second_order",
+            "propagation",
+            "requirement",
+            "allocation",
+            "summary",
+            "campbell",
+            "picture",
+            "motion",
+            "report",
+        ],
+    ),
 ];
 
 /// Files that define the types passed between stages, and the modules of their own room that they may import.
@@ -190,12 +297,11 @@ fn no_two_subfolders_of_mechanics_import_each_other() {
 
 #[test]
 fn files_import_each_other_in_one_direction() {
-    let compiler = root().join("macros/compiler/src");
-    for (room, _) in ROOMS {
-        assert_one_direction(&compiler, sources(&compiler.join(room)));
-    }
-    for files in runtime_rooms().into_values() {
-        assert_one_direction(&root().join("runtime/src"), files);
+    for (path, ..) in CRATES {
+        let source = root().join(path).join("src");
+        for files in rooms_of(&source).into_values() {
+            assert_one_direction(&source, files);
+        }
     }
 }
 
@@ -214,55 +320,68 @@ fn assert_one_direction(source: &Path, files: Vec<PathBuf>) {
     }
 }
 
-/// The rooms of the runtime: folders, or top-level files.
-fn runtime_rooms() -> BTreeMap<String, Vec<PathBuf>> {
-    let runtime = root().join("runtime/src");
+/// The rooms of a crate: folders, or top-level files.
+fn rooms_of(source: &Path) -> BTreeMap<String, Vec<PathBuf>> {
     let mut rooms: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
-    for file in sources(&runtime) {
-        let path = file.strip_prefix(&runtime).expect("a file of the runtime");
+    for file in sources(source) {
+        let path = file.strip_prefix(source).expect("a file of the crate");
         let first = path.iter().next().and_then(|name| name.to_str());
         let room = first.unwrap_or_default().trim_end_matches(".rs");
-        let is_test = path
-            .iter()
-            .any(|name| name == "tests" || name == "tests.rs");
-        if room != "lib" && !is_test {
+        if !["lib", "main"].contains(&room) && !is_test(path) {
             rooms.entry(room.to_owned()).or_default().push(file);
         }
     }
     rooms
 }
 
+fn is_test(path: &Path) -> bool {
+    path.iter().any(|name| {
+        name.to_str()
+            .is_some_and(|name| name.trim_end_matches(".rs").ends_with("tests"))
+    })
+}
+
 #[test]
 fn rooms_of_the_runtime_import_those_before_them() {
-    let lib = read(&root().join("runtime/src/lib.rs"));
-    // `crate::Error` means `crate::error::Error`.
-    let public = lib.split("pub use ").skip(1).flat_map(|rest| {
-        let tree = rest.split(';').next().unwrap_or_default();
-        paths(tree)
-    });
-    let at_root: BTreeMap<String, String> = public
-        .filter_map(|path| {
-            let (room, item) = path.split_once("::")?;
-            let name = item.rsplit(' ').next().unwrap_or(item);
-            Some((name.to_owned(), room.to_owned()))
-        })
-        .collect();
-    let rooms = runtime_rooms();
-    let names: BTreeSet<&str> = rooms.keys().map(String::as_str).collect();
-    assert_eq!(names, BTreeSet::from(RUNTIME));
-    for (place, room) in RUNTIME.iter().enumerate() {
-        for file in &rooms[*room] {
-            for name in runtime_imports(&read(file)) {
-                let other = at_root.get(&name).unwrap_or(&name).as_str();
-                let elsewhere = at_root.contains_key(&name) && !names.contains(other);
-                assert!(
-                    elsewhere || RUNTIME[..=place].contains(&other),
-                    "{} imports `{name}`, which {room} may not",
-                    file.display()
-                );
+    for (name, order) in CRATE_ROOMS {
+        let source = root().join("runtime").join(name).join("src");
+        let rooms = rooms_of(&source);
+        let names: BTreeSet<&str> = rooms.keys().map(String::as_str).collect();
+        assert_eq!(names, BTreeSet::from_iter(order.iter().copied()));
+        for (place, room) in order.iter().enumerate() {
+            for file in &rooms[*room] {
+                for other in runtime_imports(&read(file)) {
+                    assert!(
+                        !order[place + 1..].contains(&other.as_str()),
+                        "{} imports `{other}`, which {room} may not",
+                        file.display()
+                    );
+                }
             }
         }
     }
+}
+
+#[test]
+fn no_crate_exceeds_its_lines() {
+    for (path, _, budget) in CRATES {
+        let source = root().join(path).join("src");
+        let files = sources(&source);
+        let product = (files.iter())
+            .filter(|file| !is_test(file.strip_prefix(&source).expect("a file of the crate")));
+        let lines: usize = product.map(|file| product_lines(&read(file))).sum();
+        assert!(lines <= budget, "{path}: {lines} lines of {budget}");
+        assert!(
+            4 * lines >= 3 * budget,
+            "{path}: {lines} lines, and a budget of {budget}: lower it"
+        );
+    }
+}
+
+/// Lines before the tests of a file.
+fn product_lines(text: &str) -> usize {
+    let product = text.split("#[cfg(test)]\nmod tests {").next();
+    product.unwrap_or(text).lines().count()
 }
 
 /// A file without its comments and tests.
@@ -417,47 +536,20 @@ fn type_files_import_no_pass() {
 }
 
 #[test]
-fn compiler_runtime_and_oracle_never_import_each_other() {
-    let dependencies = |manifest: &str| {
-        let text = read(&root().join(manifest));
-        text.lines()
-            .skip_while(|line| *line != "[dependencies]")
-            .skip(1)
-            .take_while(|line| !line.starts_with('['))
-            .filter(|line| line.starts_with("eigentol"))
-            .map(|line| {
-                line.split(['.', ' ', '='])
-                    .next()
-                    .unwrap_or_default()
-                    .to_owned()
-            })
-            .collect::<BTreeSet<_>>()
+fn crates_depend_only_on_those_they_may() {
+    let dependencies = |folder: &str| -> BTreeSet<String> {
+        let text = read(&root().join(folder).join("Cargo.toml"));
+        let lines = text.lines().skip_while(|line| *line != "[dependencies]");
+        let lines = lines.skip(1).take_while(|line| !line.starts_with('['));
+        let names = lines.filter_map(|line| line.split(['.', ' ', '=']).next());
+        let own = names.filter(|name| name.starts_with("eigentol"));
+        own.map(str::to_owned).collect()
     };
-    assert_eq!(dependencies("macros/compiler/Cargo.toml"), BTreeSet::new());
-    assert_eq!(
-        dependencies("macros/Cargo.toml"),
-        BTreeSet::from(["eigentol-compiler".to_owned()])
-    );
-    assert_eq!(
-        dependencies("macros/build/Cargo.toml"),
-        BTreeSet::from(["eigentol-compiler".to_owned()])
-    );
-    assert_eq!(
-        dependencies("runtime/Cargo.toml"),
-        BTreeSet::from(["eigentol-macros", "eigentol-statistics"].map(str::to_owned))
-    );
-    assert_eq!(
-        dependencies("runtime/statistics/Cargo.toml"),
-        BTreeSet::new()
-    );
-    assert_eq!(dependencies("tests/oracle/Cargo.toml"), BTreeSet::new());
-    for file in sources(&root().join("runtime/src")) {
-        assert!(
-            !read(&file).contains("eigentol_compiler"),
-            "{}",
-            file.display()
-        );
+    for (folder, allowed, _) in CRATES {
+        let allowed: BTreeSet<String> = allowed.iter().map(|name| (*name).to_owned()).collect();
+        assert_eq!(dependencies(folder), allowed, "{folder}");
     }
+    assert_eq!(dependencies("tests/oracle"), BTreeSet::new());
 }
 
 #[test]
@@ -476,8 +568,7 @@ fn solver_types_never_enter_the_compiler() {
 
 #[test]
 fn unsafe_code_stays_in_one_place() {
-    let runtime = root().join("runtime/src");
-    let crates = ["runtime/src", "macros", "examples"];
+    let crates = ["runtime", "macros", "examples"];
     let files = crates
         .iter()
         .flat_map(|folder| sources(&root().join(folder)));
@@ -488,7 +579,11 @@ fn unsafe_code_stays_in_one_place() {
     let generator = root().join("macros/build/src/c/mod.rs");
     assert_eq!(
         allowed,
-        [runtime.join("scalar/x86/mod.rs"), generator].into()
+        [
+            root().join("runtime/contract/src/scalar/x86/mod.rs"),
+            generator
+        ]
+        .into()
     );
 }
 
