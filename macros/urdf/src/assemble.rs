@@ -4,11 +4,11 @@
 use eigentol_compiler::model::inertia::{is_inertia_of_a_body, nearest_of_a_body, principal};
 
 use crate::error::{ImportError, Mistake, Reason};
-use crate::geometry::{Matrix, Moments, Vector, cross, norm};
+use crate::geometry::{Matrix, Moments, Pose, Vector, cross, norm};
 use crate::names::{Names, type_name};
 use crate::note::Note;
 use crate::options::{Base, Options, Resistance};
-use crate::robot::{Joint, JointKind, Pose, Robot};
+use crate::robot::{Joint, JointKind, Robot};
 use crate::weld::Tree;
 
 pub(crate) const GROUND: &str = "ground";

@@ -1,7 +1,5 @@
 //! Frames, and moments of mass relative to them.
 
-use crate::robot::{Inertial, Pose};
-
 pub(crate) type Vector = [f64; 3];
 /// A matrix by rows.
 pub(crate) type Matrix = [Vector; 3];
@@ -38,6 +36,25 @@ fn rotation(axis: Vector, angle: f64) -> Matrix {
     let [x, y, z] = a;
     let skew = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
     matrix(|i, j| cos * identity(i, j) + sin * skew[i][j] + (1.0 - cos) * a[i] * a[j])
+}
+
+/// Pose of a frame in another: `xyz`, then rotations, each about the axes left by the previous one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Pose {
+    /// m.
+    pub(crate) offset: Vector,
+    /// Axis and angle in rad.
+    pub(crate) rotations: Vec<(Vector, f64)>,
+}
+
+/// Mass and inertia, about the centre of mass and in the axes of `pose`.
+#[derive(Clone, Debug)]
+pub(crate) struct Inertial {
+    pub(crate) pose: Pose,
+    /// kg.
+    pub(crate) mass: f64,
+    /// kg m^2.
+    pub(crate) inertia: Matrix,
 }
 
 impl Pose {

@@ -6,8 +6,8 @@ use eigentol_compiler::base::nearest::nearest;
 use roxmltree::{Document, Node};
 
 use crate::error::{ImportError, Mistake, Reason};
-use crate::geometry::{Matrix, Vector, norm};
-use crate::robot::{Inertial, Joint, JointKind, Link, Mimic, Place, Pose, Robot};
+use crate::geometry::{Inertial, Matrix, Pose, Vector, norm};
+use crate::robot::{Joint, JointKind, Link, Mimic, Place, Robot};
 
 const KINDS: [(&str, JointKind); 6] = [
     ("revolute", JointKind::Revolute),

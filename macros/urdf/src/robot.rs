@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{Mistake, Reason};
-use crate::geometry::{Matrix, Vector};
+use crate::geometry::{Inertial, Pose, Vector};
 
 #[derive(Clone, Debug)]
 pub(crate) struct Robot {
@@ -21,16 +21,6 @@ pub(crate) struct Link {
     pub(crate) name: String,
     pub(crate) at: Place,
     pub(crate) inertial: Option<Inertial>,
-}
-
-/// Mass and inertia, about the centre of mass and in the axes of `pose`.
-#[derive(Clone, Debug)]
-pub(crate) struct Inertial {
-    pub(crate) pose: Pose,
-    /// kg.
-    pub(crate) mass: f64,
-    /// kg m^2.
-    pub(crate) inertia: Matrix,
 }
 
 #[derive(Clone, Debug)]
@@ -69,15 +59,6 @@ pub(crate) struct Mimic {
     pub(crate) of: usize,
     pub(crate) ratio: f64,
     pub(crate) offset: f64,
-}
-
-/// Pose of a frame in another: `xyz`, then rotations, each about the axes left by the previous one.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Pose {
-    /// m.
-    pub(crate) offset: Vector,
-    /// Axis and angle in rad.
-    pub(crate) rotations: Vec<(Vector, f64)>,
 }
 
 /// Position in the file: line and column, from 1.

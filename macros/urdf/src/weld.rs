@@ -1,7 +1,8 @@
 //! Combines links that are welded together by fixed joints into one body.
 
 use crate::error::{ImportError, Mistake, Reason};
-use crate::robot::{JointKind, Pose, Robot};
+use crate::geometry::Pose;
+use crate::robot::{JointKind, Robot};
 
 /// The tree of a robot's links.
 pub(crate) struct Tree {

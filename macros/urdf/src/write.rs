@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 
 use crate::Import;
 use crate::assemble::{Assembly, Body, Coordinate, Coupling, Moving};
-use crate::geometry::Vector;
+use crate::geometry::{Pose, Vector};
 use crate::options::Resistance;
-use crate::robot::Pose;
 
 /// The declaration, with its names and notes.
 pub(crate) fn write(assembly: &Assembly) -> Import {

@@ -7,6 +7,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand, ValueEnum};
 use eigentol::Error;
 
+use crate::color::Color;
 use crate::commands::{
     allocate, branches, campbell, check, completions, equilibria, expand, import, merge, modes,
     new, probability, report, sample, sensitivities, sweep, tolerance,
@@ -35,43 +36,6 @@ pub(crate) struct Arguments {
     color: Color,
     #[command(subcommand)]
     command: Command,
-}
-
-/// Whether messages are coloured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Color {
-    Auto,
-    Always,
-    Never,
-}
-
-impl Color {
-    /// The setting requested on a command line that could not be parsed.
-    fn asked() -> Self {
-        let arguments: Vec<String> = (std::env::args_os())
-            .map(|own| own.to_string_lossy().into_owned())
-            .collect();
-        let apart = arguments.iter().position(|own| own == "--color");
-        let value = match apart {
-            Some(k) => arguments.get(k + 1).map(String::as_str),
-            None => arguments
-                .iter()
-                .find_map(|own| own.strip_prefix("--color=")),
-        };
-        let known = value.and_then(|value| Self::from_str(value, false).ok());
-        known.unwrap_or(Self::Auto)
-    }
-
-    /// Whether to colour text, given whether it is written to a terminal.
-    pub(crate) fn on(self, terminal: bool) -> bool {
-        // https://no-color.org
-        let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-        match self {
-            Self::Always => true,
-            Self::Never => false,
-            Self::Auto => wanted && terminal,
-        }
-    }
 }
 
 /// Adds to a command-line error the option for which a value was probably meant.
@@ -188,7 +152,7 @@ impl Command {
             Self::Expand(own) => own.run(),
             Self::New(own) => own.run(),
             Self::Import(own) => own.run(),
-            Self::Completions(own) => own.run(),
+            Self::Completions(own) => own.run(Arguments::command()),
         }
     }
 }

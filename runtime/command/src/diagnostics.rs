@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use crate::arguments::Color;
+use crate::color::Color;
 use crate::declaration::Declaration;
 use crate::failure::Failure;
 use crate::mistake::Mistake;

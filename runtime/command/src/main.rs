@@ -2,6 +2,7 @@
 
 mod answer;
 mod arguments;
+mod color;
 mod commands;
 mod declaration;
 mod diagnostics;

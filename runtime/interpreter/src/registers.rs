@@ -6,14 +6,7 @@ use std::marker::PhantomData;
 use eigentol::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use eigentol::{Dual, Real};
 
-use crate::tape::Tape;
-
-/// Numbered storage places for numbers.
-pub(crate) trait Registers {
-    type Number: Real;
-    fn get(&self, register: u32) -> Self::Number;
-    fn set(&mut self, register: u32, value: Self::Number);
-}
+use crate::tape::{Registers, Tape};
 
 struct Scalars<'a, T>(&'a mut [T]);
 

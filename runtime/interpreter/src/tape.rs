@@ -6,8 +6,14 @@ use eigentol::Real;
 use eigentol_compiler::algebra::{Operator, Unary};
 use eigentol_compiler::program::{Kernel, Operand, Operation};
 
-use crate::registers::Registers;
 use crate::schedule::{Code, runs};
+
+/// Numbered storage places for numbers.
+pub(crate) trait Registers {
+    type Number: Real;
+    fn get(&self, register: u32) -> Self::Number;
+    fn set(&mut self, register: u32, value: Self::Number);
+}
 
 /// Registers of an operation: its result and its operands. A sine has its cosine's register in place of a second
 /// operand.

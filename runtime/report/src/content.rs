@@ -2,19 +2,18 @@
 //! mechanism's type.
 
 use eigentol::branches::Branches;
-use eigentol::kernels::{PictureKernels, SummaryKernels};
-use eigentol::picture::{ModePictures, Scene};
+use eigentol::kernels::SummaryKernels;
 use eigentol::summary::Summary;
 use eigentol::tolerance::{Distribution, OutputTolerances};
 use eigentol::{
-    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Text,
-    Tolerances, Value,
+    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Study, Text, Tolerances,
+    Value,
 };
 
 use eigentol_figures::Style;
 
 use crate::Report;
-use crate::scene::{AMPLITUDE, frames};
+use crate::pictures::Pictures;
 
 /// All the content of a page.
 pub(crate) struct Content {
@@ -45,13 +44,6 @@ pub(crate) struct Setup {
     pub(crate) deviating: Vec<usize>,
     /// One for each tolerance.
     pub(crate) distributions: Vec<Distribution>,
-}
-
-/// Data for the pictures.
-pub(crate) struct Pictures {
-    pub(crate) scene: Scene,
-    /// The first modes only, for large mechanisms.
-    pub(crate) modes: Vec<Result<ModePictures, Error>>,
 }
 
 /// The effect of tolerances.
@@ -116,25 +108,6 @@ impl Content {
             spread,
             along: along.transpose()?,
         })
-    }
-}
-
-impl Pictures {
-    fn of<M: PictureKernels>(solved: &Solved<'_, M>) -> Result<Self, Error> {
-        let scene = solved.picture()?;
-        let (modes, phases) = frames(scene.bodies.len(), solved.modes.modes.len());
-        let modes = (0..modes).map(|mode| solved.mode_pictures(mode, phases, AMPLITUDE));
-        Ok(Self {
-            modes: modes.collect(),
-            scene,
-        })
-    }
-
-    fn at_rest(scene: Scene) -> Self {
-        Self {
-            scene,
-            modes: Vec::new(),
-        }
     }
 }
 

@@ -5,6 +5,7 @@ mod content;
 mod error;
 mod html;
 mod page;
+mod pictures;
 mod report;
 mod scene;
 mod sections;

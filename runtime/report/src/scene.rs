@@ -7,24 +7,8 @@ use eigentol::{Mode, Modes};
 use eigentol_figures::Style;
 use serde::Serialize;
 
-use crate::content::Pictures;
+use crate::pictures::Pictures;
 use crate::words::{capital, number};
-
-/// Maximum number of poses over all modes; they make up most of the file.
-const POSES: usize = 14_000;
-/// Number of poses per period. The view interpolates linearly between them.
-const MOST_FRAMES: usize = 24;
-const LEAST_FRAMES: usize = 8;
-
-/// Largest displacement in a mode, as a fraction of the size of the mechanism.
-pub(crate) const AMPLITUDE: f64 = 0.12;
-
-/// The number of animated modes, and the number of poses of every body in each.
-pub(crate) fn frames(bodies: usize, modes: usize) -> (usize, usize) {
-    let poses = POSES / bodies.max(1);
-    let frames = (poses / modes.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
-    (modes.min(poses / frames), frames)
-}
 
 /// A scene with its modes, passed to the script.
 #[derive(Serialize)]
@@ -116,20 +100,4 @@ fn about(mode: &Mode, amplitude: f64) -> String {
         "{pace}{}{damping}; shown at constant amplitude, not in real time",
         mode.behaviour
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{LEAST_FRAMES, MOST_FRAMES, POSES, frames};
-
-    #[test]
-    fn large_mechanisms_get_fewer_poses_and_then_fewer_modes() {
-        assert_eq!(frames(3, 2), (2, MOST_FRAMES));
-        assert_eq!(frames(0, 0), (0, MOST_FRAMES));
-        for (bodies, modes) in [(30, 30), (60, 120), (POSES, 5), (2 * POSES, 5)] {
-            let (animated, each) = frames(bodies, modes);
-            assert!(animated <= modes && (LEAST_FRAMES..=MOST_FRAMES).contains(&each));
-            assert!(bodies * animated * each <= POSES, "{bodies} {modes}");
-        }
-    }
 }

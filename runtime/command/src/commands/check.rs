@@ -6,7 +6,7 @@ use clap::Args;
 use eigentol::{Description, Role};
 use eigentol_interpreter::description;
 
-use crate::arguments::Color;
+use crate::color::Color;
 use crate::declaration::Declaration;
 use crate::diagnostics;
 use crate::failure::{Failure, plural};

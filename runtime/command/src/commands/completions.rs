@@ -1,9 +1,8 @@
 //! Shell completions.
 
-use clap::{Args, CommandFactory as _};
+use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 
-use crate::arguments::Arguments;
 use crate::failure::Failure;
 use crate::place::print;
 use crate::verdict::Verdict;
@@ -15,14 +14,9 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+    pub(crate) fn run(&self, mut command: Command) -> Result<Verdict, Failure> {
         let mut script = Vec::new();
-        generate(
-            self.shell,
-            &mut Arguments::command(),
-            "eigentol",
-            &mut script,
-        );
+        generate(self.shell, &mut command, "eigentol", &mut script);
         print(&String::from_utf8_lossy(&script))?;
         Ok(Verdict::Yes)
     }

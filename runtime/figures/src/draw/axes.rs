@@ -2,7 +2,7 @@
 
 use plotters::prelude::DrawingBackend;
 
-use super::Outcome;
+use super::area::Outcome;
 use super::layout::{Frame, HANGING, below, hanging, px};
 use super::pen::{Anchor, Pen};
 use crate::figure::{Axis, Panel, Point};

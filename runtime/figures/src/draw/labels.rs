@@ -2,7 +2,7 @@
 
 use plotters::prelude::DrawingBackend;
 
-use super::Outcome;
+use super::area::Outcome;
 use super::layout::{Frame, px};
 use super::pen::{Anchor, Pen, length};
 

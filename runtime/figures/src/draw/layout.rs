@@ -1,6 +1,6 @@
 //! The layout of a figure, in drawing pixels.
 
-use super::legend::{self, Entry};
+use super::entries::{self, Entry};
 use crate::Figure;
 use crate::figure::Panel;
 
@@ -47,8 +47,8 @@ pub(super) struct Layout {
 
 impl Layout {
     pub(super) fn of(figure: &Figure) -> Self {
-        let legend = legend::entries(figure);
-        let columns = legend::columns(&legend);
+        let legend = entries::entries(figure);
+        let columns = entries::columns(&legend);
         let rows = legend.len().div_ceil(columns) as i32;
         let mut y = px(TITLE_HEIGHT + LEGEND_HEIGHT * rows);
         let mut panels = Vec::new();

@@ -1,8 +1,10 @@
 //! Drawing of a figure: title, legend in rows of its own so that it hides no data, panels, caption.
 
+mod area;
 mod axes;
 mod clip;
 mod dash;
+mod entries;
 mod labels;
 mod layout;
 mod legend;
@@ -15,16 +17,13 @@ mod svg;
 
 pub use self::save::Form;
 
-use plotters::coord::Shift;
-use plotters::prelude::{DrawingArea, DrawingBackend};
+use plotters::prelude::DrawingBackend;
 
+use self::area::{Area, Outcome, words};
 use self::layout::{CAPTION_HEIGHT, Layout, TITLE_HEIGHT, WIDTH, px};
 use self::pen::{Anchor, Pen};
 use crate::Figure;
 use crate::figure::Colour;
-
-type Area<B> = DrawingArea<B, Shift>;
-type Outcome = Result<(), String>;
 
 /// Draws a figure onto an area of the size its layout requires.
 fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> Outcome {
@@ -42,8 +41,4 @@ fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> 
         pen.coloured(line, (px(24), y), 14, Anchor::Left, Colour::Grey)?;
     }
     area.present().map_err(words)
-}
-
-fn words(error: impl std::fmt::Display) -> String {
-    error.to_string()
 }

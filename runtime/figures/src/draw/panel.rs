@@ -2,7 +2,7 @@
 
 use plotters::prelude::DrawingBackend;
 
-use super::Outcome;
+use super::area::Outcome;
 use super::axes::{self, Place};
 use super::clip::{clip, clip_band};
 use super::labels::Labels;

@@ -3,9 +3,10 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::area::{Area, Outcome, words};
 use super::dash::dashes;
 use super::layout::{SCALE, px};
-use super::{Area, Outcome, words};
+
 use crate::figure::{Colour, Shape, Stroke};
 
 pub(super) const FONT: &str = "sans-serif";

@@ -7,9 +7,10 @@ use eigentol_tables::tables;
 use super::refused;
 use crate::Error;
 use crate::charts::chart;
-use crate::content::{Content, Pictures};
+use crate::content::Content;
 use crate::html::Html;
-use crate::scene::{AMPLITUDE, View};
+use crate::pictures::{AMPLITUDE, Pictures};
+use crate::scene::View;
 use crate::tables::table;
 use crate::words::digits;
 

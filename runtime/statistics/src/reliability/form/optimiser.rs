@@ -11,10 +11,35 @@ use crate::reliability::vector::norm;
 /// The library uses a 32-bit counter.
 const EVALUATIONS: usize = i32::MAX as usize;
 
+/// The optimiser stores dense matrices; with more variables only the iteration is tried.
+const OPTIMISER_VARIABLES: usize = 1000;
+
+impl Search<'_> {
+    /// The best point visited from a start, provided that the limit state has a value at the start or between it and
+    /// the origin.
+    pub(super) fn from(&self, start: &[f64]) -> Option<Iterate> {
+        let mut start = start.to_vec();
+        let mut at_start = self.at(&start);
+        for _ in 0..8 {
+            if at_start.is_some() {
+                break;
+            }
+            start.iter_mut().for_each(|z| *z *= 0.5);
+            at_start = self.at(&start);
+        }
+        let best = self.iterate(at_start?);
+        let too_many = self.limit.dimension() > OPTIMISER_VARIABLES;
+        if self.is_solved(&best) || too_many || self.settings.optimiser_evaluations == 0 {
+            return Some(best);
+        }
+        Some(self.iterate(minimise(self, best)))
+    }
+}
+
 /// Minimises `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for sequential quadratic
 /// programming*) from a starting point, and returns the best point visited. Points without a value have an infinite
 /// objective; the line search then halves its step.
-pub(super) fn minimise(search: &Search, start: Iterate) -> Iterate {
+fn minimise(search: &Search, start: Iterate) -> Iterate {
     let Some(slope) = start.slope() else {
         return start;
     };

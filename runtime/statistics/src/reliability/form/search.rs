@@ -1,14 +1,10 @@
-//! The search for a design point from a single start.
+//! A search for a design point by the Hasofer-Lind-Rackwitz-Fiessler iteration.
 
 use super::bulge::Bulge;
 use super::design_point::Iterate;
-use super::optimiser;
 use super::settings::FormSettings;
 use crate::reliability::counted::Counted;
 use crate::reliability::vector::{add_scaled, dot, norm};
-
-/// The optimiser stores dense matrices; with more variables only the iteration is tried.
-const OPTIMISER_VARIABLES: usize = 1000;
 
 /// The limit state of a search, with bulges at design points that are already known.
 pub(super) struct Search<'a> {
@@ -28,26 +24,6 @@ impl Search<'_> {
         Some(Iterate::new(z.to_vec(), limit, self.sign))
     }
 
-    /// The best point visited from a start, provided that the limit state has a value at the start or between it and
-    /// the origin.
-    pub(super) fn from(&self, start: &[f64]) -> Option<Iterate> {
-        let mut start = start.to_vec();
-        let mut at_start = self.at(&start);
-        for _ in 0..8 {
-            if at_start.is_some() {
-                break;
-            }
-            start.iter_mut().for_each(|z| *z *= 0.5);
-            at_start = self.at(&start);
-        }
-        let best = self.iterate(at_start?);
-        let too_many = self.limit.dimension() > OPTIMISER_VARIABLES;
-        if self.is_solved(&best) || too_many || self.settings.optimiser_evaluations == 0 {
-            return Some(best);
-        }
-        Some(self.iterate(optimiser::minimise(self, best)))
-    }
-
     pub(super) fn is_solved(&self, iterate: &Iterate) -> bool {
         iterate.residual() <= self.settings.tolerance
             && norm(&iterate.point) <= self.settings.radius
@@ -56,7 +32,7 @@ impl Search<'_> {
     /// The improved Hasofer-Lind-Rackwitz-Fiessler iteration (Zhang and Der Kiureghian 1995, *Two improved algorithms
     /// for reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit function
     /// `|z|^2 / 2 + c |g|` decreases. Returns the best point visited.
-    fn iterate(&self, start: Iterate) -> Iterate {
+    pub(super) fn iterate(&self, start: Iterate) -> Iterate {
         let mut best = start.clone();
         let mut current = start;
         for _ in 0..self.settings.iterations {

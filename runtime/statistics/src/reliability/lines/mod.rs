@@ -8,14 +8,18 @@
 //! answers for what lies farthest along it, so the sum is unbiased, whatever the directions.
 
 mod explore;
+mod line;
 mod regions;
 mod scan;
+
+pub use line::Direction;
 
 use super::limit_state::LimitState;
 use super::random::NormalSamples;
 use super::sampling::Estimate;
 use super::vector::{add_scaled, dot};
 use crate::Error;
+use line::Line;
 use regions::Regions;
 
 /// Which lines to draw and when to stop.
@@ -62,27 +66,6 @@ const EVENLY: f64 = 0.25;
 /// The probability must come from at least as many lines as this, weighted by what they contribute, but for a share.
 const CONTRIBUTING: f64 = 10.0;
 const SHARE: f64 = 0.05;
-
-/// A direction in which failure is expected. A wrong one costs evaluations, and does the result no harm.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Direction {
-    /// The direction, of any length and either sign.
-    pub along: Vec<f64>,
-    /// Distance from the origin at which failure is expected, in standard deviations.
-    pub distance: f64,
-}
-
-/// A line: the probabilities along it within its region, given its position.
-#[derive(Clone, Copy, Debug, Default)]
-struct Line {
-    /// Probability of failure.
-    fails: f64,
-    /// Probability that the limit state has no value.
-    without_value: f64,
-    /// Number of evaluations of the limit state.
-    evaluations: u64,
-}
 
 /// A failure probability estimated from lines.
 #[derive(Clone, Copy, Debug, PartialEq)]

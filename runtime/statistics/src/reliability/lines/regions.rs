@@ -1,6 +1,6 @@
 //! The regions in which lines run: the space is divided among directions.
 
-use super::Direction;
+use super::line::Direction;
 use super::scan::Stretch;
 use crate::normal;
 use crate::reliability::vector::{dot, unit};

@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use super::Line;
+use super::line::Line;
 use crate::normal::cdf;
 
 /// Widths, in standard deviations, to which a place is bracketed where values are known on both sides of the limit, and

@@ -1,6 +1,6 @@
 //! The Cholesky factor of a correlation matrix, in an order that suits the integration over a box.
 
-use super::multinormal::Slice;
+use super::slice::Slice;
 use crate::Error;
 use crate::normal::density;
 use crate::reliability::sampling::Interval;

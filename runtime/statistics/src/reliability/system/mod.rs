@@ -4,6 +4,7 @@
 mod bivariate;
 mod factor;
 mod multinormal;
+mod slice;
 
 pub use bivariate::probability_above;
 pub use multinormal::{QuadratureSettings, box_probability};

@@ -1,8 +1,8 @@
 //! Multinormal probability of a box.
 
 use super::factor::{Factor, factorise};
+use super::slice::Slice;
 use crate::Error;
-use crate::normal::{cdf, quantile};
 use crate::random::RandomNumbers;
 use crate::reliability::sampling::{Estimate, Interval};
 
@@ -124,37 +124,6 @@ fn integrand(factor: &Factor, point: &[f64]) -> f64 {
         chosen.push(slice.quantile(*x));
     }
     product
-}
-
-/// A slice of the standard normal distribution, computed in the tail where it is small.
-pub(super) struct Slice {
-    mirrored: bool,
-    below: f64,
-    pub(super) probability: f64,
-}
-
-impl Slice {
-    pub(super) fn between(lower: f64, upper: f64) -> Self {
-        let mirrored = lower > 0.0;
-        let (lower, upper) = if mirrored {
-            (-upper, -lower)
-        } else {
-            (lower, upper)
-        };
-        let below = cdf(lower);
-        Self {
-            mirrored,
-            below,
-            probability: (cdf(upper) - below).max(0.0),
-        }
-    }
-
-    /// The value below which the fraction `part` of the slice lies.
-    fn quantile(&self, part: f64) -> f64 {
-        let below = self.below + part * self.probability;
-        let value = quantile(below.clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON));
-        if self.mirrored { -value } else { value }
-    }
 }
 
 fn primes() -> impl Iterator<Item = f64> {

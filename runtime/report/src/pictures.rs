@@ -1,0 +1,63 @@
+//! The pictures of a report: the mechanism at rest, and as many animated modes as a file of moderate size holds.
+
+use eigentol::kernels::PictureKernels;
+use eigentol::picture::{ModePictures, Scene};
+use eigentol::{Error, Solved};
+
+/// Maximum number of poses over all modes; they make up most of the file.
+const POSES: usize = 14_000;
+/// Number of poses per period. The view interpolates linearly between them.
+const MOST_FRAMES: usize = 24;
+const LEAST_FRAMES: usize = 8;
+
+/// Largest displacement in a mode, as a fraction of the size of the mechanism.
+pub(crate) const AMPLITUDE: f64 = 0.12;
+
+/// The number of animated modes, and the number of poses of every body in each.
+fn frames(bodies: usize, modes: usize) -> (usize, usize) {
+    let poses = POSES / bodies.max(1);
+    let frames = (poses / modes.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
+    (modes.min(poses / frames), frames)
+}
+
+/// Data for the pictures.
+pub(crate) struct Pictures {
+    pub(crate) scene: Scene,
+    /// The first modes only, for large mechanisms.
+    pub(crate) modes: Vec<Result<ModePictures, Error>>,
+}
+
+impl Pictures {
+    pub(crate) fn of<M: PictureKernels>(solved: &Solved<'_, M>) -> Result<Self, Error> {
+        let scene = solved.picture()?;
+        let (modes, phases) = frames(scene.bodies.len(), solved.modes.modes.len());
+        let modes = (0..modes).map(|mode| solved.mode_pictures(mode, phases, AMPLITUDE));
+        Ok(Self {
+            modes: modes.collect(),
+            scene,
+        })
+    }
+
+    pub(crate) fn at_rest(scene: Scene) -> Self {
+        Self {
+            scene,
+            modes: Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEAST_FRAMES, MOST_FRAMES, POSES, frames};
+
+    #[test]
+    fn large_mechanisms_get_fewer_poses_and_then_fewer_modes() {
+        assert_eq!(frames(3, 2), (2, MOST_FRAMES));
+        assert_eq!(frames(0, 0), (0, MOST_FRAMES));
+        for (bodies, modes) in [(30, 30), (60, 120), (POSES, 5), (2 * POSES, 5)] {
+            let (animated, each) = frames(bodies, modes);
+            assert!(animated <= modes && (LEAST_FRAMES..=MOST_FRAMES).contains(&each));
+            assert!(bodies * animated * each <= POSES, "{bodies} {modes}");
+        }
+    }
+}
