@@ -2,7 +2,7 @@
 //! mechanism's type.
 
 use eigentol::branches::Branches;
-use eigentol::kernels::SummaryKernels;
+use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::summary::Summary;
 use eigentol::tolerance::{Distribution, OutputTolerances};
 use eigentol::{
