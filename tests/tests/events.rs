@@ -1,5 +1,6 @@
 //! Events belong to the machine: random machines whose events are known in closed form, along grids of 2 to 200 points.
 
+use eigentol::error::NotFound;
 use eigentol::sweep::Change;
 use eigentol::{Error, Input, Stability, Study};
 use eigentol_interpreter::Interpreted;
@@ -337,5 +338,38 @@ fn pull_in_across_micrometres() {
             matches!(beyond, Err(Error::NoEquilibrium { .. })),
             "{beyond:?}"
         );
+    }
+}
+
+/// Two plates on springs that draw each other: beyond their pull-in no state beside the pole passes for an equilibrium.
+#[test]
+fn two_plates_beyond_their_pull_in() {
+    let law = "(8.8541878128e-12 N) * (1e-8 m^2) * v^2 / (2 * (2 um + y - x)^2)";
+    let study = study(&format!(
+        "mechanism Plates {{ input v: 1; body a: point(mass: 1e-9 kg); body b: point(mass: 1e-9 kg);
+         joint x: prismatic(x) from ground to a; joint y: prismatic(x) from ground to b;
+         force s: spring(on: x, stiffness: 1 N/m); force t: spring(on: y, stiffness: 3 N/m);
+         force p: generalized(on: x, value: {law}); force q: generalized(on: y, value: -{law}); }}"
+    ));
+    // Both springs in series.
+    let snap = (8.0 * 0.75 * 8e-18 / (27.0 * 8.854_187_812_8e-20_f64)).sqrt();
+    for share in [1.01, 1.3, 2.0, 3.0, 10.0, 30.0] {
+        let found = study
+            .clone()
+            .input(Input::new(0), share * snap)
+            .equilibrium();
+        match found {
+            Ok(state) => {
+                let [x, y] = [0, 1].map(|i| state.coordinates[i]);
+                let force =
+                    8.854_187_812_8e-20 * (share * snap).powi(2) / (2.0 * (2e-6 + y - x).powi(2));
+                assert!((x / force - 1.0).abs() < 1e-9, "{share}: {x} {y}");
+                assert!((3.0 * y / force + 1.0).abs() < 1e-9, "{share}: {x} {y}");
+            }
+            Err(Error::NoEquilibrium { reason, .. }) => {
+                assert_eq!(reason, NotFound::Unbounded, "{share}");
+            }
+            Err(other) => panic!("{share}: {other}"),
+        }
     }
 }

@@ -28,7 +28,7 @@ pub(super) const GROWTH: f64 = 4.0;
 /// Displacement (rad or m) with which an unstable equilibrium or a singular configuration is left.
 pub(super) const DEPARTURE: f64 = 1e-3;
 /// Distance, as a share of a coordinate, and share of the stiffness left there, that tell a pole from an equilibrium.
-const BESIDE: f64 = 1e-6;
+const BESIDE: f64 = 1e-5;
 const VANISHES: f64 = 1e-3;
 
 /// The current state of a search.
@@ -173,7 +173,7 @@ where
     Err(failure(point, reason, &base.q, MAX_ITERATIONS))
 }
 
-/// Whether a force grows without bound where a search ended: the stiffness nearly vanishes a millionth of a coordinate
+/// Whether a force grows without bound where a search ended: the stiffness nearly vanishes a small share of a coordinate
 /// away. Such a state passes for an equilibrium, because any force moves it by rounding only.
 #[cold]
 pub(super) fn grows_without_bound(point: &OperatingPoint<'_>, q: &[f64]) -> bool {

@@ -178,17 +178,14 @@ impl fmt::Display for Sensitivities {
             columns,
         };
         table.write(f, value, clustered)?;
-        if !free.is_empty() {
-            let numbers: Vec<String> = free.iter().map(|r| (r + 1).to_string()).collect();
-            let (word, are) = match free.len() {
-                1 => ("Mode", "is"),
-                _ => ("Modes", "are"),
-            };
-            writeln!(
-                f,
-                "  {word} {} {are} free: zero at every design, without derivatives.",
-                numbers.join(", ")
-            )?;
+        let numbers: Vec<String> = free.iter().map(|r| (r + 1).to_string()).collect();
+        let says = "free: zero at every design, without derivatives";
+        match &numbers[..] {
+            [] => {}
+            [one] => writeln!(f, "  Mode {one} is {says}.")?,
+            [others @ .., last] => {
+                writeln!(f, "  Modes {} and {last} are {says}.", others.join(", "))?;
+            }
         }
         undamped(f, self.family, &self.description)?;
         for (r, mode) in self.modes.iter().enumerate() {
