@@ -322,3 +322,28 @@ fn samples_of_a_top_that_was_asked_to_stay() {
         assert_eq!(found.counts.stable + found.counts.flutter, 2000);
     }
 }
+
+/// The speed of a top is a steady value on which no force depends: with `D = C^2 w^2 - 4 A m g l`,
+/// `omega = (C w +- sqrt(D)) / 2 A`.
+#[test]
+fn frequencies_of_a_sleeping_top() {
+    let [m, l, a, c] = TOP;
+    let (about_tip, w) = (a + m * l * l, 100.0);
+    let root = ((c * w).powi(2) - 4.0 * about_tip * m * G * l).sqrt();
+    for spin in ["driven at w;", "coasting; steady spin = w;"] {
+        let study = top(spin).input(Input::new(0), w).stay();
+        let solved = study.solve().expect("it sleeps");
+        let slopes = solved.sensitivities().expect("derivatives");
+        let modes = solved.modes.modes.iter().zip(&slopes.modes);
+        let found = modes.filter_map(|(mode, own)| Some((mode.frequency()?, own.frequency()?)));
+        let found: Vec<_> = found.collect();
+        assert_eq!(found.len(), 2, "{spin}");
+        for ((frequency, own), sign) in found.iter().zip([-1.0, 1.0]) {
+            let expected = (c * w + sign * root) / (2.0 * about_tip);
+            close(*frequency, expected, 1e-11, spin);
+            let by_speed = c / (2.0 * about_tip) * (1.0 + sign * c * w / root);
+            close(own.by_input[0], by_speed, 1e-9, "by the speed");
+            close(own.by_design[3], by_speed * w / c, 1e-9, "by C");
+        }
+    }
+}
