@@ -1,7 +1,8 @@
 //! Events belong to the machine: random machines whose events are known in closed form, along grids of 2 to 200 points.
 
+use eigentol::error::NotFound;
 use eigentol::sweep::Change;
-use eigentol::{Input, Stability, Study};
+use eigentol::{Error, Input, Stability, Study};
 use eigentol_interpreter::Interpreted;
 use eigentol_statistics::random::RandomNumbers;
 
@@ -191,5 +192,184 @@ fn resonances() {
         }
         text += "}";
         check(&text, &[1.0, 2.0], known);
+    }
+}
+
+/// `s^2 - 2 a s + (k - u) = 0` grows with oscillation while `k - u > a^2`, without beyond; where `u = k`, one of the two
+/// roots ceases to grow.
+#[test]
+fn flutter_turns_into_divergence_and_back() {
+    let mut random = RandomNumbers::new(5, 0);
+    for _ in 0..4 {
+        let (a, k) = (
+            between(&mut random, 0.5, 2.0),
+            between(&mut random, 10.0, 30.0),
+        );
+        let study = study(&format!(
+            "mechanism Turning {{ input u: N/m; body p: point(mass: 1 kg); joint x: prismatic(x) from ground to p;
+             force f: generalized(on: x, value: -({k} N/m - u) * x + ({} N*s/m) * rate(x)); }}",
+            2.0 * a
+        ))
+        .stay();
+        for (ends, change, words) in [
+            (
+                [0.0, HIGH],
+                Change::ToDivergence,
+                "flutter of mode 1 turns into divergence",
+            ),
+            (
+                [HIGH, 0.0],
+                Change::ToFlutter,
+                "divergence turns into flutter of mode",
+            ),
+        ] {
+            let found = study.campbell(Input::new(0), &ends, &[] as &[f64]);
+            let found = found.expect("a diagram");
+            let [turn] = &found.flutter_onsets[..] else {
+                panic!("{found}");
+            };
+            assert_eq!(turn.change, change, "{found}");
+            assert!((turn.value - (k - a * a)).abs() < 1e-8 * HIGH, "{found}");
+            assert!(found.to_string().contains(words), "{found}");
+            let [critical] = &found.critical[..] else {
+                panic!("{found}");
+            };
+            assert!((critical.value - k).abs() < 1e-9 * HIGH, "{found}");
+            let expected = match change {
+                Change::ToDivergence => Change::End,
+                _ => Change::Onset,
+            };
+            assert_eq!(critical.change, expected, "{found}");
+        }
+    }
+}
+
+/// Damping that touches zero from either side without passing it.
+#[test]
+fn growth_that_touches_zero() {
+    for sign in ["-", ""] {
+        let text = format!(
+            "mechanism Touching {{ input u: rad/s; body p: point(mass: 1 kg); joint x: prismatic(x) from ground to p;
+             force f: spring(on: x, stiffness: 50 N/m);
+             force d: generalized(on: x, value: {sign}(0.01 kg*s/rad^2) * (u - 17 rad/s)^2 * rate(x)); }}"
+        );
+        for ends in [[0.0, HIGH], [HIGH, 0.0]] {
+            let found = study(&text)
+                .stay()
+                .campbell(Input::new(0), &ends, &[] as &[f64]);
+            let found = found.expect("a diagram");
+            let [touch] = &found.flutter_onsets[..] else {
+                panic!("{sign} {found}");
+            };
+            assert_eq!(touch.change, Change::Touch);
+            assert!((touch.value - 17.0).abs() < 1e-6 * HIGH, "{found}");
+            assert!(found.to_string().contains("mode 1 keeps its amplitude"));
+        }
+    }
+}
+
+/// What happens exactly at an end of the range is listed alike at either end, and once.
+#[test]
+fn events_at_the_ends_of_a_range() {
+    let stiffness = "mechanism Softening { input u: N/m; body p: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to p; force f: generalized(on: x, value: -(4 N/m - u) * x); }";
+    let damping = "mechanism Weakening { input u: N*s/m; body p: point(mass: 1 kg); body q: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to p; joint y: prismatic(x) from ground to q;
+        force s: spring(on: x, stiffness: 9 N/m); force t: spring(on: y, stiffness: 19 N/m);
+        force e: damper(on: y, damping: 0.1 N*s/m);
+        force f: generalized(on: x, value: -(4 N*s/m - u) * rate(x)); }";
+    let fold = "mechanism Fold { input u: N; body p: point(mass: 1 kg); joint x: prismatic(x) from ground to p;
+        force f: generalized(on: x, value: -(4 N/m^2) * (1 m^2 - (x - 1 m)^2) + u); }";
+    for (text, kinds) in [(stiffness, [1, 0]), (damping, [0, 1]), (fold, [1, 0])] {
+        for (low, high) in [(0.0, 4.0), (4.0, 0.0), (4.0, 6.0), (6.0, 4.0), (0.0, 6.0)] {
+            if text == fold && f64::max(low, high) > 4.0 {
+                continue;
+            }
+            let found = study(text)
+                .stay()
+                .events(Input::new(0), low, high, &[] as &[f64]);
+            let found = found.expect("events");
+            let of = format!("{low} to {high}: {text}");
+            assert_eq!([found.critical.len(), found.crossings.len()], kinds, "{of}");
+            let critical = found.critical.iter().map(|own| own.value);
+            for value in critical.chain(found.crossings.iter().map(|own| own.value)) {
+                assert!((value - 4.0).abs() < 1e-9, "{value} {of}");
+            }
+        }
+    }
+    let reached = study(stiffness).critical_state(Input::new(0), 0.0, 4.0);
+    assert_eq!(reached.expect("at the end").value, 4.0);
+}
+
+/// A plate on a spring, drawn across a gap of micrometres: it snaps at a third of the gap, at
+/// `V^2 = 8 k g^3 / (27 eps A)`.
+#[test]
+fn pull_in_across_micrometres() {
+    let mut random = RandomNumbers::new(6, 0);
+    for _ in 0..6 {
+        let stiffness = 10_f64.powf(between(&mut random, -1.0, 2.0));
+        let gap = 10_f64.powf(between(&mut random, -7.0, -5.0));
+        let area = 10_f64.powf(between(&mut random, -9.0, -7.0));
+        let permittivity = 8.854_187_812_8e-12;
+        let study = study(&format!(
+            "mechanism PullIn {{ input v: 1; design k = {stiffness} N/m; design g = {gap} m;
+             body plate: point(mass: 1e-9 kg); joint x: prismatic(x) from ground to plate;
+             force leaf: spring(on: x, stiffness: k);
+             force field: generalized(on: x, value: ({permittivity} N) * ({area} m^2) * v^2 / (2 * (g - x)^2)); }}"
+        ));
+        let snap = (8.0 * stiffness * gap.powi(3) / (27.0 * permittivity * area)).sqrt();
+        let found = study.branches(Input::new(0), 0.0, 3.0 * snap);
+        let found = found.expect("branches");
+        let special = found.special();
+        assert_eq!(special.len(), 1, "{found}");
+        assert!((special[0].value / snap - 1.0).abs() < 1e-10, "{found}");
+        let x = special[0].equilibrium.coordinates[0];
+        assert!((3.0 * x / gap - 1.0).abs() < 1e-6, "{x} {found}");
+        let state = study.critical_tolerance(Input::new(0), 0.0, 3.0 * snap);
+        let spread = state
+            .expect("a critical state")
+            .spread
+            .expect("derivatives");
+        for (found, expected) in spread.by_design.iter().zip([0.5 / stiffness, 1.5 / gap]) {
+            assert!((found / (expected * snap) - 1.0).abs() < 1e-8, "{found}");
+        }
+        let beyond = study.input(Input::new(0), 2.0 * snap).equilibrium();
+        assert!(
+            matches!(beyond, Err(Error::NoEquilibrium { .. })),
+            "{beyond:?}"
+        );
+    }
+}
+
+/// Two plates on springs that draw each other: beyond their pull-in no state beside the pole passes for an equilibrium.
+#[test]
+fn two_plates_beyond_their_pull_in() {
+    let law = "(8.8541878128e-12 N) * (1e-8 m^2) * v^2 / (2 * (2 um + y - x)^2)";
+    let study = study(&format!(
+        "mechanism Plates {{ input v: 1; body a: point(mass: 1e-9 kg); body b: point(mass: 1e-9 kg);
+         joint x: prismatic(x) from ground to a; joint y: prismatic(x) from ground to b;
+         force s: spring(on: x, stiffness: 1 N/m); force t: spring(on: y, stiffness: 3 N/m);
+         force p: generalized(on: x, value: {law}); force q: generalized(on: y, value: -{law}); }}"
+    ));
+    // Both springs in series.
+    let snap = (8.0 * 0.75 * 8e-18 / (27.0 * 8.854_187_812_8e-20_f64)).sqrt();
+    for share in [1.01, 1.3, 2.0, 3.0, 10.0, 30.0] {
+        let found = study
+            .clone()
+            .input(Input::new(0), share * snap)
+            .equilibrium();
+        match found {
+            Ok(state) => {
+                let [x, y] = [0, 1].map(|i| state.coordinates[i]);
+                let force =
+                    8.854_187_812_8e-20 * (share * snap).powi(2) / (2.0 * (2e-6 + y - x).powi(2));
+                assert!((x / force - 1.0).abs() < 1e-9, "{share}: {x} {y}");
+                assert!((3.0 * y / force + 1.0).abs() < 1e-9, "{share}: {x} {y}");
+            }
+            Err(Error::NoEquilibrium { reason, .. }) => {
+                assert_eq!(reason, NotFound::Unbounded, "{share}");
+            }
+            Err(other) => panic!("{share}: {other}"),
+        }
     }
 }

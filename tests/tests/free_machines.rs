@@ -6,6 +6,8 @@ mod along;
 mod common;
 #[path = "free_machines/families.rs"]
 mod families;
+#[path = "free_machines/members.rs"]
+mod members;
 #[path = "free_machines/random.rs"]
 mod random;
 #[path = "free_machines/reference.rs"]

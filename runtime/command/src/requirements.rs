@@ -23,9 +23,9 @@ macro_rules! require_keys {
   quantity = "frequency"         #   "damping_ratio" or "growth"
   output = "angle"               #   an output of the declaration
   critical = "speed=0..6000rpm"  #   the speed at which the equilibrium loses its stiffness
-  resonance = "speed=0..6000rpm" #   with mode: the speed at which its frequency is order (1) times the speed
+  resonance = "speed=0..6000rpm" #   with mode: the lowest speed at which its frequency is order (1) times the speed
   order = 1
-  flutter = "speed=0..6000rpm"   #   with mode: the speed at which it begins to grow
+  flutter = "speed=0..6000rpm"   #   with mode: the lowest speed at which it begins or ceases to grow
   stable = true                  #   the equilibrium is stable; without limits"#
     };
 }
@@ -156,11 +156,15 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         let found = range(study, text)?;
         Ok::<_, Failure>(Range::new(found.input.any(), found.low, found.high))
     };
+    // Which event is the first must not depend on the direction in which the range is written.
     let crossing = |condition, text: &str| {
+        let mode = mode()?;
+        let found = range(study, text)?;
+        let (low, high) = (found.low.min(found.high), found.low.max(found.high));
         Ok(Response::Crossing {
-            mode: mode()?,
+            mode,
             condition,
-            range: along(text)?,
+            range: Range::new(found.input.any(), low, high),
         })
     };
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {

@@ -86,7 +86,11 @@ impl<M: Kernels> Study<M> {
         let start = self.settings.assembled_start(&self.mechanism)?;
         let bounds = bounds.iter();
         let bounds = bounds.map(|(own, low, high)| (own.any(), *low, *high));
-        let bounds: Vec<_> = self.settings.held_bounds().chain(bounds).collect();
+        let bounds: Vec<_> = self
+            .settings
+            .held_bounds(&self.mechanism)
+            .chain(bounds)
+            .collect();
         Search::within(&self.settings.description, &start, &bounds)
     }
 

@@ -278,10 +278,14 @@ impl Settings {
         varied.map(|(i, _)| Input::new(i)).collect()
     }
 
-    /// Bounds of the unknowns that are held: their values.
-    pub(super) fn held_bounds(&self) -> impl Iterator<Item = (Coordinate, f64, f64)> {
-        let bounds = |held: &Held| (Coordinate::new(held.unknown), held.value, held.value);
-        self.holds.iter().map(bounds)
+    /// Bounds of the unknowns that are held or have declared steady values: these values.
+    pub(super) fn held_bounds(
+        &self,
+        mechanism: &dyn Kernels,
+    ) -> impl Iterator<Item = (Coordinate, f64, f64)> {
+        let bounds = |held: Held| (Coordinate::new(held.unknown), held.value, held.value);
+        let declared = declared(mechanism, &self.inputs, &self.design);
+        self.holds.iter().cloned().chain(declared).map(bounds)
     }
 
     /// A search for equilibria held as the study is; if there is none, `None` or only the equilibrium from `start`.

@@ -66,7 +66,7 @@ fn the_bent_branch_leads_to_the_hanging_one() {
     assert_eq!(only(&found).kind, SOFT);
     assert_eq!(
         ends(&found.branches[0]),
-        [&BranchEnd::Low, &BranchEnd::BranchPoint]
+        [&BranchEnd::High, &BranchEnd::BranchPoint]
     );
 }
 

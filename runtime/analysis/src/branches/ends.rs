@@ -40,7 +40,7 @@ impl Curve<'_> {
     }
 
     pub(crate) fn end_at(&self, bound: f64) -> BranchEnd {
-        if bound == self.settings.low {
+        if bound == self.settings.bounds().0 {
             BranchEnd::Low
         } else {
             BranchEnd::High

@@ -61,9 +61,9 @@ impl BranchPoint {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BranchEnd {
-    /// At the low end of the range.
+    /// At the low end of the range: its smaller value, in whichever direction it is given.
     Low,
-    /// At the high end of the range.
+    /// At the high end of the range: its larger value.
     High,
     /// At a branch point: an arm of a pitchfork begins or ends there, or nothing could be followed beyond it.
     BranchPoint,

@@ -1,5 +1,6 @@
 //! Probabilities of meeting requirements, and design points, as text.
 
+use core::f64::consts::TAU;
 use core::fmt;
 
 use super::judgement::verdict;
@@ -8,7 +9,7 @@ use crate::requirement::{
     Chances, DesignPoint, Edge, FailureProbability, Found, Limit, LimitReliability, Probabilities,
     RareFailure, Reliability, Requirement, Tally,
 };
-use crate::{Description, Unit};
+use crate::{Description, Text, Unit};
 use eigentol_results::numbers::{
     counted, given_in, heading, in_unit, or_dash, rough, short, with_unit,
 };
@@ -278,6 +279,25 @@ fn text(limit: &Limit, d: &Description) -> String {
 }
 
 fn edge_text(edge: &Edge, unit: &Unit) -> String {
+    let ends: &[f64] = match edge {
+        Edge::AtLeast(low) => &[*low],
+        Edge::AtMost(high) => &[*high],
+        Edge::Outside { low, high } => &[*low, *high],
+    };
+    let hertz = Unit {
+        symbol: Text::Static("Hz"),
+        scale: TAU,
+    };
+    // A limit given in Hz is a short number in Hz only.
+    let digits = |unit: &Unit| {
+        ends.iter()
+            .map(|end| given_in(*end, unit).len())
+            .sum::<usize>()
+    };
+    let unit = match &*unit.symbol == "rad/s" && digits(&hertz) < digits(unit) {
+        true => &hertz,
+        false => unit,
+    };
     let one = |end: f64| with_unit(given_in(end, unit), unit);
     match *edge {
         Edge::AtLeast(low) => format!("at least {}", one(low)),

@@ -29,6 +29,9 @@ pub fn critical_curvature(
 ) -> Result<EventCurvature, Error> {
     let at = &critical.equilibrium;
     let first = critical_sensitivity(mechanism, critical)?;
+    if !at.free.held.is_empty() {
+        return Err(none(NoDerivative::Family));
+    }
     let state = State {
         mechanism,
         critical,

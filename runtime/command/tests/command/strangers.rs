@@ -141,3 +141,194 @@ fn modes_equal_by_symmetry_share_a_spread() {
     );
     assert!(!out.contains("standard deviations apart"), "{out}");
 }
+
+/// A rod that goes round at twice the input on a shaft without torque; the shaft and its speed are free.
+const CONICAL: &str = "mechanism Conical {
+    input w: rad/s; design l = 0.8 m; gravity 9.81 m/s^2 along -z;
+    body shaft: rigid(mass: 1 kg, inertia: [0.1, 0.1, 0.1] kg*m^2);
+    body bar: rod(mass: 1 kg, length: l, along: -z);
+    joint spin: revolute(z) from ground to shaft, coasting;
+    joint tilt: revolute(y) from shaft to bar;
+    steady spin = 2 * w; }";
+
+/// The frequency of the rod, with `x = cos^2 tilt` and `k` the moment of the shaft by that of the rod.
+fn nodding(w: f64) -> f64 {
+    let k = 0.1 / (0.8 * 0.8 / 3.0);
+    let x = (1.5 * 9.81 / (0.8 * 4.0 * w * w)).powi(2);
+    2.0 * w * ((1.0 - x) * (1.0 + 4.0 * x / (k + 1.0 - x))).sqrt()
+}
+
+/// A tolerance of an input acts through the steady value that the input sets.
+#[test]
+fn tolerances_of_inputs_act_through_steady_values() {
+    let arguments = [
+        "--set",
+        "w=4rad/s",
+        "--start",
+        "tilt=0.9rad",
+        "--tol",
+        "w=5%",
+    ];
+    let more = ["--result", "first-order tolerances", "--csv"];
+    let out = declared(
+        "steady_tol",
+        CONICAL,
+        &[&["tolerance"], &arguments[..], &more].concat(),
+    );
+    let sigma = column(&out, "sigma of frequency [rad/s]").unwrap();
+    let slope = (nodding(4.0 + 1e-4) - nodding(4.0 - 1e-4)) / 2e-4;
+    let expected = slope.abs() * 4.0 * 0.05 / 3.0;
+    let near = |own: &f64| (own / expected - 1.0).abs() < 1e-7;
+    assert!(sigma.iter().any(near), "{expected}\n{out}");
+}
+
+/// A free motion is named once, not by numbers that it does not have.
+#[test]
+fn free_modes_are_named_once() {
+    let arguments = [
+        "sensitivities",
+        "--set",
+        "w=4rad/s",
+        "--start",
+        "tilt=0.9rad",
+    ];
+    let out = declared("free_once", CONICAL, &arguments);
+    assert!(out.contains("Mode 1 is free"), "{out}");
+    assert!(!out.contains("growth1"), "{out}");
+    assert!(!out.contains("No derivative"), "{out}");
+}
+
+/// Ends of branches are named by their values, whatever the direction.
+#[test]
+fn ends_of_branches_have_the_names_of_their_values() {
+    let text = "mechanism Line { input u: N; body p: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to p; force s: spring(on: x, stiffness: 9 N/m);
+        force f: generalized(on: x, value: u); }";
+    for (range, words) in [
+        ("u=0..2N", "low end of the range to high end of the range"),
+        ("u=2..0N", "high end of the range to low end of the range"),
+    ] {
+        let out = declared("line_ends", text, &["branches", "--sweep", range]);
+        assert!(out.contains(words), "{out}");
+    }
+}
+
+/// Damping orders modes by `|s|`, and the table says so where the frequencies look out of order.
+#[test]
+fn the_order_of_modes_is_explained() {
+    let damped = |damping: f64| {
+        let text = format!(
+            "mechanism Damped {{ body p: point(mass: 1 kg); body q: point(mass: 1 kg);
+             joint x: prismatic(x) from ground to p; joint y: prismatic(x) from ground to q;
+             force kx: spring(on: x, stiffness: 101633 N/m); force ky: spring(on: y, stiffness: 103000 N/m);
+             force dy: damper(on: y, damping: {damping} N*s/m); }}"
+        );
+        declared(&format!("damped_{damping}"), &text, &["modes"])
+    };
+    let words = "In the order of |s|";
+    assert!(damped(90.0).contains(words), "{}", damped(90.0));
+    assert!(!damped(1.0).contains(words), "{}", damped(1.0));
+}
+
+/// The standard normal distribution, by Simpson's rule.
+fn normal(z: f64) -> f64 {
+    let panels = 20_000;
+    let step = z / f64::from(panels);
+    let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt();
+    let weight = |k: i32| match k {
+        0 => 1.0,
+        k if k == panels => 1.0,
+        k => f64::from(2 + 2 * (k % 2)),
+    };
+    let value = |k: i32| weight(k) * density(f64::from(k) * step);
+    0.5 + (0..=panels).map(value).sum::<f64>() * step / 3.0
+}
+
+/// A sleeping top that was asked to stay falls where `C^2 w^2 < 4 A m g l`.
+#[test]
+fn probability_that_a_sleeping_top_falls() {
+    for (name, spin) in [
+        ("driven", "driven at w;"),
+        ("coasting", "coasting; steady spin = w;"),
+    ] {
+        let text = format!(
+            "mechanism Top {{ input w: rad/s; design C = 6e-4 kg*m^2 +/- 6%; gravity 9.81 m/s^2 along -z;
+             body shaft: massless;
+             body top: rigid(mass: 0.3 kg, inertia: [2e-3 kg*m^2, 2e-3 kg*m^2, C], center: [0, 0, 5 cm]);
+             joint tilt: universal(a: x, b: y) from ground to shaft;
+             joint spin: revolute(z) from shaft to top, {spin} }}"
+        );
+        let least = (4.0 * (2e-3 + 0.3 * 0.0025) * 0.3 * 9.81 * 0.05_f64).sqrt() / 68.0;
+        let expected = normal((least / 6e-4 - 1.0) / 0.02);
+        let arguments = [
+            "probability",
+            "--set",
+            "w=68rad/s",
+            "--stay",
+            "--require",
+            "stable",
+            "--csv",
+        ];
+        let out = declared(&format!("top_{name}"), &text, &arguments);
+        let found = column(&out, "probability of failure").unwrap()[0];
+        assert!((found / expected - 1.0).abs() < 0.01, "{expected}\n{out}");
+    }
+}
+
+/// The first event is that at the lowest value, in whichever direction the range is written; limits are printed in the
+/// unit in which they are given.
+#[test]
+fn first_events_and_units_of_limits() {
+    let text = "mechanism Band { input u: rad/s; design c = 10 rad/s +/- 3%; body p: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to p; force s: spring(on: x, stiffness: 900 N/m);
+        force f: generalized(on: x, value: -(0.1 kg*s/rad^2) * (u - c) * (u - 20 rad/s) * rate(x)); }";
+    let expected = normal((9.9 - 10.0) / 0.1);
+    for range in ["u=0..30rad/s", "u=30..0rad/s"] {
+        let wanted = format!("flutter 1 {range} >= 9.9 rad/s");
+        let arguments = [
+            "probability",
+            "--set",
+            "u=1rad/s",
+            "--require",
+            &wanted,
+            "--csv",
+        ];
+        let out = declared("band", text, &arguments);
+        let found = column(&out, "probability of failure").unwrap()[0];
+        assert!((found / expected - 1.0).abs() < 0.01, "{expected}\n{out}");
+    }
+    for (limit, words) in [
+        ("frequency 1 >= 4.5 Hz", "frequency 1 at least 4.5 Hz"),
+        ("frequency 1 >= 28 rad/s", "frequency 1 at least 28 rad/s"),
+        (
+            "frequency 1 outside 1..2 Hz",
+            "frequency 1 outside 1 Hz to 2 Hz",
+        ),
+    ] {
+        let arguments = ["probability", "--set", "u=1rad/s", "--require", limit];
+        let out = declared("band_unit", text, &arguments);
+        assert!(out.contains(words), "{out}");
+    }
+}
+
+/// Electrostatic pull-in across two micrometres: `V^2 = 8 k g^3 / (27 eps A)` at `x = g / 3`, and nothing beyond.
+#[test]
+fn pull_in_across_two_micrometres() {
+    let text = "mechanism PullIn { input v: 1; body plate: point(mass: 1e-9 kg);
+        joint x: prismatic(x) from ground to plate; force leaf: spring(on: x, stiffness: 1 N/m);
+        force field: generalized(on: x, value: (8.8541878128e-12 N) * (1e-8 m^2) * v^2 / (2 * (2 um - x)^2)); }";
+    let out = declared("pull_in", text, &["branches", "--sweep", "v=0..20"]);
+    let snap = (8.0 * 8e-18 / (27.0 * 8.8541878128e-20_f64)).sqrt();
+    let fold = out
+        .lines()
+        .find(|line| line.trim_start().starts_with("fold"));
+    let fold: Vec<&str> = fold.unwrap().split_whitespace().collect();
+    let near = |text: &str, value: f64| (text.parse::<f64>().unwrap() / value - 1.0).abs() < 1e-5;
+    assert!(near(fold[1], snap), "{out}");
+    assert!(near(fold[fold.len() - 1], 2e-6 / 3.0), "{out}");
+    let folder = crate::program::folder("pull_in_beyond");
+    let file = crate::program::file(&folder, "it.mechanism", text);
+    let beyond = run(&["modes", &file, "--set", "v=12"]);
+    assert!(beyond.code != 0, "{}", beyond.out);
+    assert!(beyond.err.contains("grows without bound"), "{}", beyond.err);
+}

@@ -6,7 +6,9 @@
 //! along the directions they leave free.
 
 use super::acceptance::{Candidate, Found, last_step};
-use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
+use super::convergence::{
+    Progress, SMALL_MOTION, TOLERANCE, Watch, horizon, largest_of, relative_residual,
+};
 use super::operating_point::{Failure, OperatingPoint};
 use super::search_space::{Base, SearchSpace, Trial};
 use crate::algebra::{
@@ -25,6 +27,9 @@ const FIRST_RADIUS: f64 = 1.0;
 pub(super) const GROWTH: f64 = 4.0;
 /// Displacement (rad or m) with which an unstable equilibrium or a singular configuration is left.
 pub(super) const DEPARTURE: f64 = 1e-3;
+/// Distance, as a share of a coordinate, and share of the stiffness left there, that tell a pole from an equilibrium.
+const BESIDE: f64 = 1e-5;
+const VANISHES: f64 = 1e-3;
 
 /// The current state of a search.
 pub(super) struct SearchState {
@@ -117,7 +122,10 @@ where
             };
             departures += 1;
             if departures > MAX_DEPARTURES {
-                let reason = NotFound::OnlyUnstable;
+                let reason = match grows_without_bound(point, &base.q) {
+                    true => NotFound::Unbounded,
+                    false => NotFound::OnlyUnstable,
+                };
                 return Err(failure(point, reason, &base.q, iterations));
             }
             let shape = base.space.lift(Vector::from(&curved.pairs.shapes[0]));
@@ -163,6 +171,26 @@ where
     }
     let reason = NotFound::IterationLimit;
     Err(failure(point, reason, &base.q, MAX_ITERATIONS))
+}
+
+/// Whether a force grows without bound where a search ended: the stiffness nearly vanishes a small share of a coordinate
+/// away. Such a state passes for an equilibrium, because any force moves it by rounding only.
+#[cold]
+pub(super) fn grows_without_bound(point: &OperatingPoint<'_>, q: &[f64]) -> bool {
+    let Some((residual, stiffness)) = point.evaluate(q) else {
+        return true;
+    };
+    let mut aside = Vector::from(q);
+    for i in 0..point.motions() {
+        let large = point.description.large(i);
+        let size = q[i].abs().clamp(SMALL_MOTION * large, large);
+        aside[i] += (BESIDE * size).copysign(-residual[i]);
+    }
+    let size = |stiffness: &Matrix| largest(stiffness.as_flattened());
+    let beside = point
+        .evaluate(&aside)
+        .map(|(_, stiffness)| size(&stiffness));
+    beside.is_some_and(|beside| beside < VANISHES * size(&stiffness))
 }
 
 /// The modes at a state where the potential is not convex.

@@ -2,10 +2,10 @@
 //!
 //! A wheel may roll in a circle of any size at any speed: the equations have more unknowns than independent rows. As
 //! many unknowns as the family has parameters are held at a value. Preferred are those that the user holds, then those
-//! with a declared value, then those with a start value, then the speeds of coasting coordinates. With `H y = c` for the held
-//! unknowns and columns `B` not orthogonal to the left null space, the bordered equations `g(y) + B mu = 0`, `H y = c`
-//! are regular. On a family they have a solution with `mu = 0` for every `c` nearby; at an equilibrium where the
-//! stiffness only happens to be singular they do not.
+//! with a declared value, then those with a start value, then the speeds of coasting coordinates. With `H y = c` for
+//! the held unknowns and columns `B` not orthogonal to the left null space, the bordered equations `g(y) + B mu = 0`,
+//! `H y = c` are regular. On a family they have a solution with `mu = 0` for every `c` nearby; at an equilibrium where
+//! the stiffness only happens to be singular they do not.
 
 use super::convergence::{StepsLeft, TOLERANCE, last, relative_residual};
 use super::finish::{Judged, finished};

@@ -166,6 +166,7 @@ fn from_afar(
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
             _ => nearest(point, start).map_err(|_| failure),
         })
+        .and_then(|found| bounded(point, found))
         .and_then(|found| finish(point, found))
         .map_err(|failure| match failure {
             Failure::NotFound {
@@ -173,6 +174,25 @@ fn from_afar(
             } if !structure.open() => unbalanced(point, coordinates).unwrap_or(failure),
             _ => failure,
         })
+}
+
+/// Refuses a state next to a pole of the forces.
+fn bounded(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> {
+    let q = &found.coordinates;
+    if !descent::grows_without_bound(point, q) {
+        return Ok(found);
+    }
+    let relative = point
+        .evaluate(q)
+        .map_or(f64::INFINITY, |(residual, stiffness)| {
+            relative_residual(point, q, &residual, &stiffness)
+        });
+    Err(Failure::NotFound {
+        reason: NotFound::Unbounded,
+        iterations: found.iterations,
+        relative,
+        coordinates: found.coordinates.to_vec(),
+    })
 }
 
 /// The equilibrium whose coordinates are the start values that were given, if these are those of one: it is the answer

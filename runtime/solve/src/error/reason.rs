@@ -27,6 +27,7 @@ reasons! {
     NotFound {
         Minimum = "the residual has a minimum that is not zero",
         OnlyUnstable = "only unstable equilibria",
+        Unbounded = "the search ended where a force grows without bound",
         NoDescent = "no descent from the last state",
         Escape = "the coordinates escape to infinity",
         IterationLimit = "too many iterations",
@@ -71,6 +72,7 @@ reasons! {
         Imperfection = "a design variable pushes along the critical mode and destroys the bifurcation",
         Cusp = "two limit points meet there",
         Transcritical = "another branch continues on both sides of it: second derivatives are available only at limit points and pitchforks",
+        Family = "it belongs to a family of steady motions: only first derivatives are available",
         NotSmooth = "it has a value there, but no derivative",
     }
 }

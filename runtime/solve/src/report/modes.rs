@@ -10,6 +10,9 @@ use eigentol_results::relevance::{COLUMNS, EVERYTHING, largest, names, relevant,
 use eigentol_results::table::{Table, cells};
 use eigentol_results::title::title;
 
+/// Relative difference of numbers that look alike in a table.
+const SAME_NUMBER: f64 = 1e-6;
+
 impl fmt::Display for Behaviour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -84,6 +87,16 @@ impl fmt::Display for Modes {
         }
         write!(f, "{table}")?;
         shapes.rest(f)?;
+        let falls = |values: Vec<f64>| {
+            values
+                .windows(2)
+                .any(|pair| pair[1] < pair[0] * (1.0 - SAME_NUMBER))
+        };
+        let frequencies = self.frequencies().into_iter().flatten().collect();
+        let natural = self.modes.iter().map(|mode| mode.s.norm()).collect();
+        if falls(frequencies) && !falls(natural) {
+            writeln!(f, "  In the order of |s|, the natural frequency.")?;
+        }
         if self.damping_ignored {
             writeln!(
                 f,

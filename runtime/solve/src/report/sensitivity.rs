@@ -163,39 +163,46 @@ impl fmt::Display for Sensitivities {
             title(&self.description, &self.inputs),
             self.method
         )?;
-        let numbers = 1..=self.modes.len();
-        let count = self.modes.len();
-        let mode = |column: usize| &self.modes[column % count.max(1)];
-        // A mode that does not oscillate has only a rate.
-        let first = |column: usize| match mode(column).of(Quantity::Frequency) {
-            None if !mode(column).clustered && mode(column).of(Quantity::Growth).is_some() => {
-                Quantity::Growth
-            }
+        // A mode that does not oscillate has only a rate, a free one not even that.
+        let first = |r: usize| match &self.modes[r] {
+            mode if mode.oscillates() || mode.clustered => Quantity::Frequency,
+            mode if mode.of(Quantity::Growth).is_some() => Quantity::Growth,
             _ => Quantity::Frequency,
         };
-        let heading = |r: usize| match first(r - 1) {
-            Quantity::Growth => format!("growth{r} [1/s]"),
-            _ => format!("omega{r} [rad/s]"),
-        };
-        let mut columns: Vec<String> = numbers.clone().map(heading).collect();
+        let (free, moving): (Vec<usize>, Vec<usize>) =
+            (0..self.modes.len()).partition(|&r| self.modes[r].is_free());
+        let mut shown: Vec<(usize, Quantity)> = moving.iter().map(|&r| (r, first(r))).collect();
         if self.family == Family::General {
-            columns.extend(numbers.map(|r| format!("damping ratio {r}")));
+            let oscillating = moving.iter().filter(|&&r| first(r) == Quantity::Frequency);
+            shown.extend(oscillating.map(|&r| (r, Quantity::DampingRatio)));
         }
+        let heading = |&(r, quantity): &(usize, Quantity)| match quantity {
+            Quantity::Growth => format!("growth{} [1/s]", r + 1),
+            Quantity::DampingRatio => format!("damping ratio {}", r + 1),
+            _ => format!("omega{} [rad/s]", r + 1),
+        };
+        let columns: Vec<String> = shown.iter().map(heading).collect();
         let value = |column: usize, j| {
-            let quantity = match column < count {
-                true => first(column),
-                false => Quantity::DampingRatio,
-            };
-            let slopes = mode(column).of(quantity)?;
+            let (r, quantity) = shown[column];
+            let slopes = self.modes[r].of(quantity)?;
             pick(&slopes.by_input, &slopes.by_design, j)
         };
-        let clustered = |column| mode(column).clustered;
+        let clustered = |column: usize| self.modes[shown[column].0].clustered;
         let table = Derivatives {
             description: &self.description,
             inputs: &self.inputs,
             columns,
         };
         table.write(f, value, clustered)?;
+        let numbers: Vec<String> = free.iter().map(|r| (r + 1).to_string()).collect();
+        let says = "free: zero at every design, without derivatives";
+        match &numbers[..] {
+            [] => {}
+            [one] => writeln!(f, "  Mode {one} is {says}.")?,
+            [others @ .., last] => {
+                writeln!(f, "  Modes {} and {last} are {says}.", others.join(", "))?;
+            }
+        }
         undamped(f, self.family, &self.description)?;
         for (r, mode) in self.modes.iter().enumerate() {
             if mode.clustered {

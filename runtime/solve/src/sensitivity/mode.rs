@@ -115,8 +115,14 @@ impl ModeSensitivity {
     }
 
     /// Whether the mode oscillates.
-    fn oscillates(&self) -> bool {
+    pub(crate) fn oscillates(&self) -> bool {
         self.value.im > 0.0
+    }
+
+    /// Whether its eigenvalue is zero for every input and design.
+    pub(crate) fn is_free(&self) -> bool {
+        let still = |slopes: &Slopes<Complex>| slopes.iter().all(|slope| slope == Complex::ZERO);
+        self.value == Complex::ZERO && self.general.as_ref().is_some_and(still)
     }
 
     /// Empty derivatives, to be overwritten.

@@ -74,10 +74,17 @@ pub(crate) fn require_determinate_motion(
                 "remove it, or let it hold between things that move against each other",
             );
         } else if !kernels_only {
+            let steady = &context.mechanism.steady;
+            if steady.iter().any(|own| own.coordinate == coordinate(k)) {
+                continue;
+            }
             diagnostics.error_with_help(
                 name(k).span(),
                 format!("nothing determines the speed of `{}`", name(k)),
-                "drive it, or let a constraint or a damper decide how fast it runs",
+                format!(
+                    "drive it, let a constraint or a damper decide how fast it runs, or declare its speed: `steady {} = value;`",
+                    name(k)
+                ),
             );
         } else if !undetermined.contains(&coordinate(k)) {
             undetermined.push(coordinate(k));

@@ -66,6 +66,8 @@ const MOST_POINTS: usize = 50_000;
 const RESOLUTION: f64 = 1e-10;
 /// Share of the range behind a critical state at which the equilibrium that follows is sought.
 const BEHIND: f64 = 1e-6;
+/// Share of the range within which a critical state at the end is the last one found.
+const SAME: f64 = 1e-9;
 /// Assurance below which a mode counts as not recognised, and a state between is sought.
 const RECOGNISED: f64 = 0.8;
 /// Maximum number of times the way to a state is halved to recognise its modes.
@@ -238,6 +240,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let begin = self.route.points.len();
         let mut next = None;
         let mut reached = station.clone();
+        let mut stiff = false;
         let walk = curve.walk(
             &station,
             &station.place,
@@ -245,6 +248,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                 ControlFlow::Continue(pass) => {
                     if pass == Pass::On {
                         reached = after.clone();
+                        stiff = before.stiff();
                     }
                     pass
                 }
@@ -266,7 +270,16 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         }
         let (value, from) = (reached.place.p, reached.place.q.clone());
         match walk.end {
-            end if end == curve.end_at(self.settings.high) => Next::Done,
+            end if end == curve.end_at(self.settings.high) => {
+                if let Some(end) = walk.points.last() {
+                    let stiff = match reached.place.p == self.settings.high {
+                        true => stiff,
+                        false => reached.stiff(),
+                    };
+                    self.critical_at_end(&curve, &end.equilibrium, &reached, stiff);
+                }
+                Next::Done
+            }
             BranchEnd::BranchPoint => self.behind(value, &from),
             end => Next::Seek(value, from, reason(&curve, end, &reached.equilibrium)),
         }
@@ -287,6 +300,33 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             && let Ok(special) = curve.degenerate(&place, tangent, zero)
         {
             self.critical(special, Change::Pass, false);
+        }
+    }
+
+    /// The end itself lacks stiffness; `stiff` if there was some before.
+    fn critical_at_end(
+        &mut self,
+        curve: &Curve<'_>,
+        end: &Equilibrium,
+        beside: &CurvePoint,
+        stiff: bool,
+    ) {
+        let Stability::Neutral { zero } = end.stability else {
+            return;
+        };
+        let place = CurvePosition {
+            q: end.coordinates.clone(),
+            p: self.settings.high,
+        };
+        let Continuation { low, high, .. } = *self.settings;
+        let near = |own: &CriticalState| (own.value - high).abs() <= SAME * (high - low).abs();
+        let known = self.events.critical.last().is_some_and(near);
+        if self.wanted.critical
+            && !known
+            && let Ok(special) = curve.degenerate(&place, (&beside.frame, &beside.tangent), zero)
+            && zero > special.equilibrium.free.count()
+        {
+            self.critical(special, Change::Pass, stiff);
         }
     }
 
@@ -627,8 +667,8 @@ fn reason(curve: &Curve<'_>, end: BranchEnd, last: &Equilibrium) -> Error {
     }
 }
 
-/// Whether an event at an end of the range counts: growth of a motion must begin or end within the range, or begin at
-/// its very end.
+/// Whether an event at an end of the range counts: growth of a motion must begin or end within the range, or beyond one
+/// of its ends, at which other motions are damped.
 fn counts(condition: Condition, change: Change, node: &Node, (first, last): (bool, bool)) -> bool {
     if matches!(condition, Condition::Line(_)) || !(first || last) {
         return true;
@@ -637,7 +677,7 @@ fn counts(condition: Condition, change: Change, node: &Node, (first, last): (boo
     let undamped = modes.all(|mode| mode.s.re.abs() <= mode.error);
     match change {
         Change::Onset => first || !undamped,
-        Change::End => last,
+        Change::End => last || !undamped,
         Change::ToDivergence | Change::ToFlutter => true,
         _ => false,
     }
