@@ -1,5 +1,27 @@
 //! Operation counts of the generated code for a chain of `n` bars on a spinning shaft, with the length and the mass of
 //! every bar as design variables, and for a robot arm.
+//!
+//! # What this costs
+//!
+//! Graph nodes except inputs, outputs and constants (pinned by `tests/tests/operation_counts.rs`), beside CasADi 3.8
+//! when an expert types in closed forms of both matrices. For a chain of n bars with lengths and masses as design
+//! variables, "model" is the residual with the upper triangles of `Mhat` and `Khat`, "gradient" that of one mode's
+//! functional by coordinates and design, "all" the model with its partial derivatives by both.
+//!
+//! | n | model | typed | gradient | typed | all | typed |
+//! | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+//! | 2 | 59 | 62 | 181 | 146 | 207 | 227 |
+//! | 4 | 180 | 197 | 463 | 487 | 845 | 992 |
+//! | 8 | 512 | 671 | 1027 | 1719 | 3603 | 4738 |
+//! | 16 | 1560 | 2435 | 2155 | 6391 | 17503 | 25350 |
+//! | 32 | 5192 | 9227 | 4411 | 24567 | - | - |
+//!
+//! A robot arm of seven joints (`tests/truth/panda_arm.json`), beside CasADi on recursions in each body's frame:
+//!
+//! | | inverse dynamics | mass matrix | stiffness at rest | all derivatives along a motion |
+//! | --- | ---: | ---: | ---: | ---: |
+//! | compiled | 701 | 382 | 183 | 3196 |
+//! | CasADi | 810 | 485 | 1175 | 6480 |
 
 use eigentol_compiler::algebra::{Cost, Function, cost, regroup};
 use eigentol_compiler::base::ids::ExprId;

@@ -1,4 +1,11 @@
 //! An answer: results as readable text, tables or documents.
+//!
+//! # What is not shown is not computed
+//!
+//! A command asks for the results its form will show (`Answer::shown`), and second derivatives of all modes share the
+//! motion of the state: one factorisation and one pass over the kernels per direction, then blocks of modes
+//! (`second_order/`). `tolerance` of 150 storeys took 29 s and takes 2.1 s; only its first-order table, 0.2 s.
+//! `tests/runtime/chance/work.rs` counts the kernels that each question calls.
 
 use std::fmt::Display;
 

@@ -1,4 +1,10 @@
 //! An executable kernel: operations on numbered registers.
+//!
+//! # Interpreted mechanisms
+//!
+//! `runtime/interpreter` groups equal operations of a kernel into runs (`schedule.rs`) and numbers their values, so
+//! that one dispatch serves many operations (`tape.rs`). One tape serves numbers, dual numbers, intervals and processor
+//! vectors.
 
 use std::collections::HashMap;
 

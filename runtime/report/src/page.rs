@@ -1,4 +1,13 @@
 //! The page: head, sections in order, scripts.
+//!
+//! # A report is words, tables and data for a small program
+//!
+//! `runtime/report` asks a study each question once (`content.rs`); from there on nothing is generic. Words and tables
+//! are HTML, so a page without scripts still says everything. Figures and the scene are JSON beside them, and
+//! `assets/*.js` draw them: charts as SVG, the mechanism on a canvas from back to front. Text enters the page through
+//! one type that escapes it (`html.rs`), and in the scripts only as text; a content security policy forbids the page to
+//! load anything. The tests drive Chromium over the DevTools protocol, a WebSocket and JSON, because crates for this
+//! generate and build the whole protocol.
 
 use crate::content::Content;
 use crate::html::Html;

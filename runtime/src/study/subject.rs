@@ -1,6 +1,12 @@
 //! The operand of a question: kernels and settings without the mechanism's type, so that each question is compiled only
 //! once. If inputs have tolerances, the kernels are those of the mechanism with the input deviations as additional
 //! design variables.
+//!
+//! # Questions are not generic
+//!
+//! A method of `Study<M>` converts values to SI and passes on a `Subject`, a table of kernels and the settings
+//! (`study/subject.rs`), so the library compiles each question once, not once per mechanism. If an input has a
+//! tolerance, the subject holds the table with deviating inputs.
 
 use super::settings::Settings;
 use super::{Solved, Study};

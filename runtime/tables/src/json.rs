@@ -32,6 +32,18 @@
 //!   `"Infinity"` and `"-Infinity"`. A `description` of `null` inside the result means the description of the document.
 //! - `lengths` is a hexadecimal hash of the lengths of all lists in `description` and `result`; [`read`] uses it to
 //!   reject documents whose lists no longer match. Other programs can ignore it.
+//!
+//! # Storage
+//!
+//! The feature `serde` writes results in SI, in the words of their types, and reads the same bits back;
+//! `runtime/tables` makes documents of them that add names, units and tables. A new result derives serde's traits, uses
+//! `serial::exact` for numbers that may be infinite, and gets tables; `tests/tests/serial.rs` finds any type that
+//! cannot be written.
+//!
+//! # Documents agree with themselves
+//!
+//! Reports index one list of a result by another. A document therefore carries a number made from the lengths of all
+//! its lists, and a document whose lists are divided differently is refused when it is read.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};

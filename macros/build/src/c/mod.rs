@@ -7,6 +7,15 @@
 //! They read their arguments by value before they write a result. No reference to C memory ever exists, so arrays may
 //! overlap; the caller is only responsible for the lengths. All of the unsafe code is in the text that is generated
 //! here, in a module of the user's crate.
+//!
+//! # C gets copies
+//!
+//! The functions of `macros/build/src/c` read arguments by value before they compute and write after it, so no
+//! reference to C memory ever exists: arrays may overlap, and the caller answers only for their lengths. A null pointer
+//! returns the argument's position. The functions are made from a table of the contract, not from the emitter's text. A
+//! static library without the standard library needs link-time optimisation: core itself is compiled to unwind, and its
+//! unused parts would ask for the unwinder. It must not share features with packages that use the standard library, so
+//! `examples/c` is outside the workspace.
 
 mod constants;
 mod function;

@@ -1,5 +1,10 @@
 //! Regroups sums and products to need fewer operations: common factors are taken out of sums, and products that
 //! share a pair of factors share its product.
+//!
+//! # Sums and products are regrouped
+//!
+//! Before a kernel is lowered, common factors are taken out of sums, and products with a pair of factors in common
+//! share its product (`algebra/regroup.rs`). Each kernel is regrouped by itself, and only if that makes it cheaper.
 
 mod products;
 mod rebuild;

@@ -3,6 +3,15 @@
 //! Operators of expressions are small values that are copied and compared. The points of a curve are therefore stored
 //! once and kept for the lifetime of the program, as compilers do with interned names: the same curve takes no extra
 //! memory when it is used again.
+//!
+//! # Curves are one operation
+//!
+//! A curve through points is a natural cubic spline: a graph node whose derivative is a node of the same kind, one
+//! order higher, or zero where the spline has no such derivative (`base/spline.rs`). Generated code passes
+//! `Real::spline` a constant list of pieces and finds the piece by counting, without a branch: one line of code for any
+//! length, where pieces in the kernels would cost each as many operations as points. Straight pieces beyond both ends
+//! define the equations for every argument, so solvers may look there; a physical requirement rejects results there
+//! (`mechanics/checks/requirements.rs`).
 
 use std::cmp::Ordering;
 use std::fmt;

@@ -1,4 +1,9 @@
 //! Unit names and their SI values: the user writes the units of the drawing, the compiler computes in SI.
+//!
+//! # Hz is an angular unit
+//!
+//! 1 Hz = 2 pi rad/s: in this field a frequency counts cycles of a rotation or a vibration. An inverse time without
+//! that factor is written `1/s`.
 
 use std::f64::consts::PI;
 

@@ -19,6 +19,14 @@
 //! ```
 //!
 //! Method bodies are written as text and lexed once: building them token by token would cost more than the algebra.
+//!
+//! # Shape of the emitted code
+//!
+//! With debug information, rustc crashes on one block with thousands of plain `let`s. Bodies of up to 256 statements
+//! are plain `let`s; longer ones declare the names of a block at once, `let (a, b, ..,);`, and then assign them. Bodies
+//! are written as text and parsed once. Local variables end in an underscore, because rustc takes one spelt like a
+//! constant or unit struct of the user's module for that item. The mechanism itself is such a struct; a function of its
+//! name hides it where the trait is implemented.
 
 mod body;
 mod contract;

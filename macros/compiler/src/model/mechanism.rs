@@ -1,4 +1,11 @@
 //! The mechanism: tables of everything declared.
+//!
+//! # Joints are sequences of elementary motions
+//!
+//! Every joint is a list of turns, slides and screws about axes of the frame left by the motions before
+//! (`model/mechanism.rs`). One table row gives the motions of each kind and the equations by which it closes a loop
+//! (`model/resolve/joints/kinds.rs`); no later stage knows the kinds. A joint declared from the body to its parent is
+//! traversed backwards with opposite axes.
 
 use proc_macro2::Ident;
 

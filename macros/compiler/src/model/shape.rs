@@ -1,5 +1,11 @@
 //! The shapes, and everything that later stages need from one: its arguments, the values that must be positive, and its
 //! mass distribution.
+//!
+//! # Shapes are reduced to a spread of mass
+//!
+//! Rules, printing and `mechanics` see only a shape's arguments, which of them must be positive, and how its mass is
+//! spread about its centre: as a point, along a line, around an axis, over a box, as a ball or by a given tensor
+//! (`model/shape.rs`). The oracle must learn new shapes too.
 
 use std::rc::Rc;
 

@@ -4,6 +4,15 @@
 //! therefore computed where they are needed: depth first from the results, starting with the operand that needs more
 //! registers. Sines and cosines come first: no other value then has to survive the branch that they contain, and
 //! several are computed at once.
+//!
+//! # Order of the operations
+//!
+//! Sines and cosines that need no others come first, in one call, two in a vector (one by one in long kernels, where
+//! short code matters more). The rest is depth first from the results, the operand that takes more registers first
+//! (`program/schedule.rs`). LLVM orders what is left; of several orders none was more than a tenth faster. Results are
+//! assembled at the end; more than four thousand partial derivatives, which would then be written twice, are stored one
+//! by one into a variable set to zero (`emit/results.rs`). The caller may keep it for the next evaluation
+//! (`linear_partials_into`), which then writes no zeros.
 
 use crate::algebra::{Graph, Node, Reached, Unary};
 use crate::base::ids::ExprId;

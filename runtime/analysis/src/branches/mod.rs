@@ -3,6 +3,13 @@
 //!
 //! A branch is followed by pseudo-arclength continuation in `(q, u_k)`, so that it can turn back at limit points.
 //! Special points are located to rounding accuracy, and at branch points the other branch is followed as well.
+//!
+//! # Branches
+//!
+//! Sweeps follow the stable equilibrium from point to point; `branches/` follows curves of equilibria wherever they go.
+//! Branch points are located as saddles of the reduced (Lyapunov-Schmidt) function of the critical mode and the input,
+//! regular at pitchforks and transcritical points alike, where the eigenvalue along the branch loses half of its
+//! digits.
 
 mod bordered;
 mod branch_point;

@@ -1,5 +1,16 @@
 //! Second-order theory: the quadratic dependence of frequencies, outputs and critical values on tolerances, and the
 //! exact distribution of such a quadratic model.
+//!
+//! # Second derivatives differentiate the adjoint
+//!
+//! The gradient of a mode or an output is one reverse pass. Its derivative along the motion of equilibrium, shapes and
+//! eigenvalue with one variable is one forward pass over it, with its kernels in dual numbers
+//! (`second_order/adjoint.rs`). A Hessian costs as many of these as there are variables and comes out symmetric by
+//! itself, so its asymmetry measures rounding and is reported as a check. A crossing has the second derivatives of its
+//! mode. Where `Khat` is singular this fails, and a critical value is differentiated along what remains: the curve of
+//! limit points, or the branch that a pitchfork leaves, on which `w^T Khat v` changes sign
+//! (`second_order/critical.rs`). A transcritical point would need third derivatives of the residual, so it is sampled
+//! instead.
 
 mod adjoint;
 mod critical;

@@ -1,4 +1,9 @@
 //! Names and lists that are constants of generated code or belong to a mechanism read at run time.
+//!
+//! # Names are shared
+//!
+//! A `Description` is a constant of generated code, or owned by a mechanism read at run time. `Shared` is either a
+//! `'static` reference or a counted one; without the standard library only the first exists.
 
 use core::fmt;
 use core::ops::Deref;

@@ -1,4 +1,11 @@
 //! Numbers with one derivative: evaluating a generated kernel in them differentiates it along any direction.
+//!
+//! # Directions in dual numbers
+//!
+//! The derivative of a kernel along a direction is the kernel itself in numbers with a slope (this file). Separate,
+//! symbolically derived kernels needed up to a fifth fewer operations, and a tenth less time for 32 bars though more
+//! for two; but they were more than half of the generated text, and rustc checks text at some 30 microseconds an
+//! operation, called or not.
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};

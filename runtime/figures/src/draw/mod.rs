@@ -1,4 +1,12 @@
 //! Drawing of a figure: title, legend in rows of its own so that it hides no data, panels, caption.
+//!
+//! # Figures are data first
+//!
+//! `runtime/figures` turns results into curves, bands, markers and captions in the units of the axes (`figure/`), and
+//! draws them separately (`draw/`); a report in a browser takes the same data. plotters draws both formats. SVG keeps
+//! words as text, in the reader's fonts. PNG needs its own font: plotters' `ab_glyph` reads it from a part of DejaVu
+//! Sans in the crate, without a system library; with the pixel backend and the crate `png` that is 17 more crates
+//! (`cargo tree`). PNG is a feature of the crate, which the command enables.
 
 mod area;
 mod axes;

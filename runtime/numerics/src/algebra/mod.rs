@@ -1,6 +1,15 @@
 //! Linear algebra on matrices whose size is known at run time: products, and one factorisation of each kind.
 //!
 //! Sums are formed in the order of the indices, so that results have the same bits on every machine.
+//!
+//! # Sizes are known at run time
+//!
+//! Vectors up to 8 entries and matrices up to 16 are stored inline, larger ones on the heap, so states of large
+//! mechanisms do not fill a stack. Rows are rows everywhere: `matrix[i][j]` is the derivative of residual `i`; sums are
+//! formed in the order of the indices. Results are written in their final place, because numbers just written are slow
+//! to copy. Partial derivatives of the matrices are one block (`kernels/partial_matrices.rs`). Inner loops take the
+//! size as an argument of inlined functions, and `for_size` calls them with small sizes as constants; where processor
+//! vectors make size matter more (`batched`), `for_size!` compiles them with arrays of that size.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"

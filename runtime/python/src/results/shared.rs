@@ -1,4 +1,11 @@
 //! Features common to all results: text, tables, and HTML for notebooks.
+//!
+//! # Python sees what Rust sees
+//!
+//! `runtime/python` wraps each result in one class (`results/shared.rs`): arrays by getters, text by its report, tables
+//! by `runtime/tables`. Every question releases the interpreter's lock. `eigentol.pyi` states the types by hand; a test
+//! compares it with the module. The crate, and so the workspace, builds without Python (stable interface, symbols left
+//! open).
 
 use std::fmt::Write;
 

@@ -1,5 +1,14 @@
 //! Constraints: the roles of the unknowns, the directions that constraints leave free, and which constraints are
 //! redundant.
+//!
+//! # Constraints make unknowns
+//!
+//! The array `q` of every kernel holds all unknowns of the steady motion: free coordinates, speeds of coasting
+//! coordinates, multipliers of constraints (`Role`). The residual has a row for each: equations of motion including
+//! constraint forces, then the constraints. Its `Khat`, `Chat`, `Mhat` are the bordered matrices, so every formula for
+//! derivatives, adjoint or not, first or second order, holds unchanged, and reactions are unknowns like any other:
+//! outputs, with sensitivities and tolerances. Only eigenproblems, stability, descent and counting along branches,
+//! which need a regular mass matrix or a definite stiffness, work in the directions that the constraints leave.
 
 mod rows;
 mod state;

@@ -6,6 +6,14 @@
 //! vectors `n_k` of the rows times the squares of their sizes, makes it regular again. Multiplied by `n_k^T` from the
 //! left, `Khat x = f` then gives `m_k^T mu = 0` where the constraints agree; solutions, eigenvalues and the rows of `H`
 //! are otherwise unchanged.
+//!
+//! # Redundant constraints fix a gauge
+//!
+//! Where constraint rows are dependent, the reactions along the dependency are free. Where `Khat` enters the runtime, a
+//! term for just these directions makes it regular and changes nothing else, because constraints that agree in a
+//! neighbourhood have no curvature along the dependency. Where they have curvature, the configuration is singular and
+//! is reported as such. The gauge yields as little to multipliers as the largest stiffness yields to forces: otherwise
+//! the rounding of its directions opens gaps under large reactions.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"

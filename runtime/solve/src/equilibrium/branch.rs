@@ -1,4 +1,10 @@
 //! Whether equilibria of neighbouring designs lie on one branch.
+//!
+//! # Another branch is a test of Newton's method, not of a distance
+//!
+//! A stable design belongs to the nominal branch if the straight way back to the nominal design keeps the stiffness
+//! regular and the state where Newton's method expects it (`equilibrium/branch.rs`), by halving where it does not at
+//! once. Samples, the summary and the judge count by this one test.
 
 use super::{OperatingPoint, Policy, SMALL_MOTION, solve};
 use crate::algebra::{Lu, Matrix, Vector};

@@ -4,6 +4,16 @@
 //! The search uses Newton's method where the potential is convex. Elsewhere it descends along every mode with the
 //! curvature made positive, and leaves saddles along the unstable mode. With constraints on positions the same holds
 //! along the directions they leave free.
+//!
+//! # The stable branch
+//!
+//! For a symmetric `Khat` the residual is the gradient of an amended potential. The solver descends it with shifted
+//! curvature and leaves saddles along the unstable mode, so it cannot end on an unstable equilibrium unnoticed. If it
+//! finds no stable one it returns the nearest, whose stability says what it is. A saddle that gyroscopic forces hold (a
+//! sleeping top) is kept when the search starts near it. Without a potential there is no descent, and the nearest
+//! equilibrium is the answer. Following the motion from a diverging one to where it comes to rest (pseudo-transient
+//! continuation) was tried: it finds the speeds at which drag holds carts that pull away, and lets a bicycle fall over
+//! that is to be studied upright.
 
 use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{

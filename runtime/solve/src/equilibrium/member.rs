@@ -6,6 +6,16 @@
 //! the held unknowns and columns `B` not orthogonal to the left null space, the bordered equations `g(y) + B mu = 0`,
 //! `H y = c` are regular. On a family they have a solution with `mu = 0` for every `c` nearby; at an equilibrium where
 //! the stiffness only happens to be singular they do not.
+//!
+//! # Families of steady motions
+//!
+//! If `Khat` has more null vectors than free directions, and neighbours along them are steady motions too, the state is
+//! a member of a family: a coin that rolls in a circle of any size. Which unknowns are held picks the member and what a
+//! derivative means, so it is part of the result (`FreeDirections::held`): those that the user or the declaration
+//! holds, then those with a start value, then speeds of coasting coordinates (`equilibrium/member.rs`). Values that a
+//! declaration gives (`steady`) are evaluated in dual numbers, so they need no kernels for their derivatives
+//! (`free/declared.rs`). Along a branch the border of its first state is kept (`Curve::place`): at a critical state the
+//! stiffness alone cannot tell the critical direction from the others.
 
 use super::convergence::{StepsLeft, TOLERANCE, last, relative_residual};
 use super::finish::{Judged, finished};

@@ -2,6 +2,15 @@
 //!
 //! These are the steps that [`descent`](super::descent) takes, as long as each passes its tests immediately. At the
 //! first one that fails, descent takes over with its methods for hard cases.
+//!
+//! # The straight way first
+//!
+//! Nearly every solve starts in the valley of its answer. `equilibrium/newton_fast_path.rs`, a short loop around the
+//! kernel, takes full Newton steps as long as each passes the tests of the descent. The descent continues from where
+//! they end, and hands back once it has left a region where the potential is not convex (from such a start the double
+//! pendulum takes 1.4 us, against 2.2 by descent alone). A sweep starts where its last states point (`prediction.rs`);
+//! only a state near the prediction counts, otherwise it starts from the last one. Between smoothly successive states
+//! whose least eigenvalue is far from zero, no critical state is sought.
 
 use super::Equilibrium;
 use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};

@@ -7,6 +7,14 @@
 //! micrometre in a metre: states found there are random, balanced to all digits by reactions of a million times the
 //! weight, and are no equilibria. The test is therefore not a residual, but how far rounding moves a state towards the
 //! singular configuration.
+//!
+//! # Residuals say nothing beside a singular configuration
+//!
+//! Reactions grow there as the inverse of the distance, and constraint gaps within rounding turn the free directions:
+//! any state within about a micrometre balances to all digits. The test is therefore how far rounding moves a result
+//! towards the singular configuration (error analysis in `equilibrium/regularity.rs`). If that is more than a
+//! thousandth of its distance, the state counts as singular and is an equilibrium if forces balance without the lost
+//! constraint directions; if not, the search continues downhill.
 
 use super::convergence::FLOOR;
 use super::operating_point::{Failure, OperatingPoint};

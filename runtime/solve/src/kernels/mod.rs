@@ -8,6 +8,16 @@
 //! # Panics
 //! Kernels may panic on a slice whose length does not match the mechanism: this is a bug in the caller. Values passed
 //! by users are checked first.
+//!
+//! # The contract has two layers
+//!
+//! `Mechanism` is what generated code implements: plain arrays, any scalar, no allocation, no standard library. Its
+//! sizes are associated array types (`Coordinates<T> = [T; 2]`), so one type names a mechanism. The solvers see only
+//! `Kernels`, an object-safe table over slices, which every `Mechanism` gets from one blanket implementation
+//! (`kernels/compiled.rs`) and an interpreted mechanism by interpretation. Five tables let a program compile only the
+//! kernels its questions need: `Kernels` for one state, `DirectionalKernels` in dual numbers for second derivatives,
+//! `BatchKernels` at eight states at once, `MotionKernels` for the nonlinear motion, `PictureKernels` for pictures.
+//! `Study<M>` and the typed handles are a thin generic shell; everything behind it is compiled once, in the library.
 
 mod batch;
 mod compiled;

@@ -13,6 +13,13 @@
 //!
 //! where `V` and `Y` complete `W` and `Z`. It has the other eigenvalues, and the symmetries of the first. A motion that
 //! is damped but not held (`W^T C Z` regular) has a single zero, which stays in the pencil.
+//!
+//! # Zeros are taken out exactly
+//!
+//! A motion that drifts has a double zero, which no solver finds to better than the root of rounding. With the free
+//! directions known, `modes/deflation.rs` writes the pencil of the other motions, with the same symmetries; its roots
+//! are as accurate as if the zeros had never been there. The rolling and coasting system of first order loses its zeros
+//! in the same way.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"

@@ -1,4 +1,12 @@
 //! One mode and its interpretation.
+//!
+//! # One type for every mode
+//!
+//! Undamped and general modes are the same `Mode`: an eigenvalue `s`, a right and a left vector, and their meaning. An
+//! undamped mode has `s^2 = -lambda`, one real vector that serves as both, and keeps `lambda`, which stays smooth where
+//! `s` has a root. Sensitivities, spreads, Monte Carlo, sweeps and crossings are written once. The compiler decides the
+//! family (`Chat` zero and `Khat` symmetric, or not), not the numbers at one state: a sweep that starts at rest keeps
+//! its family. `N` coordinates have `N` to `2 N` modes, because a real eigenvalue is a motion of its own.
 
 use crate::Complex;
 use crate::algebra::Vector;

@@ -1,5 +1,11 @@
 //! Gradients of the forms of the modes at one state: by reverse differentiation, with one kernel call each, or from
 //! explicit partial derivatives, which all modes share. A small mechanism has few partials, so they cost less.
+//!
+//! # The cheaper gradients
+//!
+//! The adjoint needs one gradient of a form per mode. For a small mechanism all explicit partials together cost less
+//! than a reverse pass per mode. The costs in the description settle the choice when a user's code is compiled
+//! (`sensitivity/gradients.rs`).
 
 use super::pencil::ComplexGradient;
 use crate::algebra::Matrix;

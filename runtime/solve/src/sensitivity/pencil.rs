@@ -1,4 +1,9 @@
 //! The quadratic pencil `s^2 Mhat + s Chat + Khat` between complex vectors, evaluated with the real kernels.
+//!
+//! # Complex modes, real kernels
+//!
+//! `psi^T (s^2 Mhat + s Chat + Khat) phi` is bilinear, so four calls of a real kernel (`pencil_gradient`) give its
+//! complex gradient. Generated code needs no complex numbers.
 
 use crate::algebra::{Values, Vector};
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear};

@@ -1,4 +1,13 @@
 //! Samples in parallel. The gathered results have the same bits for any number of threads and any split into ranges.
+//!
+//! # Runs in parts
+//!
+//! A sample is a function of seed, stream and index, and sums of 256 neighbours meet in a binary tree over the index
+//! (`eigentol_statistics::summary`), so statistics have the same bits for any split into ranges, order of merging and
+//! number of threads. Threads therefore share samples freely (`tolerance/gather.rs`, for modes and responses alike). A
+//! run is described by a list of facts, compared as text (`tolerance/fingerprint.rs`): names, values, what the kernels
+//! give at some states, tolerances, nominal state, method, seed. Parts are merged only where all facts agree; the first
+//! difference is named. Runs that will not be merged make no fingerprint.
 
 use core::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};

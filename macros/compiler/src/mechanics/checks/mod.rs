@@ -1,4 +1,10 @@
 //! Checks of the equations, and the properties that these establish.
+//!
+//! # The compiler decides zeros with error bounds
+//!
+//! Steady state, symmetry of `Khat` and the kind of `Chat` are evaluated at random states with a running bound on the
+//! rounding error; a fixed relative tolerance misjudges deep trees. Computed constants keep their bound, or the
+//! remainder of a cancelling sum would pass for a number.
 
 mod determinacy;
 mod freedom;

@@ -1,5 +1,12 @@
 //! Requirements on bodies and constraints at run time, for any design values: positive masses and lengths, and
 //! physically possible inertias.
+//!
+//! # Requirements travel with the kernels
+//!
+//! A negative mass gives finite but meaningless matrices. The compiler therefore emits `violation`, which names the
+//! first physical requirement that design values break; solvers and Monte Carlo call it first. Inertias are judged per
+//! group of bodies welded by fixed joints (`model/welded.rs`), not body by body. Similarly `pose_margin` tells how far
+//! a joint of three turns is from the pose in which its coordinates fail.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;

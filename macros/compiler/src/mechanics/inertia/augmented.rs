@@ -1,6 +1,12 @@
 //! Bodies augmented by the mass they carry. A joint that turns about its seat passes on the mass it carries as a point
 //! mass at the seat: the inertia force is this mass times the acceleration of the seat, plus a remainder that does not
 //! depend on the motion of the seat. Equations over augmented bodies are shorter, and so are their derivatives.
+//!
+//! # Augmented bodies
+//!
+//! A joint passes the mass it carries to the body before it as a point mass at its seat, and only that part of the
+//! force that does not depend on the seat's motion (`mechanics/inertia/augmented.rs`). The derivative of an equation by
+//! an angle then involves only the body that turns, not everything it carries.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;

@@ -2,6 +2,13 @@
 //!
 //! Only the poses of bodies depend on the position. Everything else is written in body frames, so that it depends at
 //! most on inputs and design and is usually constant; the kernel does not return constants.
+//!
+//! # Pictures are written in body frames
+//!
+//! Only the poses of bodies depend on the state; solids, joints and points are written in the frames that carry them
+//! and depend at most on the design. The kernel `picture` returns only the numbers that vary; `Mechanism::PICTURE`
+//! holds the constants, the names and the places of the computed numbers (`mechanics/kernels/picture.rs`). Callers that
+//! need no picture do not compile it.
 
 use crate::algebra::{Array, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{ExprId, JointId, PointId};

@@ -11,6 +11,11 @@
 //! Small rotations contribute in the same way, with the trace of the second moment about the centre of mass in place of
 //! `m`. For one body, `moment / size` is one on a circle in the sense of the spin, minus one on a circle against it,
 //! and zero on a line.
+//!
+//! # The sense of whirl is a kernel
+//!
+//! It depends on displacements and spins of bodies, which only the compiler knows: it emits `whirl` where a massive
+//! body is driven to turn (`mechanics/kernels/whirl.rs`).
 
 use crate::algebra::{Array, Direction, Function, Graph, Vector3, derivatives_along};
 use crate::base::ids::ExprId;

@@ -1,4 +1,12 @@
 //! Constraints between two frames, as equations for the position and orientation of one side relative to the other.
+//!
+//! # Constraints act as pairs of forces
+//!
+//! A geometric constraint is a list of equations, each with the force and moment that are its derivative by the
+//! relative velocity (`mechanics/loads/closure.rs`, `rolling.rs`); multipliers times these enter the recursion as
+//! loads. This makes the reactions of all joints right, costs O(n), and checks itself: `Khat` comes out symmetric only
+//! if the loads are the derivatives of the equations. Rotations are constrained as angles (`atan2`), not cosines, which
+//! excludes wrong-way solutions. Equations that always hold, as three of five do in a planar loop, are dropped.
 
 use crate::algebra::{Graph, Matrix3, Operator, Vector3};
 use crate::base::ids::PointId;

@@ -1,4 +1,10 @@
 //! The force laws: loads of the force elements on coordinates and bodies.
+//!
+//! # Forces of a pair stop at the last common ancestor
+//!
+//! The two ends of a spring between bodies do no work on joints nearer the ground; summing them there would leave
+//! rounding errors, which a stiff bearing makes visible (`mechanics/loads/forces.rs`). Rates of lengths and bushings
+//! are taken over the joints between the two ends (`mechanics/motion/tree.rs`), so a common drive leaves no trace.
 
 use crate::algebra::{Graph, Matrix3, Vector3, gradient};
 use crate::base::ids::{ExprId, ForceId, PointId};

@@ -3,6 +3,14 @@
 //! The layout determines the axes in which vectors are written. Forces, points and outputs use one common frame, which
 //! is the ground frame at the instant when all running coordinates are zero; inertia uses the axes that keep its
 //! equations short.
+//!
+//! # Running coordinates
+//!
+//! Nothing may depend on a coordinate that runs in steady motion, driven or coasting; one check proves it for both. The
+//! speed of a coasting coordinate is an unknown and its acceleration is the rate of that unknown, so rows for
+//! velocities and speeds need nothing special in the linearisation. A coasting planar joint has speeds along its turned
+//! axes (quasi-velocities, `mechanics/motion/kinematics.rs`), so heading and place drop out of the equations of a
+//! vehicle.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BodyId, ExprId};

@@ -1,4 +1,13 @@
 //! The data that every step of the derivation reads.
+//!
+//! # Two frames of reference
+//!
+//! Forces, points and outputs are written in the common frame: the ground frame when all driven coordinates are zero.
+//! Steady-state equations do not depend on the driven coordinates; once this is checked, these are set to zero, and no
+//! drive costs an operation. Inertia and weight have their own recursion over the same kinematics
+//! (`mechanics/inertia/newton_euler.rs`). Successive bodies that turn about the same axis form a run, written along the
+//! axes of the body before it; every other body is written along its own axes, in which its mass distribution is
+//! constant (`mechanics/setup/runs.rs`).
 
 mod context;
 mod coordinate;

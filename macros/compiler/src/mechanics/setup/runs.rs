@@ -7,6 +7,14 @@
 //!   behind it without turning them. The equations are derived in these angles and summed back at the end ([`Runs`]).
 //! - All vectors of a run, or of a body that coasts on a planar joint, are written in the axes of the body before it.
 //!   Any other body is written in its own axes, in which its mass distribution is constant.
+//!
+//! # Absolute angles
+//!
+//! The natural coordinates of a run are the absolute angles of its bodies, the sums of the joint angles: turning one
+//! body moves the bodies behind it without turning them. Inertia and weight are derived, linearised and differentiated
+//! in these angles; forces, matrices and their derivatives are summed back at the end, with one or two additions per
+//! entry (`Runs`). Forces and constraints stay in the declared coordinates, because cancelling contributions of a stiff
+//! spring would leave rounding errors.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;

@@ -1,4 +1,10 @@
 //! Force elements: the table of laws. Each family of laws has its own file.
+//!
+//! # "Every" means one force on each coordinate
+//!
+//! `every angle: spring(..)` is expanded where forces are resolved. Such forces do not keep a joint from being cut;
+//! those on a cut joint are dropped once the topology is known. After `kernels only` the derivation lists the
+//! coordinates that nothing resists or that move no mass (`Functions::undetermined`) instead of rejecting them.
 
 mod at_points;
 mod between_points;

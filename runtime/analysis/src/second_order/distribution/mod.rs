@@ -1,5 +1,10 @@
 //! The distribution of a quadratic form. For normal variables it is exact: a normal form and three ways to compute its
 //! probabilities. For other variables it comes from the form evaluated at many points.
+//!
+//! # Probability of a band
+//!
+//! "Corrected" means the exact distribution of the second-order model, by inversion of its characteristic function
+//! (Imhof, Davies), not a series: no negative probabilities, and an error bound beside the value.
 
 mod contour;
 mod davies;

@@ -3,6 +3,15 @@
 //! The only unsafe code of the project. It rests on one fact: values of the wider types exist only inside tasks that
 //! [`Avx2`] and [`Avx512`] run, and these two exist only if the processor was found to have the instructions; every
 //! x86-64 processor has SSE2.
+//!
+//! # Lanes are a scalar type
+//!
+//! A kernel runs in vectors because a processor vector is a `Real` (`scalar/x86`): every statement becomes one
+//! instruction for four or eight states, whatever LLVM's loop vectoriser makes of thousands of statements (it gives up
+//! where results need more than some 250 stores). Instructions chosen at run time reach only code inlined into the
+//! function that chose them, so these kernels have an inlined twin in the trait (`linear` calls `linear_inlined`), and
+//! everything there is `#[inline(always)]` and uses loops, not iterator adaptors. No operation is fused, and sine,
+//! cosine and powers are our own, so every instruction set gives the same bits.
 #![allow(unsafe_code)]
 
 mod eight;

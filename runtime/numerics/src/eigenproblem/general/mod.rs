@@ -6,6 +6,14 @@
 //! every error is estimated (`accuracy`), and eigenvalues that are still inaccurate are found by a second method
 //! (`aberth`). No library does this well enough: nalgebra's general Schur form is not bounded and has no vectors, and
 //! faer's left vectors fail where eigenvalues meet.
+//!
+//! # The quadratic pencil is solved as it is
+//!
+//! Its linearisation gives starting values; pairs are checked, and polished if necessary, on `s^2 Mhat + s Chat + Khat`
+//! itself, left and right, with a fallback method and an estimated error on every eigenvalue. That error decides what
+//! counts as zero: whether a mode is neutral, whether an oscillation keeps its amplitude. No library does this:
+//! nalgebra's nonsymmetric Schur form may not converge and has no vectors; faer's left vectors are wrong on degenerate
+//! matrices, and it builds for minutes.
 
 #![allow(
     clippy::needless_range_loop,

@@ -1,6 +1,13 @@
 //! One eigenvalue and its two vectors, found from the pencil itself: the triangular factors of a singular matrix reveal
 //! its null vectors, and Newton's method on the Rayleigh functional removes the rounding of the linearisation from the
 //! eigenvalue.
+//!
+//! # A pencil near a known one
+//!
+//! Damped modes of a sample are found one by one, starting from the nominal ones: a Newton step on the Rayleigh
+//! functional predicts each eigenvalue, and inverse iteration with the nominal vectors improves both, to third order
+//! (`eigenproblem/general/pair.rs`). The sum of all eigenvalues reveals when two converged to the same one. The same
+//! modes judge the stability. QR is the fallback.
 
 use num_complex::Complex64;
 

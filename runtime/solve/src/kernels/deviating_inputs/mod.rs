@@ -1,4 +1,11 @@
 //! Inputs that deviate from their set values: tolerances of inputs become tolerances of additional design variables.
+//!
+//! # Inputs that deviate are design variables
+//!
+//! A wandering speed adds a design variable, the deviation, which `kernels/deviating_inputs` presents as another table
+//! of kernels: no question knows of it, and each treats inputs like the design. Two questions compare a mode with an
+//! input that itself deviates: engine orders (`sweep/event_sensitivity.rs`) and bands around a speed
+//! (`second_order/forbidden_band.rs`); the table tells them which input a design variable is the deviation of.
 
 mod batch;
 mod deviations;

@@ -6,6 +6,15 @@
 //! ([`quadratic`]) or, with speeds or constraints on velocities, of first order in positions and independent velocities
 //! ([`first_order`]). Its vectors are completed with the reactions; every pair is measured, and its eigenvalue
 //! improved, on the bordered pencil itself ([`measure`]).
+//!
+//! # Modes with constraints
+//!
+//! Sensitivities work on the bordered matrices as they are; only the eigenproblem is reduced to the motions that
+//! constraints leave free (`modes/constrained`). Its vectors are completed by the reactions, left and right; every pair
+//! is measured, and its eigenvalue improved, on the bordered pencil itself. With speeds or constraints on velocities
+//! the reduced problem is of first order; the solver of the quadratic pencil takes it as the pencil `s I - F`, so
+//! clusters, defective roots and errors are treated alike. A mode may then move only speeds, or no mass at all: such
+//! modes are normalised by their largest component and compared by kinetic energy.
 
 mod first_order;
 mod measure;
