@@ -20,6 +20,7 @@ pub use eigentol_numerics::rounding::{Sign, of_elements, of_form, sign};
 const OF_DATA: f64 = 8.0 * f64::EPSILON;
 
 /// A state and its remaining residual.
+#[doc(hidden)]
 pub struct CheckedState<'a> {
     pub coordinates: &'a [f64],
     pub inputs: &'a [f64],

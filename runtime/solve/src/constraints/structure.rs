@@ -6,6 +6,7 @@ use crate::{Description, Role};
 
 /// Numbers of unknowns by role; unknowns and rows of the residual are both in this order ([`Role`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[doc(hidden)]
 pub struct Structure {
     #[doc(hidden)]
     pub coordinates: usize,

@@ -27,6 +27,7 @@ use crate::kernels::Linear;
 
 /// The directions that constraints leave free at one state.
 #[derive(Clone, Debug)]
+#[doc(hidden)]
 pub struct Tangent {
     pub(crate) structure: Structure,
     /// Number of directions in which the coordinates can move, `f`.

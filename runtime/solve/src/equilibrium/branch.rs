@@ -27,6 +27,7 @@ const ROUNDING: f64 = 1e-9;
 /// fail the second. Where the tests fail, the path between the two designs is bisected. Branches that meet where two
 /// stiffnesses vanish at once cannot be told apart. Upon a branch point the nominal equilibrium has no basin; the other
 /// one decides.
+#[doc(hidden)]
 pub struct Branch<'a> {
     mechanism: &'a dyn Kernels,
     nominal: &'a Equilibrium,

@@ -14,6 +14,7 @@ use crate::rounding::CheckedState;
 use crate::{DampingKind, Equilibrium, Mode, Stability};
 
 /// A finished state.
+#[doc(hidden)]
 pub struct Judged {
     #[doc(hidden)]
     pub state: Equilibrium,

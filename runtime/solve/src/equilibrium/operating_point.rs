@@ -12,6 +12,7 @@ use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, Role, Sha
 
 /// A mechanism at given inputs and design variables.
 #[derive(Clone)]
+#[doc(hidden)]
 pub struct OperatingPoint<'a> {
     #[doc(hidden)]
     pub mechanism: &'a dyn Kernels,

@@ -12,6 +12,7 @@ pub type Passed<'a> = (f64, &'a [f64]);
 
 /// The last states of the path, at most three.
 #[derive(Clone, Debug, Default)]
+#[doc(hidden)]
 pub struct Path {
     /// In a ring.
     states: [(f64, Vector); 3],

@@ -3,6 +3,7 @@
 
 /// A bracket `[low, high]` with the values of the function at both ends.
 #[derive(Clone, Copy, Debug)]
+#[doc(hidden)]
 pub struct Bracket {
     #[doc(hidden)]
     pub low: f64,

@@ -11,6 +11,7 @@ use crate::rounding::{self, CheckedState, Sign, of_form, sign};
 use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
 
 /// The judgement of a state.
+#[doc(hidden)]
 pub struct Verdict {
     #[doc(hidden)]
     pub stability: Stability,

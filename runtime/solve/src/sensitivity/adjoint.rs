@@ -32,6 +32,7 @@ pub fn sensitivities(
 }
 
 /// Computes [`sensitivities`] for a sequence of states.
+#[doc(hidden)]
 pub struct Adjoint<'a> {
     mechanism: &'a dyn Kernels,
     source: Source,

@@ -73,6 +73,7 @@ fn partials_at(mechanism: &dyn Kernels, at: &Equilibrium) -> PartialMatrices {
 }
 
 /// How the eigenvalue of a mode changes with its matrices: `lambda` for an undamped mode, `s` for a general one.
+#[doc(hidden)]
 pub struct Rate<'a> {
     family: Family,
     mode: &'a Mode,

@@ -16,6 +16,7 @@ use crate::{Complex, Mode};
 
 /// Where the gradients of all modes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[doc(hidden)]
 pub enum Source {
     /// Explicit partials of the matrices and of the residual.
     Partials,

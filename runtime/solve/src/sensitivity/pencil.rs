@@ -11,6 +11,7 @@ use crate::{Complex, Equilibrium, Mode};
 
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of its four
 /// vectors, in this order.
+#[doc(hidden)]
 pub struct Form {
     re: [Vector; 4],
     im: [Vector; 4],
@@ -59,6 +60,7 @@ impl Form {
 }
 
 /// A direction in coordinates, inputs and design variables.
+#[doc(hidden)]
 pub struct Direction {
     #[doc(hidden)]
     pub coordinates: Vector,

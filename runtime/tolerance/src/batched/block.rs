@@ -16,6 +16,7 @@ pub(crate) type Past<'a> = [Passed<'a>; 3];
 
 /// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input.
 /// Matrices are stored row by row.
+#[doc(hidden)]
 pub struct Block<'a> {
     pub values: Batch,
     pub(super) inputs: &'a mut [Batch],

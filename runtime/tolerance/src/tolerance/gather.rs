@@ -24,6 +24,7 @@ const ROUND: u64 = 4;
 const MOST: u64 = 64;
 
 /// How samples are processed, and who watches.
+#[doc(hidden)]
 pub struct Work<'a> {
     /// Number of threads; 0 for as many as the machine has.
     #[doc(hidden)]
@@ -43,6 +44,7 @@ pub struct Work<'a> {
 }
 
 /// Samples of one chunk to be solved.
+#[doc(hidden)]
 pub struct Part<'a, K> {
     #[doc(hidden)]
     pub group: usize,

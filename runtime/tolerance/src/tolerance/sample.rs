@@ -28,6 +28,7 @@ pub struct Sample {
 }
 
 /// The solution of a sample, in a workspace reused by the next one.
+#[doc(hidden)]
 pub struct Solution {
     #[doc(hidden)]
     pub outcome: Outcome,

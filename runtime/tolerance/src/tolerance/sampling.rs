@@ -11,6 +11,7 @@ use crate::scalar::WIDTH;
 pub(crate) type Bits = [u64; WIDTH];
 
 /// Draws designs in sequence, starting at a given sample.
+#[doc(hidden)]
 pub struct Draw<'a> {
     random: RandomNumbers,
     nominal: &'a [f64],

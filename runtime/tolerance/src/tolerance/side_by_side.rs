@@ -9,12 +9,14 @@ use crate::scalar::{Instructions, WIDTH};
 use crate::{Complex, Equilibrium, Error, Modes};
 
 /// Solves designs about a nominal state in vectors.
+#[doc(hidden)]
 pub struct SideBySide<'a> {
     prepared: Prepared<'a>,
     size: Size,
 }
 
 /// Workspace of one thread.
+#[doc(hidden)]
 pub struct Lanes(Memory);
 
 impl<'a> SideBySide<'a> {

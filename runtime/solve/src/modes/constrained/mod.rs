@@ -93,6 +93,7 @@ fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
 
 /// How the vectors of a mode are normalised.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
 pub enum Normalisation {
     /// `x^H Mhat x = 1`, with the leading component real and positive.
     Mass,
@@ -103,6 +104,7 @@ pub enum Normalisation {
 
 /// Number of first components among which the leading (largest) one is sought, for either vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
 pub struct Leading {
     #[doc(hidden)]
     pub right: usize,
