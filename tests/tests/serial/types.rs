@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Types that cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 31] = [
+const NOT_WRITTEN: [(&str, &str); 30] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
