@@ -1,7 +1,5 @@
 //! Methods of the runtime's contract, each with the variants that loops over vector lanes call.
 
-use std::ops::RangeInclusive;
-
 use crate::mechanics::KernelName;
 use crate::program::Kernel;
 
@@ -21,7 +19,7 @@ const INLINED: [KernelName; 7] = [
     KernelName::ResidualGradient,
 ];
 
-/// Kernels of any length for which `Real::run` selects the processor's instruction set: their values are needed
+/// Kernels for which `Real::run` selects the processor's instruction set at any length: their values are needed
 /// repeatedly and take three quarters to nine tenths of the time.
 const CHOSEN: [KernelName; 4] = [
     KernelName::LinearPartials,
@@ -30,9 +28,10 @@ const CHOSEN: [KernelName; 4] = [
     KernelName::ResidualGradient,
 ];
 
-/// Numbers of instructions for which selection pays in any other kernel: shorter kernels are up to a quarter slower
-/// with AVX, and since a kernel is compiled once per choice, longer ones would take too long to compile.
-const LONG: RangeInclusive<usize> = 1024..=2048;
+/// Number of instructions from which selection pays in any other kernel. With AVX a kernel takes a sixth to a quarter
+/// fewer instructions. That saves up to a third of the time beyond some 2000, which no longer fit the instruction cache;
+/// below 500 it saves little, below 200 nothing.
+const LONG: usize = 256;
 
 fn is_one_of(kernel: &Kernel, names: &[KernelName]) -> bool {
     KernelName::named(kernel.name).is_some_and(|name| names.contains(&name))
@@ -63,7 +62,7 @@ pub(super) fn method(kernel: &Kernel, form: Form) -> String {
 /// A body that runs with a suitable instruction set of the processor where that pays.
 fn run(kernel: &Kernel, body: &str) -> String {
     let count = kernel.instructions.len();
-    let chosen = is_one_of(kernel, &CHOSEN) || LONG.contains(&count);
+    let chosen = is_one_of(kernel, &CHOSEN) || count >= LONG;
     match chosen && count > 0 {
         true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
         false => format!("{{\n{body}\n}}\n"),

@@ -27,6 +27,7 @@ mod description;
 mod expression;
 mod form;
 mod held_values;
+mod lines;
 mod names;
 mod picture;
 mod pose_margin;
@@ -35,6 +36,8 @@ mod signature;
 mod sines;
 mod tolerance;
 mod violation;
+
+pub(crate) use lines::lines;
 
 use std::fmt::{Debug, Write};
 
