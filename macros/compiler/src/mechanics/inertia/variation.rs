@@ -223,6 +223,9 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
         return None;
     }
     taken(|| "variation: walks over bodies".into());
+    if context.runs.exist() {
+        taken(|| "variation: beside runs".into());
+    }
     let context = &Context {
         runs: &context.runs.apart(context.symbols),
         ..*context

@@ -146,10 +146,18 @@ impl Runs {
         self
     }
 
+    /// Whether there are runs.
+    pub(crate) fn exist(&self) -> bool {
+        self.continuing() > 0
+    }
+
     /// Whether half of the free coordinates or more continue a run.
     pub(crate) fn prevail(&self) -> bool {
-        let continuing = self.before.iter().flatten().count();
-        2 * continuing >= self.before.len().max(1)
+        self.exist() && 2 * self.continuing() >= self.before.len()
+    }
+
+    fn continuing(&self) -> usize {
+        self.before.iter().flatten().count()
     }
 
     /// No runs: every body in its own axes, and the unknowns themselves.
