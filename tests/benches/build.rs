@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut items, mut visits, mut short) = (String::new(), String::new(), String::new());
     for &bars in COMPARED[checked] {
         let name = format!("Chain{bars}");
-        write!(items, "{}", compiled(&name, bars)?.emit())?;
+        items += &compiled(&name, bars)?.emit_text();
         let visit = format!("visitor.visit({name});");
         if bars <= MOST_IN_LANES {
             short += &visit;
@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "/// The longest chain.\npub(crate) type Longest = Chain{longest};\n\
          /// Its number of bars.\npub(crate) const LONGEST: usize = {longest};"
     )?;
-    fs::write(folder.join("chains.rs"), in_lines(&items))?;
+    fs::write(folder.join("chains.rs"), items)?;
 
     let (mut items, mut visits) = (String::new(), String::new());
     for &bars in GROWN[checked] {
@@ -78,14 +78,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         items,
         "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}"
     )?;
-    fs::write(folder.join("growing.rs"), in_lines(&items))?;
+    fs::write(folder.join("growing.rs"), items)?;
     Ok(())
-}
-
-/// Puts each statement on its own line: rustc looks up the column of every operation, which takes time proportional to
-/// the line length.
-fn in_lines(items: &str) -> String {
-    items.replace("; ", ";\n")
 }
 
 fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
@@ -120,7 +114,7 @@ fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
         ));
     }
     compilation.program = lower(&functions.graph, &kernels);
-    let text = compilation.emit().to_string();
+    let text = compilation.emit_text();
     let (before, after) = text
         .split_once(":: eigentol :: Mechanism for")
         .ok_or("no contract in the emitted items")?;

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             for (k, declaration) in declarations(&file)?.into_iter().enumerate() {
                 let items = compile(declaration, Limits::default())
                     .map_err(|mistakes| mistakes.to_string())?
-                    .emit();
+                    .emit_text();
                 let folder = source.rsplit('/').next().unwrap_or_default();
                 let name = file.file_stem().unwrap_or_default().to_string_lossy();
                 let module = format!("{}_{name}_{k}", folder.trim_end_matches(".rs"));

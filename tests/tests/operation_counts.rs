@@ -20,7 +20,7 @@
 //!
 //! | | inverse dynamics | mass matrix | stiffness at rest | all derivatives along a motion |
 //! | --- | ---: | ---: | ---: | ---: |
-//! | compiled | 701 | 382 | 183 | 3196 |
+//! | compiled | 701 | 382 | 183 | 3191 |
 //! | CasADi | 810 | 485 | 1175 | 6480 |
 
 use eigentol_compiler::algebra::{Cost, Function, cost, regroup};

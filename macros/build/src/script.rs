@@ -21,7 +21,7 @@ pub fn try_compile(path: impl AsRef<Path>) -> Result<PathBuf, Error> {
     rerun_if_changed(path.as_ref());
     let source = Source::read(path.as_ref())?;
     let code = source.output("rs");
-    write(&code, &source.compilation.emit().to_string())?;
+    write(&code, &source.compilation.emit_text())?;
     Ok(code)
 }
 
@@ -56,8 +56,8 @@ pub fn try_compile_for_c(
         &interface.header(&source.path, &functions)?,
     )?;
     let code = source.output("rs");
-    let items = source.compilation.emit();
-    write(&code, &format!("{items}\n\n{}", interface.module()))?;
+    let items = source.compilation.emit_text();
+    write(&code, &format!("{items}\n{}", interface.module()))?;
     Ok(code)
 }
 

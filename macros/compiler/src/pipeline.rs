@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 
 use crate::algebra::{Function, regrouped};
 use crate::base::diagnostics::Diagnostics;
-use crate::emit::emit;
+use crate::emit::{emit, lines};
 use crate::mechanics::{Functions, KernelName, Limits, derive};
 use crate::model::mechanism::Mechanism;
 use crate::model::resolve::resolve_what_is_right;
@@ -109,6 +109,12 @@ impl Compilation {
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
         self.emit_with(str::parse)
+    }
+
+    /// The generated items as lines of text. Write these to a file, not [`emit`](Self::emit) on one line, on which rustc
+    /// takes minutes for a robot.
+    pub fn emit_text(&self) -> String {
+        lines(self.emit())
     }
 
     /// The generated items, tokenised by a custom lexer.

@@ -70,11 +70,21 @@ fn joints_of_several_motions() {
 }
 
 #[test]
-fn runs_are_differentiated() {
+fn a_run_between_other_joints() {
+    let entries = of_joints(
+        "joint a: revolute([0.2, 0, 1]) from ground to hub at [0.1, 0.2, 0] m;
+         joint b: revolute(y) from hub to arm at [l, 0, 0.2 m] rotated(x, 20 deg);
+         joint c: revolute(y) from arm to hand at [0.1, 0.2, 0.3] m;",
+    );
+    assert_eq!(entries, Some(17));
+}
+
+#[test]
+fn runs_that_prevail_are_differentiated() {
     let entries = of_joints(
         "joint a: revolute(y) from ground to hub;
          joint b: revolute(y) from hub to arm at [l, 0, 0.2 m];
-         joint c: revolute(z) from arm to hand;",
+         joint c: revolute(y) from arm to hand at [0.1, 0.2, 0.3] m;",
     );
     assert_eq!(entries, None);
 }

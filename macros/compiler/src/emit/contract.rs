@@ -2,15 +2,12 @@
 //!
 //! # AVX for plain numbers
 //!
-//! Some kernels of `f64` run with AVX where the processor has it (`Real::run`): not in wider vectors, but with a
-//! quarter fewer instructions and the same bits. These are gradients and partial derivatives of the matrices, which
-//! gain a tenth to a quarter of the time, and other kernels with 1024 to 2048 operations. AVX slows shorter ones by up
-//! to a quarter (six bars: 112 ns against 82 for the matrices); longer ones are left out because such kernels are
-//! compiled twice (`emit/contract.rs`). Kernels in one call share computations (`Mechanism::partials`, or residual and
-//! matrices where a solve ends): a sine is computed before testing that its angle is small enough, so that LLVM sees
-//! two equal ones.
-
-use std::ops::RangeInclusive;
+//! Kernels of `f64` with 256 operations or more, and gradients and partial derivatives of any length, run with AVX
+//! where the processor has it (`Real::run`): not in wider vectors, but with a sixth to a quarter fewer instructions and
+//! the same bits. Kernels too long for the instruction cache, those of robots along a motion above all, take up to a
+//! third less time, short ones the same. Each such kernel is compiled twice (`emit/contract.rs`). Kernels in one call
+//! share computations (`Mechanism::partials`, or residual and matrices where a solve ends): a sine is computed before
+//! testing that its angle is small enough, so that LLVM sees two equal ones.
 
 use crate::mechanics::KernelName;
 use crate::program::Kernel;
@@ -31,7 +28,7 @@ const INLINED: [KernelName; 7] = [
     KernelName::ResidualGradient,
 ];
 
-/// Kernels of any length for which `Real::run` selects the processor's instruction set: their values are needed
+/// Kernels for which `Real::run` selects the processor's instruction set at any length: their values are needed
 /// repeatedly and take three quarters to nine tenths of the time.
 const CHOSEN: [KernelName; 4] = [
     KernelName::LinearPartials,
@@ -40,9 +37,10 @@ const CHOSEN: [KernelName; 4] = [
     KernelName::ResidualGradient,
 ];
 
-/// Numbers of instructions for which selection pays in any other kernel: shorter kernels are up to a quarter slower
-/// with AVX, and since a kernel is compiled once per choice, longer ones would take too long to compile.
-const LONG: RangeInclusive<usize> = 1024..=2048;
+/// Number of instructions from which selection pays in any other kernel. With AVX a kernel takes a sixth to a quarter
+/// fewer instructions. That saves up to a third of the time beyond some 2000, which no longer fit the instruction cache;
+/// below 500 it saves little, below 200 nothing.
+const LONG: usize = 256;
 
 fn is_one_of(kernel: &Kernel, names: &[KernelName]) -> bool {
     KernelName::named(kernel.name).is_some_and(|name| names.contains(&name))
@@ -73,7 +71,7 @@ pub(super) fn method(kernel: &Kernel, form: Form) -> String {
 /// A body that runs with a suitable instruction set of the processor where that pays.
 fn run(kernel: &Kernel, body: &str) -> String {
     let count = kernel.instructions.len();
-    let chosen = is_one_of(kernel, &CHOSEN) || LONG.contains(&count);
+    let chosen = is_one_of(kernel, &CHOSEN) || count >= LONG;
     match chosen && count > 0 {
         true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
         false => format!("{{\n{body}\n}}\n"),

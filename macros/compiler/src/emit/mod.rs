@@ -26,7 +26,9 @@
 //! are plain `let`s; longer ones declare the names of a block at once, `let (a, b, ..,);`, and then assign them. Bodies
 //! are written as text and parsed once. Local variables end in an underscore, because rustc takes one spelt like a
 //! constant or unit struct of the user's module for that item. The mechanism itself is such a struct; a function of its
-//! name hides it where the trait is implemented.
+//! name hides it where the trait is implemented. Files get a line for each statement (`emit/lines.rs`): on one line
+//! rustc takes the square of its length, for a robot of 29 joints minutes. With that, its time is proportional to the
+//! operations, and longer kernels need not be cut.
 
 mod body;
 mod contract;
@@ -35,6 +37,7 @@ mod description;
 mod expression;
 mod form;
 mod held_values;
+mod lines;
 mod names;
 mod picture;
 mod pose_margin;
@@ -43,6 +46,8 @@ mod signature;
 mod sines;
 mod tolerance;
 mod violation;
+
+pub(crate) use lines::lines;
 
 use std::fmt::{Debug, Write};
 

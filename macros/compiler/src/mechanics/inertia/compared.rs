@@ -11,18 +11,19 @@ use crate::topology::Topology;
 use super::newton_euler::inertial_at;
 use super::variation::variation;
 
-/// Asserts that every entry equals the derivative of its equation, and counts the nonzero ones; `None` if the walks do
-/// not apply.
+/// Asserts that every entry equals the derivative of its equation, and counts the nonzero derivatives by positions and
+/// velocities; `None` if the walks do not apply. Where there are runs, the equations are written in them.
 pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let g = &mut Graph::new();
     let symbols = Symbols::new(g, mechanism, topology);
     let values = Values::new(g, mechanism, &symbols);
+    let runs = Runs::new(g, mechanism, topology, &values, &symbols);
     let context = Context {
         mechanism,
         topology,
         symbols: &symbols,
         values: &values,
-        runs: &Runs::new(g, mechanism, topology, &values, &symbols),
+        runs: &runs,
         rows: &[],
     };
     let running = vec![g.zero(); symbols.running.ids.len()];
@@ -30,10 +31,14 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     let found = variation(g, &context, &running)?;
     let free = topology.free.iter();
     let along: Vec<ExprId> = free.map(|id| loads.along[id.index()]).collect();
+    let along = runs.forces(g, &along);
+    let along = context.in_unknowns(g, &along);
     let mut exact = columns(g, &along, &symbols.q).concat();
     exact.extend(columns(g, &along, &symbols.velocity).concat());
-    let found = [found.by_position.concat(), found.by_velocity.concat()].concat();
-    let pairs = exact.iter().zip(&found);
+    let by_acceleration = columns(g, &along, &symbols.acceleration).concat();
+    let found = [found.by_position, found.by_velocity, found.mass].map(|matrix| matrix.concat());
+    let found = found.concat();
+    let pairs = exact.iter().chain(&by_acceleration).zip(&found);
     let differences: Vec<ExprId> = pairs.map(|(&one, &other)| g.sub(one, other)).collect();
     let evaluator = Evaluator::new(g, &differences);
     assert!(probe(&evaluator, &context).next().is_some());

@@ -11,7 +11,13 @@
 //! turning, linear and angular momentum `P` and `L` and the rate `D` of the second moment. For the next body outwards,
 //! `spin` and `growth` are the same and `acceleration` increases by `growth x d + 2 spin x dd/dt`, where `d` points
 //! from origin to origin. Thus each joint acts as a change of the motion of everything it carries, and each coordinate
-//! further out needs only one covector, obtained in one walk towards the ground.
+//! further out needs only one covector, obtained in one walk towards the ground. Part of the covector is the load of the
+//! mass matrix.
+//!
+//! Every body is written in its own axes here, and every entry is a derivative by an unknown, even if the equations
+//! themselves are written in runs: where only some joints form runs, as hip, knee and ankle of a walking robot do, the
+//! walks need half the operations of differentiation. Where runs prevail, as in a chain of bars, differentiation by
+//! absolute angles is far shorter, and nothing is tried.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -27,8 +33,9 @@ use super::composite::{Composite, Composites, accelerating, spun};
 use super::momentum::{Momentum, momenta, rates};
 use super::newton_euler::inertial;
 
-/// Columns of the derivatives of inertia minus weight by the unknowns.
+/// Columns of the derivatives of inertia minus weight by the unknowns: `mass` by their accelerations.
 pub(crate) struct Variation {
+    pub(crate) mass: Vec<Vec<ExprId>>,
     pub(crate) by_position: Vec<Vec<ExprId>>,
     pub(crate) by_velocity: Vec<Vec<ExprId>>,
 }
@@ -49,6 +56,11 @@ impl Change {
         g.sum([spin, growth, acceleration])
     }
 
+    /// The part of the covector that is a wrench, along an elementary motion.
+    fn load(&self, g: &mut Graph, axis: &StepAxis) -> ExprId {
+        axis.project(g, self.acceleration, self.growth)
+    }
+
     /// Transfers the covector from a body to its parent; `rate` is the velocity of the body's origin relative to the
     /// parent's.
     fn move_to_parent(&mut self, g: &mut Graph, motion: &BodyMotion, rate: Vector3) {
@@ -60,7 +72,7 @@ impl Change {
         let lever = motion.frame.offset.cross(g, self.acceleration);
         self.growth = self.growth.add(g, lever);
         let two = g.constant(2.0);
-        let carried = rate.cross(g, self.acceleration).scale(g, two);
+        let carried = rate.scale(g, two).cross(g, self.acceleration);
         self.spin = self.spin.add(g, carried);
     }
 }
@@ -181,7 +193,8 @@ impl Carried {
         let two = g.constant(2.0);
         let pushed = change.acceleration.scale(g, mass);
         let growing = change.growth.cross(g, first);
-        let spinning = change.spin.cross(g, self.momentum.linear).scale(g, two);
+        let linear = self.momentum.linear.scale(g, two);
+        let spinning = change.spin.cross(g, linear);
         let force = pushed.add(g, growing).add(g, spinning);
         let pushed = first.cross(g, change.acceleration);
         let growing = spun(g, second, change.growth);
@@ -194,26 +207,29 @@ impl Carried {
     /// The covector's `spin` part for the load along an elementary motion.
     fn asks_of_spin(&self, g: &mut Graph, step: &Step) -> Vector3 {
         let two = g.constant(2.0);
-        let pushed = self.momentum.linear.cross(g, step.velocity);
-        let pushed = pushed.scale(g, two);
+        let linear = self.momentum.linear.scale(g, two);
+        let pushed = linear.cross(g, step.velocity);
         let spreading = spun(g, self.momentum.second, step.turn);
         let turning = self.momentum.angular.cross(g, step.turn);
         pushed.add(g, spreading).add(g, turning)
     }
 }
 
-/// Derivatives of inertia minus weight by the unknowns with the running coordinates at `running`; `None` unless every
-/// body is written in its own axes and no coordinate coasts.
+/// Derivatives of inertia minus weight by the unknowns with the running coordinates at `running`; `None` if runs prevail
+/// or a coordinate coasts.
 pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) -> Option<Variation> {
     let topology = context.topology;
-    let mut layouts = topology
-        .branches
-        .iter()
-        .map(|branch| context.runs.layout.of(branch.body));
-    if !topology.coasting.is_empty() || layouts.any(|layout| !layout.own_axes) {
+    if !topology.coasting.is_empty() || context.runs.prevail() {
         return None;
     }
     taken(|| "variation: walks over bodies".into());
+    if context.runs.exist() {
+        taken(|| "variation: beside runs".into());
+    }
+    let context = &Context {
+        runs: &context.runs.apart(context.symbols),
+        ..*context
+    };
     let kinematics = &for_inertia(g, context, running, ForceSelection::ALL);
     let inertial = inertial(g, context, kinematics, ForceSelection::ALL);
     let bodies = augmented_bodies(g, context, kinematics, ForceSelection::ALL);
@@ -226,6 +242,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
 
     let n = context.symbols.q.ids.len();
     let mut this = Variation {
+        mass: vec![vec![g.zero(); n]; n],
         by_position: vec![vec![g.zero(); n]; n],
         by_velocity: vec![vec![g.zero(); n]; n],
     };
@@ -247,6 +264,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
             };
             let further = whole.wrench(g, &step.further);
             let turned = step.carry(g, &inertial.wrenches[index]);
+            this.mass[step.unknown][step.unknown] = asks.load(g, &step.axis);
             let mut loads = [further.add(g, turned), whole.wrench(g, &step.faster)];
             this.by_position[step.unknown][step.unknown] = asks.dot(g, &step.further);
             this.by_velocity[step.unknown][step.unknown] = asks.dot(g, &step.faster);
@@ -283,6 +301,8 @@ impl Variation {
         let k = step.unknown;
         for other in before {
             let i = other.unknown;
+            let mass = asks.load(g, &other.axis);
+            (self.mass[i][k], self.mass[k][i]) = (mass, mass);
             self.by_position[i][k] = asks.dot(g, &other.further);
             self.by_velocity[i][k] = asks.dot(g, &other.faster);
             let [by_position, by_velocity] =

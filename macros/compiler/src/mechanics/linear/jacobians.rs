@@ -34,8 +34,7 @@ impl Jacobians {
         // the acceleration of a coasting coordinate is the rate of an unknown
         let symmetric = context.topology.coasting.is_empty();
         let mass = runs.matrix(g, &mass, symmetric, &outward);
-
-        let [stiffness, damping] = of_inertia(g, context, e, &mass);
+        let [mass, damping, stiffness] = of_inertia(g, context, e, mass);
 
         let applied = &e.parts.applied;
         let applied_at_rest = at_rest(g, s, applied);
@@ -56,18 +55,19 @@ impl Jacobians {
     }
 }
 
-/// Stiffness and damping due to inertia and weight, with respect to the unknowns instead of the absolute angles. They
-/// are obtained by differentiation, or from the [`Variation`] of the equations if that takes fewer operations, counted
-/// together with the residual and with the mass matrix. The larger a mechanism is, the more surely the walks win: beyond
-/// [`COMPARED`] operations, differentiating only to compare would be most of the work of reading the declaration.
+/// Mass, damping and stiffness due to inertia and weight, with respect to the unknowns instead of the absolute angles. The
+/// last two are obtained by differentiation beside the given mass matrix. Or all three are taken from the [`Variation`] of
+/// the equations if that takes fewer operations, counted for stiffness with the residual and for all together. The larger
+/// a mechanism is, the more surely the walks win: beyond [`COMPARED`] operations, differentiating only to compare would be
+/// most of the work of reading the declaration.
 ///
 /// [`Variation`]: crate::mechanics::inertia::Variation
 fn of_inertia(
     g: &mut Graph,
     context: &Context,
     e: &Equations,
-    mass: &[Vec<ExprId>],
-) -> [Vec<Vec<ExprId>>; 2] {
+    mass: Vec<Vec<ExprId>>,
+) -> [Vec<Vec<ExprId>>; 3] {
     let (s, runs, inertial) = (context.symbols, context.runs, &e.parts.inertial);
     let outward = context.outward_order();
     let still = |g: &mut Graph, roots: &[ExprId]| {
@@ -83,14 +83,14 @@ fn of_inertia(
         columns.map(<[_]>::to_vec).collect()
     };
     let rest = still(g, inertial);
-    let operations = |g: &Graph, [stiffness, damping]: &[Vec<Vec<ExprId>>; 2]| {
-        let with_residual = [&rest[..], &stiffness.concat()].concat();
-        let with_mass = [mass.concat(), damping.concat(), stiffness.concat()].concat();
-        cost(g, &with_residual).operations + cost(g, &with_mass).operations
+    let operations = |g: &Graph, matrices: &[Vec<Vec<ExprId>>; 3]| {
+        let with_residual = [&rest[..], &matrices[2].concat()].concat();
+        let all = matrices.each_ref().map(|matrix| matrix.concat()).concat();
+        cost(g, &with_residual).operations + cost(g, &all).operations
     };
     let composed = e.variation.as_ref().map(|known| {
-        let [stiffness, damping] =
-            [&known.by_position, &known.by_velocity].map(|matrix| all_still(g, matrix));
+        let [damping, stiffness] =
+            [&known.by_velocity, &known.by_position].map(|matrix| all_still(g, matrix));
         // equations of outer coordinates are shorter when differentiated by inner ones than the other way round
         let stiffness = match is_symmetric(g, context, &stiffness) {
             true => {
@@ -99,7 +99,13 @@ fn of_inertia(
             }
             false => stiffness,
         };
-        let composed = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
+        let apart = &Context {
+            runs: &runs.apart(s),
+            ..*context
+        };
+        let [damping, stiffness] =
+            [damping, stiffness].map(|matrix| summed(g, apart, &matrix, &outward));
+        let composed = [known.mass.clone(), damping, stiffness];
         (operations(g, &composed), composed)
     });
     let composed = match composed {
@@ -109,7 +115,9 @@ fn of_inertia(
     let stiffness = columns(g, &rest, &runs.position);
     let damping = columns(g, inertial, &runs.velocity);
     let damping = all_still(g, &damping);
-    let differentiated = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
+    let [damping, stiffness] =
+        [damping, stiffness].map(|matrix| summed(g, context, &matrix, &outward));
+    let differentiated = [mass, damping, stiffness];
     match composed {
         Some((fewer, composed)) if fewer < operations(g, &differentiated) => {
             taken(|| "linearise: stiffness and damping by variation".into());

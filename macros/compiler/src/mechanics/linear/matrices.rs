@@ -113,7 +113,10 @@ impl Linear {
             }
         }
         let all = |g: &mut Graph, motion: &[ExprId], inertial: Option<&Variation>| {
-            let mut roots = self.mass.clone();
+            let mut roots = match inertial {
+                None => self.mass.clone(),
+                Some(known) => entries(n).map(|(i, j)| known.mass[j][i]).collect(),
+            };
             let inertial = inertial.map(|known| [&known.by_velocity, &known.by_position]);
             for (k, list) in [&s.velocity, &s.q].into_iter().enumerate() {
                 let mut columns = columns(g, motion, list);

@@ -2,16 +2,16 @@
 //!
 //! # Derivatives by differentiating the graph
 //!
-//! `Khat` and `Chat` are forward derivatives of the residual; no matrix product is expanded. If every body is written
-//! along its own axes, there is a second way to the inertial part (`mechanics/inertia/variation.rs`): a change of a
-//! joint's position or rate changes the motion of everything it carries as if that were rigid, and each coordinate
-//! behind it responds through one covector, part of which gives the entries of the mass matrix. The cheaper way is
-//! taken: for the arm's derivatives along a motion the second needs half the operations of differentiation, for its
-//! stiffness a third. (This is akin to the derivatives of S. Singh, R. P. Russell and P. M. Wensing, "Efficient
-//! analytical derivatives of rigid-body dynamics using spatial vector algebra", 2022.) The scalar `phi^T (Khat - lambda
-//! Mhat) phi` is one directional derivative of the residual, and its reverse-mode gradient gives all design derivatives
-//! of a mode at O(n) cost. A damped mode takes `psi^T (s^2 Mhat + s Chat + Khat) phi`, one more directional derivative,
-//! at the same cost (`mechanics/kernels/adjoint.rs`).
+//! `Khat` and `Chat` are forward derivatives of the residual; no matrix product is expanded. Where runs do not prevail,
+//! there is a second way to the inertial part, with every body along its own axes (`mechanics/inertia/variation.rs`): a
+//! change of a joint's position or rate changes the motion of everything it carries as if that were rigid, and each
+//! coordinate behind it responds through one covector, part of which gives the entries of the mass matrix. The cheaper
+//! way is taken: for derivatives along a motion the second needs half the operations of differentiation (an arm, a
+//! walking robot of 29 joints), for an arm's stiffness a third. (This is akin to the derivatives of S. Singh, R. P.
+//! Russell and P. M. Wensing, "Efficient analytical derivatives of rigid-body dynamics using spatial vector algebra",
+//! 2022.) The scalar `phi^T (Khat - lambda Mhat) phi` is one directional derivative of the residual, and its
+//! reverse-mode gradient gives all design derivatives of a mode at O(n) cost. A damped mode takes `psi^T (s^2 Mhat + s
+//! Chat + Khat) phi`, one more directional derivative, at the same cost (`mechanics/kernels/adjoint.rs`).
 
 mod columns;
 mod jacobians;

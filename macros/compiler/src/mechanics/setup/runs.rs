@@ -154,6 +154,35 @@ impl Runs {
         self
     }
 
+    /// Whether there are runs.
+    pub(crate) fn exist(&self) -> bool {
+        self.continuing() > 0
+    }
+
+    /// Whether half of the free coordinates or more continue a run.
+    pub(crate) fn prevail(&self) -> bool {
+        self.exist() && 2 * self.continuing() >= self.before.len()
+    }
+
+    fn continuing(&self) -> usize {
+        self.before.iter().flatten().count()
+    }
+
+    /// No runs: every body in its own axes, and the unknowns themselves.
+    pub(crate) fn apart(&self, symbols: &Symbols) -> Self {
+        let own_axes = BodyLayout {
+            continues_run: false,
+            own_axes: true,
+        };
+        Self {
+            layout: Layout(vec![own_axes; self.layout.0.len()]),
+            before: vec![None; self.before.len()],
+            position: symbols.q.clone(),
+            velocity: symbols.velocity.clone(),
+            acceleration: symbols.acceleration.clone(),
+        }
+    }
+
     /// The motion along an unknown.
     pub(crate) fn motion(&self, k: usize) -> CoordinateMotion {
         CoordinateMotion {
