@@ -122,7 +122,7 @@ pub fn sample_cluster(
     let nominal = Vector::zeros(couplings.by_design.len());
     let mut draw = Draw::starting(sequence, 0, &nominal, tolerances);
     for _ in 0..sampling.samples {
-        let Some(size) = work.fill(draw.next()) else {
+        let Some(size) = work.fill(draw.next_design()) else {
             return Err(refuse("a sample exceeds the range of a double".to_owned()));
         };
         if !work.solve(&mut values) {

@@ -145,7 +145,7 @@ pub(crate) fn chances_of(
         let number = CHUNK.min(range.end - first);
         let mut draw = normal.from((sampling.seed, sampling.stream), first);
         for _ in 0..number {
-            let design = deviations.design(draw.next());
+            let design = deviations.design(draw.next_design());
             let found = requirements.responses().at(room, &design)?;
             piece.counts.add(found.outcome, 1);
             let each = requirements.each_met(&found);

@@ -53,7 +53,7 @@ impl<'a> Draw<'a> {
 
     /// The next sample.
     #[doc(hidden)]
-    pub fn next(&mut self) -> &[f64] {
+    pub fn next_design(&mut self) -> &[f64] {
         for (values, used) in self.standard.chunks_mut(2).zip(&self.used) {
             let (radius, angle) = (self.random.probability(), self.random.probability());
             if *used {
@@ -114,7 +114,7 @@ mod tests {
     fn design(seed: u64, first: u64, tolerances: &Tolerances) -> Vector {
         let nominal = Vector::zeros(tolerances.sigmas().len());
         Draw::starting((seed, 0), first, &nominal, tolerances)
-            .next()
+            .next_design()
             .into()
     }
 
@@ -134,7 +134,7 @@ mod tests {
         let tolerances = Tolerances::new([1.0; 3], 1.0, None).expect("valid");
         let nominal = [0.0; 3];
         let mut draw = Draw::starting((5, 0), 0, &nominal, &tolerances);
-        let samples: Vec<Vector> = (0..number).map(|_| draw.next().into()).collect();
+        let samples: Vec<Vector> = (0..number).map(|_| draw.next_design().into()).collect();
         for i in 0..3 {
             let mut values: Vec<f64> = samples.iter().map(|sample| sample[i]).collect();
             values.sort_by(f64::total_cmp);
@@ -182,12 +182,12 @@ mod tests {
         };
         let nominal = [1.0, 2.0];
         let mut sequence = Draw::starting((7, 0), 0, &nominal, &tolerances);
-        let all: Vec<_> = (0..20).map(|_| Vector::from(sequence.next())).collect();
+        let all: Vec<_> = (0..20).map(|_| Vector::from(sequence.next_design())).collect();
         for (k, sample) in all.iter().enumerate() {
             let mut alone = Draw::starting((7, 0), k as u64, &nominal, &tolerances);
-            assert_eq!(*sample, alone.next());
+            assert_eq!(*sample, alone.next_design());
             let mut other = Draw::starting((7, 1), k as u64, &nominal, &tolerances);
-            assert_ne!(*sample, other.next());
+            assert_ne!(*sample, other.next_design());
         }
     }
 }

@@ -108,7 +108,7 @@ impl<'a> Solver<'a> {
         let (nominal, samples) = (&self.nominal.design, part.samples.clone());
         let mut draw = Draw::starting(self.sequence, samples.start, nominal, self.tolerances);
         for sample in samples {
-            self.alone(&mut room.alone, (sample, draw.next()), part)?;
+            self.alone(&mut room.alone, (sample, draw.next_design()), part)?;
         }
         Ok(())
     }
