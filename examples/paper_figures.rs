@@ -10,9 +10,11 @@ use std::path::Path;
 use eigentol::{DesignVariable, FirstOrder, Input, Mechanism, MonteCarlo, Study};
 use eigentol_figures::{Figure, Spreads, Style, equilibria, frequencies};
 
-#[allow(dead_code, unreachable_pub, reason = "a program of its own")]
+#[path = "rotating_double_pendulum.rs"]
+#[allow(dead_code, unreachable_pub, clippy::duplicate_mod)]
 mod rotating_double_pendulum;
-#[allow(dead_code, unreachable_pub, reason = "a program of its own")]
+#[path = "rotating_pendulum.rs"]
+#[allow(dead_code, unreachable_pub, clippy::duplicate_mod)]
 mod rotating_pendulum;
 
 use rotating_double_pendulum::RotatingDoublePendulum;

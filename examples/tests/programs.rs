@@ -13,10 +13,10 @@ mod jeffcott_rotor;
 #[path = "programs/pendulums.rs"]
 mod pendulums;
 #[path = "../rotating_double_pendulum.rs"]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, clippy::duplicate_mod)]
 mod rotating_double_pendulum;
 #[path = "../rotating_pendulum.rs"]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, clippy::duplicate_mod)]
 mod rotating_pendulum;
 #[path = "programs/whipple.rs"]
 mod whipple;
@@ -24,8 +24,10 @@ mod whipple;
 #[allow(dead_code, unreachable_pub)]
 mod whipple_bicycle;
 
+type Run = fn(&mut dyn Write) -> Result<(), Box<dyn Error>>;
+
 /// What an example prints.
-fn printed(run: fn(&mut dyn Write) -> Result<(), Box<dyn Error>>) -> String {
+fn printed(run: Run) -> String {
     let mut out = Vec::new();
     run(&mut out).unwrap();
     let text = String::from_utf8(out).unwrap();
