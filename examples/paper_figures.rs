@@ -64,6 +64,7 @@ fn along<M: Mechanism>(
     };
     let [mut first, mut second] = [spreads(wanted[0])?, spreads(wanted[1])?];
     let mut means = spreads((wanted[0].0, LEVELS.len()))?;
+    means.title = format!("{}: mean frequencies", study.description().name);
     means.panels.remove(0);
     if wanted[0].0 != wanted[1].0 {
         means.panels.extend(second.panels.get(1).cloned());
