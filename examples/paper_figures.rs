@@ -41,7 +41,7 @@ fn along<M: Mechanism>(
     wanted: [(usize, usize); 2],
 ) -> Result<[Figure; 5], Box<dyn Error>> {
     let speeds = rotating_pendulum::speeds();
-    let style = Style::of(study).radians_per_second();
+    let style = Style::default().radians_per_second();
     let sweep = study.sweep(speed, &speeds)?;
     let mut found: Vec<(String, Vec<FirstOrder>, Vec<MonteCarlo>)> = Vec::new();
     for level in LEVELS {
@@ -68,6 +68,9 @@ fn along<M: Mechanism>(
     means.panels.remove(0);
     if wanted[0].0 != wanted[1].0 {
         means.panels.extend(second.panels.get(1).cloned());
+    }
+    for (panel, mode) in means.panels.iter_mut().zip(1..) {
+        panel.y.name += &format!(", mode {mode}");
     }
     first.panels.truncate(1);
     second.panels.truncate(1);
