@@ -1,21 +1,18 @@
-//! A heavy disk on an elastic shaft with gyroscopic moments, stationary damping and rotating damping: Campbell diagram,
-//! critical speeds and stability limit with their tolerances, and the risks at the running speed.
+//! A heavy disk on an elastic shaft with gyroscopic moments, stationary damping and rotating damping: where are its
+//! critical speeds and its limit of stability, and is it safe at its running speed?
 //!
 //! The machine runs above its first-order critical speeds. Two things can go wrong there: the backward whirl of the
 //! tilting disk, which the unbalance can excite through the asymmetric seal, may come within 10 % of the speed; and the
 //! rotating damping of the shaft may overcome the stationary damping of the seal.
 //!
-//! `cargo run --release --example jeffcott_rotor`
+//! `cargo run --release -p eigentol-examples --example jeffcott_rotor`
 
-use std::ffi::OsString;
-use std::io::Write;
-use std::process::ExitCode;
+use std::error::Error;
+use std::io::{self, Write};
 
-use eigentol::{Mechanism, Study, mechanism};
-use eigentol_examples::rotor::margin::margin;
-use eigentol_examples::rotor::{RPM, Risk, events, record, tables};
-use eigentol_examples::{Failure, Options, RotorQuestion, program};
-use eigentol_figures::{Style, campbell, damping_ratios};
+use eigentol::requirement::Requirement;
+use eigentol::second_order::Band;
+use eigentol::{InDeclaredUnit, Study, mechanism};
 
 mechanism! {
     /// Jeffcott's rotor with the disk nearer to one of its two rigid bearings.
@@ -78,70 +75,34 @@ mechanism! {
     }
 }
 
-/// Number of speeds in the figure around the running speed.
-const CLOSE: usize = 49;
-
-/// Runs the whole example: command-line `arguments`, summary to `out`, figures and CSV files to a directory.
-pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
-    let about = "How tolerances move the critical speeds and the limit of stability of a rotor";
-    let options = Options::parse("jeffcott_rotor", about, arguments)?;
-    let question = RotorQuestion {
-        speed: JeffcottRotor::speed.any(),
-        range: (0.0, 6000.0 * RPM),
-        running: 3000.0 * RPM,
-        orders: vec![1.0, 2.0],
-        margin: 0.1,
-    };
-    let study = Study::new(JeffcottRotor)
-        .seed(options.seed)
-        .threads(options.threads);
-
-    let diagram = question.campbell(&study, question.range, options.speeds)?;
-    let events = events::find(&study, &question)?;
-    let risk = Risk::assess(&study, &question, options.samples)?;
-
-    let design = study.description().design.clone();
-    let names: Vec<&str> = design.iter().map(|info| &*info.name).collect();
-    record::diagram(&diagram, &options.file("sweep.csv"))?;
-    record::events(&events, &names, &options.file("events.csv"))?;
-    let near = (0.8 * question.running, 1.2 * question.running);
-    let close = question.campbell(&study, near, CLOSE)?;
-    let style = Style::of(&study).mark(question.running / RPM, "running speed");
-    let title = |text: &str| style.clone().title(format!("Rotor: {text}"));
-    for (name, figure) in [
-        (
-            "campbell",
-            campbell(&diagram, &title("Campbell diagram").highest(120.0))?,
-        ),
-        (
-            "damping",
-            damping_ratios(&diagram, &title("damping ratios"))?,
-        ),
-        (
-            "margin",
-            margin(
-                &question,
-                &close,
-                &risk,
-                title("frequencies near the running speed"),
-            )?,
-        ),
-    ] {
-        figure.save(options.file(&format!("{name}.svg")))?;
-    }
-
-    writeln!(out, "JEFFCOTT ROTOR, disk off the middle\n")?;
-    tables::diagram(out, &diagram)?;
-    tables::events(
-        out,
-        &events,
-        &study.tolerances()?,
-        &JeffcottRotor::DESCRIPTION,
-    )?;
-    tables::risk(out, &risk, &question)?;
-    options.print_directory(out)
+/// The rotor at its running speed.
+pub fn study() -> Study<JeffcottRotor> {
+    Study::new(JeffcottRotor).input(JeffcottRotor::speed, InDeclaredUnit(3000.0))
 }
 
-fn main() -> ExitCode {
-    program(run)
+/// The number, from 0, of the backward whirl of the tilting disk.
+pub const TILTING: usize = 2;
+
+/// Writes the Campbell diagram with its events, what tolerances do at the running speed, and the risks there.
+pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    let (study, speed) = (study(), JeffcottRotor::speed);
+    let speeds: Vec<_> = (0..=60)
+        .map(|k| InDeclaredUnit(100.0 * f64::from(k)))
+        .collect();
+    writeln!(out, "{}", study.campbell(speed, &speeds, &[1.0, 2.0])?)?;
+    for limit in study.flutter_onset_tolerances(speed, speeds[0], speeds[60])? {
+        writeln!(out, "{limit}")?;
+    }
+    writeln!(out, "{}", study.summary()?)?;
+    writeln!(
+        out,
+        "{}",
+        study.margin(TILTING, Band::around(speed.any(), 0.1))?
+    )?;
+    write!(out, "{}", study.probability(&[Requirement::Stable])?)?;
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    run(&mut io::stdout())
 }

@@ -1,16 +1,14 @@
-//! Two bars in series on a spinning shaft: the second example of the paper (section 6.2, figures 9 to 13, table 2),
-//! extended by the contribution of each of four independent dimensions.
+//! Two bars in series on a spinning shaft, the second example of the paper (section 6.2, table 2), and what each of four
+//! independent dimensions contributes.
 //!
-//! `cargo run --release --example rotating_double_pendulum`
+//! `cargo run --release -p eigentol-examples --example rotating_double_pendulum`
 
-use std::ffi::OsString;
-use std::io::Write;
-use std::process::ExitCode;
+use std::error::Error;
+use std::io::{self, Write};
 
 use eigentol::{Study, mechanism};
-use eigentol_examples::pictures::{angles, contributions, deviations, frequencies, means};
-use eigentol_examples::summary::Paper;
-use eigentol_examples::{Analysis, Failure, Options, Question, program};
+
+mod cost;
 
 mechanism! {
     /// Two equal bars hinged in series on a shaft that spins at a constant rate; both have the same length `l`.
@@ -60,70 +58,39 @@ mechanism! {
     }
 }
 
-const PAPER: Paper = Paper {
-    resonance: 1.895,
-    critical: 2.679,
-    ratio: 1414.0,
-};
-
-/// Runs the whole example: command-line `arguments`, summary to `out`, figures and CSV files to a directory.
-pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
-    let about = "How tolerances spread the frequencies of two spinning bars";
-    let options = Options::parse("rotating_double_pendulum", about, arguments)?;
-    let equal = equal_bars(&options)?;
-    let independent = independent_bars(&options)?;
-    equal.print(out, "DOUBLE PENDULUM, equal bars", Some(&PAPER))?;
-    independent.print(out, "DOUBLE PENDULUM, independent bars", None)?;
-    options.print_directory(out)
+/// Two equal bars, searched for away from the axis: below the critical speed they fall back to it.
+pub fn equal() -> Study<RotatingDoublePendulum> {
+    let first = RotatingDoublePendulum::theta1;
+    Study::new(RotatingDoublePendulum).start(first, 60f64.to_radians())
 }
 
-/// The paper's analysis: one length for both bars.
-fn equal_bars(options: &Options) -> Result<Analysis, Failure> {
-    type Pendulum = RotatingDoublePendulum;
-    let study = Study::new(RotatingDoublePendulum).start(Pendulum::theta1, 60f64.to_radians());
-    let question = Question {
-        speed: Pendulum::omega.any(),
-        range: (0.0, 8.0),
-        varied: vec![Pendulum::l.any()],
-        levels: vec![0.03, 0.06, 0.12],
-    };
-    let analysis = Analysis::run(&study, &question, options)?;
-
-    let data = analysis.sweeps();
-    let figures = [
-        angles(&data, "fig09", "Double pendulum: dynamic equilibrium"),
-        frequencies(&data, "fig10", "Double pendulum: natural frequencies"),
-        means(&data, "fig11", "Double pendulum: mean frequencies"),
-        deviations(&data, "fig12", "Double pendulum: spread of mode 1", 0, 3),
-        deviations(&data, "fig13", "Double pendulum: spread of mode 2", 1, 3),
-    ];
-    analysis.save(options, "sweep.csv", &figures)?;
-    Ok(analysis)
+/// Two bars of four dimensions, searched for in the same place.
+pub fn independent() -> Study<IndependentBars> {
+    Study::new(IndependentBars).start(IndependentBars::theta1, 60f64.to_radians())
 }
 
-/// Four dimensions that vary independently, each within 3 %.
-fn independent_bars(options: &Options) -> Result<Analysis, Failure> {
-    type Bars = IndependentBars;
-    let study = Study::new(IndependentBars).start(Bars::theta1, 60f64.to_radians());
-    let question = Question {
-        speed: Bars::omega.any(),
-        range: (0.0, 8.0),
-        varied: [Bars::l1, Bars::l2, Bars::m1, Bars::m2]
-            .map(|variable| variable.any())
-            .to_vec(),
-        levels: vec![0.03],
-    };
-    let analysis = Analysis::run(&study, &question, options)?;
-
-    let data = analysis.sweeps();
-    let figures = [
-        contributions(&data, "independent_1", "Bars: spread of mode 1", 0),
-        contributions(&data, "independent_2", "Bars: spread of mode 2", 1),
-    ];
-    analysis.save(options, "independent.csv", &figures)?;
-    Ok(analysis)
+/// Speeds from 0 to 8 rad/s.
+pub fn speeds() -> Vec<f64> {
+    (0..=88).map(|k| f64::from(k) / 11.0).collect()
 }
 
-fn main() -> ExitCode {
-    program(run)
+/// Writes events and frequencies along the speed, what the tolerances do at some speeds, and what that costs.
+pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    let (equal, independent, speeds) = (equal(), independent(), speeds());
+    let speed = RotatingDoublePendulum::omega;
+    writeln!(out, "{}", equal.campbell(speed, &speeds, &[1.0])?)?;
+    writeln!(
+        out,
+        "In the paper the resonance is at 1.895 rad/s and the critical speed at 2.679 rad/s.\n"
+    )?;
+    for value in [1.5, 2.65, 5.0] {
+        writeln!(out, "{}", equal.clone().input(speed, value).summary()?)?;
+        let independent = independent.clone().input(IndependentBars::omega, value);
+        writeln!(out, "{}", independent.first_order()?)?;
+    }
+    cost::compare(out, &equal, (speed, &speeds), 1414.0)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    run(&mut io::stdout())
 }

@@ -1,15 +1,14 @@
-//! A bar on a spinning shaft: the first example of the paper (section 6.1, figures 3 to 7, table 1).
+//! A bar on a spinning shaft, the first example of the paper (section 6.1, table 1): how does a tolerance of its length
+//! spread its frequency, up to which speed does it hang, and when is it in resonance with the drive?
 //!
-//! `cargo run --release --example rotating_pendulum`
+//! `cargo run --release -p eigentol-examples --example rotating_pendulum`
 
-use std::ffi::OsString;
-use std::io::Write;
-use std::process::ExitCode;
+use std::error::Error;
+use std::io::{self, Write};
 
 use eigentol::{Study, mechanism};
-use eigentol_examples::pictures::{angles, deviations, frequencies, means};
-use eigentol_examples::summary::Paper;
-use eigentol_examples::{Analysis, Failure, Options, Question, program};
+
+mod cost;
 
 mechanism! {
     /// A uniform bar hinged on a shaft that spins at a constant rate.
@@ -31,39 +30,31 @@ mechanism! {
     }
 }
 
-const PAPER: Paper = Paper {
-    resonance: 2.712,
-    critical: 3.835,
-    ratio: 1179.0,
-};
-
-/// Runs the whole example: command-line `arguments`, summary to `out`, figures and `sweep.csv` to a directory.
-pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
-    let about = "How a tolerance of its length spreads the frequency of a spinning bar";
-    let options = Options::parse("rotating_pendulum", about, arguments)?;
-
-    let study = Study::new(RotatingPendulum).start(RotatingPendulum::theta, 60f64.to_radians());
-    let question = Question {
-        speed: RotatingPendulum::omega.any(),
-        range: (0.0, 8.0),
-        varied: vec![RotatingPendulum::l.any()],
-        levels: vec![0.03, 0.06, 0.12],
-    };
-    let analysis = Analysis::run(&study, &question, &options)?;
-
-    let data = analysis.sweeps();
-    let figures = [
-        angles(&data, "fig03", "Pendulum: dynamic equilibrium"),
-        frequencies(&data, "fig04", "Pendulum: natural frequency"),
-        means(&data, "fig05", "Pendulum: mean frequency"),
-        deviations(&data, "fig06", "Pendulum: spread at 3 %", 0, 1),
-        deviations(&data, "fig07", "Pendulum: spread at 3, 6 and 12 %", 0, 3),
-    ];
-    analysis.save(&options, "sweep.csv", &figures)?;
-    analysis.print(out, "ROTATING PENDULUM", Some(&PAPER))?;
-    options.print_directory(out)
+/// The bar, searched for away from the axis: below the critical speed it falls back to it.
+pub fn study() -> Study<RotatingPendulum> {
+    Study::new(RotatingPendulum).start(RotatingPendulum::theta, 60f64.to_radians())
 }
 
-fn main() -> ExitCode {
-    program(run)
+/// Speeds from 0 to 8 rad/s.
+pub fn speeds() -> Vec<f64> {
+    (0..=88).map(|k| f64::from(k) / 11.0).collect()
+}
+
+/// Writes events and frequencies along the speed, what the tolerance does at some speeds, and what that costs.
+pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    let (study, speeds) = (study(), speeds());
+    let speed = RotatingPendulum::omega;
+    writeln!(out, "{}", study.campbell(speed, &speeds, &[1.0])?)?;
+    writeln!(
+        out,
+        "In the paper the resonance is at 2.712 rad/s and the critical speed at 3.835 rad/s.\n"
+    )?;
+    for value in [2.0, 3.8, 5.0] {
+        writeln!(out, "{}", study.clone().input(speed, value).summary()?)?;
+    }
+    cost::compare(out, &study, (speed, &speeds), 1179.0)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    run(&mut io::stdout())
 }

@@ -1,15 +1,17 @@
 //! Questions that engineers ask, each in its own file with its mechanism, method and answer.
 //!
-//! `cargo run --release --example practice` answers all of them, `-- gear_train` only one; with `--reports DIRECTORY`
-//! each also writes its report there. They form a single program because separate ones would each have to link the
-//! solvers.
+//! `cargo run --release -p eigentol-examples --example practice` answers all of them, `-- gear_train` only one. Built with
+//! `--features reports`, `-- --reports DIRECTORY` also writes a report of each there. They form a single program because
+//! separate ones would each have to link the solvers.
 
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use eigentol::Study;
+#[cfg(feature = "reports")]
 use eigentol::kernels::{PictureKernels, SummaryKernels};
+#[cfg(feature = "reports")]
 use eigentol_report::Report;
 
 pub mod centrifuge;
@@ -36,7 +38,7 @@ pub struct Question {
     /// Writes the answer.
     pub answer: Answer,
     /// Writes a report of the mechanism to a file.
-    pub report: fn(&Path) -> Result<(), eigentol_report::Error>,
+    pub report: fn(&Path) -> Result<(), Box<dyn Error>>,
 }
 
 /// All questions.
@@ -91,11 +93,17 @@ pub const QUESTIONS: [Question; 9] = [
 /// One revolution per minute, rad/s.
 pub const RPM: f64 = std::f64::consts::TAU / 60.0;
 
-fn save<M>(study: &Study<M>, path: &Path) -> Result<(), eigentol_report::Error>
+#[cfg(feature = "reports")]
+fn save<M>(study: &Study<M>, path: &Path) -> Result<(), Box<dyn Error>>
 where
     M: SummaryKernels + PictureKernels + Clone,
 {
-    Report::new(study).samples(1000).save(path)
+    Ok(Report::new(study).samples(1000).save(path)?)
+}
+
+#[cfg(not(feature = "reports"))]
+fn save<M>(_: &Study<M>, _: &Path) -> Result<(), Box<dyn Error>> {
+    Err("reports need a program built with `--features reports`".into())
 }
 
 #[allow(dead_code, reason = "the tests take this file as a module")]

@@ -3,14 +3,18 @@
 
 use std::f64::consts::PI;
 
+use eigentol::modes::{Sense, Whirl};
+use eigentol::requirement::Requirement;
+use eigentol::second_order::Band;
+use eigentol::sweep::{Condition, Event};
+use eigentol::tolerance::Sample;
 use eigentol::{Complex, Mechanism, Study};
-use eigentol_examples::RotorQuestion;
-use eigentol_examples::rotor::margin::margin;
-use eigentol_examples::rotor::{HZ, RPM, Risk};
-use eigentol_figures::Style;
 
-use super::jeffcott_rotor::JeffcottRotor;
-use super::{columns, run};
+use super::jeffcott_rotor::{self, JeffcottRotor};
+use super::{near, printed, shows};
+
+/// One turn per minute, rad/s.
+const RPM: f64 = PI / 30.0;
 
 /// Nominal design, in the order of the declaration.
 const DESIGN: [f64; 10] = [
@@ -110,100 +114,81 @@ fn solve(start: [f64; 2], equation: impl Fn([f64; 2]) -> Complex) -> [f64; 2] {
     at
 }
 
-fn near(name: &str, found: f64, expected: f64, tolerance: f64) {
-    let error = (found - expected).abs() / expected.abs();
-    assert!(error <= tolerance, "{name}: {found:e} is not {expected:e}");
-}
-
 #[test]
 fn every_mode_solves_the_equations_written_by_hand() {
-    let (_, path) = run(
-        super::ROTOR,
-        "rotor_modes",
-        &["--speeds", "25", "--samples", "2"],
-    );
-    let columns = columns(&path.join("sweep.csv"));
-    for row in 0..25 {
-        let speed = columns["speed"][row].unwrap();
-        for mode in 1..=4 {
-            let value = |name: &str| columns[&format!("{name}_{mode}")][row];
-            let frequency = value("frequency").unwrap();
-            let growth = value("growth").unwrap();
-            let solved = solve([growth, frequency], |[growth, frequency]| {
+    let speeds: Vec<f64> = (0..25).map(|k| 250.0 * RPM * f64::from(k)).collect();
+    let none: &[f64] = &[];
+    let diagram = jeffcott_rotor::study().campbell(JeffcottRotor::speed, &speeds, none);
+    let mut before = [0.0; 4];
+    for point in diagram.unwrap().points {
+        let speed = point.value;
+        let modes = point.modes.unwrap();
+        assert_eq!(modes.len(), 4);
+        for mode in &modes {
+            let number = mode.label + 1;
+            let solved = solve([mode.s.re, mode.s.im], |[growth, frequency]| {
                 determinant(DESIGN, speed, Complex::new(growth, frequency))
             });
             // Gravity tilts the disk by 3e-4; the hand-written equations neglect its square.
-            let size = frequency.hypot(growth);
-            let error = (solved[1] - frequency).hypot(solved[0] - growth) / size;
-            assert!(error < 3e-7, "mode {mode} at {speed}: {error:e}");
-            near(
-                "damping",
-                value("damping_ratio").unwrap(),
-                -growth / size,
-                1e-12,
-            );
+            let error = (Complex::new(solved[0], solved[1]) - mode.s).norm() / mode.s.norm();
+            assert!(error < 3e-7, "mode {number} at {speed}: {error:e}");
+            let damping = mode.damping_ratio.as_ref().unwrap().mean;
+            near("damping", damping, -mode.s.re / mode.s.norm(), 1e-12);
             // Frequencies rise with forward whirl and fall with backward whirl.
-            if row > 0 {
-                let before = columns[&format!("frequency_{mode}")][row - 1].unwrap();
-                let whirl = value("whirl").unwrap();
-                assert_eq!(whirl > 0.0, mode % 2 == 0, "mode {mode} at {speed}");
-                assert!(mode < 3 || (frequency > before) == (whirl > 0.0));
+            let forward = number % 2 == 0;
+            let whirl = mode.whirl.map(Whirl::sense);
+            if speed == 0.0 {
+                assert!(matches!(whirl, None | Some(Sense::Planar)), "{whirl:?}");
             } else {
-                assert!(value("whirl").is_none());
+                let expected = if forward {
+                    Sense::Forward
+                } else {
+                    Sense::Backward
+                };
+                assert_eq!(whirl, Some(expected), "mode {number} at {speed}");
+                assert!(number < 3 || (mode.s.im > before[mode.label]) == forward);
             }
+            before[mode.label] = mode.s.im;
         }
     }
 }
 
 #[test]
 fn every_event_and_its_derivatives_are_those_of_the_equations_written_by_hand() {
-    let (printed, path) = run(
-        super::ROTOR,
-        "rotor_events",
-        &["--speeds", "3", "--samples", "2"],
+    let text = printed(jeffcott_rotor::run);
+    let speeds = [0.0, 3000.0 * RPM, 6000.0 * RPM];
+    let study = jeffcott_rotor::study();
+    let diagram = study.campbell(JeffcottRotor::speed, &speeds, &[1.0, 2.0]);
+    let diagram = diagram.unwrap();
+    assert_eq!(
+        (diagram.crossings.len(), diagram.flutter_onsets.len()),
+        (6, 1)
     );
-    let table = fs_table(&path.join("events.csv"));
-    let names = JeffcottRotor::DESCRIPTION.design;
-    let expected = [
-        ("order", "1.0", "1"),
-        ("order", "1.0", "2"),
-        ("order", "1.0", "3"),
-        ("order", "2.0", "1"),
-        ("order", "2.0", "2"),
-        ("order", "2.0", "3"),
-        ("onset", "", "2"),
-    ];
-    let kinds: Vec<_> = table
-        .iter()
-        .map(|row| (&*row["event"], &*row["order"], &*row["mode"]))
-        .collect();
-    assert_eq!(kinds, expected);
-    for row in &table {
-        let number = |name: &str| row[name].parse::<f64>().unwrap();
-        let (speed, frequency) = (number("speed"), number("frequency"));
-        assert!(
-            printed.contains(&format!("{:.1}", speed / RPM)),
-            "{printed}"
-        );
-        assert!(
-            printed.contains(&format!("{:.2}", frequency / HZ)),
-            "{printed}"
-        );
+    assert!(diagram.critical.is_empty());
+    for event in diagram.crossings.iter().chain(&diagram.flutter_onsets) {
+        let speed = event.value;
+        shows(&text, &[&format!("{:.2}", speed / RPM)]);
+        let Event::Crossing { condition, s, .. } = event.event else {
+            panic!("{event}")
+        };
         // The unknowns are the speed and the quantity the event leaves free: the growth or the frequency.
-        let order = row["order"].parse::<f64>().ok();
-        let open = order.map_or(frequency, |_| number("growth"));
         let solved = |design: [f64; 10]| {
+            let open = match condition {
+                Condition::Line(_) => s.re,
+                _ => s.im,
+            };
             solve([open, speed], |[open, speed]| {
-                let s = match order {
-                    Some(order) => Complex::new(open, order * speed),
-                    None => Complex::new(0.0, open),
+                let s = match condition {
+                    Condition::Line(line) => Complex::new(open, line.ratio * speed),
+                    _ => Complex::new(0.0, open),
                 };
                 determinant(design, speed, s)
             })[1]
         };
         near("speed", speed, solved(DESIGN), 3e-7);
+        let spread = event.spread.as_ref().unwrap();
         let mut variance = 0.0;
-        for (j, info) in names.iter().enumerate() {
+        for (j, &found) in spread.by_design.iter().enumerate() {
             let step = 1e-4 * DESIGN[j];
             let moved = |sign: f64| {
                 let mut design = DESIGN;
@@ -211,24 +196,13 @@ fn every_event_and_its_derivatives_are_those_of_the_equations_written_by_hand() 
                 solved(design)
             };
             let slope = (moved(1.0) - moved(-1.0)) / (2.0 * step);
-            let found = number(&format!("by_{}", info.name));
             // Error relative to the effect of a relative change on the speed itself.
             let error = (found - slope).abs() * DESIGN[j] / speed;
-            assert!(
-                error < 1e-6,
-                "{} at {speed}: {found:e} is not {slope:e}",
-                info.name
-            );
+            assert!(error < 1e-6, "{j} at {speed}: {found:e} is not {slope:e}");
             variance += (slope * HALF_WIDTHS[j] / 3.0).powi(2);
         }
-        near("sigma", number("sigma"), variance.sqrt(), 1e-5);
+        near("sigma", spread.sigma, variance.sqrt(), 1e-5);
     }
-}
-
-/// Reads a CSV file by rows.
-fn fs_table(path: &std::path::Path) -> Vec<std::collections::BTreeMap<String, String>> {
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    reader.deserialize().map(Result::unwrap).collect()
 }
 
 /// With the disk in the middle and an isotropic seal, displacement and tilt decouple, and both have closed forms.
@@ -321,89 +295,56 @@ fn the_plain_rotor_has_the_closed_forms_of_jeffcott() {
 }
 
 #[test]
-fn monte_carlo_confirms_the_risks_whatever_the_threads() {
-    let question = RotorQuestion {
-        speed: JeffcottRotor::speed.any(),
-        range: (0.0, 6000.0 * RPM),
-        running: 3000.0 * RPM,
-        orders: vec![1.0],
-        margin: 0.1,
-    };
-    let assess = |threads: usize| {
-        let study = Study::new(JeffcottRotor).seed(4).threads(threads);
-        Risk::assess(&study, &question, 20_000).unwrap()
-    };
-    let risk = assess(1);
-    assert_eq!(risk, assess(3));
-    for (name, chance) in [
-        ("mode 3 in band", risk.modes[2].in_band),
-        ("unstable", risk.unstable),
-    ] {
-        let (share, error) = chance.sampled();
-        let expected = chance.second_order.unwrap();
-        assert!(chance.hits > 100, "{name}: {} hits", chance.hits);
+fn monte_carlo_confirms_the_risks() {
+    let study = jeffcott_rotor::study()
+        .seed(4)
+        .samples(20_000)
+        .keep_samples(true);
+    let run = study.monte_carlo().unwrap();
+    let samples = 20_000_f64;
+    let confirmed = |hits: usize, expected: f64| {
+        let share = hits as f64 / samples;
+        let error = (share * (1.0 - share) / samples).sqrt();
         assert!(
-            (share - expected).abs() < 4.0 * error,
-            "{name}: {share} is not {expected}"
+            hits > 100 && (share - expected).abs() < 4.0 * error,
+            "{share} {expected}"
         );
-        assert!((chance.first_order.unwrap() / expected - 1.0).abs() < 0.05);
+    };
+
+    let speed = 3000.0 * RPM;
+    let band = Band::around(JeffcottRotor::speed.any(), 0.1);
+    let all = run.all.as_ref().unwrap();
+    for mode in 0..4 {
+        let inside = |sample: &&Sample| {
+            sample.frequencies[mode].is_some_and(|own| (own / speed - 1.0).abs() <= 0.1)
+        };
+        let hits = all.iter().filter(inside).count();
+        if mode == jeffcott_rotor::TILTING {
+            confirmed(
+                hits,
+                study.margin(mode, band).unwrap().margin.corrected.value,
+            );
+        } else {
+            assert_eq!(hits, 0, "mode {mode}");
+        }
     }
-    for mode in &risk.modes {
-        let frequency = mode.frequency.as_ref().unwrap();
-        let sigma = mode.sampled_frequency.sigma().unwrap();
+    let unstable = study.probability(&[Requirement::Stable]).unwrap();
+    confirmed(run.samples - run.counts.stable, unstable.each[0].value);
+
+    // Only some samples oscillate in every mode stably; mean and sigma of the frequencies count these.
+    for (spread, sampled) in study.second_order().unwrap().modes.iter().zip(&run.modes) {
+        let (spread, sampled) = (
+            &spread.as_ref().unwrap().frequency,
+            sampled.as_ref().unwrap(),
+        );
+        let sigma = sampled.sigma.unwrap();
         near(
             "sigma",
             sigma,
-            frequency.moments.sigma,
-            4.0 / 40_000_f64.sqrt(),
+            spread.moments.sigma,
+            4.0 / (2.0 * samples).sqrt(),
         );
-        let shift = mode.sampled_frequency.mean().unwrap() - frequency.moments.mean;
-        assert!(shift.abs() < 4.0 * sigma / 20_000_f64.sqrt());
-    }
-    let out = [0, 1, 3].map(|mode| risk.modes[mode].in_band.hits);
-    assert_eq!(out, [0, 0, 0]);
-
-    // In the figure each mode has one bar for the samples, and the one mode that can enter the band shows its
-    // probability.
-    let study = Study::new(JeffcottRotor);
-    let close = question.campbell(&study, (2400.0 * RPM, 3600.0 * RPM), 5);
-    let figure = margin(&question, &close.unwrap(), &risk, Style::default()).unwrap();
-    let panel = &figure.panels[0];
-    let sampled = panel
-        .error_bars
-        .iter()
-        .find(|own| own.label.starts_with("Monte Carlo"));
-    let bars = &sampled.unwrap().bars;
-    assert_eq!(bars.len(), 4);
-    for (bar, mode) in bars.iter().zip(&risk.modes) {
-        let own = &mode.sampled_frequency;
-        let (mean, sigma) = (own.mean().unwrap() / HZ, own.sigma().unwrap() / HZ);
-        near("mean", bar.at[1], mean, 1e-12);
-        near("three sigma", bar.high[1] - bar.low[1], 6.0 * sigma, 1e-9);
-    }
-    let words: Vec<&str> = panel.labels.iter().map(|own| &*own.text).collect();
-    let chances: Vec<_> = words
-        .iter()
-        .filter(|own| own.ends_with("% in the band"))
-        .collect();
-    let percent = 100.0 * risk.modes[2].in_band.second_order.unwrap();
-    assert_eq!(chances, [&&*format!("{percent:.3} % in the band")]);
-}
-
-#[test]
-fn figures_are_drawn_however_few_the_speeds() {
-    for speeds in ["1", "2", "40"] {
-        let (_, path) = run(
-            super::ROTOR,
-            "rotor_figures",
-            &["--speeds", speeds, "--samples", "2"],
-        );
-        let rows = columns(&path.join("sweep.csv"))["speed"].len();
-        assert_eq!(rows.to_string(), speeds);
-        for figure in ["campbell", "damping", "margin"] {
-            let text = std::fs::read_to_string(path.join(format!("{figure}.svg"))).unwrap();
-            assert!(text.starts_with("<svg") && text.trim_end().ends_with("</svg>"));
-            assert!(!text.contains("NaN") && !text.contains("inf"), "{figure}");
-        }
+        let shift = sampled.mean - spread.moments.mean;
+        assert!(shift.abs() < 4.0 * sigma / samples.sqrt(), "{shift}");
     }
 }

@@ -10,10 +10,10 @@ use crate::program::answer;
 #[allow(dead_code, unreachable_pub)]
 mod jeffcott_rotor;
 #[path = "../../../../examples/rotating_double_pendulum.rs"]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, clippy::duplicate_mod)]
 mod rotating_double_pendulum;
 #[path = "../../../../examples/rotating_pendulum.rs"]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, clippy::duplicate_mod)]
 mod rotating_pendulum;
 #[path = "../../../../examples/whipple_bicycle.rs"]
 #[allow(dead_code, unreachable_pub)]

@@ -4,5 +4,6 @@ mod along;
 mod degenerate;
 mod drawing;
 mod machines;
+mod paper;
 mod point;
 mod words;

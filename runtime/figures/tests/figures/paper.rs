@@ -1,0 +1,26 @@
+//! The example that draws the figures of the paper.
+
+#[path = "../../../../examples/paper_figures.rs"]
+#[allow(dead_code, unreachable_pub, reason = "a program of its own")]
+mod paper_figures;
+
+#[test]
+fn each_figure_of_the_paper_is_drawn() {
+    let figures = paper_figures::figures(20).unwrap();
+    let numbers: Vec<usize> = figures.iter().map(|own| own.0).collect();
+    assert_eq!(numbers, [3, 4, 5, 6, 7, 9, 10, 11, 12, 13]);
+    for (number, figure) in &figures {
+        let text = figure.svg().unwrap();
+        assert!(!text.contains("NaN"), "{number}");
+        roxmltree::Document::parse(&text).unwrap();
+        assert_eq!(figure.panels.len(), if *number == 11 { 2 } else { 1 });
+    }
+    let drawn = |number: usize| {
+        let found = figures.iter().find(|own| own.0 == number);
+        &found.unwrap().1.panels[0]
+    };
+    for (number, levels) in [(5, 3), (6, 1), (7, 3), (11, 3), (12, 3), (13, 3)] {
+        assert_eq!(drawn(number).error_bars.len(), levels, "figure {number}");
+    }
+    assert!(drawn(6).y.range[1] > 0.0 && drawn(5).y.name.contains("mean"));
+}
