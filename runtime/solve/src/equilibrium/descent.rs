@@ -184,23 +184,26 @@ where
 }
 
 /// Whether a force grows without bound where a search ended: the stiffness nearly vanishes a small share of a coordinate
-/// away. Such a state passes for an equilibrium, because any force moves it by rounding only.
+/// away, on either side. Such a state passes for an equilibrium, because any force moves it by rounding only. At a
+/// critical state the stiffness vanishes too, but there it is least.
 #[cold]
 pub(super) fn grows_without_bound(point: &OperatingPoint<'_>, q: &[f64]) -> bool {
     let Some((residual, stiffness)) = point.evaluate(q) else {
         return true;
     };
-    let mut aside = Vector::from(q);
-    for i in 0..point.motions() {
-        let large = point.description.large(i);
-        let size = q[i].abs().clamp(SMALL_MOTION * large, large);
-        aside[i] += (BESIDE * size).copysign(-residual[i]);
-    }
     let size = |stiffness: &Matrix| largest(stiffness.as_flattened());
-    let beside = point
-        .evaluate(&aside)
-        .map(|(_, stiffness)| size(&stiffness));
-    beside.is_some_and(|beside| beside < VANISHES * size(&stiffness))
+    let beside = [-BESIDE, BESIDE].map(|share| {
+        let mut aside = Vector::from(q);
+        for i in 0..point.motions() {
+            let large = point.description.large(i);
+            let step = share * q[i].abs().clamp(SMALL_MOTION * large, large);
+            aside[i] += step.copysign(step * residual[i]);
+        }
+        let there = point.evaluate(&aside);
+        there.map(|(_, stiffness)| size(&stiffness))
+    });
+    let most = beside.into_iter().flatten().reduce(f64::max);
+    most.is_some_and(|beside| beside < VANISHES * size(&stiffness))
 }
 
 /// The modes at a state where the potential is not convex.
