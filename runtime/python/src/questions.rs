@@ -8,11 +8,12 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
+use crate::arrays::{Array1, optional};
 use crate::events::{Event, events};
 use crate::response::wanted;
 use crate::results::{
-    Assembly, Branches, Campbell, Curvature, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
-    OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
+    Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature, ModeCurvature,
+    Modes, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
 };
 use crate::spreads::{
     FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,
@@ -162,14 +163,11 @@ impl Study {
         self.ask(py, |study| study.assembly()).map(Assembly)
     }
 
-    /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; None where it
+    /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it
     /// does not apply.
-    fn whirls(&self, py: Python<'_>) -> PyResult<Vec<Option<f64>>> {
+    fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
         let found = self.ask(py, |study| study.whirls())?;
-        Ok(found
-            .into_iter()
-            .map(|own| own.map(|own| own.ratio))
-            .collect())
+        Ok(optional(py, found.into_iter().map(|own| own.map(|own| own.ratio))))
     }
 
     /// First and second derivatives of one mode, counted from 0.
@@ -180,11 +178,11 @@ impl Study {
     }
 
     /// First and second derivatives of an output.
-    fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<Curvature> {
+    fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<OutputCurvature> {
         self.ask(py, |study| {
             study.output_curvature(study.find_output(output)?)
         })
-        .map(Curvature::from)
+        .map(OutputCurvature)
     }
 
     /// Derivatives of the shapes of one mode, counted from 0.
@@ -340,10 +338,10 @@ impl Study {
         input: &str,
         low: &Bound<'_, PyAny>,
         high: &Bound<'_, PyAny>,
-    ) -> PyResult<Curvature> {
+    ) -> PyResult<EventCurvature> {
         let (input, low, high) = self.range(py, input, low, high)?;
         self.ask(py, |study| study.critical_curvature(input, low, high))
-            .map(Curvature::from)
+            .map(EventCurvature)
     }
 
     /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
