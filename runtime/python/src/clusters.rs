@@ -47,6 +47,14 @@ result! {
 }
 
 impl Clusters {
+    fn counts<'py>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&ClusterSpread) -> usize,
+    ) -> Array1<'py, i64> {
+        vector(py, self.0.iter().map(|own| own.spread.as_ref().map_or(0, |own| of(own) as i64)))
+    }
+
     /// A number of each member in ascending order, and of the distance of the lowest from the highest, for each cluster.
     fn members<'py>(
         &self,
@@ -93,10 +101,7 @@ attributes! {
             optional(py, mean.map(|own| Some(own?.sigma)))
         };
         /// Numbers of samples behind the members of each, shape (k,).
-        samples: Array1<'py, i64> = {
-            let count = |own: &ClusterSpread| own.samples as i64;
-            vector(py, self.0.iter().map(|own| own.spread.as_ref().map_or(0, count)))
-        };
+        samples: Array1<'py, i64> = self.counts(py, |own| own.samples);
         /// Why the members of a cluster have no spread: a text for each cluster, or None.
         failures: Vec<Option<String>> =
             self.0.iter().map(|own| Some(own.spread.as_ref().err()?.to_string())).collect();
@@ -104,6 +109,12 @@ attributes! {
         family: Option<&'static str> = Some(family(self.0.first()?.family));
         /// Whether the members of each have merged into one eigenvalue that no derivative describes.
         defective: Vec<bool> = self.0.iter().map(ClusterTolerance::defective).collect();
+        /// Numbers of samples that are unstable, shape (k,).
+        unstable: Array1<'py, i64> = self.counts(py, |own| own.unstable);
+        /// Numbers of samples that could not be solved, shape (k,).
+        unsolved: Array1<'py, i64> = self.counts(py, |own| own.unsolved);
+        /// Standard deviations that a tolerance and a band stand for; None without clusters.
+        sigma_level: Option<f64> = Some(self.0.first()?.sigma_level);
     }
 }
 

@@ -30,6 +30,23 @@ pub(crate) struct Mistake {
 
 #[pymethods]
 impl Mistake {
+    #[new]
+    fn new(
+        line: usize,
+        column: usize,
+        end_line: usize,
+        end_column: usize,
+        message: String,
+        help: Option<String>,
+    ) -> Self {
+        Self { line, column, end_line, end_column, message, help }
+    }
+
+    fn __getnewargs__(&self) -> (usize, usize, usize, usize, &str, Option<&str>) {
+        let (message, help) = (&self.message, self.help.as_deref());
+        (self.line, self.column, self.end_line, self.end_column, message, help)
+    }
+
     fn __repr__(&self) -> String {
         let Self {
             line,

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use eigentol::Role;
 use eigentol_interpreter::Interpreted;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -20,6 +21,12 @@ pub(crate) struct Mechanism {
 }
 
 impl Mechanism {
+    fn of_roles(&self, wanted: impl Fn(Role) -> bool) -> Vec<&str> {
+        let of = self.inner.description();
+        let all = names::coordinates(of).into_iter().zip(of.coordinates.iter());
+        all.filter(|(_, info)| wanted(info.role)).map(|(name, _)| name).collect()
+    }
+
     /// Reads the mechanism declared in a text.
     pub(crate) fn read(py: Python<'_>, text: String) -> PyResult<Self> {
         match py.detach(|| Interpreted::from_text(&text)) {
@@ -66,11 +73,29 @@ impl Mechanism {
         &self.text
     }
 
-    /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them speeds and reactions of
-    /// constraints (SI).
+    /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them those whose speed is the unknown
+    /// (SI), after these the reactions of constraints (SI).
+    #[getter]
+    fn unknowns(&self) -> Vec<&str> {
+        names::coordinates(self.inner.description())
+    }
+
+    /// Names of the coordinates, those among them whose speed is the unknown: `eigentol check` counts the same.
     #[getter]
     fn coordinates(&self) -> Vec<&str> {
-        names::coordinates(self.inner.description())
+        self.of_roles(|role| matches!(role, Role::Position | Role::Speed))
+    }
+
+    /// Names of the coordinates of which the speed, not the position, is the unknown.
+    #[getter]
+    fn speeds(&self) -> Vec<&str> {
+        self.of_roles(|role| role == Role::Speed)
+    }
+
+    /// Names of the reactions of constraints.
+    #[getter]
+    fn reactions(&self) -> Vec<&str> {
+        self.of_roles(|role| !matches!(role, Role::Position | Role::Speed))
     }
 
     /// Names of the inputs in the order of arrays.
@@ -101,7 +126,7 @@ impl Mechanism {
         Ok(all)
     }
 
-    /// The declared unit of every input, design variable, coordinate and output, by name: "rpm".
+    /// The declared unit of every input, design variable, unknown and output, by name: "rpm".
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
@@ -124,9 +149,10 @@ impl Mechanism {
             false => names.join(", "),
         };
         format!(
-            "Mechanism {}\n  coordinates: {}\n  inputs: {}\n  design: {}\n  outputs: {}",
+            "Mechanism {}\n  coordinates: {}\n  reactions: {}\n  inputs: {}\n  design: {}\n  outputs: {}",
             of.name,
-            listed(names::coordinates(of)),
+            listed(self.coordinates()),
+            listed(self.reactions()),
             listed(names::inputs(of)),
             listed(names::design(of)),
             listed(names::outputs(of)),

@@ -16,13 +16,13 @@ use crate::values::{List, numbers};
 /// unknowns: `names` says which. Reactions of constraints are not part of it.
 #[pyclass(frozen, module = "eigentol")]
 pub(crate) struct Motion {
-    mechanism: Interpreted,
+    mechanism: Py<Mechanism>,
     inputs: Vec<f64>,
     design: Vec<f64>,
 }
 
 impl Motion {
-    pub(crate) fn new(mechanism: Interpreted, inputs: Vec<f64>, design: Vec<f64>) -> Self {
+    pub(crate) fn new(mechanism: Py<Mechanism>, inputs: Vec<f64>, design: Vec<f64>) -> Self {
         Self {
             mechanism,
             inputs,
@@ -30,8 +30,12 @@ impl Motion {
         }
     }
 
+    fn inner(&self) -> &Interpreted {
+        &self.mechanism.get().inner
+    }
+
     fn description(&self) -> &Description {
-        self.mechanism.description()
+        self.inner().description()
     }
 
     fn count(&self, role: Role) -> usize {
@@ -55,7 +59,7 @@ impl Motion {
         velocity[..positions].copy_from_slice(&y[positions..2 * positions]);
         q[positions..positions + speeds].copy_from_slice(&y[2 * positions..]);
         let (u, b) = (&self.inputs, &self.design);
-        let found = motion::accelerations(&self.mechanism, &velocity, &q, u, b)?;
+        let found = motion::accelerations(self.inner(), &velocity, &q, u, b)?;
         let rates = &y[positions..2 * positions];
         Ok([rates, &found[..positions + speeds]].concat())
     }
@@ -69,15 +73,14 @@ impl Mechanism {
     /// design is nominal.
     #[pyo3(signature = (inputs=None, design=None))]
     fn motion(
-        &self,
-        py: Python<'_>,
+        slf: &Bound<'_, Self>,
         inputs: Option<&Bound<'_, PyAny>>,
         design: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Motion> {
-        let of = self.inner.description();
+        let (py, of) = (slf.py(), slf.get().inner.description());
         let inputs = List::Inputs.read(py, of, inputs)?;
         let design = List::Design.read(py, of, design)?;
-        Ok(Motion::new(self.inner.clone(), inputs, design))
+        Ok(Motion::new(slf.clone().unbind(), inputs, design))
     }
 }
 
@@ -134,6 +137,15 @@ impl Motion {
             py,
             [&y.concat()[..], &q[positions..positions + speeds]].concat(),
         ))
+    }
+
+    #[expect(clippy::type_complexity, reason = "what Python asks for")]
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Vec<f64>, Vec<f64>))> {
+        let motion = self.mechanism.bind(py).getattr("motion")?;
+        Ok((motion, (self.inputs.clone(), self.design.clone())))
     }
 
     fn __repr__(&self) -> String {

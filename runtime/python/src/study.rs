@@ -35,7 +35,9 @@ const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 ///       without it: `notes` of the equilibrium says so.
 ///   at: an equilibrium found by `equilibria`, whatever its stability.
 ///   tolerances: by name of a design variable or an input: a half-width, a text ("3%", "+0.2 -0.1 mm uniform",
-///       "one of [9, 10] mm"), or a pair of deviations, lower and upper.
+///       "one of [9, 10] mm"), or a pair of deviations, lower and upper. Per cent given here are of the value that the
+///       study has, whatever `replace` changes; per cent of the declaration are of the declared nominal value of a design
+///       variable, also where `design` sets another, as in Rust and in the command.
 ///   measured: arrays of measured values by name, SI, which take the place of a tolerance.
 ///   sigma_level: standard deviations that a half-width stands for (3).
 ///   correlation: matrix of the design variables, and after them of the inputs that have a tolerance.
@@ -208,9 +210,9 @@ impl Study {
     }
 
     /// The nonlinear motion at the inputs and the design of this study, for `scipy.integrate.solve_ivp`.
-    fn motion(&self) -> Motion {
+    fn motion(&self, py: Python<'_>) -> Motion {
         Motion::new(
-            self.inner.mechanism().clone(),
+            self.mechanism(py),
             self.inner.input_values().to_vec(),
             self.inner.design_values().to_vec(),
         )

@@ -232,13 +232,13 @@ result! {
 attributes! {
     ShapeSensitivity(self, py) {
         /// Of the shape by inputs, shape (n, inputs).
-        right_by_input: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.right_by_input);
+        right_by_input: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.right_by_input.transpose());
         /// Of the shape by design variables, shape (n, design).
-        right_by_design: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.right_by_design);
+        right_by_design: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.right_by_design.transpose());
         /// Of the left vector by inputs, shape (n, inputs).
-        left_by_input: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.left_by_input);
+        left_by_input: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.left_by_input.transpose());
         /// Of the left vector by design variables, shape (n, design).
-        left_by_design: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.left_by_design);
+        left_by_design: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.left_by_design.transpose());
     }
 }
 

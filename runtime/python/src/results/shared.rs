@@ -183,7 +183,7 @@ pub(crate) fn table<'py>(
     Err(new(py, Kind::UnknownName, message))
 }
 
-/// Numbers become arrays with NaN for missing values; words and other columns with missing values become lists.
+/// Numbers become arrays with NaN for missing ones, words and flags lists with None.
 fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
     for column in &table.columns {
@@ -194,7 +194,10 @@ fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict
             }
             Values::Whole(values) => match values.iter().copied().collect::<Option<Vec<i64>>>() {
                 Some(whole) => columns.set_item(heading, vector(py, whole))?,
-                None => columns.set_item(heading, values.clone())?,
+                None => {
+                    let values = values.iter().map(|own| own.map(|own| own as f64));
+                    columns.set_item(heading, optional(py, values))?;
+                }
             },
             Values::Texts(values) => columns.set_item(heading, values.clone())?,
             Values::Flags(values) => columns.set_item(heading, values.clone())?,
