@@ -52,7 +52,12 @@ impl Clusters {
         py: Python<'py>,
         of: impl Fn(&ClusterSpread) -> usize,
     ) -> Array1<'py, i64> {
-        vector(py, self.0.iter().map(|own| own.spread.as_ref().map_or(0, |own| of(own) as i64)))
+        vector(
+            py,
+            self.0
+                .iter()
+                .map(|own| own.spread.as_ref().map_or(0, |own| of(own) as i64)),
+        )
     }
 
     /// A number of each member in ascending order, and of the distance of the lowest from the highest, for each cluster.
@@ -63,12 +68,17 @@ impl Clusters {
         of: impl Fn(&Statistics) -> Option<f64>,
     ) -> PyResult<Vec<Array1<'py>>> {
         type Part = fn(&ClusterSpread) -> Option<&SortedSpread>;
-        let part: Part = word(py, "quantity", quantity, &[
-            ("frequency", (|own| Some(&own.frequency)) as Part),
-            ("lambda", |own| own.lambda.as_ref()),
-            ("growth", |own| own.growth.as_ref()),
-            ("damping_ratio", |own| own.damping_ratio.as_ref()),
-        ])?;
+        let part: Part = word(
+            py,
+            "quantity",
+            quantity,
+            &[
+                ("frequency", (|own| Some(&own.frequency)) as Part),
+                ("lambda", |own| own.lambda.as_ref()),
+                ("growth", |own| own.growth.as_ref()),
+                ("damping_ratio", |own| own.damping_ratio.as_ref()),
+            ],
+        )?;
         let each = self.0.iter().map(|own| {
             let spread = own.spread.as_ref().ok().and_then(part);
             let members = (0..own.modes.len()).map(|k| spread?.members.get(k)?.value.as_ref());

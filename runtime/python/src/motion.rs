@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use crate::arrays::{Array1, vector};
 use crate::errors::{invalid, raise};
 use crate::mechanism::Mechanism;
+use crate::results::attributes;
 use crate::values::{List, numbers};
 
 /// The nonlinear motion at fixed inputs and design: `motion(t, y)` returns dy/dt, as `scipy.integrate.solve_ivp` wants
@@ -84,6 +85,22 @@ impl Mechanism {
     }
 }
 
+attributes! {
+    Motion(self, py) {
+        /// Names of the entries of `y`; a rate is marked by a prime: "theta", "theta'".
+        names: Vec<String> = {
+            let of = |role: Role| {
+                let all = self.description().coordinates.iter();
+                all.filter(move |own| own.role == role)
+            };
+            let positions = of(Role::Position).map(|own| own.name.to_string());
+            let rates = of(Role::Position).map(|own| format!("{}'", own.name));
+            let speeds = of(Role::Speed).map(|own| own.name.to_string());
+            positions.chain(rates).chain(speeds).collect()
+        };
+    }
+}
+
 #[pymethods]
 impl Motion {
     /// dy/dt at the state `y`, the same shape. `t` does not matter: inputs are constant.
@@ -99,19 +116,6 @@ impl Motion {
             Ok(rates) => Ok(vector(py, rates)),
             Err(error) => Err(raise(py, error)),
         }
-    }
-
-    /// Names of the entries of `y`; a rate is marked by a prime: "theta", "theta'".
-    #[getter]
-    fn names(&self) -> Vec<String> {
-        let of = |role: Role| {
-            let all = self.description().coordinates.iter();
-            all.filter(move |own| own.role == role)
-        };
-        let positions = of(Role::Position).map(|own| own.name.to_string());
-        let rates = of(Role::Position).map(|own| format!("{}'", own.name));
-        let speeds = of(Role::Speed).map(|own| own.name.to_string());
-        positions.chain(rates).chain(speeds).collect()
     }
 
     /// A state `y` from coordinates and speeds, and from rates, by name; zero unless given. SI or texts with units;
@@ -148,8 +152,8 @@ impl Motion {
         Ok((motion, (self.inputs.clone(), self.design.clone())))
     }
 
-    fn __repr__(&self) -> String {
+    fn __repr__(&self, py: Python<'_>) -> String {
         let of = &self.description().name;
-        format!("Motion of {of}, y = [{}]", self.names().join(", "))
+        format!("Motion of {of}, y = [{}]", self.names(py).join(", "))
     }
 }

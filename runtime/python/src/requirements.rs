@@ -93,43 +93,40 @@ impl Study {
         });
         found.map(Chances)
     }
+}
 
+/// Analyses of requirements, given as `chances` takes them.
+macro_rules! of_requirements {
+    ($($(#[$doc:meta])* $question:ident($($settings:expr)?) -> $result:ident;)*) => {
+        #[pymethods]
+        impl Study {
+            $(
+                $(#[$doc])*
+                fn $question(
+                    &self,
+                    py: Python<'_>,
+                    requirements: Vec<Bound<'_, PyAny>>,
+                ) -> PyResult<$result> {
+                    let wanted = self.requirements(&requirements)?;
+                    let found =
+                        self.ask_stoppably(py, |study| study.$question(&wanted $(, $settings)?));
+                    found.map($result)
+                }
+            )*
+        }
+    };
+}
+
+of_requirements! {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
     /// of designs, or samples; requirements as `chances` takes them.
-    fn probability(
-        &self,
-        py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
-    ) -> PyResult<Probabilities> {
-        let wanted = self.requirements(&requirements)?;
-        self.ask_stoppably(py, |study| study.probability(&wanted))
-            .map(Probabilities)
-    }
-
+    probability() -> Probabilities;
     /// Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
     /// takes them.
-    fn reliability(
-        &self,
-        py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
-    ) -> PyResult<Reliability> {
-        let wanted = self.requirements(&requirements)?;
-        self.ask_stoppably(py, |study| study.reliability(&wanted))
-            .map(Reliability)
-    }
-
+    reliability() -> Reliability;
     /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
     /// `chances` takes them.
-    fn rare_failure(
-        &self,
-        py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
-    ) -> PyResult<RareFailure> {
-        let wanted = self.requirements(&requirements)?;
-        let settings = SamplingSettings::default();
-        self.ask_stoppably(py, |study| study.rare_failure(&wanted, &settings))
-            .map(RareFailure)
-    }
+    rare_failure(&SamplingSettings::default()) -> RareFailure;
 }
 
 impl Study {
@@ -208,11 +205,9 @@ attributes! {
         /// Share of the samples that meet all requirements.
         all_met: f64 = self.0.all.yield_of();
         /// Lower ends of the 95 % intervals of `failure`, shape (k,).
-        lower: Array1<'py> =
-            optional(py, self.0.each.iter().map(|own| Some(interval(own)?.0)));
+        lower: Array1<'py> = optional(py, self.0.each.iter().map(|own| Some(interval(own)?.0)));
         /// Upper ends, shape (k,).
-        upper: Array1<'py> =
-            optional(py, self.0.each.iter().map(|own| Some(interval(own)?.1)));
+        upper: Array1<'py> = optional(py, self.0.each.iter().map(|own| Some(interval(own)?.1)));
         /// How many samples fail each requirement, shape (k,).
         failed: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.failed as i64));
         /// How many samples lack the response needed to tell, shape (k,).
@@ -222,8 +217,7 @@ attributes! {
         /// Its 95 % interval.
         any_interval: Option<(f64, f64)> = interval(&self.0.all);
         /// How many samples meet all requirements, fail one, lack the response needed to tell.
-        all_counts: (usize, usize, usize) =
-            (self.0.all.met, self.0.all.failed, self.0.all.untold);
+        all_counts: (usize, usize, usize) = (self.0.all.met, self.0.all.failed, self.0.all.untold);
         /// What became of the samples, by name.
         counts: PyResult<Bound<'py, PyDict>> = counts(py, &self.0.counts);
         /// Number of samples that were asked for.
@@ -245,8 +239,16 @@ impl Reliability {
         py: Python<'py>,
         of: impl Fn(&requirement::DesignPoint) -> Vec<f64>,
     ) -> PyResult<Array2<'py>> {
-        let first = self.0.limits.iter().map(|own| own.design_points.as_ref().ok()?.first());
-        optional_rows(py, self.0.description.design.len(), first.map(|own| own.map(&of)))
+        let first = self
+            .0
+            .limits
+            .iter()
+            .map(|own| own.design_points.as_ref().ok()?.first());
+        optional_rows(
+            py,
+            self.0.description.design.len(),
+            first.map(|own| own.map(&of)),
+        )
     }
 }
 
@@ -278,10 +280,8 @@ attributes! {
             optional(py, judged.map(|own| own.map(half)))
         };
         /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
-        verified: Vec<bool> = {
-            let all = self.0.limits.iter();
-            all.map(requirement::LimitReliability::verified).collect()
-        };
+        verified: Vec<bool> =
+            self.0.limits.iter().map(requirement::LimitReliability::verified).collect();
         /// Probability that any limit is passed, to first order; None where it is not known.
         any_failure: Option<f64> = self.0.system.as_ref().map(|own| own.probability.value);
         /// The limits: the position of the requirement, and the name of the response.
@@ -325,10 +325,9 @@ attributes! {
         out_of_reach: Array1<'py, bool> =
             vector(py, self.0.limits.iter().map(requirement::LimitReliability::out_of_reach));
         /// Why a limit has no design point: a text for each limit, or None.
-        failures: Vec<Option<String>> = {
-            let all = self.0.limits.iter();
-            all.map(|own| Some(own.design_points.as_ref().err()?.to_string())).collect()
-        };
+        failures: Vec<Option<String>> =
+            self.0.limits.iter()
+                .map(|own| Some(own.design_points.as_ref().err()?.to_string())).collect();
         /// What the designs solved anew say of each limit, by name; under "open" why there are none.
         judgements: PyResult<Vec<Bound<'py, PyDict>>> =
             self.0.limits.iter().map(|own| judgement(py, &own.judgement)).collect();

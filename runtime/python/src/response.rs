@@ -14,7 +14,7 @@ use pyo3::types::{IntoPyDict, PyTuple};
 use crate::arrays::{or_nan, rows, vector};
 use crate::errors::raise;
 use crate::names;
-use crate::results::quantity;
+use crate::results::{attributes, quantity};
 use crate::study::Study;
 use crate::values::{List, mode_number, number, numbers};
 
@@ -220,23 +220,24 @@ impl Response {
     }
 }
 
+attributes! {
+    Response(self, py) {
+        /// Names of the variables, in the order of `x`.
+        names: Vec<String> = {
+            let all = names::design(self.mechanism.description());
+            let own = self.variables.iter();
+            own.map(|place| all[*place].to_owned()).collect()
+        };
+        /// Nominal values of the variables, SI, shape (variables,).
+        nominal: Bound<'py, PyAny> = {
+            let design = &self.nominal.0.design;
+            vector(py, self.variables.iter().map(|place| design[*place])).into_any()
+        };
+    }
+}
+
 #[pymethods]
 impl Response {
-    /// Names of the variables, in the order of `x`.
-    #[getter]
-    fn names(&self) -> Vec<String> {
-        let all = names::design(self.mechanism.description());
-        let own = self.variables.iter();
-        own.map(|place| all[*place].to_owned()).collect()
-    }
-
-    /// Nominal values of the variables, SI, shape (variables,).
-    #[getter]
-    fn nominal<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        let design = &self.nominal.0.design;
-        vector(py, self.variables.iter().map(|place| design[*place])).into_any()
-    }
-
     /// The response at a design, or at each of several, SI.
     fn __call__<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let (designs, single) = self.designs(x)?;
@@ -270,14 +271,14 @@ impl Response {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, ())> {
         let (study, what, of) = &self.given;
-        let variables = [("variables", self.names())].into_py_dict(py)?;
+        let variables = [("variables", self.names(py))].into_py_dict(py)?;
         let first = (study.bind(py).getattr("response")?, what);
         let all = first.into_pyobject(py)?.add(of.bind(py))?;
         let partial = py.import("functools")?.getattr("partial")?;
         Ok((partial.call(all.cast::<PyTuple>()?, Some(&variables))?, ()))
     }
 
-    fn __repr__(&self) -> String {
-        format!("Response: {} by {}", self.text, self.names().join(", "))
+    fn __repr__(&self, py: Python<'_>) -> String {
+        format!("Response: {} by {}", self.text, self.names(py).join(", "))
     }
 }

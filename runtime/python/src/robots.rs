@@ -14,10 +14,13 @@ use crate::names::did_you_mean;
 use crate::values::word;
 
 /// A robot as a declaration; numbers are SI.
-#[pyclass(frozen, module = "eigentol")]
+#[pyclass(frozen, get_all, new = "from_fields", module = "eigentol")]
 pub(crate) struct Import {
+    /// Text in the language of eigentol.
     declaration: String,
+    /// By the name in the declaration, that in the file: of every link and joint that had to be renamed.
     names: BTreeMap<String, String>,
+    /// What the declaration does not say, or says in another way than the file.
     notes: Vec<String>,
 }
 
@@ -127,36 +130,18 @@ pub(crate) fn import_urdf(
 ) -> PyResult<Import> {
     let found = read(py, &path, options)?;
     let notes = found.notes.iter().map(ToString::to_string).collect();
-    Ok(Import::new(found.declaration, found.names, notes))
+    let (declaration, names) = (found.declaration, found.names);
+    Ok(Import {
+        declaration,
+        names,
+        notes,
+    })
 }
 
 #[pymethods]
 impl Import {
-    #[new]
-    fn new(declaration: String, names: BTreeMap<String, String>, notes: Vec<String>) -> Self {
-        Self { declaration, names, notes }
-    }
-
     fn __getnewargs__(&self) -> (&str, BTreeMap<String, String>, Vec<String>) {
         (&self.declaration, self.names.clone(), self.notes.clone())
-    }
-
-    /// Text in the language of eigentol.
-    #[getter]
-    fn declaration(&self) -> &str {
-        &self.declaration
-    }
-
-    /// By the name in the declaration, that in the file: of every link and joint that had to be renamed.
-    #[getter]
-    fn names(&self) -> BTreeMap<String, String> {
-        self.names.clone()
-    }
-
-    /// What the declaration does not say, or says in another way than the file.
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.notes.clone()
     }
 
     /// The mechanism.

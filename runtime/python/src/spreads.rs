@@ -13,9 +13,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{Array1, Array2, Array3, optional, optional_rows, or_nan, rows, vector};
+use crate::clusters::Clusters;
 use crate::errors::invalid;
 use crate::names;
-use crate::clusters::Clusters;
 use crate::results::{attributes, family, quantity, result};
 
 result! {
@@ -54,10 +54,8 @@ attributes! {
             vector(py, self.0.modes.iter().map(|own| own.distance_to_critical));
         /// For each mode the doubts that distances raise about its standard deviations: texts, none where they are large.
         /// They do not tell how large an error is; `summary` lets samples decide.
-        doubts: Vec<Vec<String>> = {
-            let all = 0..self.0.modes.len();
-            all.map(|mode| texts(&self.0.doubts(mode))).collect()
-        };
+        doubts: Vec<Vec<String>> =
+            (0..self.0.modes.len()).map(|mode| texts(&self.0.doubts(mode))).collect();
         /// Whether distances leave no doubt about any mode. Where they do, `summary` lets samples decide.
         trusted: bool = self.0.trusted();
         /// The same of each mode, shape (m,).
@@ -140,11 +138,8 @@ attributes! {
         /// For each mode the doubts that distances raise, as those of first order.
         doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|own| texts(own)).collect();
         /// Why a mode has no second order: a text for each mode, or None.
-        failures: Vec<Option<String>> = {
-            let all = self.0.modes.iter();
-            all.map(|mode| mode.as_ref().err().map(ToString::to_string))
-                .collect()
-        };
+        failures: Vec<Option<String>> =
+            self.0.modes.iter().map(|mode| mode.as_ref().err().map(ToString::to_string)).collect();
         /// Standard deviations that a tolerance stands for.
         sigma_level: f64 = self.0.sigma_level;
         /// Whether any variable has a tolerance.
@@ -473,10 +468,8 @@ attributes! {
         /// Probability by designs solved anew, which judges the other two; None where that is too dear.
         solved_anew: Option<f64> = self.0.judgement.judged().map(|own| own.probability.value);
         /// 95 % interval of that.
-        interval: Option<(f64, f64)> = {
-            let interval = self.0.judgement.judged().map(|own| own.interval());
-            interval.map(|own| (own.lower, own.upper))
-        };
+        interval: Option<(f64, f64)> =
+            self.0.judgement.judged().map(|own| own.interval()).map(|own| (own.lower, own.upper));
         /// Whether designs solved anew confirm the probability of the second-order model.
         verified: bool = self.0.verified();
         /// Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on.
@@ -542,7 +535,9 @@ fn responses(all: &[eigentol::response::Response], of: &eigentol::Description) -
 }
 
 fn optional_matrix<'py>(py: Python<'py>, of: &Matrix<Option<f64>>) -> PyResult<Array2<'py>> {
-    let all = of.iter().map(|row| row.iter().copied().map(or_nan).collect());
+    let all = of
+        .iter()
+        .map(|row| row.iter().copied().map(or_nan).collect());
     rows(py, of.column_count(), all)
 }
 
@@ -552,7 +547,10 @@ fn pairs<'py>(py: Python<'py>, all: &[(f64, f64)]) -> PyResult<Array2<'py>> {
 
 /// Derivatives, or as many NaN.
 fn slopes<'py>(py: Python<'py>, count: usize, own: Option<&[f64]>) -> Array1<'py> {
-    vector(py, own.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec))
+    vector(
+        py,
+        own.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec),
+    )
 }
 
 /// What designs solved anew say.
@@ -639,10 +637,17 @@ impl Influence {
         py: Python<'py>,
         of: impl Fn(&propagation::VariableInfluence) -> Option<&propagation::Estimate>,
     ) -> PyResult<Array3<'py>> {
-        let all = self.0.responses.iter().flat_map(|own| &own.variables).flat_map(|own| {
-            of(own).map_or([f64::NAN; 2], |own| [own.lower, own.upper])
-        });
-        let columns = self.0.responses.first().map_or(0, |own| own.variables.len());
+        let all = self
+            .0
+            .responses
+            .iter()
+            .flat_map(|own| &own.variables)
+            .flat_map(|own| of(own).map_or([f64::NAN; 2], |own| [own.lower, own.upper]));
+        let columns = self
+            .0
+            .responses
+            .first()
+            .map_or(0, |own| own.variables.len());
         vector(py, all).reshape([self.0.responses.len(), columns, 2])
     }
 
@@ -722,7 +727,11 @@ impl WorstCase {
         py: Python<'py>,
         of: impl Fn(&propagation::ResponseLimits) -> Option<&Extreme>,
     ) -> PyResult<Array2<'py>> {
-        let all = self.0.responses.iter().map(|own| of(own).map(|own| own.design.to_vec()));
+        let all = self
+            .0
+            .responses
+            .iter()
+            .map(|own| of(own).map(|own| own.design.to_vec()));
         optional_rows(py, self.0.description.design.len(), all)
     }
 }

@@ -14,6 +14,7 @@ use crate::arrays::{Array1, vector};
 use crate::errors::{raise, with_note};
 use crate::mechanism::Mechanism;
 use crate::motion::Motion;
+use crate::results::attributes;
 use crate::settings;
 
 /// Interval between checks for Ctrl-C while waiting for an answer.
@@ -152,6 +153,22 @@ impl Study {
     }
 }
 
+attributes! {
+    Study(self, py) {
+        /// The settings as given.
+        settings: PyResult<Bound<'py, PyDict>> = settings::copied(self.settings.bind(py));
+        /// Values of the inputs, SI, shape (inputs,).
+        inputs: Array1<'py> = vector(py, self.inner.input_values().iter().copied());
+        /// Values of the design variables, SI, shape (design,).
+        design: Array1<'py> = vector(py, self.inner.design_values().iter().copied());
+        /// Standard deviations of the design variables, and after them of the inputs that have a tolerance, SI.
+        sigmas: PyResult<Array1<'py>> = {
+            let tolerances = self.ask(py, |study| study.tolerances())?;
+            Ok(vector(py, tolerances.sigmas().iter().copied()))
+        };
+    }
+}
+
 #[pymethods]
 impl Study {
     #[new]
@@ -182,31 +199,6 @@ impl Study {
     #[getter]
     pub(crate) fn mechanism(&self, py: Python<'_>) -> Py<Mechanism> {
         self.mechanism.clone_ref(py)
-    }
-
-    /// The settings as given.
-    #[getter]
-    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        settings::copied(self.settings.bind(py))
-    }
-
-    /// Values of the inputs, SI, shape (inputs,).
-    #[getter]
-    fn inputs<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.inner.input_values().iter().copied())
-    }
-
-    /// Values of the design variables, SI, shape (design,).
-    #[getter]
-    fn design<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.inner.design_values().iter().copied())
-    }
-
-    /// Standard deviations of the design variables, and after them of the inputs that have a tolerance, SI.
-    #[getter]
-    fn sigmas<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
-        let tolerances = self.ask(py, |study| study.tolerances())?;
-        Ok(vector(py, tolerances.sigmas().iter().copied()))
     }
 
     /// The nonlinear motion at the inputs and the design of this study, for `scipy.integrate.solve_ivp`.

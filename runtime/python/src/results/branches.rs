@@ -42,15 +42,11 @@ attributes! {
             rows(py, self.0.description.coordinates.len(), all)
         };
         /// Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which counts as stable.
-        stable: Vec<bool> = {
-            let all = self.0.points.iter();
-            all.map(|own| own.equilibrium.stability.holds()).collect()
-        };
+        stable: Vec<bool> =
+            self.0.points.iter().map(|own| own.equilibrium.stability.holds()).collect();
         /// The equilibrium at each point.
-        equilibria: Vec<Equilibrium> = {
-            let all = self.0.points.iter();
-            all.map(|own| Equilibrium(own.equilibrium.clone())).collect()
-        };
+        equilibria: Vec<Equilibrium> =
+            self.0.points.iter().map(|own| Equilibrium(own.equilibrium.clone())).collect();
         /// Name of the input.
         input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
         /// Derivatives of the unknowns by length along the branch, shape (k, n).
@@ -61,10 +57,8 @@ attributes! {
         /// The same of the input, SI, shape (k,).
         input_tangents: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.input_tangent));
         /// The equilibria at the special points.
-        special_equilibria: Vec<Equilibrium> = {
-            let all = self.0.special.iter();
-            all.map(|own| Equilibrium(own.equilibrium.clone())).collect()
-        };
+        special_equilibria: Vec<Equilibrium> =
+            self.0.special.iter().map(|own| Equilibrium(own.equilibrium.clone())).collect();
         /// Critical vectors of the special points, `Khat v = 0`, shape (special points, n).
         critical_vectors: PyResult<Array2<'py>> = {
             let all = self.0.special.iter().map(|own| own.v.to_vec());
@@ -76,10 +70,8 @@ attributes! {
             rows(py, self.0.description.coordinates.len(), all)
         };
         /// Special points: what each is, in words, and the value of the input there, SI.
-        special: Vec<(String, f64)> = {
-            let all = self.0.special.iter();
-            all.map(|own| (own.kind.to_string(), own.value)).collect()
-        };
+        special: Vec<(String, f64)> =
+            self.0.special.iter().map(|own| (own.kind.to_string(), own.value)).collect();
         /// How it ends at either side, in words.
         ends: Vec<String> = self.0.ends.iter().map(ToString::to_string).collect();
     }

@@ -189,8 +189,7 @@ attributes! {
         /// Second derivatives by inputs, shape (inputs, inputs).
         by_input: PyResult<Array2<'py>> = matrix(py, &self.0.second.by_input);
         /// Second derivatives by an input and a design variable, shape (inputs, design).
-        by_input_and_design: PyResult<Array2<'py>> =
-            matrix(py, &self.0.second.by_input_and_design);
+        by_input_and_design: PyResult<Array2<'py>> = matrix(py, &self.0.second.by_input_and_design);
         /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
         /// zero.
         asymmetry: f64 = self.0.asymmetry;

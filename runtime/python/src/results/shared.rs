@@ -150,7 +150,9 @@ pub(crate) fn operating_point(of: Option<Subject<'_>>) -> BTreeMap<String, f64> 
     let varied = of.varied.map(Input::index);
     let each = of.description.inputs.iter().zip(of.inputs).enumerate();
     let fixed = each.filter(|(k, _)| Some(*k) != varied);
-    fixed.map(|(_, (info, value))| (info.name.to_string(), *value)).collect()
+    fixed
+        .map(|(_, (info, value))| (info.name.to_string(), *value))
+        .collect()
 }
 
 /// The JSON Schema of the documents that `to_json` gives, as a text.

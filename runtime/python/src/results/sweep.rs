@@ -83,22 +83,15 @@ attributes! {
         /// Name of the input.
         input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
         /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
-        failures: Vec<Option<String>> = {
-            let all = self.0.points.iter();
-            all.map(|own| message(&own.equilibrium).or_else(|| message(&own.modes)))
-                .collect()
-        };
+        failures: Vec<Option<String>> =
+            self.0.points.iter()
+                .map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect();
         /// The equilibrium at each value, or None.
-        equilibria: Vec<Option<Equilibrium>> = {
-            let all = self.0.points.iter();
-            all.map(|own| own.equilibrium.clone().ok().map(Equilibrium))
-                .collect()
-        };
+        equilibria: Vec<Option<Equilibrium>> =
+            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
         /// The modes at each value, or None.
-        modes: Vec<Option<Modes>> = {
-            let all = self.0.points.iter();
-            all.map(|own| own.modes.clone().ok().map(Modes)).collect()
-        };
+        modes: Vec<Option<Modes>> =
+            self.0.points.iter().map(|own| own.modes.clone().ok().map(Modes)).collect();
     }
 }
 
@@ -121,7 +114,10 @@ impl Campbell {
         let row = |own: &eigentol::campbell::CampbellPoint| {
             let modes = own.modes.as_ref().map_or(&[][..], Vec::as_slice);
             let mode = |label: &usize| modes.iter().find(|mode| mode.label == *label);
-            labels.iter().map(|label| mode(label).and_then(of)).collect()
+            labels
+                .iter()
+                .map(|label| mode(label).and_then(of))
+                .collect()
         };
         self.0.points.iter().map(row).collect()
     }
@@ -154,7 +150,9 @@ fn unsearched(of: Option<&Searched>) -> Vec<(f64, f64)> {
     let unresolved = of.iter().flat_map(|own| &own.unresolved);
     let gaps = of.iter().flat_map(|own| &own.gaps);
     let unresolved = unresolved.map(|own| (own.from, own.to));
-    unresolved.chain(gaps.map(|own| (own.from, own.to))).collect()
+    unresolved
+        .chain(gaps.map(|own| (own.from, own.to)))
+        .collect()
 }
 
 fn sigma(spread: &Option<Spread>) -> Option<f64> {
@@ -212,15 +210,12 @@ attributes! {
             optional_rows(py, self.0.description.coordinates.len(), all)
         };
         /// The equilibrium at each value, or None.
-        equilibria: Vec<Option<Equilibrium>> = {
-            let all = self.0.points.iter();
-            all.map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect()
-        };
+        equilibria: Vec<Option<Equilibrium>> =
+            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
         /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
-        failures: Vec<Option<String>> = {
-            let all = self.0.points.iter();
-            all.map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect()
-        };
+        failures: Vec<Option<String>> =
+            self.0.points.iter()
+                .map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect();
         /// The lines whose crossings were searched for: multiple of the input, and offset in rad/s.
         orders: Vec<(f64, f64)> = self.0.orders.iter().map(|own| (own.ratio, own.offset)).collect();
         /// The range that was searched for events, SI: its ends, and how close two of them may be; or None.
