@@ -90,6 +90,7 @@ macro_rules! kernels {
         impl Mechanism {
             $(
                 $(#[$doc])*
+                #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
                 #[pyo3(signature = ($($list,)* $($number,)? q, inputs=None, design=None))]
                 fn $name<'py>(
                     &$own,
