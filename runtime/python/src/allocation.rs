@@ -7,7 +7,8 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{Array1, vector};
 use crate::names;
-use crate::results::result;
+use crate::requirements::{Chances, Reliability};
+use crate::results::{attributes, result};
 use crate::study::Study;
 use crate::values::{List, number};
 
@@ -95,47 +96,32 @@ result! {
     Allocation(allocation::Allocation)
 }
 
-#[pymethods]
-impl Allocation {
-    /// Names of the design variables, and after them of the inputs that have a tolerance.
-    #[getter]
-    fn names(&self) -> Vec<&str> {
-        names::design(&self.0.description)
-    }
-
-    /// Nominal values, SI, shape (variables,).
-    #[getter]
-    fn nominal<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.nominal.iter().copied())
-    }
-
-    /// Half-widths, SI, shape (variables,).
-    #[getter]
-    fn half_widths<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.half_widths.iter().copied())
-    }
-
-    /// Sum of the costs.
-    #[getter]
-    fn cost(&self) -> f64 {
-        self.0.cost
-    }
-
-    /// The same for the tolerances at the start.
-    #[getter]
-    fn cost_before(&self) -> f64 {
-        self.0.cost_before
-    }
-
-    /// Share of the samples that fail each requirement, shape (k,).
-    #[getter]
-    fn sampled_failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.chances.each.iter().map(|own| own.failure()))
-    }
-
-    /// Positions of the requirements that the samples refute: first order failed there, allow less.
-    #[getter]
-    fn refuted(&self) -> Vec<usize> {
-        self.0.refuted.clone()
+attributes! {
+    Allocation(self, py) {
+        /// Names of the design variables, and after them of the inputs that have a tolerance.
+        names: Vec<&str> = names::design(&self.0.description);
+        /// Nominal values, SI, shape (variables,).
+        nominal: Array1<'py> = vector(py, self.0.nominal.iter().copied());
+        /// Half-widths, SI, shape (variables,).
+        half_widths: Array1<'py> = vector(py, self.0.half_widths.iter().copied());
+        /// Sum of the costs.
+        cost: f64 = self.0.cost;
+        /// The same for the tolerances at the start.
+        cost_before: f64 = self.0.cost_before;
+        /// Share of the samples that fail each requirement, shape (k,).
+        sampled_failure: Array1<'py> =
+            vector(py, self.0.chances.each.iter().map(|own| own.failure()));
+        /// Positions of the requirements that the samples refute: first order failed there, allow less.
+        refuted: Vec<usize> = self.0.refuted.clone();
+        /// Greatest probability of failing each requirement that was allowed, shape (k,).
+        failure: Array1<'py> = vector(py, self.0.failure.iter().copied());
+        /// Reliability of what was found, by design points.
+        reliability: Reliability = Reliability(self.0.reliability.clone());
+        /// Chances of what was found, by samples.
+        chances: Chances = Chances(self.0.chances.clone());
+        /// Number of choices that were tried.
+        evaluations: usize = self.0.evaluations;
+        /// Whether the search was stopped, so that there may be cheaper ones.
+        stopped: bool = self.0.stopped;
     }
 }

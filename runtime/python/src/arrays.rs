@@ -60,17 +60,8 @@ pub(crate) fn optional_rows<'py>(
     rows(py, columns, all.into_iter().map(filled))
 }
 
-/// Square matrices of `size` rows, one after the other.
-pub(crate) fn matrices<'py, 'm>(
-    py: Python<'py>,
-    size: usize,
-    all: impl Iterator<Item = &'m Matrix>,
-) -> PyResult<Array3<'py>> {
-    let mut count = 0;
-    let mut entries = Vec::new();
-    for one in all {
-        entries.extend_from_slice(one.as_flattened());
-        count += 1;
-    }
-    vector(py, entries).reshape([count, size, size])
+/// Derivatives of a square matrix of `size` rows, one for each variable, which comes last in the array.
+pub(crate) fn slopes<'py>(py: Python<'py>, size: usize, all: &[&Matrix]) -> PyResult<Array3<'py>> {
+    let entry = |k: usize| all.iter().map(move |own| own.as_flattened()[k]);
+    vector(py, (0..size * size).flat_map(entry)).reshape([size, size, all.len()])
 }

@@ -1,46 +1,19 @@
 //! Modes whose eigenvalues are equal, or so close that tolerances mix them.
 
-use std::fmt;
-
-use eigentol::clusters::{self, ClusterTolerance};
-use eigentol_tables::Tables;
+use eigentol::clusters::{self, ClusterSpread, ClusterTolerance, SortedSpread};
+use eigentol::{Complex, tolerance::Statistics};
 use pyo3::prelude::*;
 
-use crate::arrays::{Array1, vector};
-use crate::results::{Document, result};
+use crate::arrays::{Array1, optional, vector};
+use crate::results::{attributes, family, result};
 use crate::study::Study;
-use crate::values::{List, mode_number};
-
-/// All clusters of a study.
-pub(crate) struct All(Vec<ClusterTolerance>);
-
-impl fmt::Display for All {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
-            return f.write_str("tolerances bring no modes together\n");
-        }
-        self.0.iter().try_for_each(|own| write!(f, "{own}"))
-    }
-}
-
-impl Tables for All {
-    fn tables(&self) -> Vec<eigentol_tables::Table> {
-        self.0[..].tables()
-    }
-}
-
-impl Document for All {
-    fn document(&self) -> Result<String, eigentol_tables::Error> {
-        eigentol_tables::json::to_string(&self.0)
-    }
-}
+use crate::values::{List, mode_number, word};
 
 #[pymethods]
 impl Study {
     /// The modes that tolerances bring together, and their spread.
     fn clusters(&self, py: Python<'_>) -> PyResult<Clusters> {
-        let found = self.ask(py, |study| study.clusters())?;
-        Ok(Clusters(All(found)))
+        self.ask(py, |study| study.clusters()).map(Clusters)
     }
 
     /// Derivatives of the eigenvalues in the cluster of a mode, counted from 0, along a change of inputs and design
@@ -66,62 +39,133 @@ impl Study {
 }
 
 result! {
-    /// The modes that tolerances bring together. `k` is the number of clusters; their members stand in the table.
-    Clusters(All)
+    /// The modes that tolerances bring together. `k` is the number of clusters.
+    Clusters(Vec<ClusterTolerance>), |own| match own.is_empty() {
+        true => "tolerances bring no modes together\n".to_owned(),
+        false => own.iter().map(ToString::to_string).collect(),
+    }
+}
+
+impl Clusters {
+    fn counts<'py>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&ClusterSpread) -> usize,
+    ) -> Array1<'py, i64> {
+        vector(
+            py,
+            self.0
+                .iter()
+                .map(|own| own.spread.as_ref().map_or(0, |own| of(own) as i64)),
+        )
+    }
+
+    /// A number of each member in ascending order, and of the distance of the lowest from the highest, for each cluster.
+    fn members<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: &str,
+        of: impl Fn(&Statistics) -> Option<f64>,
+    ) -> PyResult<Vec<Array1<'py>>> {
+        type Part = fn(&ClusterSpread) -> Option<&SortedSpread>;
+        let part: Part = word(
+            py,
+            "quantity",
+            quantity,
+            &[
+                ("frequency", (|own| Some(&own.frequency)) as Part),
+                ("lambda", |own| own.lambda.as_ref()),
+                ("growth", |own| own.growth.as_ref()),
+                ("damping_ratio", |own| own.damping_ratio.as_ref()),
+            ],
+        )?;
+        let each = self.0.iter().map(|own| {
+            let spread = own.spread.as_ref().ok().and_then(part);
+            let members = (0..own.modes.len()).map(|k| spread?.members.get(k)?.value.as_ref());
+            let all = members.chain([spread.and_then(|own| own.splitting.as_ref())]);
+            optional(py, all.map(|own| own.and_then(&of)))
+        });
+        Ok(each.collect())
+    }
+}
+
+attributes! {
+    Clusters(self, py) {
+        /// Positions of the modes of each cluster, from 0.
+        modes: Vec<Vec<usize>> = self.0.iter().map(|own| own.modes.clone()).collect();
+        /// Least distance of two members, in standard deviations of their difference, shape (k,).
+        distances: Array1<'py> = vector(py, self.0.iter().map(|own| own.distance));
+        /// Nominal eigenvalues of each cluster: lambda (1/s^2) of undamped modes, s (1/s) of general ones, complex.
+        eigenvalues: Vec<Array1<'py, Complex>> =
+            self.0.iter().map(|own| vector(py, own.eigenvalues.iter().copied())).collect();
+        /// Whether the members of each are equal in every design, shape (k,).
+        equal: Array1<'py, bool> = vector(py, self.0.iter().map(|own| own.equal));
+        /// Means of the eigenvalues of each, complex, shape (k,); NaN where they have merged.
+        mean_eigenvalues: Array1<'py, Complex> = {
+            let none = Complex::new(f64::NAN, f64::NAN);
+            vector(py, self.0.iter().map(|own| own.mean.as_ref().map_or(none, |own| own.value)))
+        };
+        /// Standard deviations of the mean frequencies to first order, rad/s, shape (k,).
+        mean_frequency_sigmas: Array1<'py> = {
+            let mean = self.0.iter().map(|own| own.mean.as_ref()?.frequency.as_ref());
+            optional(py, mean.map(|own| Some(own?.sigma)))
+        };
+        /// Numbers of samples behind the members of each, shape (k,).
+        samples: Array1<'py, i64> = self.counts(py, |own| own.samples);
+        /// Why the members of a cluster have no spread: a text for each cluster, or None.
+        failures: Vec<Option<String>> =
+            self.0.iter().map(|own| Some(own.spread.as_ref().err()?.to_string())).collect();
+        /// "undamped" or "general"; None without clusters.
+        family: Option<&'static str> = Some(family(self.0.first()?.family));
+        /// Whether the members of each have merged into one eigenvalue that no derivative describes.
+        defective: Vec<bool> = self.0.iter().map(ClusterTolerance::defective).collect();
+        /// Numbers of samples that are unstable, shape (k,).
+        unstable: Array1<'py, i64> = self.counts(py, |own| own.unstable);
+        /// Numbers of samples that could not be solved, shape (k,).
+        unsolved: Array1<'py, i64> = self.counts(py, |own| own.unsolved);
+        /// Standard deviations that a tolerance and a band stand for; None without clusters.
+        sigma_level: Option<f64> = Some(self.0.first()?.sigma_level);
+    }
+}
+
+attributes! {
+    Clusters(self, py, quantity) {
+        /// Means of the members of each cluster from the lowest up, and at last of the distance of the highest from the
+        /// lowest: arrays of shape (members + 1,). The quantity is "frequency" (rad/s), "lambda" (1/s^2), "growth" (1/s) or
+        /// "damping_ratio".
+        mean: Vec<Array1<'py>> = self.members(py, quantity, |own| Some(own.mean));
+        /// Standard deviations likewise.
+        sigma: Vec<Array1<'py>> = self.members(py, quantity, |own| own.sigma);
+    }
 }
 
 #[pymethods]
 impl Clusters {
     fn __len__(&self) -> usize {
-        self.0.0.len()
-    }
-
-    /// Positions of the modes of each cluster, from 0.
-    #[getter]
-    fn modes(&self) -> Vec<Vec<usize>> {
-        self.0.0.iter().map(|own| own.modes.clone()).collect()
-    }
-
-    /// Least distance of two members, in standard deviations of their difference, shape (k,).
-    #[getter]
-    fn distances<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.0.iter().map(|own| own.distance))
-    }
-
-    /// Whether the members of each have merged into one eigenvalue that no derivative describes.
-    #[getter]
-    fn defective(&self) -> Vec<bool> {
-        self.0.0.iter().map(ClusterTolerance::defective).collect()
+        self.0.len()
     }
 }
 
-/// Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative
-/// belongs to which mode is not defined.
-#[pyclass(frozen, module = "eigentol")]
-pub(crate) struct DirectionalDerivatives(clusters::DirectionalDerivatives);
-
-#[pymethods]
-impl DirectionalDerivatives {
-    /// Positions of the modes, from 0.
-    #[getter]
-    fn modes(&self) -> Vec<usize> {
-        self.0.modes.clone()
+result! {
+    /// Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative
+    /// belongs to which mode is not defined.
+    DirectionalDerivatives(clusters::DirectionalDerivatives), |own| {
+        format!("DirectionalDerivatives(modes={:?})", own.modes)
     }
+}
 
-    /// Derivatives of lambda (1/s^2) of undamped modes, of s (1/s) of general ones, ascending, complex, shape (k,).
-    #[getter]
-    fn eigenvalues<'py>(&self, py: Python<'py>) -> Array1<'py, eigentol::Complex> {
-        vector(py, self.0.eigenvalues.iter().copied())
-    }
-
-    /// Derivatives of the frequencies, rad/s, ascending, shape (k,); None for modes that do not oscillate.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> Option<Array1<'py>> {
-        let own = self.0.frequencies.as_ref()?;
-        Some(vector(py, own.iter().copied()))
-    }
-
-    fn __repr__(&self) -> String {
-        format!("DirectionalDerivatives(modes={:?})", self.0.modes)
+attributes! {
+    DirectionalDerivatives(self, py) {
+        /// Positions of the modes, from 0.
+        modes: Vec<usize> = self.0.modes.clone();
+        /// "undamped" or "general".
+        family: &'static str = family(self.0.family);
+        /// Derivatives of lambda (1/s^2) of undamped modes, of s (1/s) of general ones, ascending, complex, shape (k,).
+        eigenvalues: Array1<'py, Complex> = vector(py, self.0.eigenvalues.iter().copied());
+        /// Derivatives of the frequencies, rad/s, ascending, shape (k,); NaN where the modes do not oscillate.
+        frequencies: Array1<'py> = {
+            let own = self.0.frequencies.as_ref();
+            optional(py, (0..self.0.modes.len()).map(|k| own?.get(k).copied()))
+        };
     }
 }

@@ -12,7 +12,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use crate::names::did_you_mean;
 
 /// One mistake in a declaration.
-#[pyclass(frozen, get_all, module = "eigentol")]
+#[pyclass(frozen, get_all, new = "from_fields", module = "eigentol")]
 pub(crate) struct Mistake {
     /// Line, from 1.
     line: usize,
@@ -30,14 +30,20 @@ pub(crate) struct Mistake {
 
 #[pymethods]
 impl Mistake {
+    fn __getnewargs__(&self) -> (usize, usize, usize, usize, &str, Option<&str>) {
+        let (start, end) = ((self.line, self.column), (self.end_line, self.end_column));
+        (
+            start.0,
+            start.1,
+            end.0,
+            end.1,
+            &self.message,
+            self.help.as_deref(),
+        )
+    }
+
     fn __repr__(&self) -> String {
-        let Self {
-            line,
-            column,
-            message,
-            ..
-        } = self;
-        format!("{line}:{column}: {message}")
+        format!("{}:{}: {}", self.line, self.column, self.message)
     }
 }
 

@@ -1,12 +1,13 @@
 //! Values of an input at which something happens.
 
-use eigentol::sweep::EventTolerance;
+use eigentol::sweep::{Change, Condition, EventTolerance, Line};
+use eigentol::tolerance::Spread;
+use eigentol::{Complex, Vector};
 use pyo3::prelude::*;
 
 use crate::arrays::{Array1, vector};
-use crate::errors::raise;
 use crate::names;
-use crate::results::result;
+use crate::results::{attributes, family, result};
 
 result! {
     /// A value of an input at which something happens, and how tolerances move it, SI.
@@ -17,32 +18,82 @@ pub(crate) fn events(all: &[EventTolerance]) -> Vec<Event> {
     all.iter().cloned().map(Event).collect()
 }
 
-#[pymethods]
 impl Event {
-    /// The nominal value of the input, SI.
-    #[getter]
-    fn value(&self) -> f64 {
-        self.0.value
+    fn each(&self, of: impl Fn(&Spread) -> &Vector) -> Vec<f64> {
+        let missing = || vec![f64::NAN; self.0.description.design.len()];
+        self.0
+            .spread
+            .as_ref()
+            .map_or_else(|_| missing(), |own| of(own).to_vec())
     }
 
-    /// Its standard deviation to first order, SI; None where it has no derivative.
-    #[getter]
-    fn sigma(&self) -> Option<f64> {
-        self.0.sigma()
-    }
-
-    /// Derivatives per SI unit of each variable, shape (variables,). Raises NoDerivative where there are none.
-    #[getter]
-    fn gradient<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
-        match &self.0.spread {
-            Ok(spread) => Ok(vector(py, spread.by_design.clone())),
-            Err(error) => Err(raise(py, error.clone())),
+    fn line(&self) -> Option<Line> {
+        match self.0.event {
+            eigentol::sweep::Event::Crossing {
+                condition: Condition::Line(line),
+                ..
+            } => Some(line),
+            _ => None,
         }
     }
+}
 
-    /// Names of the variables.
-    #[getter]
-    fn names(&self) -> Vec<&str> {
-        names::design(&self.0.description)
+attributes! {
+    Event(self, py) {
+        /// What happens: "critical", "crossing" or "flutter".
+        kind: &'static str = match self.0.event {
+            eigentol::sweep::Event::Critical => "critical",
+            _ if self.line().is_some() => "crossing",
+            _ => "flutter",
+        };
+        /// Which way: "onset", "end", "pass", "touch", "to divergence" or "to flutter".
+        change: &'static str = match self.0.change {
+            Change::Onset => "onset",
+            Change::End => "end",
+            Change::Touch => "touch",
+            Change::ToDivergence => "to divergence",
+            Change::ToFlutter => "to flutter",
+            _ => "pass",
+        };
+        /// Position of the mode, from 0; None for a critical value.
+        mode: Option<usize> = match self.0.event {
+            eigentol::sweep::Event::Crossing { mode, .. } => Some(mode),
+            _ => None,
+        };
+        /// Its eigenvalue there, 1/s; None for a critical value.
+        eigenvalue: Option<Complex> = match self.0.event {
+            eigentol::sweep::Event::Crossing { s, .. } => Some(s),
+            _ => None,
+        };
+        /// Whirl of the mode there: minor over major axis of the orbit, positive along the rotation; None where it does not
+        /// apply.
+        whirl: Option<f64> = match self.0.event {
+            eigentol::sweep::Event::Crossing { whirl, .. } => whirl.map(|own| own.ratio),
+            _ => None,
+        };
+        /// Multiple of the input that a frequency meets in a crossing.
+        order: Option<f64> = self.line().map(|own| own.ratio);
+        /// What is added to that, rad/s.
+        offset: Option<f64> = self.line().map(|own| own.offset);
+        /// Name of the input.
+        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
+        /// The nominal value of the input, SI.
+        value: f64 = self.0.value;
+        /// Its standard deviation to first order, SI; None where it has no derivative.
+        sigma: Option<f64> = self.0.sigma();
+        /// Half-width of the band that holds as many standard deviations as the tolerances do, SI.
+        band: Option<f64> = Some(self.0.spread.as_ref().ok()?.band);
+        /// Derivatives per SI unit of each variable, shape (variables,); NaN where there are none: `failure` says why.
+        gradient: Array1<'py> = vector(py, self.each(|own| &own.by_design));
+        /// Shares of the variables in the variance, shape (variables,).
+        shares: Array1<'py> = vector(py, self.each(|own| &own.variance_shares));
+        /// Why it has no derivatives: a text, or None.
+        failure: Option<String> = Some(self.0.spread.as_ref().err()?.to_string());
+        /// Standard deviations that a tolerance and a band stand for.
+        sigma_level: f64 = self.0.sigma_level;
+        /// "undamped" or "general".
+        family: &'static str = family(self.0.family);
+        /// Names of the variables.
+        names: Vec<&str> = names::design(&self.0.description);
     }
 }

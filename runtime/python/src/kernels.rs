@@ -1,7 +1,7 @@
 //! The kernels of a mechanism as functions of arrays.
 
-use eigentol::kernels::{Kernels, MotionKernels};
-use eigentol::{Error, motion};
+use eigentol::kernels::{Gradient, Kernels, Linear, MotionKernels};
+use eigentol::{Error, Matrix, motion};
 use pyo3::prelude::*;
 
 use crate::arrays::{self, Array1, Array2, Array3};
@@ -25,8 +25,13 @@ impl Mechanism {
         &self.inner
     }
 
-    fn size(&self) -> usize {
-        self.inner.description().coordinates.len()
+    fn moving(&self) -> &dyn MotionKernels {
+        &self.inner
+    }
+
+    /// One number for each unknown.
+    fn each(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+        List::Coordinates.read(py, self.inner.description(), Some(given))
     }
 
     /// Rejects kernel results evaluated outside their domain.
@@ -48,149 +53,152 @@ impl Mechanism {
     }
 }
 
-/// Derivatives with respect to unknowns, inputs and design variables.
+impl Mechanism {
+    fn three<'py>(&self, py: Python<'py>, q: &[f64], own: &Linear) -> PyResult<Three<'py>> {
+        let all = [&own.mass, &own.damping, &own.stiffness];
+        self.finite(py, q, all.into_iter().map(|own| own.as_flattened()))?;
+        let [mass, damping, stiffness] = all.map(|own| arrays::matrix(py, own));
+        Ok((mass?, damping?, stiffness?))
+    }
+
+    fn gradient<'py>(&self, py: Python<'py>, q: &[f64], own: Gradient) -> PyResult<Slopes<'py>> {
+        let all = [own.coordinates, own.inputs, own.design];
+        self.finite(py, q, all.iter().map(|own| &own[..]))?;
+        Ok(all.map(|own| arrays::vector(py, own)).into())
+    }
+}
+
+/// Mhat, Chat, Khat.
+type Three<'py> = (Array2<'py>, Array2<'py>, Array2<'py>);
+
+/// Derivatives of a number with respect to unknowns, inputs and design variables.
+type Slopes<'py> = (Array1<'py>, Array1<'py>, Array1<'py>);
+
+/// Derivatives of a matrix with respect to them.
 type ByVariable<'py> = (Array3<'py>, Array3<'py>, Array3<'py>);
 
-/// Arguments, all SI: `q` the unknowns (n), `inputs`, `design`, each a list in the order of the names, or a dictionary
-/// by name.
-#[pymethods]
-impl Mechanism {
+/// Defines kernels: docstring, name, arguments that come before the state (lists of a number for each unknown; a number),
+/// and what follows from these and the state.
+macro_rules! kernels {
+    ($own:ident, $py:ident; $(
+        $(#[$doc:meta])*
+        $name:ident($($list:ident),* $(; $number:ident)?) -> $type:ty = |$q:ident, $u:ident, $b:ident| $value:expr;
+    )+) => {
+        /// Arguments, all SI: `q` the unknowns (n), `inputs`, `design`, each a list in the order of the names, or a
+        /// dictionary by name.
+        #[pymethods]
+        impl Mechanism {
+            $(
+                $(#[$doc])*
+                #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+                #[pyo3(signature = ($($list,)* $($number,)? q, inputs=None, design=None))]
+                fn $name<'py>(
+                    &$own,
+                    $py: Python<'py>,
+                    $($list: &Bound<'py, PyAny>,)*
+                    $($number: f64,)?
+                    q: Given<'_, 'py>,
+                    inputs: Given<'_, 'py>,
+                    design: Given<'_, 'py>,
+                ) -> PyResult<$type> {
+                    $(let $list = $own.each($py, $list)?;)*
+                    let [$q, $u, $b] = $own.point($py, [q, inputs, design])?;
+                    $value
+                }
+            )+
+        }
+    };
+}
+
+kernels! { self, py;
     /// Residual of the equations of motion at rest, N or N m, shape (n,). It is zero at an equilibrium.
-    #[pyo3(signature = (q, inputs=None, design=None))]
-    fn residual<'py>(
-        &self,
-        py: Python<'py>,
-        q: Given<'_, 'py>,
-        inputs: Given<'_, 'py>,
-        design: Given<'_, 'py>,
-    ) -> PyResult<Array1<'py>> {
-        let [q, u, b] = self.point(py, [q, inputs, design])?;
+    residual() -> Array1<'py> = |q, u, b| {
         let found = py.detach(|| self.kernels().residual(&q, &u, &b));
         self.finite(py, &q, [&found[..]].into_iter())?;
         Ok(arrays::vector(py, found))
-    }
-
+    };
     /// Mhat, Chat and Khat about the state `q`: three arrays of shape (n, n), SI.
-    #[pyo3(signature = (q, inputs=None, design=None))]
-    fn linear<'py>(
-        &self,
-        py: Python<'py>,
-        q: Given<'_, 'py>,
-        inputs: Given<'_, 'py>,
-        design: Given<'_, 'py>,
-    ) -> PyResult<(Array2<'py>, Array2<'py>, Array2<'py>)> {
-        let [q, u, b] = self.point(py, [q, inputs, design])?;
+    linear() -> Three<'py> = |q, u, b| {
         let found = py.detach(|| self.kernels().linear(&q, &u, &b));
-        let all = [&found.mass, &found.damping, &found.stiffness];
-        self.finite(py, &q, all.into_iter().map(|own| own.as_flattened()))?;
-        Ok((
-            arrays::matrix(py, &found.mass)?,
-            arrays::matrix(py, &found.damping)?,
-            arrays::matrix(py, &found.stiffness)?,
-        ))
-    }
-
+        self.three(py, &q, &found)
+    };
     /// Explicit derivatives of Mhat, Chat and Khat, SI: for each matrix three arrays, by unknown, by input, by design
-    /// variable, of shape (variables, n, n).
-    #[pyo3(signature = (q, inputs=None, design=None))]
-    fn linear_partials<'py>(
-        &self,
-        py: Python<'py>,
-        q: Given<'_, 'py>,
-        inputs: Given<'_, 'py>,
-        design: Given<'_, 'py>,
-    ) -> PyResult<(ByVariable<'py>, ByVariable<'py>, ByVariable<'py>)> {
-        let [q, u, b] = self.point(py, [q, inputs, design])?;
+    /// variable, of shape (n, n, variables).
+    linear_partials() -> (ByVariable<'py>, ByVariable<'py>, ByVariable<'py>) = |q, u, b| {
         let found = py.detach(|| self.kernels().linear_partials(&q, &u, &b));
         let lists = [&found.by_coordinate, &found.by_input, &found.by_design];
         let every = lists.into_iter().flatten();
         let every = every.flat_map(|own| [&own.mass, &own.damping, &own.stiffness]);
         self.finite(py, &q, every.map(|own| own.as_flattened()))?;
-        let n = self.size();
-        let of = |matrix: fn(&eigentol::kernels::Linear) -> &eigentol::Matrix| {
-            let by = |list: &[eigentol::kernels::Linear]| {
-                arrays::matrices(py, n, list.iter().map(matrix))
+        let of = |matrix: fn(&Linear) -> &Matrix| {
+            let by = |list: &[Linear]| {
+                let all: Vec<&Matrix> = list.iter().map(matrix).collect();
+                arrays::slopes(py, q.len(), &all)
             };
             PyResult::Ok((by(lists[0])?, by(lists[1])?, by(lists[2])?))
         };
-        Ok((
-            of(|own| &own.mass)?,
-            of(|own| &own.damping)?,
-            of(|own| &own.stiffness)?,
-        ))
-    }
-
+        Ok((of(|own| &own.mass)?, of(|own| &own.damping)?, of(|own| &own.stiffness)?))
+    };
     /// Explicit derivatives of the residual at rest by inputs, shape (n, inputs), and by design variables, shape (n,
     /// design), SI.
-    #[pyo3(signature = (q, inputs=None, design=None))]
-    fn residual_partials<'py>(
-        &self,
-        py: Python<'py>,
-        q: Given<'_, 'py>,
-        inputs: Given<'_, 'py>,
-        design: Given<'_, 'py>,
-    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
-        let [q, u, b] = self.point(py, [q, inputs, design])?;
+    residual_partials() -> (Array2<'py>, Array2<'py>) = |q, u, b| {
         let (by_input, by_design) = py.detach(|| self.kernels().residual_partials(&q, &u, &b));
         let all = [&by_input, &by_design];
         self.finite(py, &q, all.into_iter().map(|own| own.as_flattened()))?;
-        Ok((
-            arrays::matrix(py, &by_input)?,
-            arrays::matrix(py, &by_design)?,
-        ))
-    }
-
+        Ok((arrays::matrix(py, &by_input)?, arrays::matrix(py, &by_design)?))
+    };
+    /// Explicit gradient of `phi^T (Khat - lambda Mhat) phi`, SI, by unknowns, inputs and design variables: arrays of
+    /// shapes (n,), (inputs,) and (design,). With `phi^T Mhat phi = 1` that is the one of the `eigenvalue` lambda of an
+    /// undamped mode of shape `phi`, (n,), with the equilibrium held.
+    mode_gradient(phi; eigenvalue) -> Slopes<'py> = |q, u, b| {
+        let found = py.detach(|| self.kernels().mode_gradient(&q, &u, &b, &phi, eigenvalue));
+        self.gradient(py, &q, found)
+    };
+    /// Explicit gradient of `w^T g`, with `g` the residual at rest and `w` of shape (n,), SI, by unknowns, inputs and
+    /// design variables: arrays of shapes (n,), (inputs,) and (design,).
+    residual_gradient(w) -> Slopes<'py> = |q, u, b| {
+        let found = py.detach(|| self.kernels().residual_gradient(&q, &u, &b, &w));
+        self.gradient(py, &q, found)
+    };
+    /// Explicit gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`, four vectors of shape (n,), SI,
+    /// by unknowns, inputs and design variables: arrays of shapes (n,), (inputs,) and (design,).
+    pencil_gradient(left, acceleration, velocity, position) -> Slopes<'py> = |q, u, b| {
+        let vectors = [&left[..], &acceleration, &velocity, &position];
+        let found = py.detach(|| self.kernels().pencil_gradient(&q, &u, &b, vectors));
+        self.gradient(py, &q, found)
+    };
     /// The declared outputs at the state `q`, SI, shape (outputs,).
-    #[pyo3(signature = (q, inputs=None, design=None))]
-    fn output_values<'py>(
-        &self,
-        py: Python<'py>,
-        q: Given<'_, 'py>,
-        inputs: Given<'_, 'py>,
-        design: Given<'_, 'py>,
-    ) -> PyResult<Array1<'py>> {
-        let [q, u, b] = self.point(py, [q, inputs, design])?;
+    output_values() -> Array1<'py> = |q, u, b| {
         let found = py.detach(|| self.kernels().outputs(&q, &u, &b));
         self.finite(py, &q, [&found[..]].into_iter())?;
         Ok(arrays::vector(py, found))
-    }
-
+    };
+    /// Residual of the equations of the full nonlinear motion, N or N m, shape (n,): the forces that this motion would
+    /// need besides those that act. `acceleration` is qddot, `velocity` qdot.
+    motion_residual(acceleration, velocity) -> Array1<'py> = |q, u, b| {
+        let found =
+            py.detach(|| self.moving().motion_residual(&acceleration, &velocity, &q, &u, &b));
+        self.finite(py, &q, [&found[..]].into_iter())?;
+        Ok(arrays::vector(py, found))
+    };
+    /// Derivatives of that residual by qddot, qdot and q: three arrays of shape (n, n), SI.
+    motion_linear(acceleration, velocity) -> Three<'py> = |q, u, b| {
+        let found = py.detach(|| self.moving().motion_linear(&acceleration, &velocity, &q, &u, &b));
+        self.three(py, &q, &found)
+    };
     /// Mass matrix and forces of the full nonlinear motion, `M qddot = Q`: shapes (n, n) and (n,), SI. `velocity` is
     /// qdot.
-    #[pyo3(signature = (velocity, q, inputs=None, design=None))]
-    fn mass_and_forces<'py>(
-        &self,
-        py: Python<'py>,
-        velocity: &Bound<'py, PyAny>,
-        q: Given<'_, 'py>,
-        inputs: Given<'_, 'py>,
-        design: Given<'_, 'py>,
-    ) -> PyResult<(Array2<'py>, Array1<'py>)> {
-        let [q, u, b] = self.point(py, [q, inputs, design])?;
-        let velocity = List::Coordinates.read(py, self.inner.description(), Some(velocity))?;
-        let kernels: &dyn MotionKernels = &self.inner;
-        let (mass, forces) = py.detach(|| kernels.motion(&velocity, &q, &u, &b));
+    mass_and_forces(velocity) -> (Array2<'py>, Array1<'py>) = |q, u, b| {
+        let (mass, forces) = py.detach(|| self.moving().motion(&velocity, &q, &u, &b));
         self.finite(py, &q, [mass.as_flattened(), &forces[..]].into_iter())?;
         Ok((arrays::matrix(py, &mass)?, arrays::vector(py, forces)))
-    }
-
+    };
     /// Accelerations of the full nonlinear motion, shape (n,), rad/s^2 or m/s^2; in the places of speeds their rates,
     /// in those of constraints the reactions. `velocity` is qdot.
     ///
     /// `Mechanism.motion` gives a right-hand side that integrators call.
-    #[pyo3(signature = (velocity, q, inputs=None, design=None))]
-    fn accelerations<'py>(
-        &self,
-        py: Python<'py>,
-        velocity: &Bound<'py, PyAny>,
-        q: Given<'_, 'py>,
-        inputs: Given<'_, 'py>,
-        design: Given<'_, 'py>,
-    ) -> PyResult<Array1<'py>> {
-        let [q, u, b] = self.point(py, [q, inputs, design])?;
-        let velocity = List::Coordinates.read(py, self.inner.description(), Some(velocity))?;
+    accelerations(velocity) -> Array1<'py> = |q, u, b| {
         let found = py.detach(|| motion::accelerations(&self.inner, &velocity, &q, &u, &b));
-        let found = found.map_err(|error| raise(py, error))?;
-        Ok(arrays::vector(py, found))
-    }
+        Ok(arrays::vector(py, found.map_err(|error| raise(py, error))?))
+    };
 }

@@ -51,9 +51,9 @@ mod module {
     use crate::response::Response;
     #[pymodule_export]
     use crate::results::{
-        Assembly, Branch, Branches, Campbell, Curvature, Equilibrium, EquilibriumShift,
-        ModeCurvature, Modes, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
-        json_schema,
+        Assembly, Branch, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
+        ModeCurvature, Modes, OutputCurvature, OutputSensitivities, Sensitivities,
+        ShapeSensitivity, Sweep, json_schema,
     };
     #[pymodule_export]
     use crate::robots::{Import, import_urdf};

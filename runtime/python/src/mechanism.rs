@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
+use eigentol::Role;
 use eigentol_interpreter::Interpreted;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
 use crate::errors;
 use crate::names;
+use crate::results::attributes;
 use crate::values::List;
 
 /// A mechanism: names, units and kernels.
@@ -20,12 +22,66 @@ pub(crate) struct Mechanism {
 }
 
 impl Mechanism {
+    fn of_roles(&self, wanted: impl Fn(Role) -> bool) -> Vec<&str> {
+        let of = self.inner.description();
+        let all = names::coordinates(of)
+            .into_iter()
+            .zip(of.coordinates.iter());
+        all.filter(|(_, info)| wanted(info.role))
+            .map(|(name, _)| name)
+            .collect()
+    }
+
     /// Reads the mechanism declared in a text.
     pub(crate) fn read(py: Python<'_>, text: String) -> PyResult<Self> {
         match py.detach(|| Interpreted::from_text(&text)) {
             Ok(inner) => Ok(Self { inner, text }),
             Err(mistakes) => Err(errors::declaration(py, &mistakes, None)),
         }
+    }
+}
+
+attributes! {
+    Mechanism(self, py) {
+        /// Its name.
+        name: String = self.inner.description().name.to_string();
+        /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them those whose speed is the unknown
+        /// (SI), after these the reactions of constraints (SI).
+        unknowns: Vec<&str> = names::coordinates(self.inner.description());
+        /// Names of the coordinates, those among them whose speed is the unknown: `eigentol check` counts the same.
+        coordinates: Vec<&str> = self.of_roles(|role| matches!(role, Role::Position | Role::Speed));
+        /// Names of the coordinates of which the speed, not the position, is the unknown.
+        speeds: Vec<&str> = self.of_roles(|role| role == Role::Speed);
+        /// Names of the reactions of constraints.
+        reactions: Vec<&str> = self.of_roles(|role| !matches!(role, Role::Position | Role::Speed));
+        /// Names of the inputs in the order of arrays.
+        inputs: Vec<&str> = names::inputs(self.inner.description());
+        /// Names of the design variables in the order of arrays.
+        design: Vec<&str> = names::design(self.inner.description());
+        /// Names of the outputs in the order of arrays.
+        outputs: Vec<&str> = names::outputs(self.inner.description());
+        /// The nominal design, SI, by name.
+        nominal: PyResult<Bound<'py, PyDict>> = {
+            let all = PyDict::new(py);
+            for own in self.inner.description().design.iter() {
+                all.set_item(&*own.name, own.nominal)?;
+            }
+            Ok(all)
+        };
+        /// The declared unit of every input, design variable, unknown and output, by name: "rpm".
+        units: PyResult<Bound<'py, PyDict>> = {
+            let all = PyDict::new(py);
+            let of = self.inner.description();
+            for own in of.outputs.iter() {
+                all.set_item(&*own.name, &*own.unit.symbol)?;
+            }
+            for list in [List::Coordinates, List::Design, List::Inputs] {
+                for own in list.quantities(of) {
+                    all.set_item(&*own.name, &*own.unit.symbol)?;
+                }
+            }
+            Ok(all)
+        };
     }
 }
 
@@ -54,79 +110,23 @@ impl Mechanism {
         Self::read(class.py(), text)
     }
 
-    /// Its name.
-    #[getter]
-    fn name(&self) -> String {
-        self.inner.description().name.to_string()
-    }
-
     /// The declaration.
     #[getter]
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
 
-    /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them speeds and reactions of
-    /// constraints (SI).
-    #[getter]
-    fn coordinates(&self) -> Vec<&str> {
-        names::coordinates(self.inner.description())
-    }
-
-    /// Names of the inputs in the order of arrays.
-    #[getter]
-    fn inputs(&self) -> Vec<&str> {
-        names::inputs(self.inner.description())
-    }
-
-    /// Names of the design variables in the order of arrays.
-    #[getter]
-    fn design(&self) -> Vec<&str> {
-        names::design(self.inner.description())
-    }
-
-    /// Names of the outputs in the order of arrays.
-    #[getter]
-    fn outputs(&self) -> Vec<&str> {
-        names::outputs(self.inner.description())
-    }
-
-    /// The nominal design, SI, by name.
-    #[getter]
-    fn nominal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = PyDict::new(py);
-        for own in self.inner.description().design.iter() {
-            all.set_item(&*own.name, own.nominal)?;
-        }
-        Ok(all)
-    }
-
-    /// The declared unit of every input, design variable, coordinate and output, by name: "rpm".
-    #[getter]
-    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = PyDict::new(py);
-        let of = self.inner.description();
-        for own in of.outputs.iter() {
-            all.set_item(&*own.name, &*own.unit.symbol)?;
-        }
-        for list in [List::Coordinates, List::Design, List::Inputs] {
-            for own in list.quantities(of) {
-                all.set_item(&*own.name, &*own.unit.symbol)?;
-            }
-        }
-        Ok(all)
-    }
-
-    fn __repr__(&self) -> String {
+    fn __repr__(&self, py: Python<'_>) -> String {
         let of = self.inner.description();
         let listed = |names: Vec<&str>| match names.is_empty() {
             true => "none".to_owned(),
             false => names.join(", "),
         };
         format!(
-            "Mechanism {}\n  coordinates: {}\n  inputs: {}\n  design: {}\n  outputs: {}",
+            "Mechanism {}\n  coordinates: {}\n  reactions: {}\n  inputs: {}\n  design: {}\n  outputs: {}",
             of.name,
-            listed(names::coordinates(of)),
+            listed(self.coordinates(py)),
+            listed(self.reactions(py)),
             listed(names::inputs(of)),
             listed(names::design(of)),
             listed(names::outputs(of)),

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use crate::arrays::{Array1, vector};
 use crate::errors::{invalid, raise};
 use crate::mechanism::Mechanism;
+use crate::results::attributes;
 use crate::values::{List, numbers};
 
 /// The nonlinear motion at fixed inputs and design: `motion(t, y)` returns dy/dt, as `scipy.integrate.solve_ivp` wants
@@ -16,13 +17,13 @@ use crate::values::{List, numbers};
 /// unknowns: `names` says which. Reactions of constraints are not part of it.
 #[pyclass(frozen, module = "eigentol")]
 pub(crate) struct Motion {
-    mechanism: Interpreted,
+    mechanism: Py<Mechanism>,
     inputs: Vec<f64>,
     design: Vec<f64>,
 }
 
 impl Motion {
-    pub(crate) fn new(mechanism: Interpreted, inputs: Vec<f64>, design: Vec<f64>) -> Self {
+    pub(crate) fn new(mechanism: Py<Mechanism>, inputs: Vec<f64>, design: Vec<f64>) -> Self {
         Self {
             mechanism,
             inputs,
@@ -30,8 +31,12 @@ impl Motion {
         }
     }
 
+    fn inner(&self) -> &Interpreted {
+        &self.mechanism.get().inner
+    }
+
     fn description(&self) -> &Description {
-        self.mechanism.description()
+        self.inner().description()
     }
 
     fn count(&self, role: Role) -> usize {
@@ -55,7 +60,7 @@ impl Motion {
         velocity[..positions].copy_from_slice(&y[positions..2 * positions]);
         q[positions..positions + speeds].copy_from_slice(&y[2 * positions..]);
         let (u, b) = (&self.inputs, &self.design);
-        let found = motion::accelerations(&self.mechanism, &velocity, &q, u, b)?;
+        let found = motion::accelerations(self.inner(), &velocity, &q, u, b)?;
         let rates = &y[positions..2 * positions];
         Ok([rates, &found[..positions + speeds]].concat())
     }
@@ -69,15 +74,30 @@ impl Mechanism {
     /// design is nominal.
     #[pyo3(signature = (inputs=None, design=None))]
     fn motion(
-        &self,
-        py: Python<'_>,
+        slf: &Bound<'_, Self>,
         inputs: Option<&Bound<'_, PyAny>>,
         design: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Motion> {
-        let of = self.inner.description();
+        let (py, of) = (slf.py(), slf.get().inner.description());
         let inputs = List::Inputs.read(py, of, inputs)?;
         let design = List::Design.read(py, of, design)?;
-        Ok(Motion::new(self.inner.clone(), inputs, design))
+        Ok(Motion::new(slf.clone().unbind(), inputs, design))
+    }
+}
+
+attributes! {
+    Motion(self, py) {
+        /// Names of the entries of `y`; a rate is marked by a prime: "theta", "theta'".
+        names: Vec<String> = {
+            let of = |role: Role| {
+                let all = self.description().coordinates.iter();
+                all.filter(move |own| own.role == role)
+            };
+            let positions = of(Role::Position).map(|own| own.name.to_string());
+            let rates = of(Role::Position).map(|own| format!("{}'", own.name));
+            let speeds = of(Role::Speed).map(|own| own.name.to_string());
+            positions.chain(rates).chain(speeds).collect()
+        };
     }
 }
 
@@ -96,19 +116,6 @@ impl Motion {
             Ok(rates) => Ok(vector(py, rates)),
             Err(error) => Err(raise(py, error)),
         }
-    }
-
-    /// Names of the entries of `y`; a rate is marked by a prime: "theta", "theta'".
-    #[getter]
-    fn names(&self) -> Vec<String> {
-        let of = |role: Role| {
-            let all = self.description().coordinates.iter();
-            all.filter(move |own| own.role == role)
-        };
-        let positions = of(Role::Position).map(|own| own.name.to_string());
-        let rates = of(Role::Position).map(|own| format!("{}'", own.name));
-        let speeds = of(Role::Speed).map(|own| own.name.to_string());
-        positions.chain(rates).chain(speeds).collect()
     }
 
     /// A state `y` from coordinates and speeds, and from rates, by name; zero unless given. SI or texts with units;
@@ -136,8 +143,17 @@ impl Motion {
         ))
     }
 
-    fn __repr__(&self) -> String {
+    #[expect(clippy::type_complexity, reason = "what Python asks for")]
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Vec<f64>, Vec<f64>))> {
+        let motion = self.mechanism.bind(py).getattr("motion")?;
+        Ok((motion, (self.inputs.clone(), self.design.clone())))
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
         let of = &self.description().name;
-        format!("Motion of {of}, y = [{}]", self.names().join(", "))
+        format!("Motion of {of}, y = [{}]", self.names(py).join(", "))
     }
 }

@@ -1,6 +1,6 @@
 //! Names, and suggestions for unknown ones.
 
-use eigentol::{Description, Text};
+use eigentol::Description;
 use eigentol_compiler::base::nearest::nearest;
 
 /// ``; did you mean `speed`?``, or nothing if no name is near.
@@ -11,26 +11,15 @@ pub(crate) fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a s
     }
 }
 
-pub(crate) fn coordinates(description: &Description) -> Vec<&str> {
-    let all = description.coordinates.iter();
-    all.map(|info| text(&info.name)).collect()
+/// Names of the entries of a description.
+macro_rules! names {
+    ($($list:ident)*) => {
+        $(
+            pub(crate) fn $list(description: &Description) -> Vec<&str> {
+                description.$list.iter().map(|info| &*info.name).collect()
+            }
+        )*
+    };
 }
 
-pub(crate) fn inputs(description: &Description) -> Vec<&str> {
-    let all = description.inputs.iter();
-    all.map(|info| text(&info.name)).collect()
-}
-
-pub(crate) fn design(description: &Description) -> Vec<&str> {
-    let all = description.design.iter();
-    all.map(|info| text(&info.name)).collect()
-}
-
-pub(crate) fn outputs(description: &Description) -> Vec<&str> {
-    let all = description.outputs.iter();
-    all.map(|info| text(&info.name)).collect()
-}
-
-fn text(name: &Text) -> &str {
-    name
-}
+names! { coordinates inputs design outputs }

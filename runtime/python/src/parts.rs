@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 use crate::errors::{Kind, new, raise};
+use crate::results::attributes;
 use crate::settings::whole;
 use crate::spreads::MonteCarlo;
 use crate::study::Study;
@@ -12,6 +13,17 @@ use crate::study::Study;
 /// Some samples of a Monte Carlo run: parts merge to the same bits as the whole, in any order and from any machine.
 #[pyclass(name = "PartialMonteCarlo", module = "eigentol")]
 pub(crate) struct Part(PartialMonteCarlo);
+
+attributes! {
+    Part(self, py) {
+        /// First sample and the one behind the last of each range that is done.
+        ranges: Vec<(u64, u64)> =
+            self.0.ranges().into_iter().map(|range| (range.start, range.end)).collect();
+        /// The same of the ranges that are missing.
+        missing: Vec<(u64, u64)> =
+            self.0.missing().into_iter().map(|range| (range.start, range.end)).collect();
+    }
+}
 
 #[pymethods]
 impl Part {
@@ -40,27 +52,13 @@ impl Part {
         merged.map_err(|error| raise(slf.py(), error))
     }
 
-    /// First sample and the one behind the last of each range that is done.
-    #[getter]
-    fn ranges(&self) -> Vec<(u64, u64)> {
-        let ends = self.0.ranges().into_iter();
-        ends.map(|range| (range.start, range.end)).collect()
-    }
-
-    /// The same of the ranges that are missing.
-    #[getter]
-    fn missing(&self) -> Vec<(u64, u64)> {
-        let ends = self.0.missing().into_iter();
-        ends.map(|range| (range.start, range.end)).collect()
-    }
-
     /// Statistics of the samples that are done.
     fn result(&self) -> MonteCarlo {
         MonteCarlo(self.0.result())
     }
 
-    fn __repr__(&self) -> String {
-        format!("PartialMonteCarlo(ranges={:?})", self.ranges())
+    fn __repr__(&self, py: Python<'_>) -> String {
+        format!("PartialMonteCarlo(ranges={:?})", self.ranges(py))
     }
 
     fn __reduce__<'py>(

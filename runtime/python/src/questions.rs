@@ -8,11 +8,12 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
+use crate::arrays::{Array1, optional};
 use crate::events::{Event, events};
 use crate::response::wanted;
 use crate::results::{
-    Assembly, Branches, Campbell, Curvature, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
-    OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
+    Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature, ModeCurvature,
+    Modes, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
 };
 use crate::spreads::{
     FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,
@@ -56,6 +57,73 @@ questions! {
     /// First order, second order, and for each mode whether its standard deviation can be trusted. The samples that
     /// judge are always the same, whatever `samples` and `seed` of the study.
     summary -> Summary;
+}
+
+/// Analyses of responses, given as the tuples that `Study.response` takes.
+macro_rules! of_responses {
+    ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
+        #[pymethods]
+        impl Study {
+            $(
+                $(#[$doc])*
+                fn $question(
+                    &self,
+                    py: Python<'_>,
+                    responses: Vec<Bound<'_, PyTuple>>,
+                ) -> PyResult<$result> {
+                    let wanted = self.wanted(responses)?;
+                    self.ask_stoppably(py, |study| study.$question(&wanted)).map($result)
+                }
+            )*
+        }
+    };
+}
+
+of_responses! {
+    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
+    /// "angle"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
+    propagate -> Propagation;
+    /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
+    influence -> Influence;
+    /// The least and the greatest values of responses within the limits; tuples as `propagate` takes them.
+    worst_case -> WorstCase;
+}
+
+/// Analyses between two values of an input.
+macro_rules! between {
+    ($($(#[$doc:meta])* $name:ident: $question:ident -> $result:ty = $wrap:expr;)*) => {
+        #[pymethods]
+        impl Study {
+            $(
+                $(#[$doc])*
+                fn $name(
+                    &self,
+                    py: Python<'_>,
+                    input: &str,
+                    low: &Bound<'_, PyAny>,
+                    high: &Bound<'_, PyAny>,
+                ) -> PyResult<$result> {
+                    let (input, low, high) = self.range(py, input, low, high)?;
+                    self.ask_stoppably(py, |study| study.$question(input, low, high)).map($wrap)
+                }
+            )*
+        }
+    };
+}
+
+between! {
+    /// Branches of equilibria along an input between two values, SI or texts with units.
+    branches: branches -> Branches = Branches;
+    /// The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its
+    /// stiffness, and how tolerances move it. Raises NotInRange where there is none. A tolerance of this input counts
+    /// with a derivative of -1, as the value that is set lies below the one that acts by the deviation; one in per cent
+    /// is that at the operating point.
+    critical: critical_tolerance -> Event = Event;
+    /// First and second derivatives of that value by the design variables.
+    critical_curvature: critical_curvature -> EventCurvature = EventCurvature;
+    /// Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
+    /// how tolerances move them.
+    flutter_onsets: flutter_onset_tolerances -> Vec<Event> = |found| events(&found);
 }
 
 impl Study {
@@ -162,14 +230,14 @@ impl Study {
         self.ask(py, |study| study.assembly()).map(Assembly)
     }
 
-    /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; None where it
+    /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it
     /// does not apply.
-    fn whirls(&self, py: Python<'_>) -> PyResult<Vec<Option<f64>>> {
+    fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
         let found = self.ask(py, |study| study.whirls())?;
-        Ok(found
-            .into_iter()
-            .map(|own| own.map(|own| own.ratio))
-            .collect())
+        Ok(optional(
+            py,
+            found.into_iter().map(|own| own.map(|own| own.ratio)),
+        ))
     }
 
     /// First and second derivatives of one mode, counted from 0.
@@ -180,11 +248,11 @@ impl Study {
     }
 
     /// First and second derivatives of an output.
-    fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<Curvature> {
+    fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<OutputCurvature> {
         self.ask(py, |study| {
             study.output_curvature(study.find_output(output)?)
         })
-        .map(Curvature::from)
+        .map(OutputCurvature)
     }
 
     /// Derivatives of the shapes of one mode, counted from 0.
@@ -241,36 +309,6 @@ impl Study {
             .map(ModeMargin)
     }
 
-    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
-    /// "angle"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
-    fn propagate(
-        &self,
-        py: Python<'_>,
-        responses: Vec<Bound<'_, PyTuple>>,
-    ) -> PyResult<Propagation> {
-        let wanted = self.wanted(responses)?;
-        self.ask_stoppably(py, |study| study.propagate(&wanted))
-            .map(Propagation)
-    }
-
-    /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
-    fn influence(&self, py: Python<'_>, responses: Vec<Bound<'_, PyTuple>>) -> PyResult<Influence> {
-        let wanted = self.wanted(responses)?;
-        self.ask_stoppably(py, |study| study.influence(&wanted))
-            .map(Influence)
-    }
-
-    /// The least and the greatest values of responses within the limits; tuples as `propagate` takes them.
-    fn worst_case(
-        &self,
-        py: Python<'_>,
-        responses: Vec<Bound<'_, PyTuple>>,
-    ) -> PyResult<WorstCase> {
-        let wanted = self.wanted(responses)?;
-        self.ask_stoppably(py, |study| study.worst_case(&wanted))
-            .map(WorstCase)
-    }
-
     /// Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`.
     #[pyo3(signature = (input, values, unit=None))]
     fn sweep(
@@ -304,48 +342,6 @@ impl Study {
             .map(Campbell)
     }
 
-    /// Branches of equilibria along an input between two values, SI or texts with units.
-    fn branches(
-        &self,
-        py: Python<'_>,
-        input: &str,
-        low: &Bound<'_, PyAny>,
-        high: &Bound<'_, PyAny>,
-    ) -> PyResult<Branches> {
-        let (input, low, high) = self.range(py, input, low, high)?;
-        self.ask_stoppably(py, |study| study.branches(input, low, high))
-            .map(Branches)
-    }
-
-    /// The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its
-    /// stiffness, and how tolerances move it. Raises NotInRange where there is none. A tolerance of this input counts
-    /// with a derivative of -1, as the value that is set lies below the one that acts by the deviation; one in per cent
-    /// is that at the operating point.
-    fn critical(
-        &self,
-        py: Python<'_>,
-        input: &str,
-        low: &Bound<'_, PyAny>,
-        high: &Bound<'_, PyAny>,
-    ) -> PyResult<Event> {
-        let (input, low, high) = self.range(py, input, low, high)?;
-        self.ask(py, |study| study.critical_tolerance(input, low, high))
-            .map(Event)
-    }
-
-    /// First and second derivatives of that value by the design variables.
-    fn critical_curvature(
-        &self,
-        py: Python<'_>,
-        input: &str,
-        low: &Bound<'_, PyAny>,
-        high: &Bound<'_, PyAny>,
-    ) -> PyResult<Curvature> {
-        let (input, low, high) = self.range(py, input, low, high)?;
-        self.ask(py, |study| study.critical_curvature(input, low, high))
-            .map(Curvature::from)
-    }
-
     /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
     /// `offset` (rad/s) more, and how tolerances move them.
     #[pyo3(signature = (input, low, high, order=1.0, offset=0.0))]
@@ -366,20 +362,6 @@ impl Study {
         let found = self.ask(py, |study| {
             study.crossing_tolerances(input, low, high, line)
         })?;
-        Ok(events(&found))
-    }
-
-    /// Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
-    /// how tolerances move them.
-    fn flutter_onsets(
-        &self,
-        py: Python<'_>,
-        input: &str,
-        low: &Bound<'_, PyAny>,
-        high: &Bound<'_, PyAny>,
-    ) -> PyResult<Vec<Event>> {
-        let (input, low, high) = self.range(py, input, low, high)?;
-        let found = self.ask(py, |study| study.flutter_onset_tolerances(input, low, high))?;
         Ok(events(&found))
     }
 }

@@ -3,11 +3,13 @@
 use eigentol::requirement::{self, Requirement, SamplingSettings};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyString, PyTuple};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
-use crate::arrays::{Array1, optional, vector};
+use crate::arrays::{Array1, Array2, optional, optional_rows, vector};
+use crate::names;
 use crate::response::wanted;
-use crate::results::result;
+use crate::results::{attributes, result};
+use crate::spreads::{counts, judgement};
 use crate::study::Study;
 use crate::values::not_finite;
 
@@ -91,43 +93,40 @@ impl Study {
         });
         found.map(Chances)
     }
+}
 
+/// Analyses of requirements, given as `chances` takes them.
+macro_rules! of_requirements {
+    ($($(#[$doc:meta])* $question:ident($($settings:expr)?) -> $result:ident;)*) => {
+        #[pymethods]
+        impl Study {
+            $(
+                $(#[$doc])*
+                fn $question(
+                    &self,
+                    py: Python<'_>,
+                    requirements: Vec<Bound<'_, PyAny>>,
+                ) -> PyResult<$result> {
+                    let wanted = self.requirements(&requirements)?;
+                    let found =
+                        self.ask_stoppably(py, |study| study.$question(&wanted $(, $settings)?));
+                    found.map($result)
+                }
+            )*
+        }
+    };
+}
+
+of_requirements! {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
     /// of designs, or samples; requirements as `chances` takes them.
-    fn probability(
-        &self,
-        py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
-    ) -> PyResult<Probabilities> {
-        let wanted = self.requirements(&requirements)?;
-        self.ask_stoppably(py, |study| study.probability(&wanted))
-            .map(Probabilities)
-    }
-
+    probability() -> Probabilities;
     /// Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
     /// takes them.
-    fn reliability(
-        &self,
-        py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
-    ) -> PyResult<Reliability> {
-        let wanted = self.requirements(&requirements)?;
-        self.ask_stoppably(py, |study| study.reliability(&wanted))
-            .map(Reliability)
-    }
-
+    reliability() -> Reliability;
     /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
     /// `chances` takes them.
-    fn rare_failure(
-        &self,
-        py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
-    ) -> PyResult<RareFailure> {
-        let wanted = self.requirements(&requirements)?;
-        let settings = SamplingSettings::default();
-        self.ask_stoppably(py, |study| study.rare_failure(&wanted, &settings))
-            .map(RareFailure)
-    }
+    rare_failure(&SamplingSettings::default()) -> RareFailure;
 }
 
 impl Study {
@@ -142,60 +141,45 @@ result! {
     Probabilities(requirement::Probabilities)
 }
 
-#[pymethods]
-impl Probabilities {
-    /// Probability of failing each requirement, shape (k,).
-    #[getter]
-    fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.each.iter().map(|own| own.value))
+fn found_by(own: requirement::Found) -> &'static str {
+    match own {
+        requirement::Found::DesignPoint => "design point",
+        requirement::Found::Lines => "lines",
+        _ => "samples",
     }
+}
 
-    /// Lower ends of their 95 % intervals, shape (k,).
-    #[getter]
-    fn lower<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.each.iter().map(|own| own.interval.lower))
-    }
-
-    /// Upper ends, shape (k,).
-    #[getter]
-    fn upper<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.each.iter().map(|own| own.interval.upper))
-    }
-
-    /// Probabilities that a design lacks the response needed to tell, shape (k,).
-    #[getter]
-    fn untold<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.each.iter().map(|own| own.untold))
-    }
-
-    /// How each was found: "design point", "lines" or "samples".
-    #[getter]
-    fn found_by(&self) -> Vec<&'static str> {
-        let all = self.0.each.iter();
-        all.map(|own| match own.by {
-            requirement::Found::DesignPoint => "design point",
-            requirement::Found::Lines => "lines",
-            _ => "samples",
-        })
-        .collect()
-    }
-
-    /// Probability of failing any requirement.
-    #[getter]
-    fn any_failure(&self) -> f64 {
-        self.0.any.value
-    }
-
-    /// Its 95 % interval.
-    #[getter]
-    fn any_interval(&self) -> (f64, f64) {
-        (self.0.any.interval.lower, self.0.any.interval.upper)
-    }
-
-    /// The design points, or None: what changes the probabilities.
-    #[getter]
-    fn reliability(&self) -> Option<Reliability> {
-        self.0.reliability.clone().map(Reliability)
+attributes! {
+    Probabilities(self, py) {
+        /// Probability of failing each requirement, shape (k,).
+        failure: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.value));
+        /// Lower ends of their 95 % intervals, shape (k,).
+        lower: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.interval.lower));
+        /// Upper ends, shape (k,).
+        upper: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.interval.upper));
+        /// Probabilities that a design lacks the response needed to tell, shape (k,).
+        untold: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.untold));
+        /// How each was found: "design point", "lines" or "samples".
+        found_by: Vec<&'static str> = self.0.each.iter().map(|own| found_by(own.by)).collect();
+        /// Probability of failing any requirement.
+        any_failure: f64 = self.0.any.value;
+        /// Its 95 % interval.
+        any_interval: (f64, f64) = (self.0.any.interval.lower, self.0.any.interval.upper);
+        /// The design points, or None: what changes the probabilities.
+        reliability: Option<Reliability> = self.0.reliability.clone().map(Reliability);
+        /// The requirements, in words.
+        names: Vec<String> =
+            self.0.wanted.iter().map(|own| own.text(&self.0.description)).collect();
+        /// Numbers of designs that were solved for each, shape (k,).
+        designs: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.designs as i64));
+        /// Probability that a design lacks a response needed to tell of any.
+        any_untold: f64 = self.0.any.untold;
+        /// How `any_failure` was found.
+        any_found_by: &'static str = found_by(self.0.any.by);
+        /// Number of designs that were solved for it.
+        any_designs: u64 = self.0.any.designs;
+        /// The samples, or None where none were drawn.
+        chances: Option<Chances> = self.0.chances.clone().map(Chances);
     }
 }
 
@@ -204,30 +188,42 @@ result! {
     Chances(requirement::Chances)
 }
 
-#[pymethods]
-impl Chances {
-    /// Share of the samples that fail each requirement, shape (k,).
-    #[getter]
-    fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.each.iter().map(requirement::Tally::failure))
-    }
+/// 95 % interval (Clopper and Pearson).
+fn interval(own: &requirement::Tally) -> Option<(f64, f64)> {
+    let found = own.clopper_pearson(0.95).ok()?;
+    Some((found.lower, found.upper))
+}
 
-    /// Number of samples.
-    #[getter]
-    fn samples(&self) -> usize {
-        self.0.all.samples()
-    }
-
-    /// How many samples meet each requirement, shape (k,).
-    #[getter]
-    fn met<'py>(&self, py: Python<'py>) -> Array1<'py, i64> {
-        vector(py, self.0.each.iter().map(|own| own.met as i64))
-    }
-
-    /// Share of the samples that meet all requirements.
-    #[getter]
-    fn all_met(&self) -> f64 {
-        self.0.all.yield_of()
+attributes! {
+    Chances(self, py) {
+        /// Share of the samples that fail each requirement, shape (k,).
+        failure: Array1<'py> = vector(py, self.0.each.iter().map(requirement::Tally::failure));
+        /// Number of samples.
+        samples: usize = self.0.all.samples();
+        /// How many samples meet each requirement, shape (k,).
+        met: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.met as i64));
+        /// Share of the samples that meet all requirements.
+        all_met: f64 = self.0.all.yield_of();
+        /// Lower ends of the 95 % intervals of `failure`, shape (k,).
+        lower: Array1<'py> = optional(py, self.0.each.iter().map(|own| Some(interval(own)?.0)));
+        /// Upper ends, shape (k,).
+        upper: Array1<'py> = optional(py, self.0.each.iter().map(|own| Some(interval(own)?.1)));
+        /// How many samples fail each requirement, shape (k,).
+        failed: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.failed as i64));
+        /// How many samples lack the response needed to tell, shape (k,).
+        untold: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.untold as i64));
+        /// Share of the samples that fail any requirement.
+        any_failure: f64 = self.0.all.failure();
+        /// Its 95 % interval.
+        any_interval: Option<(f64, f64)> = interval(&self.0.all);
+        /// How many samples meet all requirements, fail one, lack the response needed to tell.
+        all_counts: (usize, usize, usize) = (self.0.all.met, self.0.all.failed, self.0.all.untold);
+        /// What became of the samples, by name.
+        counts: PyResult<Bound<'py, PyDict>> = counts(py, &self.0.counts);
+        /// Number of samples that were asked for.
+        planned: usize = self.0.planned;
+        /// Whether any variable has a tolerance.
+        varies: bool = self.0.varies;
     }
 }
 
@@ -236,53 +232,118 @@ result! {
     Reliability(requirement::Reliability)
 }
 
-#[pymethods]
 impl Reliability {
-    /// Probability to first order that each limit is passed, shape (l,); NaN without a design point. Those to second
-    /// order stand in the table "design points".
-    #[getter]
-    fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        let all = self.0.limits.iter();
-        optional(py, all.map(requirement::LimitReliability::probability))
+    /// Numbers of the most probable design point of each limit, a row each.
+    fn points<'py>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&requirement::DesignPoint) -> Vec<f64>,
+    ) -> PyResult<Array2<'py>> {
+        let first = self
+            .0
+            .limits
+            .iter()
+            .map(|own| own.design_points.as_ref().ok()?.first());
+        optional_rows(
+            py,
+            self.0.description.design.len(),
+            first.map(|own| own.map(&of)),
+        )
     }
+}
 
-    /// Reliability index of each limit, shape (l,); NaN without a design point.
-    #[getter]
-    fn beta<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        let all = self.0.limits.iter();
-        optional(py, all.map(requirement::LimitReliability::beta))
-    }
-
-    /// Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
-    /// where that was not done.
-    #[getter]
-    fn solved_anew<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        let judged = self.0.limits.iter().map(|own| own.judgement.judged());
-        optional(py, judged.map(|own| own.map(|own| own.probability.value)))
-    }
-
-    /// Half-widths of their 95 % intervals, shape (l,).
-    #[getter]
-    fn error<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        let judged = self.0.limits.iter().map(|own| own.judgement.judged());
-        let half = |own: &eigentol::judge::Judged| {
-            let interval = own.interval();
-            0.5 * (interval.upper - interval.lower)
+attributes! {
+    Reliability(self, py) {
+        /// Probability to first order that each limit is passed, shape (l,); NaN without a design point.
+        failure: Array1<'py> = {
+            let all = self.0.limits.iter();
+            optional(py, all.map(requirement::LimitReliability::probability))
         };
-        optional(py, judged.map(|own| own.map(half)))
-    }
-
-    /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
-    #[getter]
-    fn verified(&self) -> Vec<bool> {
-        let all = self.0.limits.iter();
-        all.map(requirement::LimitReliability::verified).collect()
-    }
-
-    /// Probability that any limit is passed, to first order; None where it is not known.
-    #[getter]
-    fn any_failure(&self) -> Option<f64> {
-        self.0.system.as_ref().map(|own| own.probability.value)
+        /// Reliability index of each limit, shape (l,); NaN without a design point.
+        beta: Array1<'py> = {
+            let all = self.0.limits.iter();
+            optional(py, all.map(requirement::LimitReliability::beta))
+        };
+        /// Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
+        /// where that was not done.
+        solved_anew: Array1<'py> = {
+            let judged = self.0.limits.iter().map(|own| own.judgement.judged());
+            optional(py, judged.map(|own| own.map(|own| own.probability.value)))
+        };
+        /// Half-widths of their 95 % intervals, shape (l,).
+        error: Array1<'py> = {
+            let judged = self.0.limits.iter().map(|own| own.judgement.judged());
+            let half = |own: &eigentol::judge::Judged| {
+                let interval = own.interval();
+                0.5 * (interval.upper - interval.lower)
+            };
+            optional(py, judged.map(|own| own.map(half)))
+        };
+        /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
+        verified: Vec<bool> =
+            self.0.limits.iter().map(requirement::LimitReliability::verified).collect();
+        /// Probability that any limit is passed, to first order; None where it is not known.
+        any_failure: Option<f64> = self.0.system.as_ref().map(|own| own.probability.value);
+        /// The limits: the position of the requirement, and the name of the response.
+        limits: Vec<(usize, String)> = {
+            let name = |own: &requirement::Limit| own.response.name(&self.0.description);
+            let all = self.0.limits.iter();
+            all.map(|own| (own.limit.requirement, name(&own.limit))).collect()
+        };
+        /// Where each response fails: "below", "above" or "between", and the ends, SI.
+        edges: Vec<(&'static str, Vec<f64>)> = {
+            let all = self.0.limits.iter();
+            all.map(|own| match own.limit.edge {
+                requirement::Edge::AtLeast(low) => ("below", vec![low]),
+                requirement::Edge::AtMost(high) => ("above", vec![high]),
+                requirement::Edge::Outside { low, high } => ("between", vec![low, high]),
+                _ => ("", Vec::new()),
+            })
+            .collect()
+        };
+        /// Probability to second order that each limit is passed, shape (l,); NaN without a design point.
+        second_order: Array1<'py> =
+            optional(py, self.0.limits.iter().map(requirement::LimitReliability::second_order));
+        /// Names of the design variables, and after them of the inputs that have a tolerance.
+        names: Vec<&str> = names::design(&self.0.description);
+        /// The most probable design that fails for each limit, SI, shape (l, variables); NaN without one.
+        design_points: PyResult<Array2<'py>> = self.points(py, |own| own.design.to_vec());
+        /// Shares of the variables in each `beta`, shape (l, variables).
+        importance: PyResult<Array2<'py>> = self.points(py, |own| own.importance.to_vec());
+        /// Derivatives of each `beta` by nominal values, per SI unit, shape (l, variables).
+        beta_by_nominal: PyResult<Array2<'py>> =
+            self.points(py, |own| own.by_nominal.iter().map(|own| own.beta).collect());
+        /// The same by half-widths of tolerances, shape (l, variables).
+        beta_by_half_width: PyResult<Array2<'py>> =
+            self.points(py, |own| own.by_half_width.iter().map(|own| own.beta).collect());
+        /// Number of design points of each limit, shape (l,).
+        point_counts: Array1<'py, i64> = {
+            let points = self.0.limits.iter().map(|own| own.design_points.as_ref());
+            vector(py, points.map(|own| own.map_or(0, |own| own.len() as i64)))
+        };
+        /// Whether no design within reach passes the limit, shape (l,).
+        out_of_reach: Array1<'py, bool> =
+            vector(py, self.0.limits.iter().map(requirement::LimitReliability::out_of_reach));
+        /// Why a limit has no design point: a text for each limit, or None.
+        failures: Vec<Option<String>> =
+            self.0.limits.iter()
+                .map(|own| Some(own.design_points.as_ref().err()?.to_string())).collect();
+        /// What the designs solved anew say of each limit, by name; under "open" why there are none.
+        judgements: PyResult<Vec<Bound<'py, PyDict>>> =
+            self.0.limits.iter().map(|own| judgement(py, &own.judgement)).collect();
+        /// The same of failing any requirement, those without a limit included.
+        any_judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
+        /// Whether designs solved anew confirm `any_failure`.
+        any_verified: bool = self.0.verified();
+        /// Standard error of the integration behind `any_failure`; None where that is not known.
+        any_error: Option<f64> = Some(self.0.system.as_ref()?.probability.standard_error);
+        /// Bounds of `any_failure` from pairs of limits; None where it is not known.
+        any_bounds: Option<(f64, f64)> = {
+            let bounds = self.0.system.as_ref()?.bounds;
+            Some((bounds.lower, bounds.upper))
+        };
+        /// Positions of the requirements without a limit, such as `"stable"`.
+        left_out: Vec<usize> = self.0.left_out.clone();
     }
 }
 
@@ -291,35 +352,37 @@ result! {
     RareFailure(requirement::RareFailure)
 }
 
-#[pymethods]
-impl RareFailure {
-    /// Probability that any requirement is failed.
-    #[getter]
-    fn failure(&self) -> f64 {
-        self.0.failure.probability.value
-    }
-
-    /// Whether the samples reached their target and lines of designs do not contradict them.
-    #[getter]
-    fn trusted(&self) -> bool {
-        self.0.trusted()
-    }
-
-    /// Standard error of `failure`.
-    #[getter]
-    fn standard_error(&self) -> f64 {
-        self.0.failure.probability.standard_error
-    }
-
-    /// Positions of the requirements of which some failure has no design point, such as `"stable"`.
-    #[getter]
-    fn without_design_point(&self) -> Vec<usize> {
-        self.0.without_design_point.clone()
-    }
-
-    /// Probability that failures of these may have without having been seen, at a confidence of 95 %.
-    #[getter]
-    fn unseen(&self) -> f64 {
-        self.0.unseen
+attributes! {
+    RareFailure(self, py) {
+        /// Probability that any requirement is failed.
+        failure: f64 = self.0.failure.probability.value;
+        /// Whether the samples reached their target and lines of designs do not contradict them.
+        trusted: bool = self.0.trusted();
+        /// Standard error of `failure`.
+        standard_error: f64 = self.0.failure.probability.standard_error;
+        /// Positions of the requirements of which some failure has no design point, such as `"stable"`.
+        without_design_point: Vec<usize> = self.0.without_design_point.clone();
+        /// Probability that failures of these may have without having been seen, at a confidence of 95 %.
+        unseen: f64 = self.0.unseen;
+        /// Standard error of `failure` over it; None where nothing failed.
+        coefficient_of_variation: Option<f64> = self.0.failure.coefficient_of_variation;
+        /// Whether the samples reached their target.
+        reached: bool = self.0.failure.reached;
+        /// Whether lines of designs contradict the samples.
+        contradicted: bool = self.0.contradicted();
+        /// Number of samples.
+        samples: u64 = self.0.failure.samples;
+        /// Number of samples that fail.
+        failures: u64 = self.0.failure.failures;
+        /// Number of samples that lack the response needed to tell.
+        without_value: u64 = self.0.failure.without_value;
+        /// Probability of designs that do.
+        untold: f64 = self.0.failure.probability_without_value.value;
+        /// Number of design points about which samples were drawn.
+        centres: usize = self.0.centres;
+        /// What became of the samples, by name; their shares are no probabilities.
+        counts: PyResult<Bound<'py, PyDict>> = counts(py, &self.0.counts);
+        /// What lines of designs say, by name; under "open" why there are none.
+        judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
     }
 }

@@ -9,12 +9,12 @@ use eigentol_interpreter::Interpreted;
 use numpy::{AllowTypeChange, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{IntoPyDict, PyTuple};
 
 use crate::arrays::{or_nan, rows, vector};
 use crate::errors::raise;
 use crate::names;
-use crate::results::quantity;
+use crate::results::{attributes, quantity};
 use crate::study::Study;
 use crate::values::{List, mode_number, number, numbers};
 
@@ -36,6 +36,8 @@ use crate::values::{List, mode_number, number, numbers};
 #[pyclass(frozen, module = "eigentol")]
 pub(crate) struct Response {
     mechanism: Interpreted,
+    /// Study, kind and arguments that it was made of.
+    given: (Py<Study>, String, Py<PyTuple>),
     nominal: Arc<(Equilibrium, Modes)>,
     wanted: eigentol::response::Response,
     variables: Vec<usize>,
@@ -123,14 +125,14 @@ impl Study {
     /// vary, in order; all unless given.
     #[pyo3(signature = (what, *of, variables=None))]
     fn response(
-        &self,
+        slf: &Bound<'_, Self>,
         py: Python<'_>,
         what: &str,
         of: &Bound<'_, PyTuple>,
         variables: Option<Vec<String>>,
     ) -> PyResult<Response> {
-        let wanted = wanted(&self.inner, what, of)?;
-        let description = self.inner.description();
+        let wanted = wanted(&slf.get().inner, what, of)?;
+        let description = slf.get().inner.description();
         let variables = match variables {
             None => (0..description.design.len()).collect(),
             Some(names) => {
@@ -141,7 +143,7 @@ impl Study {
                 names.iter().map(place).collect::<PyResult<_>>()?
             }
         };
-        let nominal = self.ask(py, |study| {
+        let nominal = slf.get().ask(py, |study| {
             let solved = study.solve()?;
             // Inconsistent settings are rejected here.
             Responses::new(
@@ -152,12 +154,15 @@ impl Study {
             )?;
             Ok((solved.equilibrium, solved.modes))
         })?;
+        let study = slf.clone().unbind();
+        let arguments = of.clone().unbind();
         let of: Vec<String> = of
             .iter()
             .map(|own| own.str().map(|own| own.to_string()))
             .collect::<PyResult<_>>()?;
         Ok(Response {
-            mechanism: self.inner.mechanism().clone(),
+            mechanism: slf.get().inner.mechanism().clone(),
+            given: (study, what.to_owned(), arguments),
             nominal: Arc::new(nominal),
             wanted,
             variables,
@@ -215,23 +220,24 @@ impl Response {
     }
 }
 
+attributes! {
+    Response(self, py) {
+        /// Names of the variables, in the order of `x`.
+        names: Vec<String> = {
+            let all = names::design(self.mechanism.description());
+            let own = self.variables.iter();
+            own.map(|place| all[*place].to_owned()).collect()
+        };
+        /// Nominal values of the variables, SI, shape (variables,).
+        nominal: Bound<'py, PyAny> = {
+            let design = &self.nominal.0.design;
+            vector(py, self.variables.iter().map(|place| design[*place])).into_any()
+        };
+    }
+}
+
 #[pymethods]
 impl Response {
-    /// Names of the variables, in the order of `x`.
-    #[getter]
-    fn names(&self) -> Vec<String> {
-        let all = names::design(self.mechanism.description());
-        let own = self.variables.iter();
-        own.map(|place| all[*place].to_owned()).collect()
-    }
-
-    /// Nominal values of the variables, SI, shape (variables,).
-    #[getter]
-    fn nominal<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        let design = &self.nominal.0.design;
-        vector(py, self.variables.iter().map(|place| design[*place])).into_any()
-    }
-
     /// The response at a design, or at each of several, SI.
     fn __call__<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let (designs, single) = self.designs(x)?;
@@ -263,7 +269,16 @@ impl Response {
         Ok(all.into_any())
     }
 
-    fn __repr__(&self) -> String {
-        format!("Response: {} by {}", self.text, self.names().join(", "))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, ())> {
+        let (study, what, of) = &self.given;
+        let variables = [("variables", self.names(py))].into_py_dict(py)?;
+        let first = (study.bind(py).getattr("response")?, what);
+        let all = first.into_pyobject(py)?.add(of.bind(py))?;
+        let partial = py.import("functools")?.getattr("partial")?;
+        Ok((partial.call(all.cast::<PyTuple>()?, Some(&variables))?, ()))
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        format!("Response: {} by {}", self.text, self.names(py).join(", "))
     }
 }

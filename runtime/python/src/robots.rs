@@ -14,9 +14,14 @@ use crate::names::did_you_mean;
 use crate::values::word;
 
 /// A robot as a declaration; numbers are SI.
-#[pyclass(frozen, module = "eigentol")]
+#[pyclass(frozen, get_all, new = "from_fields", module = "eigentol")]
 pub(crate) struct Import {
-    inner: eigentol_urdf::Import,
+    /// Text in the language of eigentol.
+    declaration: String,
+    /// By the name in the declaration, that in the file: of every link and joint that had to be renamed.
+    names: BTreeMap<String, String>,
+    /// What the declaration does not say, or says in another way than the file.
+    notes: Vec<String>,
 }
 
 /// The options by name.
@@ -123,37 +128,29 @@ pub(crate) fn import_urdf(
     path: PathBuf,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Import> {
-    let inner = read(py, &path, options)?;
-    Ok(Import { inner })
+    let found = read(py, &path, options)?;
+    let notes = found.notes.iter().map(ToString::to_string).collect();
+    let (declaration, names) = (found.declaration, found.names);
+    Ok(Import {
+        declaration,
+        names,
+        notes,
+    })
 }
 
 #[pymethods]
 impl Import {
-    /// Text in the language of eigentol.
-    #[getter]
-    fn declaration(&self) -> &str {
-        &self.inner.declaration
-    }
-
-    /// By the name in the declaration, that in the file: of every link and joint that had to be renamed.
-    #[getter]
-    fn names(&self) -> BTreeMap<String, String> {
-        self.inner.names.clone()
-    }
-
-    /// What the declaration does not say, or says in another way than the file.
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.inner.notes.iter().map(ToString::to_string).collect()
+    fn __getnewargs__(&self) -> (&str, BTreeMap<String, String>, Vec<String>) {
+        (&self.declaration, self.names.clone(), self.notes.clone())
     }
 
     /// The mechanism.
     fn mechanism(&self, py: Python<'_>) -> PyResult<Mechanism> {
-        Mechanism::read(py, self.inner.declaration.clone())
+        Mechanism::read(py, self.declaration.clone())
     }
 
     fn __repr__(&self) -> &str {
-        &self.inner.declaration
+        &self.declaration
     }
 }
 

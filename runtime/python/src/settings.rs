@@ -4,8 +4,7 @@ use eigentol::kernels::Kernels;
 use eigentol::modes::Family;
 use eigentol::tolerance::Distribution;
 use eigentol::{
-    Coordinate, Description, DesignVariable, Input, Law, Matrix, Parameter, Policy, Study,
-    ToleranceInfo, Unit,
+    Coordinate, DesignVariable, Input, Law, Matrix, Parameter, Policy, Study, ToleranceInfo, Unit,
 };
 use eigentol_interpreter::{Interpreted, tolerance};
 use numpy::{AllowTypeChange, PyArrayLike2};
@@ -22,11 +21,36 @@ type Set = fn(Study<Interpreted>, &Bound<'_, PyAny>) -> PyResult<Study<Interpret
 
 /// The settings in the order of application: those that depend on values come after them.
 const SETTINGS: [(&str, Set); 20] = [
-    ("inputs", inputs),
-    ("design", design),
-    ("start", start),
-    ("guess", guess),
-    ("hold", hold),
+    ("inputs", |study, given| {
+        let list = ("inputs", List::Inputs);
+        values(study, given, list, |study, k, value| {
+            study.input(Input::new(k), value)
+        })
+    }),
+    ("design", |study, given| {
+        let list = ("design", List::Design);
+        values(study, given, list, |study, k, value| {
+            study.design(DesignVariable::new(k), value)
+        })
+    }),
+    ("start", |study, given| {
+        let list = ("start", List::Coordinates);
+        values(study, given, list, |study, k, value| {
+            study.start(Coordinate::new(k), value)
+        })
+    }),
+    ("guess", |study, given| {
+        let list = ("guess", List::Coordinates);
+        values(study, given, list, |study, k, value| {
+            study.guess(Coordinate::new(k), value)
+        })
+    }),
+    ("hold", |study, given| {
+        let list = ("hold", List::Coordinates);
+        values(study, given, list, |study, k, value| {
+            study.hold(Coordinate::new(k), value)
+        })
+    }),
     ("sigma_level", |study, given| {
         Ok(study.sigma_level(real(given, "sigma_level")?))
     }),
@@ -207,49 +231,16 @@ fn each(
     Ok(study)
 }
 
-/// Position and value of one entry.
-fn entry(
-    of: &Description,
-    list: List,
-    name: &str,
-    value: &Bound<'_, PyAny>,
-) -> PyResult<(usize, f64)> {
-    let (place, unit) = list.find(value.py(), of, name)?;
-    Ok((place, number(value, &unit, name)?))
-}
-
-fn inputs(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
-    each(study, given, "inputs", |study, name, value| {
-        let (place, value) = entry(study.description(), List::Inputs, name, value)?;
-        Ok(study.input(Input::new(place), value))
-    })
-}
-
-fn design(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
-    each(study, given, "design", |study, name, value| {
-        let (place, value) = entry(study.description(), List::Design, name, value)?;
-        Ok(study.design(DesignVariable::new(place), value))
-    })
-}
-
-fn start(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
-    each(study, given, "start", |study, name, value| {
-        let (place, value) = entry(study.description(), List::Coordinates, name, value)?;
-        Ok(study.start(Coordinate::new(place), value))
-    })
-}
-
-fn guess(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
-    each(study, given, "guess", |study, name, value| {
-        let (place, value) = entry(study.description(), List::Coordinates, name, value)?;
-        Ok(study.guess(Coordinate::new(place), value))
-    })
-}
-
-fn hold(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
-    each(study, given, "hold", |study, name, value| {
-        let (place, value) = entry(study.description(), List::Coordinates, name, value)?;
-        Ok(study.hold(Coordinate::new(place), value))
+/// Values of a list by name.
+fn values(
+    study: Study<Interpreted>,
+    given: &Bound<'_, PyAny>,
+    (setting, list): (&str, List),
+    set: impl Fn(Study<Interpreted>, usize, f64) -> Study<Interpreted>,
+) -> PyResult<Study<Interpreted>> {
+    each(study, given, setting, |study, name, value| {
+        let (place, unit) = list.find(value.py(), study.description(), name)?;
+        Ok(set(study, place, number(value, &unit, name)?))
     })
 }
 

@@ -14,6 +14,7 @@ use crate::arrays::{Array1, vector};
 use crate::errors::{raise, with_note};
 use crate::mechanism::Mechanism;
 use crate::motion::Motion;
+use crate::results::attributes;
 use crate::settings;
 
 /// Interval between checks for Ctrl-C while waiting for an answer.
@@ -35,7 +36,9 @@ const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 ///       without it: `notes` of the equilibrium says so.
 ///   at: an equilibrium found by `equilibria`, whatever its stability.
 ///   tolerances: by name of a design variable or an input: a half-width, a text ("3%", "+0.2 -0.1 mm uniform",
-///       "one of [9, 10] mm"), or a pair of deviations, lower and upper.
+///       "one of [9, 10] mm"), or a pair of deviations, lower and upper. Per cent given here are of the value that the
+///       study has, whatever `replace` changes; per cent of the declaration are of the declared nominal value of a design
+///       variable, also where `design` sets another, as in Rust and in the command.
 ///   measured: arrays of measured values by name, SI, which take the place of a tolerance.
 ///   sigma_level: standard deviations that a half-width stands for (3).
 ///   correlation: matrix of the design variables, and after them of the inputs that have a tolerance.
@@ -150,6 +153,22 @@ impl Study {
     }
 }
 
+attributes! {
+    Study(self, py) {
+        /// The settings as given.
+        settings: PyResult<Bound<'py, PyDict>> = settings::copied(self.settings.bind(py));
+        /// Values of the inputs, SI, shape (inputs,).
+        inputs: Array1<'py> = vector(py, self.inner.input_values().iter().copied());
+        /// Values of the design variables, SI, shape (design,).
+        design: Array1<'py> = vector(py, self.inner.design_values().iter().copied());
+        /// Standard deviations of the design variables, and after them of the inputs that have a tolerance, SI.
+        sigmas: PyResult<Array1<'py>> = {
+            let tolerances = self.ask(py, |study| study.tolerances())?;
+            Ok(vector(py, tolerances.sigmas().iter().copied()))
+        };
+    }
+}
+
 #[pymethods]
 impl Study {
     #[new]
@@ -182,35 +201,10 @@ impl Study {
         self.mechanism.clone_ref(py)
     }
 
-    /// The settings as given.
-    #[getter]
-    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        settings::copied(self.settings.bind(py))
-    }
-
-    /// Values of the inputs, SI, shape (inputs,).
-    #[getter]
-    fn inputs<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.inner.input_values().iter().copied())
-    }
-
-    /// Values of the design variables, SI, shape (design,).
-    #[getter]
-    fn design<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.inner.design_values().iter().copied())
-    }
-
-    /// Standard deviations of the design variables, and after them of the inputs that have a tolerance, SI.
-    #[getter]
-    fn sigmas<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
-        let tolerances = self.ask(py, |study| study.tolerances())?;
-        Ok(vector(py, tolerances.sigmas().iter().copied()))
-    }
-
     /// The nonlinear motion at the inputs and the design of this study, for `scipy.integrate.solve_ivp`.
-    fn motion(&self) -> Motion {
+    fn motion(&self, py: Python<'_>) -> Motion {
         Motion::new(
-            self.inner.mechanism().clone(),
+            self.mechanism(py),
             self.inner.input_values().to_vec(),
             self.inner.design_values().to_vec(),
         )

@@ -32,3 +32,88 @@ def rotor():
 def oil_rotor():
     """A stiff rotor on two oil films."""
     return eigentol.Mechanism.from_file(EXAMPLES / "rotor_bearings.mechanism")
+
+
+SWING = """
+pub mechanism Swing {
+    input speed: rpm;
+    design l = 1000 mm +/- 30 mm;
+    gravity 9.81 m/s^2 along -z;
+    body shaft: massless;
+    body bar: rod(mass: 3 kg, length: l, along: -z);
+    joint spin: revolute(z) from ground to shaft, driven at speed;
+    joint theta: revolute(y) from shaft to bar;
+    output angle = theta;
+}
+"""
+
+TWINS = """
+mechanism Twins {
+    design a = 100 N/m +/- 5%;
+    design b = 100 N/m +/- 5%;
+    body left: point(mass: 1 kg);
+    body right: point(mass: 1 kg);
+    joint x: prismatic(x) from ground to left;
+    joint y: prismatic(y) from ground to right;
+    force first: spring(on: x, stiffness: a);
+    force second: spring(on: y, stiffness: b);
+}
+"""
+
+
+@pytest.fixture(scope="session")
+def results():
+    """An object of each class of the module, by the name of the class."""
+    mechanism = eigentol.Mechanism.from_text(SWING)
+    study = eigentol.Study(
+        mechanism, inputs={"speed": "60 rpm"}, start={"theta": "1 rad"}, samples=64, keep_samples=True
+    )
+    twins = eigentol.Study(eigentol.Mechanism.from_text(TWINS))
+    speeds, frequency = [6.0, 6.1, 6.2], ("frequency", 0)
+    wanted = [(frequency, 5.8, None), "stable"]
+    branches = study.branches("speed", 3.0, 6.0)
+    with pytest.raises(eigentol.DeclarationError) as caught:
+        eigentol.Mechanism.from_text("mechanism Wrong { body }")
+    objects = [
+        mechanism,
+        study,
+        study.equilibrium(),
+        study.assembly(),
+        study.equilibrium_shift(),
+        study.modes(),
+        study.sensitivities(),
+        study.shape_sensitivity(0),
+        study.mode_curvature(0),
+        study.output_curvature("angle"),
+        study.critical_curvature("speed", 2.0, 6.0),
+        study.outputs(),
+        study.output_tolerances(),
+        study.first_order(),
+        study.second_order(),
+        study.summary(),
+        study.monte_carlo(),
+        study.samples_between(0, 32),
+        study.margin(0, low=5.0),
+        study.propagate([frequency]),
+        study.influence([frequency]),
+        study.worst_case([frequency]),
+        study.chances(wanted),
+        study.probability(wanted),
+        study.reliability(wanted[:1]),
+        study.rare_failure(wanted[:1]),
+        study.allocate(
+            wanted[:1], failure=[0.1], tolerances={"l": ("1 mm", "100 mm", (0.0, 1.0, 1.0))}
+        ),
+        twins.clusters(),
+        twins.directional_derivatives(0, design={"a": 1.0}),
+        study.sweep("speed", speeds),
+        study.campbell("speed", speeds),
+        branches,
+        branches.branches[0],
+        study.critical("speed", 2.0, 6.0),
+        study.response("frequency", 0, variables=["l"]),
+        study.motion(),
+        eigentol.Import(SWING, {"theta": "joint 1"}, ["a note"]),
+        caught.value.mistakes[0],
+    ]
+    return {type(own).__name__: own for own in objects}

@@ -32,7 +32,7 @@ COIN = """mechanism Coin {
 TRAIN = """mechanism Train {
     design k = 2000 N*m/rad +/- 5%;
     body a: rigid(mass: 1 kg, inertia: [1, 1, 2] kg*m^2);
-    body b: rigid(mass: 1 kg, inertia: [1, 1, 3] kg*m^2);
+    body b: rigid(mass: 1 kg, inertia: [2, 2, 3] kg*m^2);
     joint turn: revolute(z) from ground to a;
     joint twist: revolute(z) from a to b;
     force shaft: spring(on: twist, stiffness: k);
@@ -79,7 +79,7 @@ def test_unnamed_coordinates_are_not_bounded_to_zero():
     )
     with pytest.raises(eigentol.InvalidValue, match="bounds"):
         study.equilibria(bounds={"y": (-1.0, 1.0)})
-    found = study.equilibria(bounds={"x": (-3.0, 3.0)}, starts=20)
+    found = study.equilibria(bounds={"x": (-3.0, 3.0), "y": (-1.0, 1.0)}, starts=20)
     places = sorted(state.coordinates[0] for state in found if state.stable)
     np.testing.assert_allclose(places, [-1.0, 2.0], atol=1e-7)
 

@@ -29,7 +29,7 @@ def compare(mechanism, truth, order):
 
     Where fingers mimic each other ours has reactions too: they are zero here, and theirs has none.
     """
-    n, own = len(mechanism.coordinates), order
+    n, own = len(mechanism.unknowns), order
     for state in truth["states"]:
         at = {name: np.zeros(n) for name in "qvaw"}
         for name, values in at.items():

@@ -56,7 +56,7 @@ def test_a_wrong_one_is_not(tmp_path, what):
 
 
 # Names of types, which the module has no use for.
-ALIASES = ["Complex", "Numbers", "Quantity", "Real", "Requirement", "Table", "Value"]
+ALIASES = ["Complex", "Flags", "Numbers", "Quantity", "Real", "Requirement", "Table", "Value", "Whole"]
 
 
 def test_stubs_say_what_the_module_has(tmp_path):

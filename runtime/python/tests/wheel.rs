@@ -155,13 +155,16 @@ fn the_module_passes_its_tests() {
     ];
     let files = [
         "test_documents.py",
-        "test_pendulum.py",
-        "test_tables.py",
+        "test_equilibria.py",
+        "test_kernels.py",
         "test_mistakes.py",
         "test_motion.py",
         "test_parts.py",
+        "test_pendulum.py",
         "test_report.py",
+        "test_results.py",
         "test_robots.py",
+        "test_tables.py",
     ];
     run("python", &packages, &files);
 }

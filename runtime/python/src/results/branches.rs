@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 
-use super::result;
+use super::{Equilibrium, attributes, result};
 use crate::arrays::{Array1, Array2, rows, vector};
 
 result! {
@@ -10,14 +10,17 @@ result! {
     Branches(eigentol::branches::Branches)
 }
 
+attributes! {
+    Branches(self, py) {
+        /// The branches.
+        branches: Vec<Branch> = self.0.branches.iter().cloned().map(Branch).collect();
+        /// Whether the search ended early, so that there may be more branches.
+        truncated: bool = self.0.truncated;
+    }
+}
+
 #[pymethods]
 impl Branches {
-    /// The branches.
-    #[getter]
-    fn branches(&self) -> Vec<Branch> {
-        self.0.branches.iter().cloned().map(Branch).collect()
-    }
-
     fn __len__(&self) -> usize {
         self.0.branches.len()
     }
@@ -28,42 +31,54 @@ result! {
     Branch(eigentol::branches::Branch)
 }
 
+attributes! {
+    Branch(self, py) {
+        /// Values of the input, SI, shape (k,).
+        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
+        /// Unknowns, SI, shape (k, n).
+        coordinates: PyResult<Array2<'py>> = {
+            let all = self.0.points.iter();
+            let all = all.map(|own| own.equilibrium.coordinates.to_vec());
+            rows(py, self.0.description.coordinates.len(), all)
+        };
+        /// Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which counts as stable.
+        stable: Vec<bool> =
+            self.0.points.iter().map(|own| own.equilibrium.stability.holds()).collect();
+        /// The equilibrium at each point.
+        equilibria: Vec<Equilibrium> =
+            self.0.points.iter().map(|own| Equilibrium(own.equilibrium.clone())).collect();
+        /// Name of the input.
+        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
+        /// Derivatives of the unknowns by length along the branch, shape (k, n).
+        tangents: PyResult<Array2<'py>> = {
+            let all = self.0.points.iter().map(|own| own.tangent.to_vec());
+            rows(py, self.0.description.coordinates.len(), all)
+        };
+        /// The same of the input, SI, shape (k,).
+        input_tangents: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.input_tangent));
+        /// The equilibria at the special points.
+        special_equilibria: Vec<Equilibrium> =
+            self.0.special.iter().map(|own| Equilibrium(own.equilibrium.clone())).collect();
+        /// Critical vectors of the special points, `Khat v = 0`, shape (special points, n).
+        critical_vectors: PyResult<Array2<'py>> = {
+            let all = self.0.special.iter().map(|own| own.v.to_vec());
+            rows(py, self.0.description.coordinates.len(), all)
+        };
+        /// Left critical vectors, `Khat^T w = 0`, shape (special points, n).
+        left_critical_vectors: PyResult<Array2<'py>> = {
+            let all = self.0.special.iter().map(|own| own.w.to_vec());
+            rows(py, self.0.description.coordinates.len(), all)
+        };
+        /// Special points: what each is, in words, and the value of the input there, SI.
+        special: Vec<(String, f64)> =
+            self.0.special.iter().map(|own| (own.kind.to_string(), own.value)).collect();
+        /// How it ends at either side, in words.
+        ends: Vec<String> = self.0.ends.iter().map(ToString::to_string).collect();
+    }
+}
+
 #[pymethods]
 impl Branch {
-    /// Values of the input, SI, shape (k,).
-    #[getter]
-    fn values<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.points.iter().map(|own| own.value))
-    }
-
-    /// Unknowns, SI, shape (k, n).
-    #[getter]
-    fn coordinates<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        let all = self.0.points.iter();
-        let all = all.map(|own| own.equilibrium.coordinates.to_vec());
-        rows(py, self.0.description.coordinates.len(), all)
-    }
-
-    /// Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which counts as stable.
-    #[getter]
-    fn stable(&self) -> Vec<bool> {
-        let all = self.0.points.iter();
-        all.map(|own| own.equilibrium.stability.holds()).collect()
-    }
-
-    /// Special points: what each is, in words, and the value of the input there, SI.
-    #[getter]
-    fn special(&self) -> Vec<(String, f64)> {
-        let all = self.0.special.iter();
-        all.map(|own| (own.kind.to_string(), own.value)).collect()
-    }
-
-    /// How it ends at either side, in words.
-    #[getter]
-    fn ends(&self) -> Vec<String> {
-        self.0.ends.iter().map(ToString::to_string).collect()
-    }
-
     fn __len__(&self) -> usize {
         self.0.points.len()
     }

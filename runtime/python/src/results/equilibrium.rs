@@ -6,7 +6,7 @@ use eigentol::Matrix;
 use eigentol::equilibrium::AssemblyMode;
 use pyo3::prelude::*;
 
-use super::result;
+use super::{attributes, result};
 use crate::arrays::{Array1, Array2, matrix, vector};
 use crate::names;
 
@@ -15,104 +15,71 @@ result! {
     Equilibrium(eigentol::Equilibrium)
 }
 
-#[pymethods]
-impl Equilibrium {
-    /// Names of the unknowns.
-    #[getter]
-    fn names(&self) -> Vec<&str> {
-        names::coordinates(&self.0.description)
-    }
-
-    /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
-    #[getter]
-    fn coordinates<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.coordinates.clone())
-    }
-
-    /// The inputs it belongs to, SI, shape (inputs,).
-    #[getter]
-    fn inputs<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.inputs.clone())
-    }
-
-    /// The design variables it belongs to, SI, shape (design,).
-    #[getter]
-    fn design<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.design.clone())
-    }
-
-    /// Mass matrix Mhat, shape (n, n).
-    #[getter]
-    fn mass<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        matrix(py, &self.0.linear.mass)
-    }
-
-    /// Damping and gyroscopic matrix Chat, shape (n, n).
-    #[getter]
-    fn damping<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        matrix(py, &self.0.linear.damping)
-    }
-
-    /// Stiffness matrix Khat, shape (n, n).
-    #[getter]
-    fn stiffness<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        matrix(py, &self.0.linear.stiffness)
-    }
-
-    /// Remaining residual, N or N m, shape (n,).
-    #[getter]
-    fn residual<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.residual.clone())
-    }
-
-    /// Greatest remaining residual, relative to the forces in its own equation.
-    #[getter]
-    fn relative_residual(&self) -> f64 {
-        self.0.relative_residual
-    }
-
-    /// What the mechanism would do there, in words.
-    #[getter]
-    fn stability(&self) -> String {
-        self.0.stability.to_string()
-    }
-
-    /// Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable.
-    #[getter]
-    fn stable(&self) -> bool {
-        self.0.stability.holds()
-    }
-
-    /// Iterations spent.
-    #[getter]
-    fn iterations(&self) -> usize {
-        self.0.iterations
-    }
-
-    /// What to know about how it was found: that it is unstable and stays at the start, what holds it in a family of steady
-    /// motions.
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.0.sentences()
-    }
-
-    /// The unknowns that hold it in a family of steady motions, with their values, SI.
-    #[getter]
-    fn held(&self) -> BTreeMap<String, f64> {
-        let held = self.0.free.held.iter();
-        let name = |unknown: usize| self.0.description.coordinates[unknown].name.to_string();
-        held.map(|held| (name(held.unknown), held.value)).collect()
-    }
-
-    /// Motions that nothing resists, wherever the mechanism stands, shape (r, n).
-    #[getter]
-    fn free<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        let motions = &self.0.free.motions;
-        let columns = self.0.coordinates.len();
-        matrix(
-            py,
-            &Matrix::from_fn(motions.len(), columns, |r, i| motions[r][i]),
-        )
+attributes! {
+    Equilibrium(self, py) {
+        /// Names of the unknowns.
+        names: Vec<&str> = names::coordinates(&self.0.description);
+        /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
+        coordinates: Array1<'py> = vector(py, self.0.coordinates.clone());
+        /// The inputs it belongs to, SI, shape (inputs,).
+        inputs: Array1<'py> = vector(py, self.0.inputs.clone());
+        /// The design variables it belongs to, SI, shape (design,).
+        design: Array1<'py> = vector(py, self.0.design.clone());
+        /// Mass matrix Mhat, shape (n, n).
+        mass: PyResult<Array2<'py>> = matrix(py, &self.0.linear.mass);
+        /// Damping and gyroscopic matrix Chat, shape (n, n).
+        damping: PyResult<Array2<'py>> = matrix(py, &self.0.linear.damping);
+        /// Stiffness matrix Khat, shape (n, n).
+        stiffness: PyResult<Array2<'py>> = matrix(py, &self.0.linear.stiffness);
+        /// Remaining residual, N or N m, shape (n,).
+        residual: Array1<'py> = vector(py, self.0.residual.clone());
+        /// Greatest remaining residual, relative to the forces in its own equation.
+        relative_residual: f64 = self.0.relative_residual;
+        /// What the mechanism would do there, in words.
+        stability: String = self.0.stability.to_string();
+        /// Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable.
+        stable: bool = self.0.stability.holds();
+        /// Iterations spent.
+        iterations: usize = self.0.iterations;
+        /// What to know about how it was found: that it is unstable and stays at the start, what holds it in a family of steady
+        /// motions.
+        notes: Vec<String> = self.0.sentences();
+        /// The unknowns that hold it in a family of steady motions, with their values, SI.
+        held: BTreeMap<String, f64> = {
+            let held = self.0.free.held.iter();
+            let name = |unknown: usize| self.0.description.coordinates[unknown].name.to_string();
+            held.map(|held| (name(held.unknown), held.value)).collect()
+        };
+        /// Motions that nothing resists, wherever the mechanism stands, shape (r, n).
+        free: PyResult<Array2<'py>> = {
+            let motions = &self.0.free.motions;
+            let columns = self.0.coordinates.len();
+            matrix(
+                py,
+                &Matrix::from_fn(motions.len(), columns, |r, i| motions[r][i]),
+            )
+        };
+        /// Estimated effect of rounding on the residual, relative to the forces in its equation.
+        rounding: f64 = self.0.rounding;
+        /// Number of coordinates that the constraints leave free.
+        freedom: usize = self.0.constraints.freedom;
+        /// Number of constraints that follow from others.
+        redundant: usize = self.0.constraints.redundant;
+        /// Names of the constraints that depend on each other.
+        dependent_constraints: Vec<String> =
+            self.0.dependent_constraints().map(|own| own.to_string()).collect();
+        /// Whether it is a singular configuration of the constraints.
+        singular: bool = self.0.constraints.singular;
+        /// The joint of three turns that is closest to its singular pose, and how far: 1 at best, 0 there. None without
+        /// such joints.
+        pose: Option<(String, f64)> = {
+            let own = self.0.pose.as_ref()?;
+            Some((own.joint.to_string(), own.margin))
+        };
+        /// Whether the search passed an unstable region: the start was not in the valley of the answer.
+        left_unstable_region: bool = self.0.left_unstable_region;
+        /// Whether it was asked for whatever its stability.
+        kept: bool = self.0.kept;
     }
 }
 
@@ -121,18 +88,14 @@ result! {
     EquilibriumShift(eigentol::sensitivity::EquilibriumShift)
 }
 
-#[pymethods]
-impl EquilibriumShift {
-    /// Derivatives of the unknowns by inputs, shape (n, inputs).
-    #[getter]
-    fn by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        matrix(py, &self.0.by_input)
-    }
-
-    /// Derivatives of the unknowns by design variables, shape (n, design).
-    #[getter]
-    fn by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        matrix(py, &self.0.by_design)
+attributes! {
+    EquilibriumShift(self, py) {
+        /// Derivatives of the unknowns by inputs, shape (n, inputs).
+        by_input: PyResult<Array2<'py>> = matrix(py, &self.0.by_input);
+        /// Derivatives of the unknowns by design variables, shape (n, design).
+        by_design: PyResult<Array2<'py>> = matrix(py, &self.0.by_design);
+        /// Names of the unknowns: the rows.
+        names: Vec<&str> = names::coordinates(&self.0.description);
     }
 }
 
@@ -141,58 +104,38 @@ result! {
     Assembly(eigentol::equilibrium::Assembly)
 }
 
-#[pymethods]
-impl Assembly {
-    /// Names of the unknowns.
-    #[getter]
-    fn names(&self) -> Vec<&str> {
-        names::coordinates(&self.0.description)
-    }
-
-    /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
-    #[getter]
-    fn coordinates<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.coordinates.clone())
-    }
-
-    /// Which unknowns were held at their start values.
-    #[getter]
-    fn held(&self) -> Vec<bool> {
-        self.0.held.clone()
-    }
-
-    /// How far each unknown moved from its start value, shape (n,).
-    #[getter]
-    fn moved<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.moved.clone())
-    }
-
-    /// Gap left in each constraint, at the place of its reaction, shape (n,): rounding.
-    #[getter]
-    fn gaps<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.gaps.clone())
-    }
-
-    /// On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the
-    /// other but through a dead centre. None unless as many coordinates are held as the mechanism has degrees of
-    /// freedom.
-    #[getter]
-    fn mode(&self) -> Option<&'static str> {
-        self.0.mode.map(|mode| match mode {
-            AssemblyMode::Positive => "positive",
-            AssemblyMode::Negative => "negative",
-        })
-    }
-
-    /// How well the constraints determine the coordinates that are not held: 1 at best, 0 at a dead centre.
-    #[getter]
-    fn margin(&self) -> f64 {
-        self.0.margin
-    }
-
-    /// Whether it is a dead centre or a singular configuration.
-    #[getter]
-    fn singular(&self) -> bool {
-        self.0.singular
+attributes! {
+    Assembly(self, py) {
+        /// Names of the unknowns.
+        names: Vec<&str> = names::coordinates(&self.0.description);
+        /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
+        coordinates: Array1<'py> = vector(py, self.0.coordinates.clone());
+        /// Which unknowns were held at their start values.
+        held: Vec<bool> = self.0.held.clone();
+        /// How far each unknown moved from its start value, shape (n,).
+        moved: Array1<'py> = vector(py, self.0.moved.clone());
+        /// Gap left in each constraint, at the place of its reaction, shape (n,): rounding.
+        gaps: Array1<'py> = vector(py, self.0.gaps.clone());
+        /// On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the
+        /// other but through a dead centre. None unless as many coordinates are held as the mechanism has degrees of
+        /// freedom.
+        mode: Option<&'static str> =
+            self.0.mode.map(|mode| match mode {
+                AssemblyMode::Positive => "positive",
+                AssemblyMode::Negative => "negative",
+            });
+        /// How well the constraints determine the coordinates that are not held: 1 at best, 0 at a dead centre.
+        margin: f64 = self.0.margin;
+        /// Whether it is a dead centre or a singular configuration.
+        singular: bool = self.0.singular;
+        /// Iterations spent.
+        iterations: usize = self.0.iterations;
+        /// Number of coordinates that the constraints leave free.
+        freedom: usize = self.0.constraints.freedom;
+        /// Number of constraints that follow from others.
+        redundant: usize = self.0.constraints.redundant;
+        /// Names of the constraints that depend on each other.
+        dependent_constraints: Vec<String> =
+            self.0.dependent_constraints().map(|own| own.to_string()).collect();
     }
 }

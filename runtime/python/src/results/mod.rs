@@ -9,9 +9,10 @@ mod sweep;
 
 pub(crate) use branches::{Branch, Branches};
 pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
-pub(crate) use modes::Modes;
+pub(crate) use modes::{Modes, family};
 pub(crate) use sensitivities::{
-    Curvature, ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, quantity,
+    EventCurvature, ModeCurvature, OutputCurvature, OutputSensitivities, Sensitivities,
+    ShapeSensitivity, quantity,
 };
-pub(crate) use shared::{Document, html, json_schema, result, table};
+pub(crate) use shared::{attributes, html, json_schema, operating_point, refused, result, table};
 pub(crate) use sweep::{Campbell, Sweep};

@@ -1,11 +1,11 @@
 //! Sensitivities of modes and outputs.
 
-use eigentol::second_order::{EventCurvature, OutputCurvature, SecondDerivatives};
+use eigentol::second_order::SecondDerivatives;
 use eigentol::sensitivity::{ModeSensitivity, Slopes};
-use eigentol::{Complex, Matrix, Quantity, Vector};
+use eigentol::{Complex, Quantity};
 use pyo3::prelude::*;
 
-use super::result;
+use super::{attributes, family, result};
 use crate::arrays::{Array1, Array2, matrix, optional_rows, vector};
 use crate::errors::{Kind, new};
 use crate::values::word;
@@ -56,38 +56,38 @@ impl Sensitivities {
     }
 }
 
+attributes! {
+    Sensitivities(self, py) {
+        /// "undamped" or "general".
+        family: &'static str = family(self.0.family);
+        /// How the derivatives were found, in words.
+        method: String = self.0.method.to_string();
+        /// Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
+        /// `s` has none.
+        by_design: PyResult<Array2<'py, Complex>> =
+            self.complex(py, self.counts().1, |own| own.by_design.to_vec());
+        /// Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
+        /// none.
+        by_input: PyResult<Array2<'py, Complex>> =
+            self.complex(py, self.counts().0, |own| own.by_input.to_vec());
+        /// Derivatives of `lambda = -Re s^2` by design variables, 1/s^2 per SI unit, shape (m, design).
+        lambda_by_design: PyResult<Array2<'py>> =
+            self.rows(py, self.counts().1, |own| {
+                Some(own.lambda.by_design.to_vec())
+            });
+        /// Derivatives of `lambda = -Re s^2` by inputs, 1/s^2 per SI unit, shape (m, inputs).
+        lambda_by_input: PyResult<Array2<'py>> =
+            self.rows(py, self.counts().0, |own| {
+                Some(own.lambda.by_input.to_vec())
+            });
+        /// Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
+        /// basis only.
+        clustered: Vec<bool> = self.0.modes.iter().map(|own| own.clustered).collect();
+    }
+}
+
 #[pymethods]
 impl Sensitivities {
-    /// Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
-    /// `s` has none.
-    #[getter]
-    fn by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        self.complex(py, self.counts().1, |own| own.by_design.to_vec())
-    }
-
-    /// Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
-    /// none.
-    #[getter]
-    fn by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        self.complex(py, self.counts().0, |own| own.by_input.to_vec())
-    }
-
-    /// Derivatives of `lambda = -Re s^2` by design variables, 1/s^2 per SI unit, shape (m, design).
-    #[getter]
-    fn lambda_by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        self.rows(py, self.counts().1, |own| {
-            Some(own.lambda.by_design.to_vec())
-        })
-    }
-
-    /// Derivatives of `lambda = -Re s^2` by inputs, 1/s^2 per SI unit, shape (m, inputs).
-    #[getter]
-    fn lambda_by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        self.rows(py, self.counts().0, |own| {
-            Some(own.lambda.by_input.to_vec())
-        })
-    }
-
     /// Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
     /// by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
     /// none.
@@ -101,193 +101,143 @@ impl Sensitivities {
             self.rows(py, design, by_design)?,
         ))
     }
-
-    /// Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
-    /// basis only.
-    #[getter]
-    fn clustered(&self) -> Vec<bool> {
-        self.0.modes.iter().map(|own| own.clustered).collect()
-    }
 }
 
-/// First and second total derivatives of one mode, per SI unit.
-#[pyclass(frozen, module = "eigentol")]
-pub(crate) struct ModeCurvature(pub(crate) eigentol::second_order::ModeCurvature);
-
-impl ModeCurvature {
-    fn second(&self, py: Python<'_>, name: &str) -> PyResult<SecondDerivatives<f64>> {
-        if name == "lambda" {
-            return Ok(self.0.lambda.clone());
-        }
-        let wanted = quantity(py, name)?;
-        self.0.of(wanted).ok_or_else(|| self.none(py, name))
-    }
-
-    fn none(&self, py: Python<'_>, name: &str) -> PyErr {
-        let message = format!("mode {} has no {name} to differentiate", self.0.mode);
-        new(py, Kind::NoDerivative, message)
-    }
-}
-
-/// Quantities are "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s); second derivatives
-/// also of "lambda" (1/s^2).
-#[pymethods]
-impl ModeCurvature {
-    /// Its eigenvalue, 1/s.
-    #[getter]
-    fn eigenvalue(&self) -> Complex {
-        self.0.s
-    }
-
-    /// First derivatives of a quantity by design variables, shape (design,).
-    #[pyo3(signature = (quantity="frequency"))]
-    fn gradient<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array1<'py>> {
-        if quantity == "lambda" {
-            return Ok(vector(py, self.0.first.lambda.by_design.clone()));
-        }
-        let wanted = self::quantity(py, quantity)?;
-        let slopes = self.0.first.of(wanted);
-        let slopes = slopes.ok_or_else(|| self.none(py, quantity))?;
-        Ok(vector(py, slopes.by_design))
-    }
-
-    /// The Hessian of a quantity by design variables, shape (design, design).
-    #[pyo3(signature = (quantity="frequency"))]
-    fn hessian<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array2<'py>> {
-        matrix(py, &self.second(py, quantity)?.by_design)
-    }
-
-    /// Second derivatives of a quantity by inputs, shape (inputs, inputs).
-    #[pyo3(signature = (quantity="frequency"))]
-    fn by_input<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array2<'py>> {
-        matrix(py, &self.second(py, quantity)?.by_input)
-    }
-
-    /// Second derivatives of a quantity by an input and a design variable, shape (inputs, design).
-    #[pyo3(signature = (quantity="frequency"))]
-    fn by_input_and_design<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array2<'py>> {
-        matrix(py, &self.second(py, quantity)?.by_input_and_design)
-    }
-
-    /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give zero.
-    #[getter]
-    fn asymmetry(&self) -> f64 {
-        self.0.asymmetry
-    }
-
-    fn __repr__(&self) -> String {
-        let (of, mode, s) = (&self.0.description.name, self.0.mode, self.0.s);
+result! {
+    /// First and second total derivatives of one mode, per SI unit. Quantities are "frequency" (rad/s),
+    /// "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2).
+    ModeCurvature(eigentol::second_order::ModeCurvature), |own| {
+        let (of, mode, s) = (&own.description.name, own.mode + 1, own.s);
         format!("First and second derivatives of mode {mode} of {of}, s = {s} 1/s")
     }
 }
 
-/// First and second total derivatives of one number, per SI unit.
-#[pyclass(frozen, module = "eigentol")]
-pub(crate) struct Curvature {
-    value: f64,
-    gradient: Vector,
-    hessian: Matrix,
-    asymmetry: f64,
-    what: String,
-}
-
-impl From<OutputCurvature> for Curvature {
-    fn from(own: OutputCurvature) -> Self {
-        let of = &own.description;
-        let name = of.outputs.get(own.output.index()).map(|info| &*info.name);
-        Self {
-            value: own.value,
-            gradient: own.first.by_design,
-            hessian: own.second.by_design,
-            asymmetry: own.asymmetry,
-            what: format!("output {} of {}", name.unwrap_or("?"), of.name),
+impl ModeCurvature {
+    fn first(&self, py: Python<'_>, name: &str) -> PyResult<Slopes<f64>> {
+        if name == "lambda" {
+            return Ok(self.0.first.lambda.clone());
         }
+        let found = self.0.first.of(quantity(py, name)?);
+        found.ok_or_else(|| self.none(py, name))
     }
-}
 
-impl From<EventCurvature> for Curvature {
-    fn from(own: EventCurvature) -> Self {
-        let of = &own.description;
-        let name = of.inputs.get(own.input.index()).map(|info| &*info.name);
-        Self {
-            value: own.value,
-            gradient: own.first,
-            hessian: own.second,
-            asymmetry: own.asymmetry,
-            what: format!("critical {} of {}", name.unwrap_or("?"), of.name),
+    fn second(&self, py: Python<'_>, name: &str) -> PyResult<SecondDerivatives<f64>> {
+        if name == "lambda" {
+            return Ok(self.0.lambda.clone());
         }
+        let found = self.0.of(quantity(py, name)?);
+        found.ok_or_else(|| self.none(py, name))
+    }
+
+    fn none(&self, py: Python<'_>, name: &str) -> PyErr {
+        let message = format!("mode {} has no {name} to differentiate", self.0.mode + 1);
+        new(py, Kind::NoDerivative, message)
     }
 }
 
-#[pymethods]
-impl Curvature {
-    /// The number, SI.
-    #[getter]
-    fn value(&self) -> f64 {
-        self.value
-    }
-
-    /// First derivatives by design variables, shape (design,).
-    #[getter]
-    fn gradient<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.gradient.clone())
-    }
-
-    /// Second derivatives by design variables, shape (design, design).
-    #[getter]
-    fn hessian<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        matrix(py, &self.hessian)
-    }
-
-    /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give zero.
-    #[getter]
-    fn asymmetry(&self) -> f64 {
-        self.asymmetry
-    }
-
-    fn __repr__(&self) -> String {
-        format!(
-            "First and second derivatives of {}, {} SI",
-            self.what, self.value
-        )
+attributes! {
+    ModeCurvature(self, py) {
+        /// Its position, from 0.
+        mode: usize = self.0.mode;
+        /// Its eigenvalue, 1/s.
+        eigenvalue: Complex = self.0.s;
+        /// Whether it is one of a cluster of nearly equal eigenvalues.
+        clustered: bool = self.0.first.clustered;
+        /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
+        /// zero.
+        asymmetry: f64 = self.0.asymmetry;
     }
 }
 
-/// Derivatives of the shapes of one mode, per SI unit, complex: a row for each variable, a column for each unknown.
-#[pyclass(frozen, module = "eigentol")]
-pub(crate) struct ShapeSensitivity(pub(crate) eigentol::shapes::ShapeSensitivity);
-
-#[pymethods]
-impl ShapeSensitivity {
-    /// Of the shape by inputs, shape (inputs, n).
-    #[getter]
-    fn right_by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        matrix(py, &self.0.right_by_input)
+attributes! {
+    ModeCurvature(self, py, quantity) {
+        /// First derivatives of a quantity by design variables, shape (design,).
+        gradient: Array1<'py> = Ok(vector(py, self.first(py, quantity)?.by_design));
+        /// First derivatives of a quantity by inputs, shape (inputs,).
+        gradient_by_input: Array1<'py> = Ok(vector(py, self.first(py, quantity)?.by_input));
+        /// The Hessian of a quantity by design variables, shape (design, design).
+        hessian: Array2<'py> = matrix(py, &self.second(py, quantity)?.by_design);
+        /// Second derivatives of a quantity by inputs, shape (inputs, inputs).
+        by_input: Array2<'py> = matrix(py, &self.second(py, quantity)?.by_input);
+        /// Second derivatives of a quantity by an input and a design variable, shape (inputs, design).
+        by_input_and_design: Array2<'py> =
+            matrix(py, &self.second(py, quantity)?.by_input_and_design);
     }
+}
 
-    /// Of the shape by design variables, shape (design, n).
-    #[getter]
-    fn right_by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        matrix(py, &self.0.right_by_design)
+result! {
+    /// First and second total derivatives of an output, per SI unit.
+    OutputCurvature(eigentol::second_order::OutputCurvature), |own| {
+        let of = &own.description;
+        let name = &of.outputs[own.output.index()].name;
+        format!("First and second derivatives of output {name} of {}, {} SI", of.name, own.value)
     }
+}
 
-    /// Of the left vector by inputs, shape (inputs, n).
-    #[getter]
-    fn left_by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        matrix(py, &self.0.left_by_input)
+attributes! {
+    OutputCurvature(self, py) {
+        /// Name of the output.
+        output: String = self.0.description.outputs[self.0.output.index()].name.to_string();
+        /// Its value, SI.
+        value: f64 = self.0.value;
+        /// First derivatives by design variables, shape (design,).
+        gradient: Array1<'py> = vector(py, self.0.first.by_design.clone());
+        /// First derivatives by inputs, shape (inputs,).
+        gradient_by_input: Array1<'py> = vector(py, self.0.first.by_input.clone());
+        /// Second derivatives by design variables, shape (design, design).
+        hessian: PyResult<Array2<'py>> = matrix(py, &self.0.second.by_design);
+        /// Second derivatives by inputs, shape (inputs, inputs).
+        by_input: PyResult<Array2<'py>> = matrix(py, &self.0.second.by_input);
+        /// Second derivatives by an input and a design variable, shape (inputs, design).
+        by_input_and_design: PyResult<Array2<'py>> = matrix(py, &self.0.second.by_input_and_design);
+        /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
+        /// zero.
+        asymmetry: f64 = self.0.asymmetry;
     }
+}
 
-    /// Of the left vector by design variables, shape (design, n).
-    #[getter]
-    fn left_by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        matrix(py, &self.0.left_by_design)
+result! {
+    /// First and second total derivatives, by design variables, of a value of an input at which something happens.
+    EventCurvature(eigentol::second_order::EventCurvature), |own| {
+        let of = &own.description;
+        let name = &of.inputs[own.input.index()].name;
+        format!("First and second derivatives of critical {name} of {}, {} SI", of.name, own.value)
     }
+}
 
-    fn __repr__(&self) -> String {
-        format!(
-            "Derivatives of the shapes of a mode of {}",
-            self.0.description.name
-        )
+attributes! {
+    EventCurvature(self, py) {
+        /// Name of the input.
+        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
+        /// Its value, SI.
+        value: f64 = self.0.value;
+        /// First derivatives, shape (design,).
+        gradient: Array1<'py> = vector(py, self.0.first.clone());
+        /// Second derivatives, shape (design, design).
+        hessian: PyResult<Array2<'py>> = matrix(py, &self.0.second);
+        /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
+        /// zero.
+        asymmetry: f64 = self.0.asymmetry;
+    }
+}
+
+result! {
+    /// Derivatives of the shapes of one mode, per SI unit, complex. `n` is the number of unknowns.
+    ShapeSensitivity(eigentol::shapes::ShapeSensitivity), |own| {
+        format!("Derivatives of the shapes of a mode of {}", own.description.name)
+    }
+}
+
+attributes! {
+    ShapeSensitivity(self, py) {
+        /// Of the shape by inputs, shape (n, inputs).
+        right_by_input: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.right_by_input.transpose());
+        /// Of the shape by design variables, shape (n, design).
+        right_by_design: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.right_by_design.transpose());
+        /// Of the left vector by inputs, shape (n, inputs).
+        left_by_input: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.left_by_input.transpose());
+        /// Of the left vector by design variables, shape (n, design).
+        left_by_design: PyResult<Array2<'py, Complex>> = matrix(py, &self.0.left_by_design.transpose());
     }
 }
 
@@ -296,41 +246,21 @@ result! {
     OutputSensitivities(eigentol::sensitivity::OutputSensitivities)
 }
 
-#[pymethods]
-impl OutputSensitivities {
-    /// Names of the outputs.
-    #[getter]
-    fn names(&self) -> Vec<&str> {
-        crate::names::outputs(&self.0.description)
-    }
-
-    /// Values, SI, shape (o,).
-    #[getter]
-    fn values<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.values.clone())
-    }
-
-    /// Derivatives by inputs, shape (o, inputs); NaN where there is none.
-    #[getter]
-    fn by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        let columns = self.0.description.inputs.len();
-        let all = self.0.by_input.iter();
-        optional_rows(
-            py,
-            columns,
-            all.map(|row| row.as_ref().map(|own| own.to_vec())),
-        )
-    }
-
-    /// Derivatives by design variables, shape (o, design); NaN where there is none.
-    #[getter]
-    fn by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        let columns = self.0.description.design.len();
-        let all = self.0.by_design.iter();
-        optional_rows(
-            py,
-            columns,
-            all.map(|row| row.as_ref().map(|own| own.to_vec())),
-        )
+attributes! {
+    OutputSensitivities(self, py) {
+        /// Names of the outputs.
+        names: Vec<&str> = crate::names::outputs(&self.0.description);
+        /// Values, SI, shape (o,).
+        values: Array1<'py> = vector(py, self.0.values.clone());
+        /// Derivatives by inputs, shape (o, inputs); NaN where there is none.
+        by_input: PyResult<Array2<'py>> = {
+            let all = self.0.by_input.iter().map(|row| row.as_ref().map(|own| own.to_vec()));
+            optional_rows(py, self.0.description.inputs.len(), all)
+        };
+        /// Derivatives by design variables, shape (o, design); NaN where there is none.
+        by_design: PyResult<Array2<'py>> = {
+            let all = self.0.by_design.iter().map(|row| row.as_ref().map(|own| own.to_vec()));
+            optional_rows(py, self.0.description.design.len(), all)
+        };
     }
 }

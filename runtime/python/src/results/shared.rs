@@ -7,31 +7,54 @@
 //! compares it with the module. The crate, and so the workspace, builds without Python (stable interface, symbols left
 //! open).
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use eigentol::Input;
 use eigentol_compiler::base::nearest::nearest;
-use eigentol_tables::{Column, Table, Values};
+use eigentol_tables::{Column, Subject, Table, Values};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{optional, vector};
 use crate::errors::{Kind, new};
 
-/// Defines a class around a result, with the text and tables of that result.
+/// Defines a class around a result, with the text, tables and document of that result; a document restores it.
 macro_rules! result {
     ($(#[$doc:meta])* $name:ident($inner:ty)) => {
+        $crate::results::result! { $(#[$doc])* $name($inner), ToString::to_string }
+    };
+    ($(#[$doc:meta])* $name:ident($inner:ty), $text:expr) => {
         $(#[$doc])*
         #[pyclass(frozen, module = "eigentol")]
         pub(crate) struct $name(pub(crate) $inner);
 
+        impl $name {
+            fn text(&self) -> String {
+                let text: fn(&$inner) -> String = $text;
+                text(&self.0)
+            }
+        }
+
         #[pymethods]
         impl $name {
             fn __repr__(&self) -> String {
-                self.0.to_string()
+                self.text()
             }
 
             fn _repr_html_(&self) -> String {
-                $crate::results::html(&self.0.to_string(), &eigentol_tables::tables(&self.0))
+                $crate::results::html(&self.text(), &eigentol_tables::tables(&self.0))
+            }
+
+            fn __eq__(&self, other: &Self) -> bool {
+                self.0 == other.0
+            }
+
+            fn __reduce__<'py>(
+                slf: &Bound<'py, Self>,
+            ) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+                let text = slf.get().to_json(slf.py())?;
+                Ok((slf.get_type().getattr("from_json")?, (text,)))
             }
 
             /// A table of the result as a dictionary, a column for each heading ("frequency [rad/s]"), which
@@ -47,13 +70,17 @@ macro_rules! result {
             }
 
             /// The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is
-            /// `eigentol.json_schema()`.
+            /// `eigentol.json_schema()`; under "result" it holds every number of the result, SI.
             fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-                use $crate::results::Document as _;
-                let text = self.0.document();
-                text.map_err(|error| {
-                    $crate::errors::new(py, $crate::errors::Kind::Error, error.to_string())
-                })
+                let text = eigentol_tables::json::to_string(&self.0);
+                text.map_err(|error| $crate::results::refused(py, &error))
+            }
+
+            /// The result that such a document holds, bit for bit. Raises InvalidValue for another text.
+            #[classmethod]
+            fn from_json(class: &Bound<'_, pyo3::types::PyType>, text: &str) -> PyResult<Self> {
+                let read = eigentol_tables::json::read(text.as_bytes());
+                read.map(Self).map_err(|error| $crate::results::refused(class.py(), &error))
             }
 
             /// Names of the tables.
@@ -62,20 +89,77 @@ macro_rules! result {
                 let all = eigentol_tables::tables(&self.0);
                 all.into_iter().map(|own| own.name).collect()
             }
+
+            /// Name of the mechanism; None where the result is an empty list.
+            #[getter]
+            fn mechanism(&self) -> Option<String> {
+                let subject = eigentol_tables::Answer::subject(&self.0)?;
+                Some(subject.description.name.to_string())
+            }
+
+            /// The inputs it belongs to, SI, by name, without one that varies; empty where derivatives are all there is.
+            #[getter]
+            fn operating_point(&self) -> std::collections::BTreeMap<String, f64> {
+                $crate::results::operating_point(eigentol_tables::Answer::subject(&self.0))
+            }
         }
     };
 }
 pub(crate) use result;
 
-/// A result that a JSON document can hold.
-pub(crate) trait Document {
-    fn document(&self) -> Result<String, eigentol_tables::Error>;
+/// Attributes of a class, each with its docstring, type and value; with `quantity`, methods of the name of a quantity.
+macro_rules! attributes {
+    ($class:ident($own:ident, $py:ident) {
+        $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)+
+    }) => {
+        #[pymethods]
+        impl $class {
+            $(
+                $(#[$doc])*
+                #[getter]
+                fn $name<'py>(&$own, $py: Python<'py>) -> $type {
+                    let _ = $py;
+                    $value
+                }
+            )+
+        }
+    };
+    ($class:ident($own:ident, $py:ident, $quantity:ident) {
+        $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)+
+    }) => {
+        #[pymethods]
+        impl $class {
+            $(
+                $(#[$doc])*
+                #[pyo3(signature = ($quantity="frequency"))]
+                fn $name<'py>(&$own, $py: Python<'py>, $quantity: &str) -> PyResult<$type> {
+                    $value
+                }
+            )+
+        }
+    };
+}
+pub(crate) use attributes;
+
+/// The exception for a document that cannot be written or read.
+pub(crate) fn refused(py: Python<'_>, error: &eigentol_tables::Error) -> PyErr {
+    let kind = match error {
+        eigentol_tables::Error::Write(_) => Kind::Error,
+        _ => Kind::InvalidValue,
+    };
+    new(py, kind, error.to_string())
 }
 
-impl<A: eigentol_tables::Answer> Document for A {
-    fn document(&self) -> Result<String, eigentol_tables::Error> {
-        eigentol_tables::json::to_string(self)
-    }
+pub(crate) fn operating_point(of: Option<Subject<'_>>) -> BTreeMap<String, f64> {
+    let Some(of) = of else {
+        return BTreeMap::new();
+    };
+    let varied = of.varied.map(Input::index);
+    let each = of.description.inputs.iter().zip(of.inputs).enumerate();
+    let fixed = each.filter(|(k, _)| Some(*k) != varied);
+    fixed
+        .map(|(_, (info, value))| (info.name.to_string(), *value))
+        .collect()
 }
 
 /// The JSON Schema of the documents that `to_json` gives, as a text.
@@ -108,7 +192,7 @@ pub(crate) fn table<'py>(
     Err(new(py, Kind::UnknownName, message))
 }
 
-/// Numbers become arrays with NaN for missing values; words and other columns with missing values become lists.
+/// Numbers become arrays with NaN for missing ones, words and flags lists with None.
 fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
     for column in &table.columns {
@@ -119,7 +203,10 @@ fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict
             }
             Values::Whole(values) => match values.iter().copied().collect::<Option<Vec<i64>>>() {
                 Some(whole) => columns.set_item(heading, vector(py, whole))?,
-                None => columns.set_item(heading, values.clone())?,
+                None => {
+                    let values = values.iter().map(|own| own.map(|own| own as f64));
+                    columns.set_item(heading, optional(py, values))?;
+                }
             },
             Values::Texts(values) => columns.set_item(heading, values.clone())?,
             Values::Flags(values) => columns.set_item(heading, values.clone())?,

@@ -1,12 +1,13 @@
 //! Results along an input.
 
 use eigentol::campbell::CampbellMode;
+use eigentol::sweep::Searched;
 use eigentol::tolerance::Spread;
 use eigentol::{Complex, Error, Mode};
 use pyo3::prelude::*;
 
-use super::{Equilibrium, Modes, result};
-use crate::arrays::{Array1, Array2, or_nan, rows, vector};
+use super::{Equilibrium, Modes, attributes, family, result};
+use crate::arrays::{Array1, Array2, optional_rows, or_nan, rows, vector};
 use crate::events::{Event, events};
 
 const NONE: Complex = Complex::new(f64::NAN, f64::NAN);
@@ -50,72 +51,52 @@ fn message<T>(found: &Result<T, Error>) -> Option<String> {
     found.as_ref().err().map(ToString::to_string)
 }
 
+attributes! {
+    Sweep(self, py) {
+        /// Values of the input, SI, shape (k,).
+        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
+        /// Unknowns of the equilibria, shape (k, n); NaN where there is none.
+        coordinates: PyResult<Array2<'py>> = {
+            let all = self.0.points.iter().map(|own| own.equilibrium.as_ref().ok());
+            let all = all.map(|own| own.map(|own| own.coordinates.to_vec()));
+            optional_rows(py, self.0.description.coordinates.len(), all)
+        };
+        /// Eigenvalues, 1/s, complex, shape (k, motions); NaN where a motion was not found.
+        eigenvalues: PyResult<Array2<'py, Complex>> = self.by_label(py, NONE, |mode| Some(mode.s));
+        /// Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate.
+        frequencies: PyResult<Array2<'py>> = self.by_label(py, f64::NAN, Mode::frequency);
+        /// Damping ratios, shape (k, motions).
+        damping_ratios: PyResult<Array2<'py>> = self.by_label(py, f64::NAN, Mode::damping_ratio);
+        /// Values of the input at which the stable equilibrium loses its stiffness, SI.
+        critical: Array1<'py> = vector(py, self.0.critical.iter().map(|own| own.value));
+        /// What happens at each of these, in words.
+        critical_kinds: Vec<String> =
+            self.0.critical.iter().map(|own| own.kind.to_string()).collect();
+        /// Values of the input at which an oscillation begins or ceases to grow, SI.
+        flutter_onsets: Array1<'py> = vector(py, self.0.flutter_onsets.iter().map(|own| own.value));
+        /// The range that was searched for these values, SI: its ends, and how close two of them may be; or None.
+        searched: Option<(f64, f64, f64)> = searched(self.0.searched.as_ref());
+        /// Stretches of it, SI, in which something may have been missed.
+        unsearched: Vec<(f64, f64)> = unsearched(self.0.searched.as_ref());
+        /// Number of values that were not reached.
+        unreached: usize = self.0.unreached;
+        /// Name of the input.
+        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
+        /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
+        failures: Vec<Option<String>> =
+            self.0.points.iter()
+                .map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect();
+        /// The equilibrium at each value, or None.
+        equilibria: Vec<Option<Equilibrium>> =
+            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
+        /// The modes at each value, or None.
+        modes: Vec<Option<Modes>> =
+            self.0.points.iter().map(|own| own.modes.clone().ok().map(Modes)).collect();
+    }
+}
+
 #[pymethods]
 impl Sweep {
-    /// Values of the input, SI, shape (k,).
-    #[getter]
-    fn values<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.points.iter().map(|own| own.value))
-    }
-
-    /// Unknowns of the equilibria, shape (k, n); NaN where there is none.
-    #[getter]
-    fn coordinates<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        let n = self.0.description.coordinates.len();
-        let row = |own: &eigentol::sweep::SweepPoint| match &own.equilibrium {
-            Ok(state) => state.coordinates.to_vec(),
-            Err(_) => vec![f64::NAN; n],
-        };
-        rows(py, n, self.0.points.iter().map(row))
-    }
-
-    /// Eigenvalues, 1/s, complex, shape (k, motions); NaN where a motion was not found.
-    #[getter]
-    fn eigenvalues<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        self.by_label(py, NONE, |mode| Some(mode.s))
-    }
-
-    /// Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        self.by_label(py, f64::NAN, Mode::frequency)
-    }
-
-    /// Damping ratios, shape (k, motions).
-    #[getter]
-    fn damping_ratios<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        self.by_label(py, f64::NAN, Mode::damping_ratio)
-    }
-
-    /// Values of the input at which the stable equilibrium loses its stiffness, SI.
-    #[getter]
-    fn critical<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.critical.iter().map(|own| own.value))
-    }
-
-    /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
-    #[getter]
-    fn failures(&self) -> Vec<Option<String>> {
-        let all = self.0.points.iter();
-        all.map(|own| message(&own.equilibrium).or_else(|| message(&own.modes)))
-            .collect()
-    }
-
-    /// The equilibrium at each value, or None.
-    #[getter]
-    fn equilibria(&self) -> Vec<Option<Equilibrium>> {
-        let all = self.0.points.iter();
-        all.map(|own| own.equilibrium.clone().ok().map(Equilibrium))
-            .collect()
-    }
-
-    /// The modes at each value, or None.
-    #[getter]
-    fn modes(&self) -> Vec<Option<Modes>> {
-        let all = self.0.points.iter();
-        all.map(|own| own.modes.clone().ok().map(Modes)).collect()
-    }
-
     fn __len__(&self) -> usize {
         self.0.points.len()
     }
@@ -128,6 +109,19 @@ result! {
 }
 
 impl Campbell {
+    fn words(&self, of: &dyn Fn(&CampbellMode) -> Option<String>) -> Vec<Vec<Option<String>>> {
+        let labels = self.0.labels();
+        let row = |own: &eigentol::campbell::CampbellPoint| {
+            let modes = own.modes.as_ref().map_or(&[][..], Vec::as_slice);
+            let mode = |label: &usize| modes.iter().find(|mode| mode.label == *label);
+            labels
+                .iter()
+                .map(|label| mode(label).and_then(of))
+                .collect()
+        };
+        self.0.points.iter().map(row).collect()
+    }
+
     fn by_label<'py, T: numpy::Element + Copy>(
         &self,
         py: Python<'py>,
@@ -147,81 +141,100 @@ impl Campbell {
     }
 }
 
+/// Ends and resolution.
+fn searched(of: Option<&Searched>) -> Option<(f64, f64, f64)> {
+    of.map(|own| (own.low, own.high, own.resolution))
+}
+
+fn unsearched(of: Option<&Searched>) -> Vec<(f64, f64)> {
+    let unresolved = of.iter().flat_map(|own| &own.unresolved);
+    let gaps = of.iter().flat_map(|own| &own.gaps);
+    let unresolved = unresolved.map(|own| (own.from, own.to));
+    unresolved
+        .chain(gaps.map(|own| (own.from, own.to)))
+        .collect()
+}
+
 fn sigma(spread: &Option<Spread>) -> Option<f64> {
     spread.as_ref().map(|own| own.sigma)
 }
 
+attributes! {
+    Campbell(self, py) {
+        /// Values of the input, SI, shape (k,).
+        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
+        /// Numbers of the motions, one for each column.
+        labels: Vec<usize> = self.0.labels();
+        /// Eigenvalues, 1/s, complex, shape (k, motions).
+        eigenvalues: PyResult<Array2<'py, Complex>> = self.by_label(py, NONE, |mode| Some(mode.s));
+        /// Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate.
+        frequencies: PyResult<Array2<'py>> =
+            self.by_label(py, f64::NAN, |mode| mode.behaviour.frequency());
+        /// Standard deviations of the frequencies to first order, rad/s, shape (k, motions).
+        frequency_sigmas: PyResult<Array2<'py>> =
+            self.by_label(py, f64::NAN, |mode| sigma(&mode.frequency));
+        /// Means of the damping ratios, shape (k, motions).
+        damping_ratios: PyResult<Array2<'py>> = {
+            let mean = |mode: &CampbellMode| mode.damping_ratio.as_ref().map(|own| own.mean);
+            self.by_label(py, f64::NAN, mean)
+        };
+        /// Standard deviations of the damping ratios to first order, shape (k, motions).
+        damping_ratio_sigmas: PyResult<Array2<'py>> =
+            self.by_label(py, f64::NAN, |mode| sigma(&mode.damping_ratio));
+        /// Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does
+        /// not apply.
+        whirls: PyResult<Array2<'py>> = {
+            let ratio = |mode: &CampbellMode| mode.whirl.map(|own| own.ratio);
+            self.by_label(py, f64::NAN, |mode| Some(or_nan(ratio(mode))))
+        };
+        /// Where a frequency meets a line, with spreads.
+        crossings: Vec<Event> = events(&self.0.crossings);
+        /// Where the stable equilibrium loses its stiffness, with spreads.
+        critical: Vec<Event> = events(&self.0.critical);
+        /// Where an oscillation begins or ceases to grow, with spreads.
+        flutter_onsets: Vec<Event> = events(&self.0.flutter_onsets);
+        /// What each motion does, in words, a list for each value; None where it was not found.
+        behaviours: Vec<Vec<Option<String>>> = {
+            self.words(&|mode| Some(mode.behaviour.to_string()))
+        };
+        /// The direction of each whirl, in words, a list for each value; None where it does not apply.
+        whirl_senses: Vec<Vec<Option<String>>> =
+            self.words(&|mode| mode.whirl.map(|own| own.sense().to_string()));
+        /// Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions).
+        clustered: PyResult<Array2<'py, bool>> =
+            self.by_label(py, false, |mode| Some(mode.clustered));
+        /// Unknowns of the equilibria, shape (k, n); NaN where there is none.
+        coordinates: PyResult<Array2<'py>> = {
+            let all = self.0.points.iter().map(|own| own.equilibrium.as_ref().ok());
+            let all = all.map(|own| own.map(|own| own.coordinates.to_vec()));
+            optional_rows(py, self.0.description.coordinates.len(), all)
+        };
+        /// The equilibrium at each value, or None.
+        equilibria: Vec<Option<Equilibrium>> =
+            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
+        /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
+        failures: Vec<Option<String>> =
+            self.0.points.iter()
+                .map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect();
+        /// The lines whose crossings were searched for: multiple of the input, and offset in rad/s.
+        orders: Vec<(f64, f64)> = self.0.orders.iter().map(|own| (own.ratio, own.offset)).collect();
+        /// The range that was searched for events, SI: its ends, and how close two of them may be; or None.
+        searched: Option<(f64, f64, f64)> = searched(self.0.searched.as_ref());
+        /// Stretches of it, SI, in which something may have been missed.
+        unsearched: Vec<(f64, f64)> = unsearched(self.0.searched.as_ref());
+        /// Number of values that were not reached.
+        unreached: usize = self.0.unreached;
+        /// Name of the input.
+        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
+        /// Standard deviations that a tolerance stands for.
+        sigma_level: f64 = self.0.sigma_level;
+        /// "undamped" or "general".
+        family: &'static str = family(self.0.family);
+    }
+}
+
 #[pymethods]
 impl Campbell {
-    /// Values of the input, SI, shape (k,).
-    #[getter]
-    fn values<'py>(&self, py: Python<'py>) -> Array1<'py> {
-        vector(py, self.0.points.iter().map(|own| own.value))
-    }
-
-    /// Numbers of the motions, one for each column.
-    #[getter]
-    fn labels(&self) -> Vec<usize> {
-        self.0.labels()
-    }
-
-    /// Eigenvalues, 1/s, complex, shape (k, motions).
-    #[getter]
-    fn eigenvalues<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, Complex>> {
-        self.by_label(py, NONE, |mode| Some(mode.s))
-    }
-
-    /// Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate.
-    #[getter]
-    fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        self.by_label(py, f64::NAN, |mode| mode.behaviour.frequency())
-    }
-
-    /// Standard deviations of the frequencies to first order, rad/s, shape (k, motions).
-    #[getter]
-    fn frequency_sigmas<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        self.by_label(py, f64::NAN, |mode| sigma(&mode.frequency))
-    }
-
-    /// Means of the damping ratios, shape (k, motions).
-    #[getter]
-    fn damping_ratios<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        let mean = |mode: &CampbellMode| mode.damping_ratio.as_ref().map(|own| own.mean);
-        self.by_label(py, f64::NAN, mean)
-    }
-
-    /// Standard deviations of the damping ratios to first order, shape (k, motions).
-    #[getter]
-    fn damping_ratio_sigmas<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        self.by_label(py, f64::NAN, |mode| sigma(&mode.damping_ratio))
-    }
-
-    /// Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does
-    /// not apply.
-    #[getter]
-    fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
-        let ratio = |mode: &CampbellMode| mode.whirl.map(|own| own.ratio);
-        self.by_label(py, f64::NAN, |mode| Some(or_nan(ratio(mode))))
-    }
-
-    /// Where a frequency meets a line, with spreads.
-    #[getter]
-    fn crossings(&self) -> Vec<Event> {
-        events(&self.0.crossings)
-    }
-
-    /// Where the stable equilibrium loses its stiffness, with spreads.
-    #[getter]
-    fn critical(&self) -> Vec<Event> {
-        events(&self.0.critical)
-    }
-
-    /// Where an oscillation begins or ceases to grow, with spreads.
-    #[getter]
-    fn flutter_onsets(&self) -> Vec<Event> {
-        events(&self.0.flutter_onsets)
-    }
-
     fn __len__(&self) -> usize {
         self.0.points.len()
     }

@@ -155,8 +155,8 @@ impl Tables for ShapeSensitivity {
             ] {
                 let value = rows().map(|(i, _, j, (_, unit))| {
                     let slope = match j.checked_sub(inputs) {
-                        None => entry(by_input, i, j),
-                        Some(j) => entry(by_design, i, j),
+                        None => entry(by_input, j, i),
+                        Some(j) => entry(by_design, j, i),
                     };
                     Some(per_unit(of(slope?), unit))
                 });
