@@ -60,7 +60,7 @@ const CRATES: [(&str, &[&str], usize); 18] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        14_800,
+        15_000,
     ),
     (
         "runtime/tolerance",
