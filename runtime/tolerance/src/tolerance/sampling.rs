@@ -182,7 +182,9 @@ mod tests {
         };
         let nominal = [1.0, 2.0];
         let mut sequence = Draw::starting((7, 0), 0, &nominal, &tolerances);
-        let all: Vec<_> = (0..20).map(|_| Vector::from(sequence.next_design())).collect();
+        let all: Vec<_> = (0..20)
+            .map(|_| Vector::from(sequence.next_design()))
+            .collect();
         for (k, sample) in all.iter().enumerate() {
             let mut alone = Draw::starting((7, 0), k as u64, &nominal, &tolerances);
             assert_eq!(*sample, alone.next_design());
