@@ -24,7 +24,7 @@ pub use instructions::Instructions;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::{Lanes, Task};
 pub use real::Real;
-#[cfg(feature = "std")]
+#[cfg(any(feature = "std", feature = "libm"))]
 #[doc(hidden)]
 pub use real::integer_power;
 pub use spline::spline;
