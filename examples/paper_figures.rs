@@ -44,14 +44,25 @@ fn along<M: Mechanism>(
     let style = Style::default().radians_per_second();
     let sweep = study.sweep(speed, &speeds)?;
     let mut found: Vec<(String, Vec<FirstOrder>, Vec<MonteCarlo>)> = Vec::new();
+    // Standard deviations at first order have a pole at the critical speed: there the curve needs more points.
+    let critical = study.critical_state(speed, 0.1, 8.0)?.value;
+    let beside = (2..12).map(|k| 0.5_f64.powi(k));
+    let beside = beside.flat_map(|share| [critical - share, critical + share]);
+    let mut dense: Vec<f64> = speeds.iter().copied().chain(beside).collect();
+    dense.sort_by(f64::total_cmp);
+    // Samples of their own at each speed and level: shared ones would make random errors look systematic.
+    let mut streams = 0..;
     for level in LEVELS {
         let study = study.clone().relative_tolerance(length, level);
-        let first = study.first_order_sweep(speed, &speeds)?;
-        let at = |&value: &f64| study.clone().input(speed, value).monte_carlo();
+        let first = study.first_order_sweep(speed, &dense)?;
+        let at = |(&value, stream): (&f64, u64)| {
+            let study = study.clone().input(speed, value).stream(stream);
+            study.monte_carlo()
+        };
         found.push((
             format!("{} %", 100.0 * level),
             first.into_iter().collect::<Result<_, _>>()?,
-            speeds.iter().map(at).collect::<Result<_, _>>()?,
+            (speeds.iter().zip(&mut streams).map(at)).collect::<Result<_, _>>()?,
         ));
     }
     // Standard deviations in the upper panel, means in the lower.
@@ -66,6 +77,9 @@ fn along<M: Mechanism>(
     let mut means = spreads((wanted[0].0, LEVELS.len()))?;
     means.title = format!("{}: mean frequencies", study.description().name);
     means.panels.remove(0);
+    means
+        .caption
+        .retain(|line| !line.starts_with("First order"));
     if wanted[0].0 != wanted[1].0 {
         means.panels.extend(second.panels.get(1).cloned());
     }

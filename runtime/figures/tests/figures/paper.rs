@@ -23,4 +23,10 @@ fn each_figure_of_the_paper_is_drawn() {
         assert_eq!(drawn(number).error_bars.len(), levels, "figure {number}");
     }
     assert!(drawn(6).y.range[1] > 0.0 && drawn(5).y.name.contains("mean"));
+    // First order has more points than samples, beside its pole; samples of neighbouring speeds are not the same ones.
+    let curve = drawn(7).curves[0].pieces.concat().len();
+    let means = &drawn(11).error_bars[2].bars;
+    assert!(curve > means.len());
+    let apart = (means[0].at[1] - means[1].at[1]).abs();
+    assert!(apart > 1e-3, "{apart}");
 }
