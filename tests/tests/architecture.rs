@@ -93,7 +93,6 @@ const CRATES: [(&str, &[&str], usize); 18] = [
             "eigentol-macros",
             "eigentol-numerics",
             "eigentol-solve",
-            "eigentol-statistics",
             "eigentol-tolerance",
         ],
         3_900,

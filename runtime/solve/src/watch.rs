@@ -7,8 +7,7 @@ use crate::setters;
 
 /// Observes a long computation: receives its progress, and can stop it early with the results so far.
 ///
-/// A study has one too, which all of its long computations obey (`Study::progress`,
-/// `Study::stop`).
+/// A study has one too, which all of its long computations obey (`Study::progress`, `Study::stop`).
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Watch<'a> {

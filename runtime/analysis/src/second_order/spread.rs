@@ -45,8 +45,8 @@ pub struct ModeSecondOrder {
 pub struct SecondOrder {
     /// One result per mode, in order; an error for a mode that does not oscillate or has no derivatives of its own.
     pub modes: Vec<Result<ModeSecondOrder, Error>>,
-    /// For each mode, the doubts that distances raise ([`FirstOrder::doubts`](crate::tolerance::FirstOrder::doubts)): a series does
-    /// not converge beyond a critical state, and describes no mode that mixes with another.
+    /// For each mode, the doubts that distances raise ([`FirstOrder::doubts`](crate::tolerance::FirstOrder::doubts)): a
+    /// series does not converge beyond a critical state, and describes no mode that mixes with another.
     pub doubts: Vec<Vec<Doubt>>,
     /// Number of standard deviations that a tolerance represents.
     pub sigma_level: f64,

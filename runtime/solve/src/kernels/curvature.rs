@@ -6,7 +6,8 @@ use crate::algebra::Matrix;
 
 /// Gradients of modes and outputs in dual numbers.
 pub trait CurvatureKernels: DirectionalKernels {
-    /// [`Mechanism::mode_gradient_along`](eigentol_contract::Mechanism::mode_gradient_along); `direction` is `dq`, `du`, `db`,
+    /// [`Mechanism::mode_gradient_along`](eigentol_contract::Mechanism::mode_gradient_along); `direction` is `dq`,
+    /// `du`, `db`,
     /// `dphi`.
     #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along_into(
@@ -39,8 +40,8 @@ pub trait CurvatureKernels: DirectionalKernels {
         }
     }
 
-    /// [`Mechanism::pencil_gradient_along`](eigentol_contract::Mechanism::pencil_gradient_along); `direction` is `dq`, `du`, `db`,
-    /// and `changes` is the change of `vectors`.
+    /// [`Mechanism::pencil_gradient_along`](eigentol_contract::Mechanism::pencil_gradient_along); `direction` is `dq`,
+    /// `du`, `db`, and `changes` is the change of `vectors`.
     #[allow(clippy::too_many_arguments)]
     fn pencil_gradient_along_into(
         &self,
@@ -53,7 +54,8 @@ pub trait CurvatureKernels: DirectionalKernels {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::output_partials_along`](eigentol_contract::Mechanism::output_partials_along); `direction` is `dq`, `du`, `db`.
+    /// [`Mechanism::output_partials_along`](eigentol_contract::Mechanism::output_partials_along); `direction` is `dq`,
+    /// `du`, `db`.
     fn output_partials_along_into(
         &self,
         q: &[f64],

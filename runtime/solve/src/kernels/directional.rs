@@ -14,7 +14,8 @@ pub trait DirectionalKernels: Kernels {
         linear: &mut Linear,
     );
 
-    /// [`Mechanism::residual_gradient_along`](eigentol_contract::Mechanism::residual_gradient_along); `direction` is `dq`, `du`,
+    /// [`Mechanism::residual_gradient_along`](eigentol_contract::Mechanism::residual_gradient_along); `direction` is
+    /// `dq`, `du`,
     /// `db`, `dw`.
     fn residual_gradient_along_into(
         &self,

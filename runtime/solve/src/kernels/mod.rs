@@ -104,7 +104,8 @@ pub trait Kernels: Sync {
     /// [`Mechanism::residual_parts`](eigentol_contract::Mechanism::residual_parts).
     fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts);
 
-    /// [`Mechanism::residual_and_stiffness`](eigentol_contract::Mechanism::residual_and_stiffness), with the matrix row by row.
+    /// [`Mechanism::residual_and_stiffness`](eigentol_contract::Mechanism::residual_and_stiffness), with the matrix row
+    /// by row.
     fn residual_and_stiffness_into(
         &self,
         q: &[f64],
@@ -166,7 +167,8 @@ pub trait Kernels: Sync {
         gradient: &mut Gradient,
     );
 
-    /// [`Mechanism::pencil_gradient`](eigentol_contract::Mechanism::pencil_gradient); `vectors` are `left`, `acceleration`,
+    /// [`Mechanism::pencil_gradient`](eigentol_contract::Mechanism::pencil_gradient); `vectors` are `left`,
+    /// `acceleration`,
     /// `velocity` and `position`.
     fn pencil_gradient_into(
         &self,
@@ -206,8 +208,8 @@ pub trait Kernels: Sync {
     /// [`Mechanism::outputs`](eigentol_contract::Mechanism::outputs).
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]);
 
-    /// [`Mechanism::output_partials`](eigentol_contract::Mechanism::output_partials), with respect to unknowns, inputs and design
-    /// variables, one row per output.
+    /// [`Mechanism::output_partials`](eigentol_contract::Mechanism::output_partials), with respect to unknowns, inputs
+    /// and design variables, one row per output.
     fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]);
 }
 
