@@ -105,7 +105,8 @@ pub fn rough_in(value: f64, unit: &Unit) -> String {
     rough(converted(value, unit))
 }
 
-fn converted(value: f64, unit: &Unit) -> f64 {
+/// A value converted from SI to a declared unit; unchanged where the unit has no size.
+pub fn converted(value: f64, unit: &Unit) -> f64 {
     if unit.scale == 0.0 {
         value
     } else {
@@ -130,11 +131,61 @@ pub fn with_unit(number: String, unit: &Unit) -> String {
     }
 }
 
+/// A user-chosen value as the user wrote it: 3000 rpm, not 3000.0000000000005. Rounded to 15 digits if these give the
+/// same SI value.
+pub fn as_written(value: f64, unit: &Unit) -> f64 {
+    let own = converted(value, unit);
+    let short = format!("{own:.14e}").parse().unwrap_or(own);
+    if unit.to_si(short) == value {
+        short
+    } else {
+        own
+    }
+}
+
 /// `top per unit`, for derivatives.
 pub fn per(name: &str, unit: &Unit) -> String {
     if unit.symbol.is_empty() {
         format!("/ {name}")
     } else {
         format!("/ {name} [{}]", unit.symbol)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use eigentol_contract::{Text, Unit};
+
+    use super::as_written;
+
+    #[test]
+    fn chosen_values_come_back_as_they_were_written() {
+        let unit = |scale: f64| Unit {
+            symbol: Text::Static("a unit"),
+            scale,
+        };
+        let rpm = unit(core::f64::consts::PI / 30.0);
+        let mut rough = 0;
+        for speed in 0..=20_000 {
+            let speed = 0.5 * f64::from(speed);
+            rough += usize::from(rpm.from_si(rpm.to_si(speed)) != speed);
+            assert_eq!(as_written(rpm.to_si(speed), &rpm), speed);
+        }
+        assert!(rough > 0);
+        for length in [0.1, 0.3, -2.7, 1e-3, 12.345] {
+            let mm = unit(1e-3);
+            assert_eq!(as_written(mm.to_si(length), &mm), length);
+        }
+    }
+
+    #[test]
+    fn what_nobody_wrote_keeps_its_digits() {
+        let one = Unit {
+            symbol: Text::Static("m"),
+            scale: 1.0,
+        };
+        for value in [core::f64::consts::PI, 1.0 / 3.0, -0.1 - 0.2, 0.0] {
+            assert_eq!(as_written(value, &one), value);
+        }
     }
 }

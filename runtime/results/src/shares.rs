@@ -1,7 +1,7 @@
 //! Shares of design variables in variances, as columns of a table.
 
-use core::fmt;
-
+use crate::columns::Columns;
+use crate::findings::Findings;
 use crate::numbers::percent;
 use crate::relevance::{BELOW, COLUMNS, RELEVANT, names, unless_rounding};
 use eigentol_contract::Description;
@@ -45,33 +45,28 @@ impl<'a> Shares<'a> {
         self.columns.len() <= COLUMNS
     }
 
-    /// The headings of the columns.
-    pub fn head(&self) -> Vec<String> {
+    /// Adds the columns to a text; `of` gives the shares of a row, if it has any.
+    pub fn columns<R>(&self, table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> Option<&[f64]>) {
         if !self.side_by_side() {
-            return vec!["variance mostly from".to_owned()];
+            table.cells("variance mostly from", &|row| {
+                of(row).map_or_else(|| "-".to_owned(), |shares| mostly(self.description, shares))
+            });
+            return;
         }
-        let name = |k: &usize| format!("share of {}", self.description.design[*k].name);
-        self.columns.iter().map(name).collect()
-    }
-
-    /// The cells below the header; `None` if there are no shares.
-    pub fn cells(&self, shares: Option<&[f64]>) -> Vec<String> {
-        let Some(shares) = shares else {
-            return vec!["-".to_owned(); self.head().len()];
-        };
-        if self.side_by_side() {
-            return (self.columns.iter().map(|&k| share(shares[k]))).collect();
+        for &k in &self.columns {
+            let heading = format!("share of {}", self.description.design[k].name);
+            table.cells(&heading, &|row| {
+                of(row).map_or_else(|| "-".to_owned(), |shares| share(shares[k]))
+            });
         }
-        vec![mostly(self.description, shares)]
     }
 
     /// Lists the variables that vary and have no column.
-    pub fn rest(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.below.is_empty() || !self.side_by_side() {
-            return Ok(());
+    pub fn rest(&self, said: &mut Findings) {
+        if !self.below.is_empty() && self.side_by_side() {
+            let names = names(&self.below, "variables");
+            said.note(format!("Left out, {BELOW} of every variance: {names}"));
         }
-        let names = names(&self.below, "variables");
-        writeln!(f, "  Left out, {BELOW} of every variance: {names}")
     }
 }
 

@@ -1,109 +1,170 @@
-//! Aligned columns of text.
+//! Named columns of equal length, each with a unit.
 
-use core::fmt;
+use eigentol_contract::{Description, Input};
 
-/// A table with a header and rows. The first column and columns of words are left-aligned, the others right-aligned.
-/// Columns that exceed the page width follow below, next to the first column again.
-#[derive(Default)]
+use crate::numbers::as_written;
+
+/// A table: columns of equal length.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Table {
-    rows: Vec<Vec<String>>,
+    /// The subject of the table in one or two words: `modes`.
+    pub name: String,
+    /// The columns. No two have the same heading.
+    pub columns: Vec<Column>,
 }
 
-/// Page width in characters.
-const WIDTH: usize = 150;
+/// One column of a table.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Column {
+    /// The name of the column.
+    pub name: String,
+    /// The unit symbol as written in declarations; empty if the column has no unit.
+    pub unit: String,
+    /// One entry per row; `None` for a missing or non-finite value.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub values: Values,
+}
+
+/// The entries of a column.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(tag = "kind", content = "values", rename_all = "lowercase")
+)]
+pub enum Values {
+    /// Finite numbers.
+    Numbers(Vec<Option<f64>>),
+    /// Whole numbers.
+    Whole(Vec<Option<i64>>),
+    /// Words.
+    Texts(Vec<Option<String>>),
+    /// Yes or no.
+    Flags(Vec<Option<bool>>),
+}
+
+impl Values {
+    /// The number of entries, including missing ones.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Whole(values) => values.len(),
+            Self::Texts(values) => values.len(),
+            Self::Flags(values) => values.len(),
+        }
+    }
+
+    /// Whether there are no entries.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl Column {
+    /// The heading: `name [unit]`, or the name alone if there is no unit.
+    #[must_use]
+    pub fn heading(&self) -> String {
+        match self.unit.is_empty() {
+            true => self.name.clone(),
+            false => format!("{} [{}]", self.name, self.unit),
+        }
+    }
+}
 
 impl Table {
-    /// A table with this header.
-    pub fn new(head: Vec<String>) -> Self {
-        Self { rows: vec![head] }
-    }
-
-    /// Appends a row.
-    pub fn row(&mut self, cells: Vec<String>) {
-        self.rows.push(cells);
-    }
-
-    /// Whether there are no rows below the header.
-    pub fn is_empty(&self) -> bool {
-        self.rows.len() < 2
-    }
-
-    fn width(&self, column: usize) -> usize {
-        let cells = self.rows.iter().filter_map(|row| row.get(column));
-        let widths = cells.map(|cell| cell.chars().count());
-        widths.max().unwrap_or(0)
-    }
-
-    fn is_words(&self, column: usize) -> bool {
-        let cells = self.rows.iter().skip(1).filter_map(|row| row.get(column));
-        let mut cells = cells.filter(|cell| !cell.is_empty() && *cell != "-");
-        column == 0 || cells.all(|cell| cell.starts_with(char::is_alphabetic) && cell != "inf")
-    }
-
-    /// Groups of columns that fit next to the first one: as few blocks as possible, all of about the same width.
-    fn blocks(widths: &[usize]) -> Vec<Vec<usize>> {
-        let fewest = within(widths, WIDTH);
-        let mut limits = (1..WIDTH).rev();
-        let wider = limits.find(|&limit| within(widths, limit).len() > fewest.len());
-        within(widths, wider.map_or(WIDTH, |limit| limit + 1))
-    }
-}
-
-/// As many columns per block as the limit allows, but at least one.
-fn within(widths: &[usize], limit: usize) -> Vec<Vec<usize>> {
-    let first = widths.first().map_or(0, |width| width + 2);
-    let mut blocks = vec![vec![0]];
-    let mut used = first;
-    for (column, width) in widths.iter().enumerate().skip(1) {
-        if used + width + 2 > limit && used > first {
-            blocks.push(vec![0]);
-            used = first;
-        }
-        used += width + 2;
-        if let Some(block) = blocks.last_mut() {
-            block.push(column);
+    /// Creates a table without columns.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            columns: Vec::new(),
         }
     }
-    blocks
-}
 
-impl fmt::Display for Table {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..columns).map(|column| self.width(column)).collect();
-        let words: Vec<bool> = (0..columns).map(|column| self.is_words(column)).collect();
-        for block in Self::blocks(&widths) {
-            for row in &self.rows {
-                let mut line = String::new();
-                for &column in &block {
-                    let (Some(cell), width) = (row.get(column), widths[column]) else {
-                        continue;
-                    };
-                    line.push_str("  ");
-                    line.push_str(&match words[column] {
-                        true => format!("{cell:<width$}"),
-                        false => format!("{cell:>width$}"),
-                    });
-                }
-                writeln!(f, "{}", line.trim_end())?;
+    /// The first column with this name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
+    /// Adds a column of numbers; non-finite values become missing.
+    pub fn numbers<V: Into<Option<f64>>>(
+        &mut self,
+        name: &str,
+        unit: &str,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let finite = |value: V| value.into().filter(|own: &f64| own.is_finite());
+        let values = values.into_iter().map(finite).collect();
+        self.add(name, unit, Values::Numbers(values));
+    }
+
+    /// Adds a column of whole numbers.
+    pub fn whole<V: Into<Option<usize>>>(
+        &mut self,
+        name: &str,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let whole = |value: V| value.into().and_then(|own| i64::try_from(own).ok());
+        let values = values.into_iter().map(whole).collect();
+        self.add(name, "", Values::Whole(values));
+    }
+
+    /// Adds a column of words.
+    pub fn texts<V: Into<Option<String>>>(
+        &mut self,
+        name: &str,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let values = values.into_iter().map(Into::into).collect();
+        self.add(name, "", Values::Texts(values));
+    }
+
+    /// Adds a column of yes/no values.
+    pub fn flags<V: Into<Option<bool>>>(
+        &mut self,
+        name: &str,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let values = values.into_iter().map(Into::into).collect();
+        self.add(name, "", Values::Flags(values));
+    }
+
+    /// Adds a column. A name the table already has gets a number appended, `mode 2`.
+    fn add(&mut self, name: &str, unit: &str, values: Values) {
+        let taken = |name: &str| self.columns.iter().any(|own| own.name == name);
+        let mut own = name.to_owned();
+        let mut number = 2;
+        while taken(&own) {
+            own = format!("{name} {number}");
+            number += 1;
+        }
+        self.columns.push(Column {
+            name: own,
+            unit: unit.to_owned(),
+            values,
+        });
+    }
+
+    /// Adds the operating point as the last columns, without an input that varies.
+    pub fn operating_point(&mut self, d: &Description, inputs: &[f64], varied: Option<Input>) {
+        let rows = self.rows();
+        let varied = varied.map(Input::index);
+        for (k, (info, &value)) in d.inputs.iter().zip(inputs).enumerate() {
+            if Some(k) != varied {
+                let value = as_written(value, &info.unit);
+                self.numbers(&info.name, &info.unit.symbol, vec![value; rows]);
             }
         }
-        Ok(())
-    }
-}
-
-/// The texts as cells of a row.
-pub fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
-    texts.map(str::to_owned).to_vec()
-}
-
-/// Reports that a computation along an input was stopped.
-pub fn not_reached(f: &mut fmt::Formatter<'_>, unreached: usize) -> fmt::Result {
-    match unreached {
-        0 => Ok(()),
-        _ => writeln!(
-            f,
-            "  Not complete: {unreached} of the values were not reached."
-        ),
     }
 }

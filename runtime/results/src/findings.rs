@@ -1,0 +1,217 @@
+//! What a result says, in order, and the one trait by which every result says it.
+
+use core::fmt;
+
+use eigentol_contract::{Description, Input, Shared};
+
+use crate::columns::Columns;
+use crate::grid::Grid;
+use crate::table::Table;
+
+/// A result that describes itself.
+///
+/// Text, tables, CSV, Parquet, JSON, HTML and Python follow from this one description: a new result needs its type and
+/// an implementation of this trait beside it.
+pub trait Answer {
+    /// The kind of result, as documents name it.
+    const KIND: &'static str;
+
+    /// The mechanism and operating point the result belongs to; `None` for an empty list.
+    fn subject(&self) -> Option<Subject<'_>>;
+
+    /// What it says: a title, tables and sentences.
+    fn findings(&self) -> Findings;
+
+    /// Its tables, the answer first, then details. The operating point is in the last columns of each.
+    fn tables(&self) -> Vec<Table> {
+        let mut tables = self.findings().into_tables();
+        if let Some(of) = self.subject() {
+            for table in &mut tables {
+                table.operating_point(of.description, of.inputs, of.varied);
+            }
+        }
+        tables
+    }
+}
+
+impl<A: Answer + ?Sized> Answer for &A {
+    const KIND: &'static str = A::KIND;
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        (**self).subject()
+    }
+
+    fn findings(&self) -> Findings {
+        (**self).findings()
+    }
+}
+
+/// A result of which there are often several, which describe themselves together.
+pub trait Listed: Sized {
+    /// The kind of a list, as documents name it.
+    const KIND: &'static str;
+
+    /// The mechanism and operating point of one of them.
+    fn subject(&self) -> Option<Subject<'_>>;
+
+    /// What all of them say.
+    fn findings(all: &[Self]) -> Findings;
+}
+
+impl<T: Listed> Answer for [T] {
+    const KIND: &'static str = T::KIND;
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        self.first()?.subject()
+    }
+
+    fn findings(&self) -> Findings {
+        T::findings(self)
+    }
+}
+
+impl<T: Listed> Answer for Vec<T> {
+    const KIND: &'static str = T::KIND;
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        self.first()?.subject()
+    }
+
+    fn findings(&self) -> Findings {
+        T::findings(self)
+    }
+}
+
+/// The mechanism and the operating point that a result belongs to.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The mechanism.
+    pub description: &'a Shared<Description>,
+    /// Its inputs, SI; empty if the result does not record them.
+    pub inputs: &'a [f64],
+    /// The input that varies.
+    pub varied: Option<Input>,
+}
+
+impl<'a> Subject<'a> {
+    /// A mechanism at an operating point; without inputs where the result does not record them.
+    pub fn at(description: &'a Shared<Description>, inputs: &'a [f64]) -> Self {
+        Self {
+            description,
+            inputs,
+            varied: None,
+        }
+    }
+
+    /// A mechanism along an input.
+    pub fn along(description: &'a Shared<Description>, inputs: &'a [f64], varied: Input) -> Self {
+        Self {
+            varied: Some(varied),
+            ..Self::at(description, inputs)
+        }
+    }
+}
+
+/// What a result says: titles, tables and sentences, in order.
+#[derive(Clone, Debug, Default)]
+pub struct Findings {
+    parts: Vec<Part>,
+}
+
+#[derive(Clone, Debug)]
+enum Part {
+    Title(String),
+    Text(Grid),
+    Data(Table),
+    Note(String),
+}
+
+impl Findings {
+    /// Nothing but a title yet.
+    #[must_use]
+    pub fn titled(title: String) -> Self {
+        Self {
+            parts: vec![Part::Title(title)],
+        }
+    }
+
+    /// Adds a sentence.
+    pub fn note(&mut self, sentence: impl Into<String>) {
+        self.parts.push(Part::Note(sentence.into()));
+    }
+
+    /// Adds a table: its data, and its text if any of its columns belongs there.
+    pub fn columns<R>(&mut self, columns: Columns<'_, R>) {
+        let (data, text) = columns.finish();
+        self.text(text);
+        self.data(data);
+    }
+
+    /// Adds a table of the text alone. An empty one is left out.
+    pub fn text(&mut self, grid: Grid) {
+        if !grid.is_empty() {
+            self.parts.push(Part::Text(grid));
+        }
+    }
+
+    /// Adds a table of data that the text does not show.
+    pub fn data(&mut self, table: Table) {
+        self.parts.push(Part::Data(table));
+    }
+
+    /// Adds all that another result says.
+    pub fn join(&mut self, other: Self) {
+        self.parts.extend(other.parts);
+    }
+
+    /// Adds what another result says in its text, without its data.
+    pub fn quote(&mut self, other: Self) {
+        let said = other.parts.into_iter();
+        self.parts
+            .extend(said.filter(|part| !matches!(part, Part::Data(_))));
+    }
+
+    /// The sentences.
+    pub fn notes(&self) -> impl Iterator<Item = &str> {
+        self.parts.iter().filter_map(|part| match part {
+            Part::Note(sentence) => Some(sentence.as_str()),
+            _ => None,
+        })
+    }
+
+    /// The tables of data.
+    #[must_use]
+    pub fn into_tables(self) -> Vec<Table> {
+        let parts = self.parts.into_iter();
+        let tables = parts.filter_map(|part| match part {
+            Part::Data(table) => Some(table),
+            _ => None,
+        });
+        tables.collect()
+    }
+}
+
+impl fmt::Display for Findings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.parts.iter().try_for_each(|part| match part {
+            Part::Title(title) => writeln!(f, "{title}"),
+            Part::Text(grid) => write!(f, "{grid}"),
+            Part::Note(sentence) => writeln!(f, "  {sentence}"),
+            Part::Data(_) => Ok(()),
+        })
+    }
+}
+
+/// The text of results: what they say ([`Answer::findings`]).
+#[macro_export]
+macro_rules! displayed {
+    ($($result:ty),+ $(,)?) => {
+        $(
+            impl ::core::fmt::Display for $result {
+                fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                    ::core::fmt::Display::fmt(&$crate::Answer::findings(self), f)
+                }
+            }
+        )+
+    };
+}
