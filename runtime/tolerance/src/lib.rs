@@ -4,8 +4,6 @@
 
 #[doc(hidden)]
 pub mod batched;
-#[doc(hidden)]
-pub mod report;
 pub mod tolerance;
 
 use eigentol_contract::{DampingKind, Description, Input, Shared};

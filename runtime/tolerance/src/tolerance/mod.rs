@@ -1,5 +1,6 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
+mod answers;
 mod batched;
 mod distances;
 mod doubt;
@@ -29,6 +30,11 @@ mod spread;
 mod standard_normal;
 mod tolerances;
 
+#[doc(hidden)]
+pub use answers::{
+    doubt_sentences, doubted, far, joined, outcomes, spread_of, standing, statistics, unmoved,
+};
+pub use answers::{numbered_samples_table, samples_table};
 pub use doubt::{Doubt, Measured};
 /// Statistics of samples with their quantiles and histograms, from [`eigentol_statistics`].
 pub use eigentol_statistics::summary::{Histogram, Sketch, Statistics};

@@ -38,6 +38,21 @@ impl Outcome {
         Self::NoModes,
     ];
 
+    /// The outcome in words, as tables name it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Divergent => "divergent",
+            Self::Flutter => "flutter",
+            Self::Undecided => "undecided",
+            Self::NoEquilibrium => "no equilibrium",
+            Self::NotAssembled => "not assembled",
+            Self::Unphysical => "unphysical",
+            Self::NoModes => "no modes",
+        }
+    }
+
     /// Whether the design certainly has no stable equilibrium, or none was found.
     #[doc(hidden)]
     pub fn lost(self) -> bool {
@@ -99,14 +114,7 @@ impl Counts {
     /// Sum over all outcomes.
     #[must_use]
     pub fn total(&self) -> usize {
-        self.stable
-            + self.divergent
-            + self.flutter
-            + self.undecided
-            + self.no_equilibrium
-            + self.not_assembled
-            + self.unphysical
-            + self.no_modes
+        Outcome::ALL.map(|outcome| self.of(outcome)).iter().sum()
     }
 
     /// Counts from numbers in the order of [`Outcome::ALL`].
@@ -145,13 +153,8 @@ impl Counts {
 
     #[doc(hidden)]
     pub fn merge(&mut self, other: &Self) {
-        self.stable += other.stable;
-        self.divergent += other.divergent;
-        self.flutter += other.flutter;
-        self.undecided += other.undecided;
-        self.no_equilibrium += other.no_equilibrium;
-        self.not_assembled += other.not_assembled;
-        self.unphysical += other.unphysical;
-        self.no_modes += other.no_modes;
+        for outcome in Outcome::ALL {
+            self.add(outcome, other.of(outcome));
+        }
     }
 }

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::tolerance::{Doubt, TRUSTED_DISTANCE};
+use eigentol_results::Findings;
 use eigentol_results::naming::{capital, named};
 use eigentol_results::numbers::short;
 
@@ -40,25 +41,29 @@ pub fn standing(doubt: &Doubt) -> &'static str {
 }
 
 /// Writes the doubts of a result that only distances judge, and who judges better.
-pub fn doubted(f: &mut fmt::Formatter<'_>, all: &[impl AsRef<[Doubt]>]) -> fmt::Result {
+pub fn doubted(said: &mut Findings, all: &[impl AsRef<[Doubt]>]) {
     let mut open = false;
     for (modes, doubt) in shared(all) {
         let names = named(&modes);
         match doubt {
-            Doubt::NoFrequency => writeln!(f, "  {}: {doubt}", capital(names))?,
+            Doubt::NoFrequency => said.note(format!("{}: {doubt}", capital(names))),
             _ => {
                 open |= !doubt.certain();
-                writeln!(f, "  {} for {names}: {doubt}", standing(doubt))?;
+                said.note(format!("{} for {names}: {doubt}", standing(doubt)));
             }
         }
     }
-    match open {
-        true => writeln!(
-            f,
-            "  Distances do not tell how large an error is: `summary` compares sigma with samples."
-        ),
-        false => Ok(()),
+    if open {
+        said.note(
+            "Distances do not tell how large an error is: `summary` compares sigma with samples.",
+        );
     }
+}
+
+/// All doubts about one number as one text, for a cell.
+pub fn joined(doubts: &[impl fmt::Display]) -> Option<String> {
+    let texts: Vec<String> = doubts.iter().map(ToString::to_string).collect();
+    (!texts.is_empty()).then(|| texts.join(" "))
 }
 
 impl fmt::Display for Doubt {

@@ -1,0 +1,94 @@
+//! Tables of samples, whole or in parts.
+
+use eigentol_results::{Columns, Table};
+
+use crate::mechanism::Description;
+use crate::tolerance::{MonteCarlo, Sample};
+
+/// A row for each sample: its number in the run, its outcome, the design variables, the unknowns, and the frequency,
+/// damping ratio and eigenvalue of each mode.
+///
+/// `first` is the number of the first sample, counted from 0, so that parts of a run can be written one after the
+/// other: all non-empty parts have the same columns.
+///
+/// ```
+/// # use eigentol::{Study, mechanism};
+/// # mechanism! {
+/// #     mechanism Pendulum {
+/// #         design l = 2 m +/- 1 %;
+/// #         gravity 9.81 m/s^2 along -z;
+/// #         body bar: rod(mass: 3 kg, length: l, along: -z);
+/// #         joint theta: revolute(y) from ground to bar;
+/// #     }
+/// # }
+/// use eigentol::tolerance::samples_table;
+///
+/// let study = Study::new(Pendulum).samples(5).keep_samples(true);
+/// let run = study.monte_carlo()?;
+/// let samples = run.all.expect("samples were kept");
+/// let table = samples_table(&run.description, 0, &samples);
+/// assert_eq!(table.rows(), 5);
+/// assert_eq!(table.column("l").expect("a design variable").unit, "m");
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+#[must_use]
+pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table {
+    let numbered = samples.iter().enumerate();
+    let rows: Vec<_> = numbered.map(|(k, sample)| (first + k, sample)).collect();
+    // A sample has a slot for each nominal mode, even where the mode was not found.
+    let modes = samples.iter().map(|own| own.frequencies.len()).max();
+    samples_columns(d, modes.unwrap_or(0), &rows).finish().0
+}
+
+/// Like [`samples_table`], for samples that carry their own numbers, counted from 0, as returned by
+/// [`PartialMonteCarlo::take_samples`](crate::tolerance::PartialMonteCarlo::take_samples).
+///
+/// A part without samples has the same columns. Seed, stream and operating point come last, as in all tables of the run.
+#[must_use]
+pub fn numbered_samples_table(run: &MonteCarlo, samples: &[(u64, Sample)]) -> Table {
+    let each = samples.iter();
+    let rows: Vec<_> = each
+        .map(|(number, sample)| (*number as usize, sample))
+        .collect();
+    let mut table = samples_columns(&run.description, run.modes.len(), &rows);
+    origin(&mut table, run);
+    let mut table = table.finish().0;
+    table.operating_point(&run.description, &run.inputs, None);
+    table
+}
+
+/// Seed and stream of the random numbers, if below 2^63.
+pub(super) fn origin<R>(table: &mut Columns<'_, R>, run: &MonteCarlo) {
+    for (name, value) in [("seed", run.seed), ("stream", run.stream)] {
+        table.whole(name, &|_| usize::try_from(value).ok());
+    }
+}
+
+pub(super) fn samples_columns<'a>(
+    d: &Description,
+    modes: usize,
+    rows: &'a [(usize, &'a Sample)],
+) -> Columns<'a, (usize, &'a Sample)> {
+    let mut table = Columns::new("samples", rows);
+    table.whole("sample", &|(number, _)| Some(number + 1));
+    table.words("outcome", &|(_, own)| Some(own.outcome.word().to_owned()));
+    table.design(d, &|(_, own)| Some(&own.design[..]));
+    table.unknowns(d, &|(_, own)| own.coordinates.as_deref());
+    for r in 0..modes {
+        let number = r + 1;
+        table.number(&format!("frequency {number}"), "rad/s", &|(_, own)| {
+            *own.frequencies.get(r)?
+        });
+        table.number(&format!("damping ratio {number}"), "", &|(_, own)| {
+            *own.damping_ratios.get(r)?
+        });
+        let s = move |own: &Sample| *own.eigenvalues.get(r)?;
+        table.number(&format!("Re s {number}"), "1/s", &|(_, own)| {
+            Some(s(own)?.re)
+        });
+        table.number(&format!("Im s {number}"), "1/s", &|(_, own)| {
+            Some(s(own)?.im)
+        });
+    }
+    table
+}
