@@ -17,8 +17,6 @@ pub mod free;
 pub mod kernels;
 pub mod modes;
 #[doc(hidden)]
-pub mod report;
-#[doc(hidden)]
 pub mod rounding;
 pub mod sensitivity;
 #[doc(hidden)]

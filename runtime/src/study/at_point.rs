@@ -7,7 +7,7 @@ use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Equilibria, Search};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
-use crate::modes::Whirl;
+use crate::modes::Whirls;
 use crate::picture::{self, ModePictures, Scene};
 use crate::second_order::{Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
 use crate::sensitivity;
@@ -235,7 +235,7 @@ impl<M: Kernels> Study<M> {
     ///
     /// # Errors
     /// As [`Study::modes`].
-    pub fn whirls(&self) -> Result<Vec<Option<Whirl>>, Error> {
+    pub fn whirls(&self) -> Result<Whirls, Error> {
         Ok(self.solve()?.whirls())
     }
 }

@@ -6,7 +6,7 @@ use super::Study;
 use super::subject::SolvedSubject;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
-use crate::modes::{self, Whirl};
+use crate::modes::{self, Whirls};
 use crate::picture::{self, ModePictures, Scene};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
@@ -134,7 +134,7 @@ impl<'a, M: Kernels> Solved<'a, M> {
     /// # Ok::<(), eigentol::Error>(())
     /// ```
     #[must_use]
-    pub fn whirls(&self) -> Vec<Option<Whirl>> {
+    pub fn whirls(&self) -> Whirls {
         modes::whirls(&self.study.mechanism, &self.equilibrium, &self.modes)
     }
 }

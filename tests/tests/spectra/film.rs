@@ -103,7 +103,7 @@ fn oil_whirl_goes_forward_at_half_the_speed() {
     let growing = modes
         .modes
         .iter()
-        .zip(&whirls)
+        .zip(whirls.iter())
         .filter(|(mode, _)| mode.s.re > 0.0);
     let growing: Vec<_> = growing.collect();
     let [(mode, whirl)] = growing[..] else {

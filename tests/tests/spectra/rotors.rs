@@ -40,7 +40,7 @@ fn whirl_forward_and_backward() {
         let whirls = study.whirls().expect("whirls");
         let (forward, backward) = roots(design, speed);
         assert_eq!(found.modes.len(), 2);
-        for (mode, whirl) in found.modes.iter().zip(&whirls) {
+        for (mode, whirl) in found.modes.iter().zip(whirls.iter()) {
             let whirl = whirl.expect("it circles");
             match whirl.sense() {
                 Sense::Forward => near(mode.s, forward),

@@ -1,6 +1,7 @@
 //! Dynamic equilibria: where a mechanism can rest relative to its drives, and whether it stays there.
 
 mod acceptance;
+mod answer;
 mod assembly;
 mod branch;
 mod constraint_projection;

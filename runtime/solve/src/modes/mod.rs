@@ -7,12 +7,14 @@
 //! With constraints and speeds the same equations hold over all unknowns, reactions included; the number of modes is
 //! the number of motions that the constraints leave free.
 
+mod answer;
 mod assurance;
 mod constrained;
 mod deflation;
 mod kinetic;
 mod mode;
 mod pencil;
+mod undamped;
 mod whirl;
 
 #[doc(hidden)]
@@ -29,7 +31,9 @@ pub use kinetic::inertia;
 pub use mode::{Behaviour, Mode};
 #[doc(hidden)]
 pub use pencil::{pencil_slope_times, pencil_times, transposed};
-pub use whirl::{Sense, Whirl, whirls};
+#[doc(hidden)]
+pub use undamped::undamped;
+pub use whirl::{Sense, Whirl, Whirls, whirls};
 
 use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
 use crate::constraints::Structure;
@@ -335,16 +339,16 @@ impl Modes {
             && self.description.damping != DampingKind::Zero
             && damping.iter().any(|&value| value != 0.0);
         match self.family {
-            Family::Undamped => undamped(linear, &self.description, floor, &mut self.modes),
+            Family::Undamped => solve_undamped(linear, &self.description, floor, &mut self.modes),
             Family::General => {
                 let limits = (free, floor);
-                damped(linear, &self.description, limits, nearby, &mut self.modes)
+                solve_general(linear, &self.description, limits, nearby, &mut self.modes)
             }
         }
     }
 }
 
-fn undamped(
+fn solve_undamped(
     linear: &Linear,
     description: &Description,
     floor: f64,
@@ -380,7 +384,7 @@ fn undamped(
     Ok(())
 }
 
-fn damped(
+fn solve_general(
     linear: &Linear,
     description: &Description,
     (free, floor): (usize, f64),

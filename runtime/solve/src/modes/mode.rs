@@ -8,6 +8,11 @@
 //! family (`Chat` zero and `Khat` symmetric, or not), not the numbers at one state: a sweep that starts at rest keeps
 //! its family. `N` coordinates have `N` to `2 N` modes, because a real eigenvalue is a motion of its own.
 
+use core::f64::consts::LN_2;
+use core::fmt;
+
+use eigentol_results::numbers::rough;
+
 use crate::Complex;
 use crate::algebra::Vector;
 use crate::eigenproblem::Near;
@@ -46,6 +51,39 @@ impl Behaviour {
         match self {
             Self::Oscillating(omega) | Self::Damped(omega) | Self::Flutter(omega) => Some(omega),
             Self::Decaying(_) | Self::Free | Self::Neutral | Self::Divergent(_) => None,
+        }
+    }
+
+    /// Its name in tables: `oscillating`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Oscillating(_) => "oscillating",
+            Self::Damped(_) => "damped",
+            Self::Flutter(_) => "flutter",
+            Self::Decaying(_) => "decaying",
+            Self::Free => "free",
+            Self::Neutral => "neutral",
+            Self::Divergent(_) => "divergent",
+        }
+    }
+}
+
+impl fmt::Display for Behaviour {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Oscillating(_) => write!(f, "oscillates"),
+            Self::Damped(_) => write!(f, "decays"),
+            Self::Flutter(_) => write!(f, "grows (flutter)"),
+            Self::Decaying(rate) => write!(f, "creeps back, rate {} 1/s", rough(*rate)),
+            Self::Free => write!(f, "free"),
+            Self::Neutral => write!(f, "neutral"),
+            Self::Divergent(rate) => write!(
+                f,
+                "diverges, rate {} 1/s: doubles in {} s",
+                rough(*rate),
+                rough(LN_2 / rate)
+            ),
         }
     }
 }

@@ -2,6 +2,8 @@
 //! including the shift of the equilibrium (eqs. 19-21 completed).
 
 mod adjoint;
+mod answer;
+mod derivatives;
 mod explicit;
 mod finite_difference;
 mod gradients;
@@ -37,6 +39,8 @@ pub use shift::{EquilibriumShift, equilibrium_shift};
 #[doc(hidden)]
 pub use shift::{directions, outside_domain};
 
+use core::fmt;
+
 use crate::algebra::Vector;
 use crate::arguments::check_count;
 use crate::kernels::Kernels;
@@ -56,6 +60,17 @@ pub enum Method {
     FrozenEquilibrium,
     /// Central differences of the matrices at re-solved equilibria.
     FiniteDifference,
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Adjoint => "exact (adjoint)",
+            Self::Explicit => "exact (explicit partials)",
+            Self::FrozenEquilibrium => "equilibrium frozen: NOT the true derivatives",
+            Self::FiniteDifference => "central differences",
+        })
+    }
 }
 
 /// Total derivatives of all modes at one equilibrium, in the order of the modes.

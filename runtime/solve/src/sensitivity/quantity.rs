@@ -1,6 +1,8 @@
 //! Quantities of a mode, such as frequency and damping ratio: values and derivatives from those of its eigenvalue.
 
-use crate::{Complex, Mode};
+use core::fmt;
+
+use crate::{Complex, Mode, Text, Unit};
 
 /// A real number that describes a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +27,19 @@ impl Quantity {
         Self::DampingRatio,
         Self::Growth,
     ];
+
+    /// The unit of the quantity.
+    #[must_use]
+    pub fn unit(self) -> Unit {
+        Unit {
+            symbol: Text::Static(match self {
+                Self::Frequency | Self::NaturalFrequency => "rad/s",
+                Self::DampingRatio => "",
+                Self::Growth => "1/s",
+            }),
+            scale: 1.0,
+        }
+    }
 
     /// The value for a mode; `None` if it has none: a frequency without oscillation, a damping ratio of a neutral mode.
     #[must_use]
@@ -94,6 +109,17 @@ impl Quantity {
                 unit.re * la.im * lb.im + unit.im * lab.im
             }
         }
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Frequency => "frequency",
+            Self::NaturalFrequency => "natural frequency",
+            Self::DampingRatio => "damping ratio",
+            Self::Growth => "growth",
+        })
     }
 }
 

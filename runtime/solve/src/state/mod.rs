@@ -1,5 +1,11 @@
 //! An equilibrium: the state, the linearised mechanism there, and its stability.
 
+mod note;
+mod stability;
+
+pub use note::Note;
+pub use stability::Stability;
+
 use std::borrow::Cow;
 
 use crate::algebra::{Matrix, Vector};
@@ -58,37 +64,6 @@ pub struct Equilibrium {
     pub description: Shared<Description>,
 }
 
-/// What a user should know about how an equilibrium was found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Note {
-    /// The start values are those of an unstable equilibrium, which therefore is the answer.
-    Stays,
-    /// The nearest equilibrium is this far from a start value, rad or m (rad/s or m/s for a speed).
-    Far {
-        /// The unknown that differs most.
-        unknown: usize,
-        /// How far it is from its start value.
-        distance: f64,
-    },
-    /// It is one of a family of steady motions with this number of parameters;
-    /// [`FreeDirections::held`](field@FreeDirections::held) says what holds it, in derivatives too.
-    Member {
-        /// Number of parameters of the family.
-        dimension: usize,
-    },
-    /// An unknown has another value than the start value that was given.
-    OtherValue {
-        /// The unknown.
-        unknown: usize,
-        /// Its start value, SI.
-        asked: f64,
-        /// Its value, SI.
-        found: f64,
-    },
-}
-
 impl Equilibrium {
     /// An empty state at these inputs and design variables, to be overwritten.
     #[inline]
@@ -118,6 +93,21 @@ impl Equilibrium {
     /// Names of the constraints that depend on each other; [`ConstraintState::redundant`] of them can be removed.
     pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
         dependent_names(&self.description, &self.constraints.dependent)
+    }
+
+    /// [`Self::stability`] in words; a singular configuration has none.
+    #[must_use]
+    pub fn stability_word(&self) -> String {
+        match self.constraints.singular {
+            true => "not decided in a singular configuration".to_owned(),
+            false => self.stability.to_string(),
+        }
+    }
+
+    /// [`Self::notes`] in words, without full stops.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        self.notes.iter().map(|note| note.sentence(self)).collect()
     }
 
     /// Reassigns this state to the mechanism with deviating inputs, all deviations zero.
@@ -159,53 +149,4 @@ pub(crate) fn dependent_names(
     infos
         .filter(|(_, takes_part)| **takes_part)
         .map(|(info, _)| info.name.clone())
-}
-
-/// Stability of an equilibrium against small disturbances.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Stability {
-    /// No small disturbance grows.
-    Stable,
-    /// Stable only by gyroscopic forces, which hold directions of negative stiffness; the least dissipation destroys
-    /// it.
-    GyroscopicallyStabilised {
-        /// Number of directions with negative stiffness.
-        negative: usize,
-    },
-    /// Some oscillation neither grows nor decays within rounding, and no theorem rules out that it grows.
-    Marginal,
-    /// Not unstable, but with directions of zero stiffness: the mechanism rests anywhere along them.
-    Neutral {
-        /// Number of eigenvalues that are zero within rounding.
-        zero: usize,
-    },
-    /// A disturbance grows without oscillation (static instability).
-    Divergent {
-        /// Number of negative eigenvalues `lambda`, or of growing real eigenvalues `s`.
-        negative: usize,
-    },
-    /// A disturbance grows in an oscillation (dynamic instability).
-    Flutter {
-        /// Number of growing oscillations.
-        growing: usize,
-    },
-    /// The general eigenvalues, which would decide, were not found to working accuracy.
-    Undecided,
-}
-
-impl Stability {
-    /// Whether small disturbances stay small as far as the linearised mechanism tells; neutral directions count as
-    /// holding, although a motion along them may go on for ever.
-    #[must_use]
-    pub fn holds(self) -> bool {
-        matches!(
-            self,
-            Self::Stable
-                | Self::GyroscopicallyStabilised { .. }
-                | Self::Marginal
-                | Self::Neutral { .. }
-        )
-    }
 }

@@ -1,20 +1,18 @@
 //! What results based on undamped modes neglect.
 
-use core::fmt;
+use eigentol_results::Findings;
 
-use crate::modes::Family;
+use super::Family;
 use crate::{DampingKind, Description};
 
 /// States what results based on undamped modes neglect.
-pub fn undamped(
-    f: &mut fmt::Formatter<'_>,
-    family: Family,
-    description: &Description,
-) -> fmt::Result {
+pub fn undamped(said: &mut Findings, family: Family, description: &Description) {
     let what = match (family, description.damping) {
-        (Family::General, _) | (_, DampingKind::Zero) => return Ok(()),
+        (Family::General, _) | (_, DampingKind::Zero) => return,
         (Family::Undamped, DampingKind::Gyroscopic) => "Gyroscopic forces (Chat)",
         (Family::Undamped, DampingKind::General) => "Damping and gyroscopic forces (Chat)",
     };
-    writeln!(f, "  {what} of this mechanism are ignored: undamped modes.")
+    said.note(format!(
+        "{what} of this mechanism are ignored: undamped modes."
+    ));
 }

@@ -1,0 +1,207 @@
+//! What modes say.
+
+use core::f64::consts::TAU;
+
+use eigentol_results::columns::Columns;
+use eigentol_results::numbers::{optional, or_dash, rough};
+use eigentol_results::relevance::{COLUMNS, EVERYTHING, largest, names, relevant, unless_rounding};
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Findings, Subject, displayed};
+
+use super::Family;
+use crate::{Complex, CoordinateInfo, Description, Mode, Modes, Role};
+
+/// Relative difference of numbers that look alike in a table.
+const SAME_NUMBER: f64 = 1e-6;
+
+displayed!(Modes);
+
+/// `modes`: a row for each mode; its shape takes two columns of data per coordinate and speed, real and imaginary part.
+impl Answer for Modes {
+    const KIND: &'static str = "modes";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &self.inputs))
+    }
+
+    fn findings(&self) -> Findings {
+        let title = title(&self.description, &self.inputs);
+        let mut said = Findings::titled(format!("{title}: natural modes"));
+        let shapes = Shapes::of(self);
+        let mut table = Columns::new("modes", &self.modes);
+        eigenvalues(&mut table, self.family);
+        shapes.columns(&mut table);
+        components(&mut table, &self.description);
+        said.columns(table);
+        shapes.rest(&mut said);
+        if self.looks_unsorted() {
+            said.note("In the order of |s|, the natural frequency.");
+        }
+        if self.damping_ignored {
+            said.note(
+                "Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.",
+            );
+        }
+        said
+    }
+}
+
+impl Modes {
+    /// Whether the frequencies are not in order although the modes are.
+    fn looks_unsorted(&self) -> bool {
+        let falls = |values: Vec<f64>| {
+            let mut pairs = values.windows(2);
+            pairs.any(|pair| pair[1] < pair[0] * (1.0 - SAME_NUMBER))
+        };
+        let frequencies = self.frequencies().into_iter().flatten().collect();
+        let natural = self.modes.iter().map(|mode| mode.s.norm()).collect();
+        falls(frequencies) && !falls(natural)
+    }
+}
+
+/// Adds the columns of eigenvalues and what they mean.
+fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family) {
+    table.whole("mode", &|mode| Some(mode.label + 1)).shown();
+    let frequency = table.number("frequency", "rad/s", &Mode::frequency);
+    frequency.shown().headed("omega [rad/s]");
+    table.cells("f [Hz]", &|mode| {
+        optional(mode.frequency().map(|omega| omega / TAU))
+    });
+    table.number("natural frequency", "rad/s", &Mode::natural_frequency);
+    table.number("damping ratio", "", &Mode::damping_ratio);
+    table.number("Re s", "1/s", &|mode| Some(mode.s.re));
+    table.number("Im s", "1/s", &|mode| Some(mode.s.im));
+    table.number("lambda", "1/s^2", &|mode| Some(mode.lambda));
+    table.number("error of s", "1/s", &|mode| Some(mode.error));
+    if family == Family::General {
+        table.cells("Re s [1/s]", &|mode| rough(growth(mode)));
+        table.cells("damping ratio", &|mode| or_dash(damping(mode), rough));
+    }
+    table.words("motion", &|mode| Some(mode.behaviour.word().to_owned()));
+    table.cells("motion", &|mode| mode.behaviour.to_string());
+}
+
+/// The rate of growth, or zero if it is rounding, 1/s.
+fn growth(mode: &Mode) -> f64 {
+    if mode.s.re.abs() <= mode.error {
+        0.0
+    } else {
+        unless_rounding(mode.s.re, mode.s.norm())
+    }
+}
+
+/// The damping ratio of an oscillation, zero if its growth is rounding.
+fn damping(mode: &Mode) -> Option<f64> {
+    let ratio = mode.frequency().and(mode.damping_ratio())?;
+    Some(if growth(mode) == 0.0 { 0.0 } else { ratio })
+}
+
+/// Adds the components of shapes to the data.
+fn components(table: &mut Columns<'_, Mode>, description: &Description) {
+    for (i, info) in motions(description) {
+        let of = |mode: &Mode, part: fn(&Complex) -> f64| mode.shape.get(i).map(part);
+        let name = format!("Re shape {}", info.name);
+        table.number(&name, "", &|mode| of(mode, |value| value.re));
+        let name = format!("Im shape {}", info.name);
+        table.number(&name, "", &|mode| of(mode, |value| value.im));
+    }
+}
+
+/// The unknowns that a shape consists of, with their positions: reactions come last and are none of it.
+fn motions(description: &Description) -> impl Iterator<Item = (usize, &CoordinateInfo)> {
+    let infos = description.coordinates.iter().enumerate();
+    infos.filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed))
+}
+
+/// Shapes as columns: one column for each coordinate or speed that moves in any mode, or a single one with the largest
+/// components.
+struct Shapes<'a> {
+    /// Index and description of the unknown, and its largest motion in any mode.
+    moving: Vec<(usize, &'a CoordinateInfo, f64)>,
+    still: Vec<&'a str>,
+}
+
+/// Number of components named in a single column.
+const NAMED: usize = 4;
+
+impl<'a> Shapes<'a> {
+    fn of(modes: &'a Modes) -> Self {
+        let most = |i: usize| largest(modes.modes.iter().map(|mode| mode.shape[i].norm()));
+        let all = motions(&modes.description).map(|(i, info)| (i, info, most(i)));
+        let all: Vec<_> = all.collect();
+        let greatest = largest(all.iter().map(|(_, _, most)| *most));
+        let (moving, still): (Vec<_>, Vec<_>) =
+            (all.into_iter()).partition(|(_, _, most)| unless_rounding(*most, greatest) != 0.0);
+        Self {
+            moving,
+            still: still.into_iter().map(|(_, info, _)| &*info.name).collect(),
+        }
+    }
+
+    fn side_by_side(&self) -> bool {
+        self.moving.len() <= COLUMNS
+    }
+
+    /// Adds the columns to a text.
+    fn columns(&self, table: &mut Columns<'_, Mode>) {
+        if !self.side_by_side() {
+            table.cells("shape, largest components", &|mode| self.largest(mode));
+            return;
+        }
+        for moving in &self.moving {
+            table.cells(&moving.1.name, &|mode| component(shown(mode, moving)));
+        }
+    }
+
+    /// The largest components of a shape by name.
+    fn largest(&self, mode: &Mode) -> String {
+        let own = self.moving.iter();
+        let own = own.map(|moving| (moving.1, shown(mode, moving), moving.2));
+        let mut own: Vec<_> = own.collect();
+        own.retain(|(_, value, most)| relevant(value.norm(), *most));
+        own.sort_by(|(_, a, _), (_, b, _)| b.norm().total_cmp(&a.norm()));
+        let named = own.iter().take(NAMED);
+        let named = named.map(|(info, value, _)| format!("{} {}", info.name, component(*value)));
+        let mut text: Vec<String> = named.collect();
+        if own.len() > NAMED {
+            text.push(format!("{} more", own.len() - NAMED));
+        }
+        text.join(", ")
+    }
+
+    /// Lists what does not move, and says what has no column.
+    fn rest(&self, said: &mut Findings) {
+        if !self.still.is_empty() {
+            let (still, verb) = (names(&self.still, "coordinates"), self.still.len());
+            let verb = if verb == 1 { "does" } else { "do" };
+            said.note(format!("In no mode {verb} {still} move."));
+        }
+        if !self.side_by_side() {
+            said.note(format!(
+                "Only the {NAMED} largest components are shown: {EVERYTHING}."
+            ));
+        }
+    }
+}
+
+/// A component, or zero if it is rounding compared to the motion of the coordinate in other modes.
+fn shown(mode: &Mode, (i, _, most): &(usize, &CoordinateInfo, f64)) -> Complex {
+    let value = mode.shape[*i];
+    match unless_rounding(value.norm(), *most) {
+        0.0 => Complex::ZERO,
+        _ => value,
+    }
+}
+
+/// A component of a shape: real, or amplitude and phase in degrees.
+fn component(value: Complex) -> String {
+    let phase = value.arg().to_degrees();
+    // A phase of less than half a degree counts as zero.
+    if value.im == 0.0 || phase.abs() < 0.5 {
+        rough(value.re)
+    } else if phase.abs() >= 179.5 {
+        rough(-value.norm())
+    } else {
+        format!("{} @ {phase:.0} deg", rough(value.norm()))
+    }
+}
