@@ -5,6 +5,8 @@
 //! `alpha (Q' phi) c^H` added to `Q`, which changes only the component of the solution along `phi`; that component
 //! follows from the normalisation: `c = Mhat phi`, or the unit vector of the component that is one (`Normalisation`).
 
+mod answer;
+
 use crate::algebra::{Field, Lu, Matrix, Vector, greater, largest, times, times_complex};
 use crate::constraints::Structure;
 use crate::kernels::{DirectionalKernels, Linear};

@@ -1,6 +1,6 @@
 //! Margins: closed forms, and derivatives against differences.
 
-use eigentol::report::MarginTable;
+use eigentol::second_order::MarginTable;
 use eigentol::second_order::{Margin, Quadratic, margin};
 use eigentol::{Error, Mechanism, Tolerances, Vector};
 

@@ -5,6 +5,7 @@
 //! first order in standard normal space ([`requirement`](crate::requirement)). The method is sequential quadratic
 //! programming on exact derivatives. The result is then checked by sampling.
 
+mod answer;
 mod choices;
 mod cost;
 mod problem;

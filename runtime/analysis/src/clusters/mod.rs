@@ -16,6 +16,7 @@
 //! Samples and responses sort the values within the group. Derivatives of a member exist only if all variables move the
 //! members alike (`clusters::common_slopes`); otherwise it has none, and what needs one says so.
 
+mod answer;
 mod couplings;
 mod directional;
 mod sampling;

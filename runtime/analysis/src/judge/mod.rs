@@ -22,6 +22,7 @@
 //! verified before, of which 143 were wrong, by up to sixty orders of magnitude; now 194 are, all of them right, and
 //! lines settle all 400 (`tests/runtime/chance/bar.rs`, against the closed form). It takes 5 ms a combination.
 
+mod answer;
 mod cost;
 mod distances;
 mod event;
@@ -31,6 +32,7 @@ pub use crate::tolerance::{Doubt, Measured};
 pub use distances::TRUSTED_SIGMA_ERROR;
 pub use judged::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR, Unjudged};
 
+pub(crate) use answer::{chance, judged, verdict};
 pub use cost::BUDGET;
 pub(crate) use cost::{operations, together};
 pub(crate) use distances::{distances, doubts_of_models};

@@ -11,6 +11,7 @@
 //!
 //! [`propagate`] chooses a method by the allowed effort; [`influence`] attributes the scatter to the variables.
 
+mod answers;
 mod choice;
 mod control;
 mod expansion;

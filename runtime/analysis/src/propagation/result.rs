@@ -1,5 +1,7 @@
 //! Results common to all methods.
 
+use core::fmt;
+
 use crate::algebra::{Matrix, Vector};
 use crate::judge::Doubt;
 use crate::response::Response;
@@ -109,6 +111,20 @@ pub enum Method {
         /// The level.
         level: usize,
     },
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FirstOrder => f.write_str("first order"),
+            Self::SecondOrder => f.write_str("second order"),
+            Self::Sampled(Points::Random) => f.write_str("random samples"),
+            Self::Sampled(Points::LatinHypercube) => f.write_str("Latin hypercube samples"),
+            Self::Sampled(Points::Sobol) => f.write_str("samples at scrambled Sobol' points"),
+            Self::Tensor { nodes } => write!(f, "quadrature with {nodes} nodes for each variable"),
+            Self::Sparse { level } => write!(f, "quadrature on a sparse grid of level {level}"),
+        }
+    }
 }
 
 /// The spread of responses due to tolerances.

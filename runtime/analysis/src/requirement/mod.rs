@@ -7,6 +7,7 @@
 //! ([`Responses`](crate::response::Responses)). The methods themselves are those of
 //! [`eigentol_statistics::reliability`].
 
+mod answers;
 mod chances;
 mod design_point;
 mod kinds;

@@ -13,6 +13,7 @@
 //! instead.
 
 mod adjoint;
+mod answers;
 mod critical;
 mod curvature;
 mod derivatives;
@@ -27,6 +28,7 @@ mod probability;
 mod quadratic;
 mod spread;
 
+pub use answers::MarginTable;
 pub use critical::critical_curvature;
 pub use curvature::{ModeCurvature, mode_curvature};
 pub use derivatives::SecondDerivatives;

@@ -17,14 +17,17 @@
 //! them has settled. A mode that does not oscillate in a sample has no frequency there, and an unstable sample has none
 //! at all. Both are counted ([`Check::count`], [`Sampled`]) and excluded from mean and standard deviation.
 
+mod answer;
 mod chances;
 mod judge;
 mod paired;
 mod sampled;
+mod sentences;
 mod verdict;
 
 pub use crate::judge::{BUDGET, Doubt, Measured, TRUSTED_SIGMA_ERROR};
 pub use chances::{Chance, Sampled, Sampling};
+pub use sentences::{News, Sentence};
 pub use verdict::{Advice, Check, Trust};
 
 use self::judge::{Judge, expanded_near_a_root};
@@ -75,8 +78,8 @@ impl Summary {
     /// The second-order standard deviation of a frequency, rad/s; `None` if there is none, or if it is meaningless
     /// because the series does not converge.
     pub(crate) fn second_order_sigma(&self, mode: usize) -> Option<f64> {
-        let second = self.second.modes[mode].as_ref().ok()?;
-        let trust = &self.trust[mode];
+        let second = self.second.modes.get(mode)?.as_ref().ok()?;
+        let trust = self.trust.get(mode)?;
         let converges = !expanded_near_a_root(&trust.doubts) || trust.advice == Advice::SecondOrder;
         converges.then_some(second.frequency.moments.sigma)
     }

@@ -1,10 +1,39 @@
-//! Probabilities by designs solved anew, as text.
+//! Probabilities by designs solved anew, in words and columns.
 
 use core::fmt;
 
-use super::margin::chance;
 use crate::judge::{Judged, Judgement, Unjudged};
+use eigentol_results::Columns;
 use eigentol_results::numbers::{counted, percent, rough, short};
+use eigentol_results::relevance::CHANCE;
+
+/// A probability, as far as it can be distinguished from zero.
+pub(crate) fn chance(value: f64, error: f64) -> String {
+    let told = error.max(CHANCE);
+    if value == 0.0 && error == 0.0 {
+        "0".to_owned()
+    } else if value < told {
+        format!("< {}", short(told))
+    } else {
+        rough(value)
+    }
+}
+
+/// Columns of data: the probability by designs solved anew, for rows that each have a judgement; empty where there is
+/// none.
+pub(crate) fn judged<R>(table: &mut Columns<'_, R>, judgement: &dyn Fn(&R) -> &Judgement) {
+    let of = |row: &R| judgement(row).judged().copied();
+    table.number("probability, solved anew", "", &|row| {
+        Some(of(row)?.probability.value)
+    });
+    table.number("95 % from", "", &|row| Some(of(row)?.interval().lower));
+    table.number("95 % to", "", &|row| Some(of(row)?.interval().upper));
+    table.number("probability without response", "", &|row| {
+        Some(of(row)?.untold.value)
+    });
+    table.flag("settled", &|row| Some(of(row)?.settled));
+    table.whole("designs", &|row| usize::try_from(of(row)?.designs).ok());
+}
 
 impl fmt::Display for Judged {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -58,7 +87,7 @@ impl fmt::Display for Judgement {
 }
 
 /// What a judgement says of a claimed probability: `verified`, or how far it is off.
-pub(super) fn verdict(judgement: &Judgement, claimed: f64) -> String {
+pub(crate) fn verdict(judgement: &Judgement, claimed: f64) -> String {
     let Some(judged) = judgement.judged() else {
         return "not verified".to_owned();
     };

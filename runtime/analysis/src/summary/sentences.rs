@@ -4,10 +4,9 @@ use core::fmt;
 
 use eigentol_results::naming::{capital, named};
 use eigentol_results::numbers::{number, rough, short};
-use eigentol_tolerance::report::doubt_sentences;
 
 use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampling, Summary, Trust};
-use crate::tolerance::{ModeTolerance, Outcome};
+use crate::tolerance::{ModeTolerance, Outcome, doubt_sentences};
 
 /// Distance between mean and nominal frequency, in standard deviations, from which it is worth a sentence.
 const NOTICED: f64 = 0.1;
@@ -47,7 +46,7 @@ impl Summary {
     /// first and second order compared to the samples of those modes; recommendations; the outcomes of the samples.
     ///
     /// ```
-    /// use eigentol::report::News;
+    /// use eigentol::summary::News;
     /// use eigentol::{Study, mechanism};
     ///
     /// mechanism! {

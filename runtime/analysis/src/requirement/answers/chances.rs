@@ -1,0 +1,92 @@
+use eigentol_results::numbers::{counted, rough, short};
+use eigentol_results::relevance::NOTHING_VARIES;
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+
+use crate::requirement::{Chances, Interval, Tally};
+use crate::tolerance::outcomes;
+
+/// Confidence of the intervals.
+const CONFIDENCE: f64 = 0.95;
+
+/// `chances`: a row for each requirement; `chance of all`: one row; `outcomes`.
+impl Answer for Chances {
+    const KIND: &'static str = "chances";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &self.inputs))
+    }
+
+    fn findings(&self) -> Findings {
+        let samples = self.all.samples();
+        let subject = title(&self.description, &self.inputs);
+        let drawn = counted(samples, "sample");
+        let mut said = Findings::titled(format!("{subject}: requirements, {drawn}"));
+        if samples < self.planned {
+            let planned = self.planned;
+            said.note(format!("Not complete: {planned} samples were asked for."));
+        }
+        self.tallies(&mut said);
+        said.data(outcomes(&self.counts));
+        if !self.varies {
+            said.note(NOTHING_VARIES);
+        }
+        if self.each.iter().any(|tally| tally.untold > 0) {
+            said.note(
+                "Untold: the response does not exist; such a sample counts neither as met nor as failed.",
+            );
+        }
+        let stable = self.counts.stable;
+        if stable < samples {
+            let others = counted(samples - stable, "sample");
+            said.note(format!("Not stable: {others}: {}", self.counts));
+        }
+        said
+    }
+}
+
+displayed!(Chances);
+
+/// The number of a requirement, `None` for all of them, and its tally.
+type Row<'a> = (Option<usize>, &'a Tally);
+
+impl Chances {
+    /// Each and all in one table of the text, in two of data.
+    fn tallies(&self, said: &mut Findings) {
+        let each = self.each.iter().enumerate();
+        let each = each.map(|(k, own)| (Some(k + 1), own));
+        let mut rows: Vec<Row<'_>> = each.collect();
+        let mut table = Columns::new("chances", &rows);
+        table.whole("requirement", &|(number, _)| *number);
+        tallies(&mut table);
+        said.data(table.finish().0);
+        let all = [(None, &self.all)];
+        let mut table = Columns::new("chance of all", &all);
+        tallies(&mut table);
+        said.data(table.finish().0);
+        rows.extend(all);
+        let mut text = Columns::new("chances", &rows);
+        text.cells("requirement", &|(number, _)| {
+            number.map_or_else(|| "all".to_owned(), |number| number.to_string())
+        });
+        tallies(&mut text);
+        said.text(text.finish().1);
+    }
+}
+
+fn tallies(table: &mut Columns<'_, Row<'_>>) {
+    let interval = |own: &Tally| own.clopper_pearson(CONFIDENCE).ok();
+    table.whole("met", &|(_, own)| Some(own.met)).shown();
+    table.whole("failed", &|(_, own)| Some(own.failed)).shown();
+    table.whole("untold", &|(_, own)| Some(own.untold)).shown();
+    let failure = table.number("probability of failure", "", &|(_, own)| {
+        Some(own.failure())
+    });
+    failure.digits(rough).headed("P(failed)");
+    table.number("95 % from", "", &|(_, own)| Some(interval(own)?.lower));
+    table.number("95 % to", "", &|(_, own)| Some(interval(own)?.upper));
+    table.cells("95 % interval (Clopper-Pearson)", &|(_, own)| {
+        let text = |own: Interval| format!("{} to {}", short(own.lower), short(own.upper));
+        interval(own).map_or_else(|| "-".to_owned(), text)
+    });
+}

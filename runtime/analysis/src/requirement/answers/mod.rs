@@ -1,0 +1,7 @@
+//! Probabilities of meeting requirements, and design points, as text and tables.
+
+mod chances;
+mod probabilities;
+mod rare;
+mod reliability;
+mod words;

@@ -1,0 +1,122 @@
+use eigentol_results::numbers::rough;
+use eigentol_results::relevance::CHANCE;
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+
+use super::reliability::variables;
+use crate::judge::chance;
+use crate::requirement::{FailureProbability, Interval, Probabilities, Reliability};
+
+/// `probabilities of failure`: a row for each requirement and one for any of them; the tables of design points and
+/// samples, if there are any.
+impl Answer for Probabilities {
+    const KIND: &'static str = "probabilities of failure";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &self.inputs))
+    }
+
+    fn findings(&self) -> Findings {
+        let title = title(&self.description, &self.inputs);
+        let mut said = Findings::titled(format!("{title}: probability of failure"));
+        self.found(&mut said);
+        let details = self.reliability.iter().map(Answer::findings);
+        let details = details.chain(self.chances.iter().map(Answer::findings));
+        for table in details.flat_map(Findings::into_tables) {
+            said.data(table);
+        }
+        let all = self.each.iter().chain([&self.any]);
+        let untold = all.fold(0.0, |most: f64, own| most.max(own.untold));
+        if untold > CHANCE {
+            said.note(format!(
+                "Designs with a probability of up to {} lack the response needed to tell; they do not count as failures.",
+                rough(untold)
+            ));
+        }
+        if let Some(reliability) = &self.reliability {
+            most_probable(&mut said, reliability);
+        }
+        said
+    }
+}
+
+displayed!(Probabilities);
+
+/// A requirement with its number, or any of them, in words.
+struct Row<'a> {
+    number: Option<usize>,
+    requirement: String,
+    own: &'a FailureProbability,
+}
+
+impl Row<'_> {
+    fn label(&self) -> String {
+        let of = &self.requirement;
+        match self.number {
+            Some(number) => format!("{number}: {of}"),
+            None => of.clone(),
+        }
+    }
+}
+
+impl Probabilities {
+    fn found(&self, said: &mut Findings) {
+        let d = &self.description;
+        let each = self.wanted.iter().zip(&self.each).enumerate();
+        let each = each.map(|(k, (wanted, own))| Row {
+            number: Some(k + 1),
+            requirement: wanted.text(d),
+            own,
+        });
+        let any = Row {
+            number: None,
+            requirement: "any".to_owned(),
+            own: &self.any,
+        };
+        let rows: Vec<Row<'_>> = each.chain([any]).collect();
+        let mut table = Columns::new("probabilities of failure", &rows);
+        if self.each.len() == 1 {
+            table.show_rows(vec![0]);
+        }
+        table.words("requirement", &|row| Some(row.requirement.clone()));
+        table.cells("requirement", &Row::label);
+        let value = table.number("probability of failure", "", &|row| Some(row.own.value));
+        value.digits(probability).headed("P(failed)");
+        table.number("95 % from", "", &|row| Some(row.own.interval.lower));
+        table.number("95 % to", "", &|row| Some(row.own.interval.upper));
+        table.cells("95 % interval", &|row| {
+            let Interval { lower, upper } = row.own.interval;
+            format!("{} to {}", probability(lower), probability(upper))
+        });
+        table.number("probability without response", "", &|row| {
+            Some(row.own.untold)
+        });
+        let by = table.words("found by", &|row| Some(row.own.by.word().to_owned()));
+        by.shown();
+        let designs = table.whole("designs", &|row| usize::try_from(row.own.designs).ok());
+        designs.shown();
+        said.columns(table);
+    }
+}
+
+/// A probability without an error.
+pub(super) fn probability(value: f64) -> String {
+    chance(value, 0.0)
+}
+
+/// The most probable way to fail each limit.
+fn most_probable(said: &mut Findings, of: &Reliability) {
+    for own in &of.limits {
+        let mut points = own.design_points.iter().flatten();
+        let Some(nearest) = points.find(|point| point.verified) else {
+            continue;
+        };
+        said.note(format!(
+            "Requirement {}: {}, most probably fails {} standard deviations from the mean, at",
+            own.limit.requirement + 1,
+            own.limit.text(&of.description),
+            rough(nearest.beta().abs())
+        ));
+        variables(said, nearest, &of.description);
+    }
+}

@@ -1,0 +1,202 @@
+use eigentol_contract::DesignInfo;
+use eigentol_results::numbers::{converted, heading, number, or_dash, rough};
+use eigentol_results::relevance::{BELOW, names, relevant};
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
+
+use super::probabilities::probability;
+use crate::Description;
+use crate::judge::{judged, verdict};
+use crate::requirement::{DesignPoint, LimitReliability, Reliability, SystemFailure};
+
+/// `design points`: a row for each, or one with the error if there are none; `design point variables`: a row for each
+/// design variable of each; `system`: one row.
+impl Answer for Reliability {
+    const KIND: &'static str = "reliability";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &self.inputs))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let mut said = Findings::titled(format!("{}: reliability", title(d, &self.inputs)));
+        self.data(&mut said);
+        for own in &self.limits {
+            limit(&mut said, own, d);
+        }
+        for k in &self.left_out {
+            let number = k + 1;
+            said.note(format!(
+                "Requirement {number} has no design point: sample it."
+            ));
+        }
+        if let Some(system) = &self.system {
+            said.note(format!(
+                "At least one of these fails with probability {} to first order (bounds {} to {}).",
+                probability(system.probability.value),
+                probability(system.bounds.lower),
+                probability(system.bounds.upper)
+            ));
+        }
+        if self.limits.len() + self.left_out.len() > 1 {
+            said.note(format!(
+                "At least one requirement fails, designs solved anew: {}.",
+                self.judgement
+            ));
+        }
+        said
+    }
+}
+
+displayed!(Reliability);
+
+/// A limit and one of its design points, if it has any.
+type Row<'a> = (&'a LimitReliability, Option<&'a DesignPoint>);
+
+impl Reliability {
+    fn data(&self, said: &mut Findings) {
+        let rows: Vec<Row<'_>> = self.limits.iter().flat_map(points).collect();
+        let d = &self.description;
+        design_points(said, &rows, d);
+        let found = rows
+            .iter()
+            .filter_map(|(limit, own)| Some((*limit, (*own)?)));
+        let entries = found.flat_map(|(limit, own)| entries(limit.limit.requirement, own, d));
+        let entries: Vec<Entry<'_>> = entries.collect();
+        said.data(entry_columns(&entries, Vec::new()).finish().0);
+        if let Some(own) = &self.system {
+            said.data(system(own));
+        }
+    }
+}
+
+fn points(limit: &LimitReliability) -> Vec<Row<'_>> {
+    match &limit.design_points {
+        Ok(points) => points.iter().map(|own| (limit, Some(own))).collect(),
+        Err(_) => vec![(limit, None)],
+    }
+}
+
+fn design_points(said: &mut Findings, rows: &[Row<'_>], d: &Description) {
+    let mut table = Columns::new("design points", rows);
+    table.whole("requirement", &|(own, _)| Some(own.limit.requirement + 1));
+    table.words("response", &|(own, _)| Some(own.limit.response.name(d)));
+    table.number("beta", "", &|(_, own)| Some(own.as_ref()?.beta()));
+    table.number("probability of failure, first order", "", &|(_, own)| {
+        Some(own.as_ref()?.probability())
+    });
+    table.number("probability of failure, second order", "", &|(_, own)| {
+        own.as_ref()?.second_order
+    });
+    table.flag("verified", &|(_, own)| Some(own.as_ref()?.verified));
+    judged(&mut table, &|(own, _)| &own.judgement);
+    table.words("error", &|(own, _)| {
+        Some(own.design_points.as_ref().err()?.to_string())
+    });
+    said.columns(table);
+}
+
+fn system(own: &SystemFailure) -> Table {
+    let mut table = Table::new("system");
+    table.numbers("probability of failure", "", [own.probability.value]);
+    table.numbers("from", "", [own.bounds.lower]);
+    table.numbers("to", "", [own.bounds.upper]);
+    table
+}
+
+/// What the text says of a limit.
+fn limit(said: &mut Findings, own: &LimitReliability, d: &Description) {
+    let number = own.limit.requirement + 1;
+    let text = own.limit.text(d);
+    said.note(match &own.design_points {
+        Ok(_) => format!("Requirement {number}: {text}"),
+        Err(error) => format!("Requirement {number}: {text}: {error}."),
+    });
+    said.note(format!(
+        "Designs solved anew: probability of failure {}.",
+        own.judgement
+    ));
+    let doubtful = |claimed| own.judgement.confirms(claimed) && !own.verified();
+    let verdict = own.probability().map(|claimed| match doubtful(claimed) {
+        true => "not verified".to_owned(),
+        false => verdict(&own.judgement, claimed),
+    });
+    let verdict = verdict.unwrap_or_default();
+    for at in own.design_points.iter().flatten() {
+        said.note(format!(
+            "beta {}, probability of failure {} (first order), {} (second order); design point {verdict}",
+            rough(at.beta()),
+            probability(at.probability()),
+            or_dash(at.second_order, probability),
+        ));
+        variables(said, at, d);
+    }
+}
+
+/// A design variable at a design point.
+struct Entry<'a> {
+    /// The requirement, from 0.
+    requirement: usize,
+    info: &'a DesignInfo,
+    /// SI.
+    design: f64,
+    importance: f64,
+    /// Derivatives of the reliability index, per SI unit.
+    by_nominal: f64,
+    by_half_width: f64,
+}
+
+fn entries<'a>(requirement: usize, at: &DesignPoint, d: &'a Description) -> Vec<Entry<'a>> {
+    let values = at.design.iter().zip(&at.importance);
+    let slopes = at.by_nominal.iter().zip(&at.by_half_width);
+    let each = d.design.iter().zip(values.zip(slopes));
+    let entries = each.map(
+        |(info, ((design, importance), (nominal, half_width)))| Entry {
+            requirement,
+            info,
+            design: *design,
+            importance: *importance,
+            by_nominal: nominal.beta,
+            by_half_width: half_width.beta,
+        },
+    );
+    entries.collect()
+}
+
+fn entry_columns<'a, 'e>(rows: &'a [Entry<'e>], shown: Vec<usize>) -> Columns<'a, Entry<'e>> {
+    let mut table = Columns::new("design point variables", rows);
+    table.show_rows(shown);
+    table.whole("requirement", &|row| Some(row.requirement + 1));
+    table.words("variable", &|row| Some(row.info.name.to_string()));
+    table.words("unit", &|row| Some(row.info.unit.symbol.to_string()));
+    table.cells("variable", &|row| heading(&row.info.name, &row.info.unit));
+    let design = table.number("design point", "", &|row| {
+        Some(converted(row.design, &row.info.unit))
+    });
+    design.digits(number);
+    let importance = table.number("importance", "", &|row| Some(row.importance));
+    importance.digits(|share| format!("{share:.3}"));
+    let slope = table.number("beta by nominal value", "per unit", &|row| {
+        Some(row.by_nominal * row.info.unit.scale)
+    });
+    slope.digits(rough).headed("beta by nominal value");
+    let slope = table.number("beta by half-width", "per unit", &|row| {
+        Some(row.by_half_width * row.info.unit.scale)
+    });
+    slope.digits(rough).headed("by half-width");
+    table
+}
+
+/// The variables that matter at a design point, in the text.
+pub(super) fn variables(said: &mut Findings, at: &DesignPoint, d: &Description) {
+    let all = entries(0, at, d);
+    let (shown, left): (Vec<usize>, Vec<usize>) =
+        (0..all.len()).partition(|&k| relevant(all[k].importance, 1.0));
+    said.text(entry_columns(&all, shown).finish().1);
+    if !left.is_empty() {
+        let left: Vec<&str> = left.iter().map(|&k| &*all[k].info.name).collect();
+        let names = names(&left, "variables");
+        said.note(format!("Left out, {BELOW} of the importance: {names}"));
+    }
+}

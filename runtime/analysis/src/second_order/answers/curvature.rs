@@ -1,0 +1,149 @@
+use eigentol_results::numbers::converted;
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject};
+
+use crate::second_order::{EventCurvature, ModeCurvature, OutputCurvature, SecondDerivatives};
+use crate::variables::{Variable, design_variables, entry, variables};
+use crate::{Complex, Description, Unit};
+
+/// `second derivatives`: a row for each pair of variables, derivatives of `lambda` and of the eigenvalue `s` per `unit`
+/// of the first and `unit 2` of the second.
+impl Answer for ModeCurvature {
+    const KIND: &'static str = "second derivatives";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &[]))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let number = self.mode + 1;
+        let inputs = d.inputs.len();
+        let pairs = pairs(&variables(d));
+        let mut table = Columns::new("second derivatives", &pairs);
+        table.whole("mode", &|_| Some(number));
+        names(&mut table);
+        table.number("lambda", "1/s^2 per units", &|pair| {
+            Some(pair.scaled(pair.of(&self.lambda, inputs)?))
+        });
+        let parts: [(&str, fn(Complex) -> f64); 2] = [("Re s", |s| s.re), ("Im s", |s| s.im)];
+        for (name, part) in parts {
+            table.number(name, "1/s per units", &|pair| {
+                let own = pair.of(self.eigenvalue.as_ref()?, inputs)?;
+                Some(pair.scaled(part(own)))
+            });
+        }
+        data(d, &format!("mode {number}"), table)
+    }
+}
+
+/// `second derivatives`: a row for each pair of variables, the derivative of the output per `unit` of the first and
+/// `unit 2` of the second.
+impl Answer for OutputCurvature {
+    const KIND: &'static str = "second derivatives of an output";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &[]))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let pairs = pairs(&variables(d));
+        let info = d.outputs.get(self.output.index());
+        let info = info.map(|info| (&*info.name, &info.unit));
+        derivatives(d, &pairs, info, &|pair| {
+            pair.of(&self.second, d.inputs.len())
+        })
+    }
+}
+
+/// `second derivatives`: a row for each pair of design variables, the derivative of the critical value per `unit` of
+/// the first and `unit 2` of the second.
+impl Answer for EventCurvature {
+    const KIND: &'static str = "second derivatives of an event";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &[]))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let pairs = pairs(&design_variables(d).collect::<Vec<_>>());
+        let info = d.inputs.get(self.input.index());
+        let info = info.map(|info| (&*info.name, &info.unit));
+        derivatives(d, &pairs, info, &|pair| {
+            let [i, j] = pair.places;
+            entry(&self.second, i, j)
+        })
+    }
+}
+
+/// Two of some variables, and their places among them.
+struct Pair<'a> {
+    places: [usize; 2],
+    variables: [Variable<'a>; 2],
+}
+
+fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
+    let each = all.iter().copied().enumerate();
+    let pair = |(i, first), (j, second)| Pair {
+        places: [i, j],
+        variables: [first, second],
+    };
+    let rows = each.clone();
+    let rows = rows.flat_map(|first| each.clone().map(move |second| pair(first, second)));
+    rows.collect()
+}
+
+impl Pair<'_> {
+    /// The second derivative with respect to both, inputs first, SI.
+    fn of<T: Copy>(&self, own: &SecondDerivatives<T>, inputs: usize) -> Option<T> {
+        let [i, j] = self.places;
+        match (i.checked_sub(inputs), j.checked_sub(inputs)) {
+            (None, None) => entry(&own.by_input, i, j),
+            (None, Some(j)) => entry(&own.by_input_and_design, i, j),
+            (Some(i), None) => entry(&own.by_input_and_design, j, i),
+            (Some(i), Some(j)) => entry(&own.by_design, i, j),
+        }
+    }
+
+    /// A second derivative per declared units.
+    fn scaled(&self, value: f64) -> f64 {
+        let [first, second] = self.variables;
+        value * first.unit.scale * second.unit.scale
+    }
+}
+
+/// The names and units of both variables.
+fn names(table: &mut Columns<'_, Pair<'_>>) {
+    for (k, title) in ["by", "and by"].into_iter().enumerate() {
+        table.words(title, &|pair| Some(pair.variables[k].name.to_string()));
+        table.words("unit", &|pair| {
+            Some(pair.variables[k].unit.symbol.to_string())
+        });
+    }
+}
+
+/// The second derivatives of a quantity with this name and unit.
+fn derivatives(
+    d: &Description,
+    pairs: &[Pair<'_>],
+    quantity: Option<(&str, &Unit)>,
+    of: &dyn Fn(&Pair<'_>) -> Option<f64>,
+) -> Findings {
+    let mut table = Columns::new("second derivatives", pairs);
+    names(&mut table);
+    if let Some((name, unit)) = quantity {
+        let units = format!("{} per units", unit.symbol);
+        table.number(name, &units, &|pair| {
+            Some(converted(pair.scaled(of(pair)?), unit))
+        });
+    }
+    data(d, quantity.map_or("?", |(name, _)| name), table)
+}
+
+fn data(d: &Description, of: &str, table: Columns<'_, Pair<'_>>) -> Findings {
+    let mut said = Findings::titled(format!("{}: second derivatives of {of}", title(d, &[])));
+    said.columns(table);
+    said
+}

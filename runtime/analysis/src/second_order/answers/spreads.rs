@@ -1,0 +1,143 @@
+use eigentol_results::numbers::{number, rough};
+use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+
+use crate::Error;
+use crate::judge::Doubt;
+use crate::second_order::{ModeSecondOrder, ModelMoments, SecondOrder, SecondOrderSpread};
+use crate::tolerance::{doubted, joined};
+
+/// `second-order tolerances`: a row for each mode, empty and with the reason if the mode has no second-order result.
+impl Answer for SecondOrder {
+    const KIND: &'static str = "second-order tolerances";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &self.inputs))
+    }
+
+    fn findings(&self) -> Findings {
+        let title = title(&self.description, &self.inputs);
+        let mut said = Findings::titled(format!(
+            "{title}: spread of the frequencies to second order"
+        ));
+        let rows = self.rows();
+        spreads(&mut said, &rows);
+        if !self.varies {
+            said.note(NOTHING_VARIES);
+        }
+        for row in &rows {
+            if let Err(error) = row.mode {
+                said.note(format!("Mode {}: {error}.", row.number));
+            }
+        }
+        let known = rows.iter().map(|row| match row.mode {
+            Ok(_) => row.doubts,
+            Err(_) => &[],
+        });
+        doubted(&mut said, &known.collect::<Vec<_>>());
+        said
+    }
+}
+
+displayed!(SecondOrder);
+
+/// A mode, counted from 1.
+struct Row<'a> {
+    number: usize,
+    mode: &'a Result<ModeSecondOrder, Error>,
+    doubts: &'a [Doubt],
+}
+
+impl Row<'_> {
+    fn spread(&self, of: Quantity) -> Option<&SecondOrderSpread> {
+        Some(of(self.mode.as_ref().ok()?))
+    }
+
+    fn moments(&self, of: Quantity) -> Option<ModelMoments> {
+        Some(self.spread(of)?.moments)
+    }
+
+    /// A number of the text, which has no modes without a result.
+    fn cell(&self, of: Quantity, text: fn(&SecondOrderSpread) -> String) -> String {
+        self.spread(of).map_or_else(|| "-".to_owned(), text)
+    }
+}
+
+type Quantity = fn(&ModeSecondOrder) -> &SecondOrderSpread;
+
+const FREQUENCY: Quantity = |mode| &mode.frequency;
+const NATURAL_FREQUENCY: Quantity = |mode| &mode.natural_frequency;
+const DAMPING_RATIO: Quantity = |mode| &mode.damping_ratio;
+
+impl SecondOrder {
+    fn rows(&self) -> Vec<Row<'_>> {
+        let modes = self.modes.iter().zip(&self.doubts).enumerate();
+        let rows = modes.map(|(r, (mode, doubts))| Row {
+            number: r + 1,
+            mode,
+            doubts,
+        });
+        rows.collect()
+    }
+}
+
+fn spreads(said: &mut Findings, rows: &[Row<'_>]) {
+    let mut table = Columns::new("second-order tolerances", rows);
+    let known = |r: &usize| rows[*r].mode.is_ok();
+    table.show_rows((0..rows.len()).filter(known).collect());
+    table.whole("mode", &|row| Some(row.number)).shown();
+    moments(&mut table, "frequency", "rad/s", FREQUENCY);
+    moments(&mut table, "natural frequency", "rad/s", NATURAL_FREQUENCY);
+    moments(&mut table, "damping ratio", "", DAMPING_RATIO);
+    table.words("error", &|row| Some(row.mode.as_ref().err()?.to_string()));
+    table.words("doubts", &|row| joined(row.doubts));
+    table.cells("nominal [rad/s]", &|row| {
+        row.cell(FREQUENCY, |own| number(own.model.value))
+    });
+    table.cells("mean [rad/s]", &|row| {
+        row.cell(FREQUENCY, |own| number(own.moments.mean))
+    });
+    table.cells("sigma, first order", &|row| {
+        row.cell(FREQUENCY, |own| {
+            sigma(own.moments.first_order_sigma, own.moments.mean)
+        })
+    });
+    table.cells("sigma [rad/s]", &|row| {
+        row.cell(FREQUENCY, |own| sigma(own.moments.sigma, own.moments.mean))
+    });
+    table.cells("skewness", &|row| {
+        row.cell(FREQUENCY, |own| format!("{:+.3}", own.moments.skewness))
+    });
+    table.cells("damping ratio, mean", &|row| {
+        row.cell(DAMPING_RATIO, |own| rough(own.moments.mean))
+    });
+    table.cells("sigma", &|row| {
+        row.cell(DAMPING_RATIO, |own| {
+            sigma(own.moments.sigma, own.moments.mean)
+        })
+    });
+    said.columns(table);
+}
+
+/// Columns of data: value, mean, standard deviations and shape of a quantity.
+fn moments(table: &mut Columns<'_, Row<'_>>, name: &str, unit: &str, of: Quantity) {
+    table.number(name, unit, &|row| Some(row.spread(of)?.model.value));
+    type Pick = fn(ModelMoments) -> f64;
+    let picks: [(&str, &str, Pick); 5] = [
+        ("mean", unit, |own| own.mean),
+        ("first-order sigma", unit, |own| own.first_order_sigma),
+        ("sigma", unit, |own| own.sigma),
+        ("skewness", "", |own| own.skewness),
+        ("excess kurtosis", "", |own| own.excess_kurtosis),
+    ];
+    for (what, unit, pick) in picks {
+        table.number(&format!("{what} of {name}"), unit, &|row| {
+            Some(pick(row.moments(of)?))
+        });
+    }
+}
+
+fn sigma(value: f64, mean: f64) -> String {
+    rough(unless_rounding(value, mean))
+}

@@ -1,0 +1,74 @@
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject};
+
+use super::ShapeSensitivity;
+use crate::algebra::Matrix;
+use crate::variables::{Variable, entry, variables};
+use crate::{Complex, Text};
+
+/// `shape sensitivities`: a row for each unknown and variable, derivatives of the right and left vector components per
+/// `unit` of the variable.
+impl Answer for ShapeSensitivity {
+    const KIND: &'static str = "shape sensitivities";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &[]))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let title = title(d, &[]);
+        let mut said = Findings::titled(format!("{title}: derivatives of a mode shape"));
+        let variables = variables(d);
+        let mut rows = Vec::new();
+        for (unknown, info) in d.coordinates.iter().enumerate() {
+            let each = variables.iter().enumerate();
+            rows.extend(each.map(|(place, by)| Row {
+                unknown,
+                name: &info.name,
+                place,
+                by: *by,
+            }));
+        }
+        let inputs = d.inputs.len();
+        let mut table = Columns::new("shape sensitivities", &rows);
+        table.words("unknown", &|row| Some(row.name.to_string()));
+        table.words("by", &|row| Some(row.by.name.to_string()));
+        table.words("unit", &|row| Some(row.by.unit.symbol.to_string()));
+        let parts: [(&str, fn(Complex) -> f64); 2] = [("Re", |own| own.re), ("Im", |own| own.im)];
+        for (side, slopes) in [
+            ("shape", [&self.right_by_input, &self.right_by_design]),
+            ("left", [&self.left_by_input, &self.left_by_design]),
+        ] {
+            for (part, of) in parts {
+                table.number(&format!("{part} {side}"), "per unit", &|row| {
+                    Some(of(row.slope(slopes, inputs)?) * row.by.unit.scale)
+                });
+            }
+        }
+        said.columns(table);
+        said
+    }
+}
+
+/// An unknown and a variable, with their places.
+struct Row<'a> {
+    unknown: usize,
+    name: &'a Text,
+    place: usize,
+    by: Variable<'a>,
+}
+
+impl Row<'_> {
+    /// The derivative per SI unit.
+    fn slope(
+        &self,
+        [by_input, by_design]: [&Matrix<Complex>; 2],
+        inputs: usize,
+    ) -> Option<Complex> {
+        match self.place.checked_sub(inputs) {
+            None => entry(by_input, self.place, self.unknown),
+            Some(place) => entry(by_design, place, self.unknown),
+        }
+    }
+}
