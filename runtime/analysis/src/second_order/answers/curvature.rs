@@ -4,7 +4,7 @@ use eigentol_results::{Answer, Columns, Findings, Subject};
 
 use crate::second_order::{EventCurvature, ModeCurvature, OutputCurvature, SecondDerivatives};
 use crate::variables::{Variable, design_variables, entry, variables};
-use crate::{Complex, Description, Unit};
+use crate::{Description, Unit};
 
 /// `second derivatives`: a row for each pair of variables, derivatives of `lambda` and of the eigenvalue `s` per `unit`
 /// of the first and `unit 2` of the second.
@@ -26,13 +26,13 @@ impl Answer for ModeCurvature {
         table.number("lambda", "1/s^2 per units", &|pair| {
             Some(pair.scaled(pair.of(&self.lambda, inputs)?))
         });
-        let parts: [(&str, fn(Complex) -> f64); 2] = [("Re s", |s| s.re), ("Im s", |s| s.im)];
-        for (name, part) in parts {
-            table.number(name, "1/s per units", &|pair| {
-                let own = pair.of(self.eigenvalue.as_ref()?, inputs)?;
-                Some(pair.scaled(part(own)))
-            });
-        }
+        let s = |pair: &Pair<'_>| pair.of(self.eigenvalue.as_ref()?, inputs);
+        table.number("Re s", "1/s per units", &|pair| {
+            Some(pair.scaled(s(pair)?.re))
+        });
+        table.number("Im s", "1/s per units", &|pair| {
+            Some(pair.scaled(s(pair)?.im))
+        });
         data(d, &format!("mode {number}"), table)
     }
 }
