@@ -1,5 +1,7 @@
 //! Campbell diagrams: every mode over an input, with damping, whirl and spread, and the crossings with engine orders.
 
+mod answer;
+
 use core::ops::ControlFlow;
 
 use crate::algebra::Vector;
@@ -13,6 +15,8 @@ use crate::sweep::{
 };
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
+
+pub use answer::campbell_table;
 
 /// One mode at one value of the input.
 #[derive(Clone, Debug, PartialEq)]

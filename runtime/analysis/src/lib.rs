@@ -3,6 +3,7 @@
 //! An internal part of `eigentol`, which re-exports what its users need. It promises nothing to others.
 
 pub mod allocation;
+mod along;
 pub mod branches;
 pub mod campbell;
 pub mod clusters;
@@ -12,18 +13,18 @@ pub mod limits;
 pub mod motion;
 pub mod picture;
 pub mod propagation;
-pub mod report;
 pub mod requirement;
 pub mod response;
 pub mod second_order;
 pub mod shapes;
 pub mod summary;
 pub mod sweep;
+mod variables;
 
 use eigentol_contract::scalar;
 use eigentol_contract::{
-    Any, DampingKind, Description, Input, InputInfo, Output, PictureInfo, Role, Shared, SolidInfo,
-    SolidKind, Text, Unit,
+    Any, DampingKind, Description, Input, Output, PictureInfo, Role, Shared, SolidInfo, SolidKind,
+    Text, Unit,
 };
 use eigentol_numerics::algebra::Vector;
 use eigentol_numerics::{Complex, algebra, eigenproblem};

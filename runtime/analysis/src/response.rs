@@ -2,17 +2,18 @@
 //! input, with exact total derivatives.
 
 use crate::algebra::Vector;
+use crate::along::name_of;
 use crate::clusters::common_slopes;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sensitivity::{Quantity, eigenvalue_slope, output_sensitivities, sensitivities};
 use crate::sweep::{
-    Condition, CriticalState, Crossing, Following, Range, critical_sensitivity, critical_state,
-    crossing_sensitivity, first_crossing,
+    Change, Condition, CriticalState, Crossing, Following, Range, critical_sensitivity,
+    critical_state, crossing_sensitivity, first_crossing, meeting,
 };
 use crate::tolerance::{Outcome, Solution};
-use crate::{Complex, Equilibrium, Error, Modes, Output, Watch};
+use crate::{Complex, Description, Equilibrium, Error, Modes, Output, Unit, Watch};
 
 /// A scalar that depends on the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +50,52 @@ impl Response {
     /// Whether it describes the state at the operating point: a mode or an output, which only a stable equilibrium has.
     pub(crate) fn of_state(self) -> bool {
         matches!(self, Self::Mode { .. } | Self::Output(_))
+    }
+
+    /// Its name in texts and tables, for example `frequency 1` or `critical speed`.
+    ///
+    /// An output has its declared name, a crossing one such as `speed where frequency 2 is 1 times speed`. `of`
+    /// describes the mechanism.
+    #[must_use]
+    pub fn name(&self, of: &Description) -> String {
+        match self {
+            Self::Mode { mode, quantity } => format!("{quantity} {}", mode + 1),
+            Self::Output(output) => {
+                let info = of.outputs.get(output.index());
+                info.map_or("?", |info| &*info.name).to_owned()
+            }
+            Self::Critical(range) => format!("critical {}", name_of(of, range.input)),
+            Self::Crossing {
+                mode,
+                condition,
+                range,
+            } => {
+                let name = name_of(of, range.input);
+                let link = match condition {
+                    Condition::Line(_) => "where",
+                    Condition::FlutterOnset => "at the",
+                };
+                format!(
+                    "{name} {link} {}",
+                    meeting(*mode, *condition, Change::Onset, name)
+                )
+            }
+        }
+    }
+
+    /// The unit of its values in texts and tables: as declared, or that of the quantity of a mode.
+    #[must_use]
+    pub fn unit(&self, of: &Description) -> Unit {
+        let declared = match self {
+            Self::Mode { quantity, .. } => return quantity.unit(),
+            Self::Output(output) => of.outputs.get(output.index()).map(|info| &info.unit),
+            Self::Critical(range) | Self::Crossing { range, .. } => {
+                of.inputs.get(range.input.index()).map(|info| &info.unit)
+            }
+        };
+        declared
+            .cloned()
+            .unwrap_or_else(|| Quantity::DampingRatio.unit())
     }
 }
 

@@ -11,6 +11,7 @@
 //! regular at pitchforks and transcritical points alike, where the eigenvalue along the branch loses half of its
 //! digits.
 
+mod answer;
 mod bordered;
 mod branch_point;
 mod curve;
@@ -25,6 +26,7 @@ mod special;
 mod visited;
 mod walk;
 
+pub use answer::branch_table;
 pub(crate) use bordered::Bordered;
 pub(crate) use curve::{Curve, Trouble};
 pub(crate) use curve_point::CurvePoint;
@@ -34,6 +36,8 @@ pub use settings::Continuation;
 pub(crate) use special::{Located, critical_inertia};
 pub use special::{SpecialKind, SpecialPoint};
 pub(crate) use walk::Pass;
+
+use core::fmt;
 
 use crate::algebra::Vector;
 use crate::equilibrium::{Equilibrium, Stability, coincide, turned_towards};
@@ -86,6 +90,22 @@ pub enum BranchEnd {
     Lost(Error),
     /// The branch continues, but the work was stopped ([`Watch::stop`](crate::Watch::stop)).
     Stopped,
+}
+
+impl fmt::Display for BranchEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Low => write!(f, "low end of the range"),
+            Self::High => write!(f, "high end of the range"),
+            Self::BranchPoint => write!(f, "branch point"),
+            Self::Closed => write!(f, "closed"),
+            Self::Escape => write!(f, "infinity"),
+            Self::Domain(error) => write!(f, "edge of the domain: {error}"),
+            Self::PointLimit => write!(f, "limit on the number of points"),
+            Self::Stopped => write!(f, "stopped"),
+            Self::Lost(error) => write!(f, "lost: {error}"),
+        }
+    }
 }
 
 /// A connected curve of equilibria.

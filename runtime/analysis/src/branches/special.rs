@@ -1,5 +1,7 @@
 //! Points of a branch at which `Khat` is singular.
 
+use core::fmt;
+
 use super::curve::{Curve, Trouble};
 use super::curve_point::symmetric_to_rounding;
 use super::local_scaling::{CurvePosition, Frame};
@@ -29,6 +31,25 @@ pub enum SpecialKind {
     Transcritical,
     /// Several modes lose their stiffness at once, or branches touch: located, but not resolved into branches.
     Degenerate,
+}
+
+impl fmt::Display for SpecialKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fold => "fold",
+            Self::Pitchfork {
+                supercritical: Some(true),
+            } => "supercritical pitchfork",
+            Self::Pitchfork {
+                supercritical: Some(false),
+            } => "subcritical pitchfork",
+            Self::Pitchfork {
+                supercritical: None,
+            } => "pitchfork",
+            Self::Transcritical => "transcritical",
+            Self::Degenerate => "degenerate",
+        })
+    }
 }
 
 /// A point of a branch at which `Khat` is singular.

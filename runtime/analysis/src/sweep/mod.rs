@@ -1,6 +1,7 @@
 //! Studies along an input: equilibria and modes at successive values, and where they become critical, resonant or
 //! unstable.
 
+mod answers;
 mod condition;
 mod critical;
 mod crossing;
@@ -18,6 +19,8 @@ mod sensitivity_sweep;
 mod sweep;
 mod track;
 
+pub use answers::sweep_table;
+pub(crate) use answers::{event_columns, meeting};
 pub use condition::{Change, Condition, Crossing, Line};
 pub use critical::critical_state;
 pub(crate) use crossing::first_crossing;

@@ -1,0 +1,302 @@
+//! Campbell diagrams as text and tables: events, one line per mode, and the points.
+
+use eigentol_results::numbers::{given, given_in, optional, or_dash, rough};
+use eigentol_results::relevance::{EVERYTHING, shown};
+use eigentol_results::title::title_along;
+use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
+
+use super::{Campbell, CampbellMode, CampbellPoint};
+use crate::along::{not_reached, varied};
+use crate::modes::{Family, Sense, undamped};
+use crate::sweep::{EventTolerance, event_columns};
+use crate::tolerance::{Spread, spread_of};
+use crate::{Description, Error, Input};
+
+/// A row for each mode at each value of the input, or one row without a mode if there are none.
+///
+/// Parts of a diagram can be written one after the other: all have the same columns.
+///
+/// ```
+/// # use eigentol::{Study, mechanism};
+/// # mechanism! {
+/// #     mechanism Pendulum {
+/// #         input  omega: rad/s;
+/// #         design l = 2 m +/- 1 %;
+/// #         gravity 9.81 m/s^2 along -z;
+/// #         body shaft: massless;
+/// #         body bar: rod(mass: 3 kg, length: l, along: -z);
+/// #         joint spin:  revolute(z) from ground to shaft, driven at omega;
+/// #         joint theta: revolute(y) from shaft to bar;
+/// #     }
+/// # }
+/// use std::ops::ControlFlow;
+/// use eigentol::campbell::campbell_table;
+///
+/// let study = Study::new(Pendulum);
+/// let (d, inputs, input) = (study.description(), study.input_values(), Pendulum::omega.any());
+/// let mut rows = 0;
+/// study.campbell_each(Pendulum::omega, &[0.0, 1.0, 2.0], &[1.0], |point| {
+///     rows += campbell_table(d, inputs, input, &[point]).rows();
+///     ControlFlow::Continue(())
+/// })?;
+/// assert_eq!(rows, 3);
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+#[must_use]
+pub fn campbell_table(
+    d: &Description,
+    inputs: &[f64],
+    input: Input,
+    points: &[CampbellPoint],
+) -> Table {
+    let mut table = mode_table(d, input, points);
+    table.operating_point(d, inputs, Some(input));
+    table
+}
+
+/// `Campbell diagram`: [`campbell_table`]; then `crossings`, `critical states` and `flutter onsets`, if any.
+impl Answer for Campbell {
+    const KIND: &'static str = "Campbell diagram";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::along(&self.description, &self.inputs, self.input))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let title = title_along(d, &self.inputs, self.input);
+        let mut said = Findings::titled(format!("{title}: Campbell diagram"));
+        not_reached(&mut said, self.unreached);
+        said.data(mode_table(d, self.input, &self.points));
+        self.events(&mut said);
+        self.by_mode(&mut said);
+        self.by_point(&mut said);
+        undamped(&mut said, self.family, d);
+        said
+    }
+}
+
+displayed!(Campbell);
+
+/// A mode at a value of the input, or the reason why there is none.
+struct Row<'a> {
+    value: f64,
+    mode: Result<&'a CampbellMode, &'a Error>,
+}
+
+impl<'a> Row<'a> {
+    fn all(points: &'a [CampbellPoint]) -> Vec<Self> {
+        let mut rows = Vec::new();
+        for point in points {
+            let value = point.value;
+            match &point.modes {
+                Ok(modes) => rows.extend(modes.iter().map(|mode| Self {
+                    value,
+                    mode: Ok(mode),
+                })),
+                Err(error) => rows.push(Self {
+                    value,
+                    mode: Err(error),
+                }),
+            }
+        }
+        rows
+    }
+
+    fn mode(&self) -> Option<&'a CampbellMode> {
+        self.mode.ok()
+    }
+}
+
+impl CampbellMode {
+    /// The standard deviation of one of its spreads, which a member of a cluster does not have.
+    fn sigma(&self, spread: Option<&Spread>) -> Option<f64> {
+        let own = spread.filter(|_| !self.clustered);
+        own.map(|own| own.sigma)
+    }
+}
+
+fn mode_table(d: &Description, input: Input, points: &[CampbellPoint]) -> Table {
+    let rows = Row::all(points);
+    let mut table = Columns::new("Campbell diagram", &rows);
+    varied(&mut table, d, input, given, &|row| row.value);
+    table.whole("mode", &|row| Some(row.mode()?.label + 1));
+    table.number("frequency", "rad/s", &|row| {
+        row.mode()?.behaviour.frequency()
+    });
+    table.number("sigma of frequency", "rad/s", &|row| {
+        let mode = row.mode()?;
+        mode.sigma(mode.frequency.as_ref())
+    });
+    table.number("damping ratio", "", &|row| {
+        Some(row.mode()?.damping_ratio.as_ref()?.mean)
+    });
+    table.number("sigma of damping ratio", "", &|row| {
+        let mode = row.mode()?;
+        mode.sigma(mode.damping_ratio.as_ref())
+    });
+    table.number("Re s", "1/s", &|row| Some(row.mode()?.s.re));
+    table.number("Im s", "1/s", &|row| Some(row.mode()?.s.im));
+    table.words("whirl", &|row| Some(row.mode()?.whirl?.sense().to_string()));
+    table.number("whirl ratio", "", &|row| Some(row.mode()?.whirl?.ratio));
+    table.words("motion", &|row| {
+        Some(row.mode()?.behaviour.word().to_owned())
+    });
+    table.flag("cluster", &|row| Some(row.mode()?.clustered));
+    table.words("error", &|row| row.mode.err().map(ToString::to_string));
+    table.finish().0
+}
+
+/// A mode at each value of the input at which it was found.
+struct Motion<'a> {
+    label: usize,
+    points: Vec<(f64, &'a CampbellMode)>,
+}
+
+impl Motion<'_> {
+    fn frequency(&self, point: Option<&(f64, &CampbellMode)>) -> Option<f64> {
+        point?.1.behaviour.frequency()
+    }
+
+    /// Where its frequency spreads most, and how far.
+    fn widest(&self) -> Option<(f64, f64)> {
+        let single = self.points.iter().filter(|(_, own)| !own.clustered);
+        let spreads =
+            single.filter_map(|(value, own)| Some((*value, spread_of(own.frequency.as_ref()?))));
+        let spreads = spreads.filter(|(_, sigma)| *sigma > 0.0);
+        spreads.max_by(|(_, a), (_, b)| a.total_cmp(b))
+    }
+
+    /// Where its damping ratio is smallest.
+    fn least_damped(&self) -> Option<(f64, &CampbellMode, &Spread)> {
+        let damped = self.points.iter();
+        let damped =
+            damped.filter_map(|(value, own)| Some((*value, *own, own.damping_ratio.as_ref()?)));
+        damped.min_by(|(.., a), (.., b)| a.mean.total_cmp(&b.mean))
+    }
+
+    /// The senses in which it whirls, in order; planar only if it never circles, as at rest all do.
+    fn senses(&self) -> String {
+        let all = self.points.iter().filter_map(|(_, mode)| mode.whirl);
+        let mut said: Vec<Sense> = Vec::new();
+        for sense in all.map(|whirl| whirl.sense()) {
+            match said.last() {
+                Some(last) if *last == sense || sense == Sense::Planar => {}
+                Some(Sense::Planar) => said = vec![sense],
+                _ => said.push(sense),
+            }
+        }
+        let words: Vec<String> = said.iter().map(Sense::to_string).collect();
+        match words.is_empty() {
+            true => "-".to_owned(),
+            false => words.join(", then "),
+        }
+    }
+
+    /// Its behaviours in order, each once.
+    fn behaviours(&self) -> String {
+        let each = self.points.iter();
+        let mut said: Vec<&str> = each.map(|(_, mode)| mode.behaviour.word()).collect();
+        said.dedup();
+        said.join(", then ")
+    }
+}
+
+impl Campbell {
+    /// Critical values, onsets of flutter and crossings: together in the text, apart in the data.
+    fn events(&self, said: &mut Findings) {
+        let events = self.critical.iter().chain(&self.flutter_onsets);
+        let all: Vec<&EventTolerance> = events.chain(&self.crossings).collect();
+        if let Some(table) = event_columns("events", &all) {
+            said.text(table.finish().1);
+        }
+        for (name, events) in [
+            ("crossings", &self.crossings),
+            ("critical states", &self.critical),
+            ("flutter onsets", &self.flutter_onsets),
+        ] {
+            let rows: Vec<&EventTolerance> = events.iter().collect();
+            if let Some(table) = event_columns(name, &rows) {
+                said.data(table.finish().0);
+            }
+        }
+    }
+
+    /// Each mode over the whole range: its largest spread and its smallest damping.
+    fn by_mode(&self, said: &mut Findings) {
+        let Some(info) = self.description.inputs.get(self.input.index()) else {
+            return;
+        };
+        let place = |value: Option<f64>| {
+            value.map_or_else(|| "-".to_owned(), |value| given_in(value, &info.unit))
+        };
+        let labels = self.labels().into_iter();
+        let each = labels.map(|label| Motion {
+            label,
+            points: self.branch(label).collect(),
+        });
+        let motions: Vec<Motion<'_>> = each.collect();
+        let mut table = Columns::new("modes", &motions);
+        table.cells("mode", &|own| (own.label + 1).to_string());
+        table.cells("omega [rad/s]", &|own| {
+            optional(own.frequency(own.points.first()))
+        });
+        table.cells("to", &|own| optional(own.frequency(own.points.last())));
+        table.cells("most sigma", &|own| {
+            or_dash(own.widest().map(|own| own.1), rough)
+        });
+        let at = format!("at {}", info.name);
+        table.cells(&at, &|own| place(own.widest().map(|own| own.0)));
+        if self.family == Family::General {
+            table.cells("least damping ratio", &|own| {
+                or_dash(own.least_damped().map(|(.., own)| own.mean), rough)
+            });
+            table.cells("sigma", &|own| {
+                let own = own.least_damped().filter(|(_, mode, _)| !mode.clustered);
+                or_dash(own.map(|(.., own)| spread_of(own)), rough)
+            });
+            table.cells(&at, &|own| place(own.least_damped().map(|own| own.0)));
+        }
+        table.cells("whirl", &Motion::senses);
+        table.cells("motion", &Motion::behaviours);
+        said.text(table.finish().1);
+    }
+
+    /// The frequencies at some of the input values.
+    fn by_point(&self, said: &mut Findings) {
+        let mut table = Columns::new("points", &self.points);
+        let rows = shown(self.points.len());
+        let (count, all) = (rows.len(), self.points.len());
+        table.show_rows(rows);
+        varied(&mut table, &self.description, self.input, given, &|own| {
+            own.value
+        });
+        for label in self.labels() {
+            let frequency = |own: &CampbellPoint| {
+                let modes = own.modes.as_ref().ok()?;
+                let mode = modes.iter().find(|mode| mode.label == label)?;
+                mode.behaviour.frequency()
+            };
+            if self.points.iter().any(|own| frequency(own).is_some()) {
+                let heading = format!("omega{} [rad/s]", label + 1);
+                table.cells(&heading, &|own| optional(frequency(own)));
+            }
+        }
+        let failed = self.points.iter().filter(|own| own.modes.is_err()).count();
+        if failed > 0 {
+            table.cells("error", &|own| {
+                let error = own.modes.as_ref().err();
+                error.map_or_else(|| "-".to_owned(), ToString::to_string)
+            });
+        }
+        said.text(table.finish().1);
+        if failed > 0 {
+            said.note(format!("{failed} of {all} points have no modes."));
+        }
+        if count < all {
+            said.note(format!(
+                "{count} of {all} points are shown: {EVERYTHING}, with sigma, damping and whirl."
+            ));
+        }
+    }
+}

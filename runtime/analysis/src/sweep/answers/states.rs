@@ -1,0 +1,136 @@
+use std::slice;
+
+use eigentol_results::numbers::{counted, number};
+use eigentol_results::title::title_along;
+use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
+
+use super::events::{meeting, meetings};
+use crate::along::{critical_vectors, name_of, place, varied};
+use crate::sweep::{CriticalState, Crossing};
+
+/// `critical states`: one row.
+impl Answer for CriticalState {
+    const KIND: &'static str = "critical state";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        let at = &self.equilibrium;
+        Some(Subject::along(&at.description, &at.inputs, self.input))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.equilibrium.description;
+        let title = title_along(d, &self.equilibrium.inputs, self.input);
+        let place = place(d, self.input, self.value);
+        let mut said = Findings::titled(format!("{title}: critical at {place}, {}", self.kind));
+        said.quote(self.equilibrium.findings());
+        critical_vectors(&mut said, d, &self.v, &self.w);
+        if let Some(table) = critical_columns(slice::from_ref(self)) {
+            said.data(table.finish().0);
+        }
+        said
+    }
+}
+
+/// `critical states`: a row for each.
+impl Listed for CriticalState {
+    const KIND: &'static str = "critical states";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Answer::subject(self)
+    }
+
+    fn findings(all: &[Self]) -> Findings {
+        let (Some(one), Some(table)) = (all.first(), critical_columns(all)) else {
+            return Findings::titled("no critical states".to_owned());
+        };
+        let at = &one.equilibrium;
+        let title = title_along(&at.description, &at.inputs, one.input);
+        let count = counted(all.len(), "critical state");
+        let mut said = Findings::titled(format!("{title}: {count}"));
+        said.columns(table);
+        said
+    }
+}
+
+/// `crossings`: one row.
+impl Answer for Crossing {
+    const KIND: &'static str = "crossing";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        let at = &self.equilibrium;
+        Some(Subject::along(&at.description, &at.inputs, self.input))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.equilibrium.description;
+        let title = title_along(d, &self.equilibrium.inputs, self.input);
+        let (what, place) = (self.what_happens(), place(d, self.input, self.value));
+        let mut said = Findings::titled(format!("{title}: {what} at {place}"));
+        said.quote(self.equilibrium.findings());
+        said.quote(self.modes.findings());
+        if let Some(table) = crossing_columns(slice::from_ref(self)) {
+            said.data(table.finish().0);
+        }
+        said
+    }
+}
+
+/// `crossings`: a row for each frequency that equals `ratio` times the input plus `offset`, or for each flutter onset,
+/// where both are empty.
+impl Listed for Crossing {
+    const KIND: &'static str = "crossings";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Answer::subject(self)
+    }
+
+    fn findings(all: &[Self]) -> Findings {
+        let (Some(one), Some(table)) = (all.first(), crossing_columns(all)) else {
+            return Findings::titled("no crossings".to_owned());
+        };
+        let at = &one.equilibrium;
+        let title = title_along(&at.description, &at.inputs, one.input);
+        let count = counted(all.len(), "crossing");
+        let mut said = Findings::titled(format!("{title}: {count}"));
+        said.columns(table);
+        said
+    }
+}
+
+displayed!(CriticalState, Crossing);
+
+impl Crossing {
+    fn what_happens(&self) -> String {
+        let name = name_of(&self.equilibrium.description, self.input);
+        meeting(self.mode, self.condition, self.change, name)
+    }
+}
+
+pub(super) fn critical_columns(all: &[CriticalState]) -> Option<Columns<'_, CriticalState>> {
+    let one = all.first()?;
+    let d = &one.equilibrium.description;
+    let mut table = Columns::new("critical states", all);
+    varied(&mut table, d, one.input, number, &|own| own.value);
+    table
+        .words("kind", &|own| Some(own.kind.to_string()))
+        .shown();
+    table.unknowns(d, &|own| Some(&own.equilibrium.coordinates[..]));
+    Some(table)
+}
+
+fn crossing_columns(all: &[Crossing]) -> Option<Columns<'_, Crossing>> {
+    let one = all.first()?;
+    let d = &one.equilibrium.description;
+    let mut table = Columns::new("crossings", all);
+    table.cells("what happens", &|own| own.what_happens());
+    varied(&mut table, d, one.input, number, &|own| own.value);
+    meetings(&mut table, &|own| Some((own.mode, own.condition)));
+    let frequency = |own: &Crossing| own.modes.modes.get(own.mode)?.frequency();
+    table
+        .number("frequency", "rad/s", &frequency)
+        .digits(number);
+    table.unknowns(d, &|own| Some(&own.equilibrium.coordinates[..]));
+    let stability = table.words("stability", &|own| Some(own.equilibrium.stability_word()));
+    stability.shown().headed("state");
+    Some(table)
+}

@@ -1,0 +1,126 @@
+use eigentol_results::numbers::{given, number};
+use eigentol_results::relevance::{EVERYTHING, shown};
+use eigentol_results::title::title_along;
+use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
+
+use super::states::critical_columns;
+use crate::along::{Moving, not_reached, place, varied};
+use crate::modes::undamped;
+use crate::sweep::{Sweep, SweepPoint};
+use crate::{Description, Equilibrium, Input, Mode, Role};
+
+/// A row for each value of the input: the unknowns, the stability, and the frequency, damping ratio and eigenvalue of
+/// each motion.
+///
+/// The caller gives the number of motions so that parts of a sweep can be written one after the other with the same
+/// columns. Motions beyond that number are left out; a mechanism of `n` coordinates and speeds has up to `2 n`, or more
+/// where motions are replaced by others.
+#[must_use]
+pub fn sweep_table(
+    d: &Description,
+    inputs: &[f64],
+    input: Input,
+    points: &[SweepPoint],
+    motions: usize,
+) -> Table {
+    let columns = columns(d, input, points, motions, &moving(d, points));
+    let mut table = columns.finish().0;
+    table.operating_point(d, inputs, Some(input));
+    table
+}
+
+/// `sweep`: [`sweep_table`] with all motions; `critical states`, if any.
+impl Answer for Sweep {
+    const KIND: &'static str = "sweep";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::along(&self.description, &self.inputs, self.input))
+    }
+
+    fn findings(&self) -> Findings {
+        let (d, points) = (&self.description, &self.points);
+        let title = title_along(d, &self.inputs, self.input);
+        let mut said = Findings::titled(format!("{title}: sweep"));
+        not_reached(&mut said, self.unreached);
+        let solved = || points.iter().filter_map(|point| point.modes.as_ref().ok());
+        let labels = solved().flat_map(|modes| modes.modes.iter().map(|mode| mode.label + 1));
+        let moving = moving(d, points);
+        let motions = labels.max().unwrap_or(0);
+        said.columns(columns(d, self.input, points, motions, &moving));
+        moving.rest(&mut said);
+        let (rows, all) = (shown(points.len()).len(), points.len());
+        if rows < all {
+            said.note(format!("{rows} of {all} points are shown: {EVERYTHING}."));
+        }
+        for critical in &self.critical {
+            let place = place(d, self.input, critical.value);
+            said.note(format!("critical at {place} ({})", critical.kind));
+        }
+        if let Some(table) = critical_columns(&self.critical) {
+            said.data(table.finish().0);
+        }
+        if let Some(modes) = solved().next() {
+            undamped(&mut said, modes.family, d);
+        }
+        said
+    }
+}
+
+displayed!(Sweep);
+
+fn state(point: &SweepPoint) -> Option<&Equilibrium> {
+    point.equilibrium.as_ref().ok()
+}
+
+/// All unknowns that move, reactions too.
+fn moving<'a>(d: &'a Description, points: &[SweepPoint]) -> Moving<'a> {
+    let roles = [
+        Role::Position,
+        Role::Speed,
+        Role::PositionReaction,
+        Role::VelocityReaction,
+    ];
+    Moving::of(d, points.iter().filter_map(state), &roles)
+}
+
+/// The reason why a point has no equilibrium or no modes.
+fn error(point: &SweepPoint) -> Option<String> {
+    point.solved().err().map(ToString::to_string)
+}
+
+fn columns<'a>(
+    d: &Description,
+    input: Input,
+    points: &'a [SweepPoint],
+    motions: usize,
+    moving: &Moving<'_>,
+) -> Columns<'a, SweepPoint> {
+    let mut table = Columns::new("sweep", points);
+    table.show_rows(shown(points.len()));
+    varied(&mut table, d, input, given, &|own| own.value);
+    table.unknowns(d, &|own| Some(&state(own)?.coordinates[..]));
+    moving.columns(&mut table, &state);
+    table.words("stability", &|own| Some(state(own)?.stability_word()));
+    for label in 0..motions {
+        let number_of = label + 1;
+        let mode = |own: &SweepPoint, pick: fn(&Mode) -> Option<f64>| {
+            let modes = &own.modes.as_ref().ok()?.modes;
+            modes.iter().find(|mode| mode.label == label).and_then(pick)
+        };
+        let name = format!("frequency {number_of}");
+        let column = table.number(&name, "rad/s", &|own| mode(own, Mode::frequency));
+        (column.digits(number)).headed(&format!("omega{number_of} [rad/s]"));
+        let name = format!("damping ratio {number_of}");
+        table.number(&name, "", &|own| mode(own, Mode::damping_ratio));
+        let name = format!("Re s {number_of}");
+        table.number(&name, "1/s", &|own| mode(own, |mode| Some(mode.s.re)));
+        let name = format!("Im s {number_of}");
+        table.number(&name, "1/s", &|own| mode(own, |mode| Some(mode.s.im)));
+    }
+    table.cells("state", &|own| {
+        let stability = || state(own).map(Equilibrium::stability_word);
+        error(own).or_else(stability).unwrap_or_default()
+    });
+    table.words("error", &error);
+    table
+}
