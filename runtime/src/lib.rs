@@ -66,7 +66,7 @@
 //!
 //! Values are SI, or in the declared unit: [`InDeclaredUnit`]. Handles such as `RotatingPendulum::omega` are constants
 //! of the mechanism's type; if names are known only at run time, [`Study::find_input`] and similar methods look them
-//! up. Every result prints as a table with names, units and the operating point it belongs to ([`report`]). Lists of
+//! up. Every result prints as a table with names, units and the operating point it belongs to ([`results`]). Lists of
 //! numbers are [`Vector`] and [`Matrix`], which convert to and from nalgebra.
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -92,7 +92,7 @@ mod study;
 #[doc(inline)]
 pub use eigentol_analysis::{
     allocation, branches, campbell, campbell::Campbell, clusters, judge, motion, picture,
-    propagation, report, requirement, response, second_order, shapes, summary, sweep,
+    propagation, requirement, response, second_order, shapes, summary, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]
@@ -100,6 +100,12 @@ pub use eigentol_solve::{
     Behaviour, Equilibrium, Family, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch,
     equilibrium, error, error::Error, kernels, kernels::Kernels, modes, sensitivity,
 };
+#[cfg(feature = "std")]
+pub mod results {
+    //! How every result describes itself: tables of named columns with units, and sentences.
+
+    pub use eigentol_results::{Answer, Column, Findings, Listed, Subject, Table, Values};
+}
 #[cfg(feature = "std")]
 pub mod tolerance {
     //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).

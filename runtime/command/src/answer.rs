@@ -7,10 +7,9 @@
 //! (`second_order/`). `tolerance` of 150 storeys took 29 s and takes 2.1 s; only its first-order table, 0.2 s.
 //! `tests/runtime/chance/work.rs` counts the kernels that each question calls.
 
-use std::fmt::Display;
-
 use eigentol_compiler::base::nearest::nearest;
 use eigentol_tables::{Table, csv, json, parquet};
+use serde::Serialize;
 
 use crate::failure::Failure;
 
@@ -68,13 +67,13 @@ impl Answer {
     }
 
     /// Adds a result.
-    pub(crate) fn add<R: Display + eigentol_tables::Answer>(
+    pub(crate) fn add<R: eigentol_tables::Answer + Serialize>(
         &mut self,
         result: &R,
     ) -> Result<(), Failure> {
         let kind = R::KIND;
         let (text, tables) = match self.form {
-            Form::Text => (result.to_string(), Vec::new()),
+            Form::Text => (result.findings().to_string(), Vec::new()),
             Form::Csv | Form::Parquet => (String::new(), result.tables()),
             Form::Json => (json::to_string(result)?, Vec::new()),
         };
@@ -88,7 +87,7 @@ impl Answer {
     }
 
     /// Adds a result whose text is shown only on request, because another result already includes it.
-    pub(crate) fn add_aside<R: Display + eigentol_tables::Answer>(
+    pub(crate) fn add_aside<R: eigentol_tables::Answer + Serialize>(
         &mut self,
         result: &R,
     ) -> Result<(), Failure> {

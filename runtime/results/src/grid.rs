@@ -23,9 +23,9 @@ impl Grid {
         self.rows.push(cells);
     }
 
-    /// Whether there are no rows below the header.
+    /// Whether there are no rows below the header, or no columns.
     pub fn is_empty(&self) -> bool {
-        self.rows.len() < 2
+        self.rows.len() < 2 || self.rows[0].is_empty()
     }
 
     fn width(&self, column: usize) -> usize {

@@ -7,6 +7,7 @@
 
 use std::io::{Read, Write};
 
+use crate::check::check;
 use crate::{Column, Error, Table, Values};
 
 /// Writes rows to a single file as they arrive.
@@ -45,7 +46,7 @@ impl<W: Write> Writer<W> {
     /// # Errors
     /// [`Error::Write`]; [`Error::OtherColumns`] if the headings differ from the previous rows; [`Error::Lengths`].
     pub fn write(&mut self, table: &Table) -> Result<(), Error> {
-        table.check()?;
+        check(table)?;
         let headings: Vec<String> = table.columns.iter().map(Column::heading).collect();
         match &self.headings {
             Some(own) if *own == headings => {}
@@ -126,7 +127,7 @@ pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
     for (k, record) in reader.records().enumerate() {
         let record = record.map_err(reading)?;
         if k == 0 {
-            headings = record.iter().map(Column::read_heading).collect();
+            headings = record.iter().map(read_heading).collect();
             cells = vec![Vec::new(); headings.len()];
             continue;
         }
@@ -214,4 +215,13 @@ fn reading(error: csv::Error) -> Error {
         csv::ErrorKind::Io(error) => Error::Read(error),
         _ => Error::Malformed { line, reason },
     }
+}
+
+/// Name and unit of a [heading](Column::heading).
+pub(crate) fn read_heading(heading: &str) -> (String, String) {
+    let unit = heading
+        .strip_suffix(']')
+        .and_then(|own| own.rsplit_once(" ["));
+    let (name, unit) = unit.unwrap_or((heading, ""));
+    (name.to_owned(), unit.to_owned())
 }

@@ -8,6 +8,7 @@
 //!   "kind": "modes",
 //!   "mechanism": "Pendulum",
 //!   "inputs": {"speed": {"value": 3000.0, "unit": "rpm"}},
+//!   "notes": ["Gyroscopic forces (Chat) of this mechanism are ignored: undamped modes."],
 //!   "tables": [
 //!     {"name": "modes", "columns": [
 //!       {"name": "mode", "unit": "", "kind": "whole", "values": [1, 2]},
@@ -25,7 +26,8 @@
 //! - The schema of all documents ([JSON Schema](https://json-schema.org), draft 2020-12) is the file
 //!   `eigentol.schema.json` of this crate, [`SCHEMA`].
 //! - `inputs` is the operating point in declared units, without any varied input.
-//! - `tables` is meant for people and other programs ([`tables`](crate::tables)): columns of equal length, each of the
+//! - `notes` are the sentences of the text that the tables do not say.
+//! - `tables` is meant for people and other programs ([`Answer::tables`]): columns of equal length, each of the
 //!   `kind` `numbers`, `whole`, `texts` or `flags`, in declared units; missing values are `null`.
 //! - `result` is the complete result in SI, with the field names of the Rust type, so that [`read`] restores it
 //!   exactly. Complex numbers are `[real, imaginary]`, matrices are lists of rows, and infinities are the strings
@@ -36,8 +38,8 @@
 //! # Storage
 //!
 //! The feature `serde` writes results in SI, in the words of their types, and reads the same bits back;
-//! `runtime/tables` makes documents of them that add names, units and tables. A new result derives serde's traits, uses
-//! `serial::exact` for numbers that may be infinite, and gets tables; `tests/tests/serial.rs` finds any type that
+//! `runtime/tables` makes documents of them that add names, units, sentences and tables. A new result derives serde's
+//! traits, uses `serial::exact` for numbers that may be infinite, and implements [`Answer`]; `tests/tests/serial.rs` finds any type that
 //! cannot be written.
 //!
 //! # Documents agree with themselves
@@ -48,12 +50,15 @@
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::answer::Answer;
-use crate::results::as_written;
-use crate::{Error, Table};
+use eigentol_contract::Input;
+use eigentol_results::numbers::as_written;
+
+use crate::check::check;
+use crate::{Answer, Error, Table};
 
 /// Format name that identifies a document.
 const FORMAT: &str = "eigentol";
@@ -71,6 +76,7 @@ struct Written<'a> {
     kind: &'a str,
     mechanism: Option<&'a str>,
     inputs: BTreeMap<&'a str, Quantity<'a>>,
+    notes: Vec<String>,
     tables: Vec<Table>,
     lengths: String,
     description: Value,
@@ -94,7 +100,7 @@ struct Whole {
 ///
 /// # Errors
 /// [`Error::Write`].
-pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
+pub fn write<A: Answer + Serialize>(answer: &A, mut file: impl Write) -> Result<(), Error> {
     let subject = answer.subject();
     let description = match subject {
         Some(own) => value(&**own.description)?,
@@ -104,7 +110,7 @@ pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
     leave_out(&mut result, &description);
     let each = subject.iter().flat_map(|own| {
         let each = own.description.inputs.iter().zip(own.inputs).enumerate();
-        let varied = own.varied.map(eigentol::Input::index);
+        let varied = own.varied.map(Input::index);
         each.filter(move |(k, _)| Some(*k) != varied)
     });
     let inputs = each.map(|(_, (info, &value))| {
@@ -119,6 +125,7 @@ pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
         kind: A::KIND,
         mechanism: subject.map(|own| &*own.description.name),
         inputs: inputs.collect(),
+        notes: answer.findings().notes().map(str::to_owned).collect(),
         tables: answer.tables(),
         lengths: lengths(&description, &result),
         description,
@@ -133,7 +140,7 @@ pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
 ///
 /// # Errors
 /// None known.
-pub fn to_string<A: Answer>(answer: &A) -> Result<String, Error> {
+pub fn to_string<A: Answer + Serialize>(answer: &A) -> Result<String, Error> {
     let mut text = Vec::new();
     write(answer, &mut text)?;
     Ok(String::from_utf8_lossy(&text).into_owned())
@@ -145,7 +152,7 @@ pub fn to_string<A: Answer>(answer: &A) -> Result<String, Error> {
 /// [`Error::Read`]; [`Error::Malformed`] for a file that is truncated or not JSON; [`Error::Foreign`] for JSON from
 /// other programs; [`Error::Version`] for a document of another version; [`Error::Kind`] for a different kind of
 /// result; [`Error::Content`].
-pub fn read<A: Answer>(file: impl Read) -> Result<A, Error> {
+pub fn read<A: Answer + DeserializeOwned>(file: impl Read) -> Result<A, Error> {
     let document: Value = serde_json::from_reader(file).map_err(reading)?;
     let kind = kind(&document)?;
     if kind != A::KIND {
@@ -176,7 +183,7 @@ pub fn read_tables(file: impl Read) -> Result<Vec<Table>, Error> {
     kind(&document)?;
     let tables = document.get_mut("tables").map(Value::take);
     let tables: Vec<Table> = serde_json::from_value(tables.unwrap_or_default()).map_err(content)?;
-    tables.iter().try_for_each(Table::check)?;
+    tables.iter().try_for_each(check)?;
     Ok(tables)
 }
 

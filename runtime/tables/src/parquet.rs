@@ -22,6 +22,8 @@ use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
+use crate::check::check;
+use crate::csv::read_heading;
 use crate::json::VERSION;
 use crate::{Column, Error, Table, Values};
 
@@ -73,7 +75,7 @@ impl<W: Write + Send> Writer<W> {
     /// [`Error::Write`], after which nothing more can be written; [`Error::OtherColumns`] if headings or kinds differ
     /// from the previous rows; [`Error::Lengths`].
     pub fn write(&mut self, table: &Table) -> Result<(), Error> {
-        table.check()?;
+        check(table)?;
         let own: Vec<(String, Physical)> = (table.columns.iter())
             .map(|column| (column.heading(), physical(&column.values)))
             .collect();
@@ -253,7 +255,7 @@ pub fn read(mut file: impl Read) -> Result<Table, Error> {
                 )));
             }
         };
-        let (name, unit) = Column::read_heading(field.name());
+        let (name, unit) = read_heading(field.name());
         columns.push(Column { name, unit, values });
     }
     for k in 0..reader.num_row_groups() {
@@ -266,7 +268,7 @@ pub fn read(mut file: impl Read) -> Result<Table, Error> {
         name: (*keys.get(TABLE).unwrap_or(&"")).to_owned(),
         columns,
     };
-    table.check()?;
+    check(&table)?;
     Ok(table)
 }
 

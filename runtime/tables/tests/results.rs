@@ -56,9 +56,9 @@ fn values_are_in_declared_units_and_the_operating_point_comes_last() {
     let study = study();
     let solved = study.solve().expect("a state");
     let [theta, omega, slope] = closed_form();
-    let states = &tables(&solved.equilibrium)[0];
+    let states = &solved.equilibrium.tables()[0];
     close(number(states, "theta", 0), theta);
-    let modes = &tables(&solved.modes)[0];
+    let modes = &solved.modes.tables()[0];
     close(number(modes, "frequency", 0), omega);
     for table in [states, modes] {
         let last = table.columns.last().expect("columns");
@@ -82,13 +82,13 @@ fn every_table_comes_back_from_its_file() {
     let solved = study.solve().expect("a state");
     let samples = solved.monte_carlo().expect("samples");
     let all = [
-        tables(&solved.equilibrium),
-        tables(&solved.modes),
+        solved.equilibrium.tables(),
+        solved.modes.tables(),
         tables(&solved.sensitivities().expect("derivatives")),
         tables(&solved.first_order().expect("spreads")),
         tables(&study.second_order().expect("spreads")),
         tables(&study.summary().expect("a summary")),
-        tables(&samples),
+        samples.tables(),
     ];
     for table in all.iter().flatten() {
         let text = csv::to_string(table).expect("text");
@@ -113,7 +113,7 @@ fn parts_of_a_sweep_are_the_sweep() {
     let study = study();
     let speeds: Vec<f64> = (0..40).map(|k| 6.0 + 0.05 * f64::from(k)).collect();
     let sweep = study.sweep(RotatingBar::speed, &speeds).expect("a sweep");
-    let whole = &tables(&sweep)[0];
+    let whole = &sweep.tables()[0];
     assert_eq!(whole.columns[0].heading(), "speed [rpm]");
     close(
         number(whole, "speed", 39),
@@ -140,7 +140,7 @@ fn second_derivatives_are_per_declared_units() {
     let difference =
         (frequency_slope(1000.0 + step) - frequency_slope(1000.0 - step)) / (2.0 * step);
     let curvature = study().mode_curvature(0).expect("derivatives");
-    let table = &tables(&curvature)[0];
+    let table = &curvature.tables()[0];
     assert_eq!(table.rows(), 4);
     let found = number(table, "Im s", 3);
     assert!(

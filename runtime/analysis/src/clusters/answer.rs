@@ -25,10 +25,12 @@ impl Listed for ClusterTolerance {
         for own in all {
             said.join(own.said());
         }
-        if !all.is_empty() {
-            verdicts(&mut said, all);
-            members(&mut said, all);
+        if all.is_empty() {
+            said.note("tolerances bring no modes together");
+            return said;
         }
+        verdicts(&mut said, all);
+        members(&mut said, all);
         said
     }
 }

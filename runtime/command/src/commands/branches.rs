@@ -3,7 +3,8 @@
 use clap::Args;
 use eigentol::branches::BranchEnd;
 use eigentol_figures as figures;
-use eigentol_tables::{Table, branch_table};
+use eigentol::branches::branch_table;
+use eigentol_tables::Table;
 
 use crate::failure::Failure;
 use crate::output::Output;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use clap::Args;
 use eigentol::campbell::CampbellPoint;
 use eigentol_figures as figures;
-use eigentol_tables::campbell_table;
+use eigentol::campbell::campbell_table;
 
 use crate::failure::Failure;
 use crate::output::Output;

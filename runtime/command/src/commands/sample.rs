@@ -7,7 +7,7 @@ use clap::Args;
 use eigentol::tolerance::{PartialMonteCarlo, Sample as Solution, Sampling};
 use eigentol::{Error, Solved};
 use eigentol_interpreter::Interpreted;
-use eigentol_tables::numbered_samples_table;
+use eigentol::tolerance::numbered_samples_table;
 use indicatif::ProgressBar;
 
 use crate::failure::Failure;

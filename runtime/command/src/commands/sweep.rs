@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use clap::Args;
 use eigentol::sweep::SweepPoint;
-use eigentol_tables::sweep_table;
+use eigentol::sweep::sweep_table;
 
 use crate::diagnostics;
 use crate::failure::Failure;

@@ -2,7 +2,7 @@
 
 use eigentol::tolerance::Spread;
 use eigentol_figures::{branches, campbell, damping_ratios, root_locus};
-use eigentol_tables::{Table, tables};
+use eigentol_tables::{Answer as _, Table};
 
 use super::refused;
 use crate::Error;
@@ -42,7 +42,7 @@ fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error
     if found.truncated {
         html.paragraph("There are more branches than were followed.");
     }
-    for own in tables(found) {
+    for own in found.tables() {
         if own.name == "special points" {
             table(html, "Folds and branch points", &own, &[])?;
         }
@@ -90,7 +90,7 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
             &root_locus(found, &content.style.clone().title("Root locus")),
         )?;
     }
-    for own in tables(found) {
+    for own in found.tables() {
         let caption = match &*own.name {
             "crossings" => "Where a frequency is a multiple of the input",
             "critical states" => "Where the equilibrium loses its stiffness",

@@ -1,7 +1,7 @@
 //! Sampled distributions compared with first order.
 
 use eigentol_figures::Histogram;
-use eigentol_tables::tables;
+use eigentol_tables::Answer as _;
 
 use super::brief::stable_samples;
 use super::verdicts::NOTHING_VARIES;
@@ -46,7 +46,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     });
     charts(html, figures)?;
     beyond(html, count, "distributions of");
-    for own in tables(found) {
+    for own in found.tables() {
         if own.name == "outcomes" && found.counts.stable == found.samples {
             continue;
         }

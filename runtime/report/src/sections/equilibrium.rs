@@ -1,7 +1,7 @@
 //! The equilibrium and the outputs there.
 
 use eigentol::{Equilibrium, Role};
-use eigentol_tables::{Table, tables};
+use eigentol_tables::{Answer as _, Table};
 
 use super::refused;
 use crate::Error;
@@ -39,7 +39,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
                 outputs.sigma_level
             );
             let columns = ["output", "unit", "mean", "sigma", "band"];
-            for own in tables(outputs) {
+            for own in outputs.tables() {
                 table(html, &caption, &own, &columns)?;
             }
         }

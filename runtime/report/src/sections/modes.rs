@@ -2,7 +2,7 @@
 
 use eigentol::picture::Scene;
 use eigentol_figures::{mode_shapes, participation};
-use eigentol_tables::tables;
+use eigentol_tables::Answer as _;
 
 use super::refused;
 use crate::Error;
@@ -32,7 +32,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         );
     }
     let columns = ["mode", "frequency", "damping ratio", "Re s", "motion"];
-    for own in tables(modes) {
+    for own in modes.tables() {
         table(html, "Natural modes", &own, &columns)?;
     }
     if content.description.coordinates.len() < 2 {

@@ -2,7 +2,7 @@
 
 use eigentol::FirstOrder;
 use eigentol_figures::{Style, shares};
-use eigentol_tables::{Table, tables};
+use eigentol_tables::{Answer as _, Table};
 
 use super::verdicts::NOTHING_VARIES;
 use super::{MODES, beyond, refused};
@@ -42,7 +42,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         &by_variable(first, &content.brief_style),
         &[],
     )?;
-    for own in tables(first) {
+    for own in first.tables() {
         let columns = [
             "mode",
             "frequency",
@@ -72,7 +72,7 @@ fn by_variable(first: &FirstOrder, style: &Style) -> Table {
                 .filter(|_| !mode.clustered)
                 .map(|share| 100.0 * share)
         };
-        table.numbers(style.mode(r), "%", (0..design.len()).map(share));
+        table.numbers(&style.mode(r), "%", (0..design.len()).map(share));
     }
     table
 }

@@ -1,7 +1,7 @@
 //! The effect of tolerances on the frequencies, and which numbers can be trusted.
 
-use eigentol::report::News;
-use eigentol_tables::tables;
+use eigentol::summary::News;
+use eigentol_tables::Answer as _;
 
 use super::refused;
 use crate::Error;
@@ -48,7 +48,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         "Spread of the frequencies; a band holds {} standard deviations of first order",
         summary.first.sigma_level
     );
-    if let Some(own) = tables(summary).first() {
+    if let Some(own) = summary.tables().first() {
         table(html, &caption, own, &columns)?;
     }
     let mixed = summary
@@ -60,7 +60,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             "Modes that tolerances mix, and the mean of each group",
             "The same modes by size: lowest, highest, and what lies between",
         ];
-        for (own, caption) in tables(&summary.clusters[..]).iter().zip(captions) {
+        for (own, caption) in summary.clusters.tables().iter().zip(captions) {
             table(html, caption, own, &[])?;
         }
     }

@@ -11,9 +11,6 @@ use eigentol_results::{Answer, Findings, Subject, displayed};
 use super::Family;
 use crate::{Complex, CoordinateInfo, Description, Mode, Modes, Role};
 
-/// Relative difference of numbers that look alike in a table.
-const SAME_NUMBER: f64 = 1e-6;
-
 displayed!(Modes);
 
 /// `modes`: a row for each mode; its shape takes two columns of data per coordinate and speed, real and imaginary part.
@@ -34,28 +31,12 @@ impl Answer for Modes {
         components(&mut table, &self.description);
         said.columns(table);
         shapes.rest(&mut said);
-        if self.looks_unsorted() {
-            said.note("In the order of |s|, the natural frequency.");
-        }
         if self.damping_ignored {
             said.note(
                 "Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.",
             );
         }
         said
-    }
-}
-
-impl Modes {
-    /// Whether the frequencies are not in order although the modes are.
-    fn looks_unsorted(&self) -> bool {
-        let falls = |values: Vec<f64>| {
-            let mut pairs = values.windows(2);
-            pairs.any(|pair| pair[1] < pair[0] * (1.0 - SAME_NUMBER))
-        };
-        let frequencies = self.frequencies().into_iter().flatten().collect();
-        let natural = self.modes.iter().map(|mode| mode.s.norm()).collect();
-        falls(frequencies) && !falls(natural)
     }
 }
 

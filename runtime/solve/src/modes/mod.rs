@@ -70,8 +70,8 @@ impl Family {
 
 /// All modes at one equilibrium.
 ///
-/// Undamped modes are sorted by `lambda`, general ones by `|s|`, both ascending, unless they follow the order of
-/// another set.
+/// Undamped modes are sorted by `lambda`, general ones by frequency `Im s`, those that do not oscillate first and by
+/// `|s|`; all ascending, unless they follow the order of another set.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -461,7 +461,24 @@ fn solve_general(
             label: modes.len(),
         });
     }
+    sort_by_frequency(modes);
     Ok(())
+}
+
+/// Puts modes that ascend in `|s|` in ascending order of their frequencies; those without one come first, as undamped
+/// modes without stiffness do. Frequencies that differ by rounding keep their order.
+fn sort_by_frequency(modes: &mut [Mode]) {
+    /// Relative difference of equal frequencies.
+    const EQUAL: f64 = 1e-12;
+    let frequency = |mode: &Mode| mode.frequency().unwrap_or(0.0);
+    modes.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)));
+    let equal = |a: &Mode, b: &Mode| frequency(b) <= frequency(a) * (1.0 + EQUAL);
+    for run in modes.chunk_by_mut(equal) {
+        run.sort_by_key(|mode| mode.label);
+    }
+    for (r, mode) in modes.iter_mut().enumerate() {
+        mode.label = r;
+    }
 }
 
 /// How far a change `floor phi^H Mhat phi` of the pencil moves a root: `d` with

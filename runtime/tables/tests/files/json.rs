@@ -66,7 +66,7 @@ fn another_program_finds_its_way() {
 fn a_result_comes_back_with_its_description() {
     let back: Modes = json::read(text().as_bytes()).expect("modes");
     assert_eq!(back, modes());
-    assert_eq!(tables(&back), tables(&modes()));
+    assert_eq!(back.tables(), tables(&modes()));
 }
 
 /// A mode without a neighbour has an infinite distance to the next one.

@@ -86,6 +86,10 @@ impl Row<'_> {
         of_mode(of.as_ref().map(spread_of), self.mode.clustered, rough)
     }
 
+    fn shares(&self) -> Option<&[f64]> {
+        self.alone().then(|| self.mode.variance_shares())
+    }
+
     fn distance(&self, distance: f64) -> String {
         match self.alone() {
             true => far(distance),
@@ -140,12 +144,9 @@ impl FirstOrder {
         });
         table.words("doubts", &|row| joined(row.doubts));
         table.number("sigma level", "", &|_| Some(self.sigma_level));
-        let of = |row: &Row<'_>| row.alone().then(|| row.mode.variance_shares());
-        table.shares(d, &|row| row.alone().then(|| row.mode.variance_shares()));
-        let shares = Shares::of(d, rows.iter().filter_map(of));
-        shares.columns(&mut table, &|row| {
-            row.alone().then(|| row.mode.variance_shares())
-        });
+        table.shares(d, &Row::shares);
+        let shares = Shares::of(d, rows.iter().filter_map(Row::shares));
+        shares.columns(&mut table, &Row::shares);
         said.columns(table);
         if moved {
             shares.rest(said);
