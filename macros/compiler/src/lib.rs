@@ -1,6 +1,7 @@
 //! The compiler behind `mechanism!`: it turns a declaration into specialised Rust code.
 //!
-//! Seven types are connected by six arrows. Each arrow is a folder, and data flows only forwards:
+//! Seven types are connected by six arrows. Each arrow is a folder, `lower` one of `eigentol-symbolic`, and data flows only
+//! forwards:
 //!
 //! ```text
 //! TokenStream -> Ast -> Mechanism -> Topology -> Functions -> Program -> TokenStream
@@ -12,7 +13,6 @@
 //!
 //! Architecture invariant: nothing in this crate depends on the runtime.
 
-pub mod algebra;
 pub mod base;
 pub mod emit;
 pub mod mechanics;
@@ -20,12 +20,12 @@ pub mod mechanics;
 mod mistakes;
 pub mod model;
 mod pipeline;
-pub mod program;
 pub mod syntax;
 #[cfg(test)]
 mod tests;
 pub mod topology;
 
+pub use eigentol_symbolic::{algebra, program};
 #[cfg(feature = "locations")]
 pub use mistakes::{Mistake, Mistakes, tokens};
 pub use pipeline::{Compilation, compile};

@@ -15,7 +15,9 @@ const SETTINGS: [(&str, &str); 3] = [
     (
         "compiler",
         "[profile.dev.package.eigentol-compiler]\nopt-level = 3\n\
-         [profile.release.package.eigentol-compiler]\nopt-level = 3\n",
+         [profile.dev.package.eigentol-symbolic]\nopt-level = 3\n\
+         [profile.release.package.eigentol-compiler]\nopt-level = 3\n\
+         [profile.release.package.eigentol-symbolic]\nopt-level = 3\n",
     ),
     (
         "build-override",

@@ -1,11 +1,10 @@
 //! Shared by all stages: typed ids, source positions, diagnostics, units and dimensions.
 
-pub mod census;
 pub mod diagnostics;
 pub mod dimension;
 pub mod ids;
 pub mod nearest;
-pub mod operators;
 pub mod span;
-pub mod spline;
 pub mod units;
+
+pub use eigentol_symbolic::base::{census, operators, spline};

@@ -9,8 +9,9 @@ thread_local! {
 }
 
 /// Records that a special case was taken; does nothing without the feature `census`.
+#[doc(hidden)]
 #[inline(always)]
-pub(crate) fn taken(_case: impl FnOnce() -> String) {
+pub fn taken(_case: impl FnOnce() -> String) {
     #[cfg(feature = "census")]
     TAKEN.with_borrow_mut(|counts| *counts.entry(_case()).or_default() += 1);
 }
