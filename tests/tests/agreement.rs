@@ -1,14 +1,19 @@
 //! Checks every implementation of the generated code's kernels against the oracle on random trees.
 
+#[path = "agreement/refusals.rs"]
+mod refusals;
+
 use std::cell::Cell;
 
-use eigentol_oracle::agreement::{Case, Reference, assert_agrees};
+use eigentol_oracle::agreement::{Reference, assert_agrees};
 use eigentol_oracle::declaration::declaration;
 use eigentol_oracle::kernels::{At, Gradient, Kernels, Pencil};
-use eigentol_oracle::model::Model;
+use eigentol_oracle::model::{Coordinate, Force, ForceLaw, Value};
 use eigentol_oracle::random::{Plan, Setting, on_plans};
 use eigentol_oracle::{Linear, LinearPartials, Oracle};
 use eigentol_tests::compiled::Compiled;
+
+use refusals::is_unbalanced;
 
 /// The compiler may refuse only those trees in which the oracle also finds a load along a direction that nothing holds.
 #[test]
@@ -47,48 +52,80 @@ fn agrees_on(trees: u32) {
     assert!(compared >= trees * 3 / 4, "{compared} trees compared");
 }
 
-/// Whether `message` names directions along which loads act and nothing holds the mechanism, and along each the oracle's
-/// residual does the same work everywhere.
-fn is_unbalanced(model: &Model, message: &str) -> bool {
-    let directions = message
-        .strip_suffix(", which nothing holds")
-        .and_then(|rest| rest.split_once(" along "))
-        .map(|(_, directions)| directions.replace(" and ", ", "));
-    let Some(directions) = directions else {
-        return false;
-    };
-    let free = model.free();
-    let name = |coordinate: &_| model.step(*coordinate).name.clone();
-    let names: Vec<String> = free.iter().map(name).collect();
-    directions.split(", ").all(|direction| {
-        let text = direction.trim_matches('`');
-        let (moved, shares) = text.split_once(" = ").unwrap_or((text, "1"));
-        let places = moved
-            .split(" : ")
-            .map(|own| names.iter().position(|name| name == own));
-        let places: Option<Vec<usize>> = places.collect();
-        let shares: Vec<f64> = shares
-            .split(" : ")
-            .filter_map(|own| own.parse().ok())
-            .collect();
-        let Some(places) = places.filter(|places| places.len() == shares.len()) else {
-            return false;
+/// A body on a ball joint, with a force fixed in it of which the moment about the line from the joint to the centre of
+/// mass is the same everywhere.
+const TURNED_BY_A_FOLLOWER: Plan = Plan {
+    setting: Setting::Still,
+    bodies: 5,
+    rotor: false,
+    special: false,
+    seed: 7_501_538_584_419_613_230,
+};
+
+/// A body on a hinge, with a load that is the same everywhere.
+const TURNED_BY_A_LOAD: Plan = Plan {
+    setting: Setting::Still,
+    bodies: 1,
+    rotor: false,
+    special: true,
+    seed: 10_268_359_363_991_272_455,
+};
+
+#[test]
+fn a_refusal_is_right_only_if_nothing_holds_the_motion() {
+    for (plan, joint, message) in [
+        (
+            TURNED_BY_A_FOLLOWER,
+            "joint3",
+            "`force5` acts along rotation of `body1`, which nothing holds",
+        ),
+        (
+            TURNED_BY_A_LOAD,
+            "joint0",
+            "`force0` acts along `joint0`, which nothing holds",
+        ),
+    ] {
+        let mut model = plan.model();
+        let mistakes = Compiled::new(&model).err().expect("a refusal");
+        let messages: Vec<&str> = mistakes.iter().map(|own| own.message.as_str()).collect();
+        assert_eq!(messages, [message]);
+        assert!(is_unbalanced(&model, message), "{message}");
+
+        let named = model.joints.iter().position(|own| own.name == joint);
+        let coordinate = Coordinate {
+            joint: named.expect("a joint of the model"),
+            step: 0,
         };
-        let powers: Vec<f64> = (1..4)
-            .map(|seed| {
-                let Case { at: [q, ..], .. } = Case::random(model, seed);
-                let Case { at: [_, u, b], .. } = Case::random(model, 1);
-                let residual = Kernels::residual(&Oracle::new(model), [&q, &u, &b]);
-                places
-                    .iter()
-                    .zip(&shares)
-                    .map(|(&k, share)| share * residual[k])
-                    .sum()
-            })
-            .collect();
-        let same = |power: &f64| (power - powers[0]).abs() < 1e-4 * powers[0].abs();
-        powers[0].abs() > 1e-9 && powers.iter().all(same)
-    })
+        model.forces.push(Force {
+            name: "holder".to_owned(),
+            law: ForceLaw::Spring {
+                coordinate,
+                stiffness: Value::Number(0.1),
+                rest: Value::Number(0.0),
+            },
+        });
+        assert!(!is_unbalanced(&model, message), "held, yet {message}");
+    }
+}
+
+#[test]
+fn a_refusal_that_names_another_motion_is_wrong() {
+    let model = TURNED_BY_A_FOLLOWER.model();
+    for motion in [
+        "`joint1`",
+        "`joint3a`",
+        "`joint3b : joint3c = 1 : -0.5`",
+        "`joint3b` with rotation of `body3`",
+        "rotation of `body0`",
+        "rotation of `body2`, `body3`",
+        "translation of `body1`",
+        "rotation of `body1` and `joint1`",
+        "rotation of `nobody`",
+        "a motion",
+    ] {
+        let message = format!("`force5` acts along {motion}, which nothing holds");
+        assert!(!is_unbalanced(&model, &message), "{message}");
+    }
 }
 
 /// The oracle in another ground frame: correct, but rounded differently.

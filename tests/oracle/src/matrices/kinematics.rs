@@ -62,6 +62,17 @@ pub(crate) fn transposed_times<D: Scalar>(columns: &Columns<D>, x: &[D]) -> Vec<
     columns.iter().map(product).collect()
 }
 
+/// The components of one body: velocity of the centre of mass, then angular velocity.
+pub(crate) fn of_body<D: Scalar>(rows: &[D], body: usize) -> (Vector<D>, Vector<D>) {
+    let three = |start: usize| Vector([rows[start], rows[start + 1], rows[start + 2]]);
+    (three(6 * body), three(6 * body + 3))
+}
+
+pub(crate) fn rows_of<D: Scalar>(linear: Vector<D>, angular: Vector<D>) -> [D; 6] {
+    let ([a, b, c], [d, e, f]) = (linear.0, angular.0);
+    [a, b, c, d, e, f]
+}
+
 /// The displacement of a step by `q`.
 fn displacement<D: Scalar>(step: &Step, q: D, design: &[D]) -> Pose<D> {
     let e = Vector::constant(unit(step.axis));
@@ -194,6 +205,19 @@ impl Oracle<'_> {
             column[6 * body + 3..6 * body + 6].copy_from_slice(&axis.spin.0);
         }
         column
+    }
+
+    /// By free coordinate, the twist per unit rate of a body, in the ground frame: its angular velocity, then the
+    /// velocity of what it carries through the origin.
+    pub fn twists(&self, q: &[f64], b: &[f64], body: usize) -> Vec<[f64; 6]> {
+        let at = self.configuration(q, &self.driven_position, b);
+        let columns = self.velocity_transformation(&at).free;
+        let twist = |column: &Vec<f64>| {
+            let (velocity, spin) = of_body(column, body);
+            let at_origin = velocity - spin.cross(at.centers[body]);
+            rows_of(spin, at_origin)
+        };
+        columns.iter().map(twist).collect()
     }
 }
 

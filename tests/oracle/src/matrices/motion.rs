@@ -4,7 +4,9 @@ use num_dual::Dual;
 
 use super::bodies::inertia;
 use super::forces::Moving;
-use super::kinematics::{Columns, Configuration, VelocityTransformation, times, transposed_times};
+use super::kinematics::{
+    Columns, Configuration, VelocityTransformation, of_body, rows_of, times, transposed_times,
+};
 use super::scalar::{along, rates, still};
 use super::space::{Matrix, Vector};
 use super::{Oracle, Scalar};
@@ -229,15 +231,4 @@ impl Oracle<'_> {
 
 fn sum<D: Scalar>(a: &[D], b: &[D]) -> Vec<D> {
     a.iter().zip(b).map(|(&a, &b)| a + b).collect()
-}
-
-/// The components of one body: velocity of the centre of mass, then angular velocity.
-fn of_body<D: Scalar>(rows: &[D], body: usize) -> (Vector<D>, Vector<D>) {
-    let three = |start: usize| Vector([rows[start], rows[start + 1], rows[start + 2]]);
-    (three(6 * body), three(6 * body + 3))
-}
-
-fn rows_of<D: Scalar>(linear: Vector<D>, angular: Vector<D>) -> [D; 6] {
-    let ([a, b, c], [d, e, f]) = (linear.0, angular.0);
-    [a, b, c, d, e, f]
 }

@@ -50,22 +50,34 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
     )
 }
 
-/// Combinations with short descriptions: those of coordinates alone, then all. Some may mean the same motion.
+/// Combinations with short descriptions: those of coordinates alone, those of motions of space alone, then all. Some may
+/// mean the same motion.
 pub(super) fn readable(
     system: &System,
     combinations: &Combinations,
     operations: usize,
 ) -> Vec<Vec<f64>> {
     let of_space = system.fields.free..system.fields.len();
-    let of_space = of_space.map(|k| combinations.iter().map(|own| own[k]).collect());
-    let of_space: Vec<Vec<Disturbed>> = of_space.collect();
-    if of_space.is_empty() {
-        return reduced(combinations);
+    let mut all = Vec::new();
+    if !of_space.is_empty() {
+        let length = combinations.first().map_or(0, Vec::len);
+        let of_coordinates = (0..length).filter(|k| !of_space.contains(k));
+        all.extend(without(combinations, of_space.clone(), operations));
+        all.extend(without(combinations, of_coordinates, operations));
     }
-    let weights = NullSpace::new(of_space, 0, operations).vectors;
-    let mut all = reduced(&combined(combinations, &weights));
     all.extend(reduced(combinations));
     all
+}
+
+/// Those combinations in which some candidates have no share.
+fn without(
+    combinations: &Combinations,
+    candidates: impl Iterator<Item = usize>,
+    operations: usize,
+) -> Vec<Vec<f64>> {
+    let shares = candidates.map(|k| combinations.iter().map(|own| own[k]).collect());
+    let weights = NullSpace::new(shares.collect(), 0, operations).vectors;
+    reduced(&combined(combinations, &weights))
 }
 
 /// Of some combinations, the first that are independent motions.
