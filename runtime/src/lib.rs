@@ -117,7 +117,7 @@ pub use eigentol_tolerance::{FirstOrder, MonteCarlo, Tolerances};
 #[cfg(feature = "std")]
 pub use num_complex::Complex64 as Complex;
 #[cfg(feature = "std")]
-pub use study::{InDeclaredUnit, Parameter, Solved, Study, Value};
+pub use study::{InDeclaredUnit, Parameter, Study, Value};
 
 /// The example of the README, compiled and run.
 #[cfg(all(doctest, feature = "std"))]

@@ -2,19 +2,20 @@
 
 use core::ops::Range;
 
-use super::subject::Subject;
-use super::{Solved, Study};
-use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
+use super::Study;
+use super::settings::Settings;
+use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Equilibria, Search};
-use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
-use crate::modes::Whirl;
+use crate::kernels::{
+    BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
+};
+use crate::modes::{self, Whirl};
 use crate::picture::{self, ModePictures, Scene};
-use crate::second_order::{Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
-use crate::sensitivity;
-use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
-use crate::shapes::ShapeSensitivity;
-use crate::tolerance;
-use crate::tolerance::{OutputTolerances, PartialMonteCarlo, Sampling};
+use crate::second_order::{self, Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
+use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
+use crate::shapes::{self, ShapeSensitivity};
+use crate::summary::{self, BUDGET, Summary};
+use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling};
 use crate::{Coordinate, Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
 impl<M: Kernels> Study<M> {
@@ -33,10 +34,7 @@ impl<M: Kernels> Study<M> {
     /// [`Error::Unphysical`], [`Error::OutsideDomain`] for values that no mechanism can have; [`Error::UnknownHandle`]
     /// for a handle that does not exist.
     pub fn equilibrium(&self) -> Result<Equilibrium, Error> {
-        let mut state = self.settings.blank_state();
-        self.settings
-            .equilibrium_into(&self.mechanism, &mut state)?;
-        Ok(state)
+        self.settings.equilibrium(&self.mechanism).cloned()
     }
 
     /// Assembles the mechanism, holding the coordinates that have a [`Study::start`] ([`equilibrium::assemble`]).
@@ -94,24 +92,6 @@ impl<M: Kernels> Study<M> {
         Search::within(&self.settings.description, &start, &bounds)
     }
 
-    /// Solves the equilibrium and its modes once, for several questions about them.
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// let solved = study.solve()?;
-    /// println!("{}{}", solved.equilibrium, solved.modes);
-    /// println!("{}{}", solved.first_order()?, solved.second_order()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::modes`].
-    pub fn solve(&self) -> Result<Solved<'_, M>, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        Ok(solved)
-    }
-
     /// Computes the natural modes ([`modes`](crate::modes::modes)). Their shapes are normalised by the mass matrix.
     ///
     /// ```
@@ -122,9 +102,8 @@ impl<M: Kernels> Study<M> {
     /// for mode in &study.modes()?.modes {
     ///     println!("{:?} rad/s", mode.frequency());
     /// }
-    /// let solved = study.solve()?;
-    /// let shapes = DMatrix::from(solved.modes.shapes());
-    /// let mass = DMatrix::from(&solved.equilibrium.linear.mass).map(Complex::from);
+    /// let shapes = DMatrix::from(study.modes()?.shapes());
+    /// let mass = DMatrix::from(study.equilibrium()?.linear.mass).map(Complex::from);
     /// let product = shapes.adjoint() * mass * &shapes;
     /// assert!((product[(0, 0)].re - 1.0).abs() < 1e-12);
     /// # Ok::<(), eigentol::Error>(())
@@ -134,9 +113,7 @@ impl<M: Kernels> Study<M> {
     /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::SingularMass`], [`Error::ModesNotFound`],
     /// [`Error::EigenvalueRange`]; of undamped modes [`Error::NonsymmetricStiffness`] and [`Error::NoUndampedModes`].
     pub fn modes(&self) -> Result<Modes, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        Ok(solved.modes)
+        Ok(self.solved()?.1.clone())
     }
 
     /// Derivatives of the equilibrium with respect to every input and design variable
@@ -154,7 +131,7 @@ impl<M: Kernels> Study<M> {
     /// [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn equilibrium_shift(&self) -> Result<EquilibriumShift, Error> {
         let state = self.settings.regular(&self.mechanism)?;
-        sensitivity::equilibrium_shift(&self.mechanism, &state)
+        sensitivity::equilibrium_shift(&self.mechanism, state)
     }
 
     /// Values and total derivatives of the outputs ([`sensitivity::output_sensitivities`]).
@@ -170,7 +147,7 @@ impl<M: Kernels> Study<M> {
     /// As [`Study::equilibrium_shift`]; [`Error::InfiniteOutput`].
     pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
         let state = self.settings.regular(&self.mechanism)?;
-        sensitivity::output_sensitivities(&self.mechanism, &state)
+        sensitivity::output_sensitivities(&self.mechanism, state)
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
@@ -184,8 +161,7 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        self.subject::<dyn Kernels>(&self.mechanism)
-            .output_tolerances()
+        self.settings.output_tolerances(&self.mechanism)
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -201,9 +177,8 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`]; [`Error::CriticalState`], [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        solved.sensitivities()
+        let (state, modes) = self.solved()?;
+        sensitivity::sensitivities(&self.mechanism, state, modes)
     }
 
     /// First-order spread of the modes and frequencies ([`tolerance::first_order`]).
@@ -218,9 +193,7 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        solved.first_order()
+        self.settings.first_order(&self.mechanism)
     }
 
     /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`](crate::modes::whirls)).
@@ -236,7 +209,13 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`].
     pub fn whirls(&self) -> Result<Vec<Option<Whirl>>, Error> {
-        Ok(self.solve()?.whirls())
+        let (state, modes) = self.solved()?;
+        Ok(modes::whirls(&self.mechanism, state, modes))
+    }
+
+    /// The equilibrium and its modes.
+    fn solved(&self) -> Result<(&Equilibrium, &Modes), Error> {
+        self.settings.solved(&self.mechanism)
     }
 }
 
@@ -258,8 +237,8 @@ impl<M: PictureKernels> Study<M> {
             inputs,
             design,
             ..
-        } = self.equilibrium()?;
-        picture::scene(&self.mechanism, &coordinates, &inputs, &design)
+        } = self.settings.equilibrium(&self.mechanism)?;
+        picture::scene(&self.mechanism, coordinates, inputs, design)
     }
 
     /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases.
@@ -282,7 +261,8 @@ impl<M: PictureKernels> Study<M> {
         phases: usize,
         amplitude: f64,
     ) -> Result<ModePictures, Error> {
-        self.solve()?.mode_pictures(mode, phases, amplitude)
+        let (state, modes) = self.solved()?;
+        picture::mode_pictures(&self.mechanism, state, modes, mode, phases, amplitude)
     }
 }
 
@@ -306,7 +286,8 @@ impl<M: DirectionalKernels> Study<M> {
         mode: usize,
         direction: (&[f64], &[f64]),
     ) -> Result<DirectionalDerivatives, Error> {
-        self.solve()?.directional_derivatives(mode, direction)
+        let (state, modes) = self.solved()?;
+        clusters::directional_derivatives(&self.mechanism, state, modes, mode, direction)
     }
 
     /// Derivatives of the mode shapes of one mode, counted from 0
@@ -322,7 +303,8 @@ impl<M: DirectionalKernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
-        self.solve()?.shape_sensitivity(mode)
+        let (state, modes) = self.solved()?;
+        shapes::shape_sensitivity(&self.mechanism, state, modes, mode)
     }
 
     /// Finds the clusters of modes that mix within the tolerances, and their spread
@@ -338,7 +320,7 @@ impl<M: DirectionalKernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        self.solve()?.clusters()
+        self.settings.clusters(&self.mechanism)
     }
 }
 
@@ -357,7 +339,8 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
-        self.solve()?.mode_curvature(mode)
+        let (state, modes) = self.solved()?;
+        second_order::mode_curvature(&self.mechanism, state, modes, mode)
     }
 
     /// First and second derivatives of one output ([`output_curvature`](crate::second_order::output_curvature)).
@@ -374,7 +357,8 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::outputs`]; [`Error::NoSensitivity`](crate::Error::NoSensitivity) where the output is not smooth.
     pub fn output_curvature(&self, output: Output<M>) -> Result<OutputCurvature, Error> {
-        self.solve()?.output_curvature(output)
+        let state = self.settings.regular(&self.mechanism)?;
+        second_order::output_curvature(&self.mechanism, state, output.any())
     }
 
     /// Second-order spread of every mode ([`second_order`](crate::second_order::second_order)).
@@ -388,7 +372,7 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
-        self.solve()?.second_order()
+        self.settings.second_order(&self.mechanism)
     }
 
     /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
@@ -407,7 +391,7 @@ impl<M: CurvatureKernels> Study<M> {
     /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for an
     /// invalid band.
     pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
-        self.solve()?.margin(mode, band)
+        self.margin_of(mode, Quantity::Frequency, band)
     }
 
     /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is
@@ -431,7 +415,7 @@ impl<M: CurvatureKernels> Study<M> {
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin, Error> {
-        self.solve()?.margin_of(mode, quantity, band)
+        self.settings.margin(&self.mechanism, (mode, quantity), band)
     }
 }
 
@@ -448,7 +432,7 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`], of the nominal design; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
-        self.solve()?.monte_carlo()
+        self.settings.monte_carlo(&self.mechanism, &self.sampling())
     }
 
     /// Like [`Study::monte_carlo`], calling `progress` with the number of samples done since its last call.
@@ -472,7 +456,8 @@ impl<M: BatchKernels> Study<M> {
         &self,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<MonteCarlo, Error> {
-        self.solve()?.monte_carlo_with_progress(progress)
+        let sampling = self.sampling().progress(Some(progress));
+        self.settings.monte_carlo(&self.mechanism, &sampling)
     }
 
     /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same
@@ -496,7 +481,7 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::monte_carlo`]; [`Error::Setting`] for a range beyond the samples.
     pub fn samples_between(&self, range: Range<u64>) -> Result<PartialMonteCarlo, Error> {
-        self.solve()?.samples_between(range)
+        self.sample_modes(&self.sampling().range(Some(range)))
     }
 
     /// Like [`Study::samples_between`], with custom settings, for example to watch and stop a run
@@ -523,7 +508,7 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::samples_between`].
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
-        self.solve()?.sample_modes(sampling)
+        self.settings.sample_modes(&self.mechanism, sampling)
     }
 
     /// Solves the missing samples of a run, unless it is stopped again; see [`Study::sample_modes`].
@@ -535,16 +520,112 @@ impl<M: BatchKernels> Study<M> {
         done: &mut PartialMonteCarlo,
         sampling: &Sampling<'_>,
     ) -> Result<(), Error> {
-        self.solve()?.resume_samples(done, sampling)
+        let part = |range| self.sample_modes(&sampling.clone().range(Some(range)));
+        // Reject a run of another study before any work is done.
+        done.merge(part(0..0)?)?;
+        for range in done.missing() {
+            done.merge(part(range)?)?;
+        }
+        Ok(())
     }
 }
 
-impl Subject<'_, dyn Kernels + '_> {
-    fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        self.deviating(|own| {
-            let state = own.settings.regular(own.kernels)?;
-            let outputs = sensitivity::output_sensitivities(own.kernels, &state)?;
-            tolerance::output_tolerances(&outputs, own.settings.tolerances()?)
-        })
+impl<M: SummaryKernels> Study<M> {
+    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
+    /// trusted ([`summary`](crate::summary::summary)). The samples that judge are always the same, whatever
+    /// [`Study::samples`] and [`Study::seed`].
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.summary()?.trusted());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::sensitivities`] and [`Study::tolerances`].
+    pub fn summary(&self) -> Result<Summary, Error> {
+        self.summary_within(BUDGET)
+    }
+
+    /// Like [`Study::summary`], with a limit on the number of operations spent on samples
+    /// ([`summary_within`](crate::summary::summary_within)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// // No samples: distances and the second-order model.
+    /// assert!(study.summary_within(0.0)?.sampled().is_none());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::summary`].
+    pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
+        self.settings.summary(&self.mechanism, operations)
+    }
+}
+
+impl Settings {
+    fn output_tolerances(&self, kernels: &dyn Kernels) -> Result<OutputTolerances, Error> {
+        let table = self.deviating(kernels)?;
+        let state = table.state(self.regular(kernels)?);
+        let outputs = sensitivity::output_sensitivities(table.kernels(), &state)?;
+        tolerance::output_tolerances(&outputs, self.tolerances()?)
+    }
+
+    fn first_order(&self, kernels: &dyn Kernels) -> Result<FirstOrder, Error> {
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (state, modes) = own.solved();
+        let slopes = sensitivity::sensitivities(own.kernels(), state, modes)?;
+        tolerance::first_order(modes, &slopes, own.tolerances)
+    }
+
+    fn clusters(&self, kernels: &dyn DirectionalKernels) -> Result<Vec<ClusterTolerance>, Error> {
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (state, modes) = own.solved();
+        clusters::clusters(own.kernels(), state, modes, own.tolerances)
+    }
+
+    fn second_order(&self, kernels: &dyn CurvatureKernels) -> Result<SecondOrder, Error> {
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (state, modes) = own.solved();
+        let (kernels, tolerances) = (own.kernels(), own.tolerances);
+        Ok(second_order::second_order(kernels, state, modes, tolerances))
+    }
+
+    fn margin(
+        &self,
+        kernels: &dyn CurvatureKernels,
+        what: (usize, Quantity),
+        band: Band,
+    ) -> Result<ModeMargin, Error> {
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (state, modes) = own.solved();
+        second_order::mode_margin(own.kernels(), state, modes, what, own.tolerances, band)
+    }
+
+    fn monte_carlo(
+        &self,
+        kernels: &dyn BatchKernels,
+        sampling: &Sampling<'_>,
+    ) -> Result<MonteCarlo, Error> {
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (state, modes) = own.solved();
+        tolerance::monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
+    }
+
+    fn sample_modes(
+        &self,
+        kernels: &dyn BatchKernels,
+        sampling: &Sampling<'_>,
+    ) -> Result<PartialMonteCarlo, Error> {
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (state, modes) = own.solved();
+        tolerance::partial_monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
+    }
+
+    fn summary(&self, kernels: &dyn SummaryKernels, operations: f64) -> Result<Summary, Error> {
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (kernels, tolerances) = (own.kernels(), own.tolerances);
+        summary::summary_watched(kernels, own.solved(), tolerances, operations, self.watch())
     }
 }

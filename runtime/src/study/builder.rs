@@ -42,8 +42,8 @@ use crate::{
 ///
 /// The examples below continue this one. A study starts with the declared nominal values and tolerances, with all
 /// inputs and start values zero, and looks for a stable equilibrium. Values are in SI units unless wrapped in
-/// [`InDeclaredUnit`](crate::InDeclaredUnit). Each method solves whatever it needs; to ask several questions about one
-/// operating point, call [`Study::solve`] once and call the methods of the result.
+/// [`InDeclaredUnit`](crate::InDeclaredUnit). Each question solves whatever it needs. The study keeps the equilibrium and
+/// the modes for the next question, and its clones share them, until a setting moves the operating point.
 ///
 /// Handles such as `Pendulum::omega` belong to their mechanism. Using a handle of another mechanism does not compile:
 ///
@@ -85,7 +85,7 @@ impl<M: Kernels> Study<M> {
     /// Sets the value of an input.
     #[must_use]
     pub fn input(mut self, input: Input<M>, value: impl Into<Value>) -> Self {
-        self.settings.set_input(input.any(), value.into());
+        self.settings.set_value(input.any().into(), value.into());
         self
     }
 
@@ -102,7 +102,8 @@ impl<M: Kernels> Study<M> {
     /// ```
     #[must_use]
     pub fn design(mut self, variable: DesignVariable<M>, value: impl Into<Value>) -> Self {
-        self.settings.set_design(variable.any(), value.into());
+        self.settings
+            .set_value(variable.any().into(), value.into());
         self
     }
 
@@ -274,7 +275,7 @@ impl<M: Kernels> Study<M> {
     /// Chooses which equilibrium to look for.
     #[must_use]
     pub fn policy(mut self, policy: Policy) -> Self {
-        self.settings.policy = policy;
+        self.settings.set_policy(policy);
         self
     }
 
@@ -284,7 +285,7 @@ impl<M: Kernels> Study<M> {
     /// general modes otherwise ([`Family::of`]).
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
-        self.settings.family = Some(family);
+        self.settings.set_family(family);
         self
     }
 

@@ -1,10 +1,15 @@
 //! Methods of a study for events along an input: loss of stiffness, a frequency crossing a line, onset of flutter.
 
-use super::subject::Subject;
+use std::borrow::Cow;
+
+use super::deviating::Table;
+use super::settings::Settings;
 use super::{Study, Value};
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Kernels};
 use crate::second_order::{self, EventCurvature};
-use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Line, Range};
+use crate::sweep::{
+    self, CriticalState, Crossing, EventTolerance, Events, Following, Line, Range,
+};
 use crate::tolerance::Tolerances;
 use crate::{Error, Input};
 
@@ -31,8 +36,7 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<Events, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
         let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .events(range, &lines)
+        self.settings.events(&self.mechanism, range, &lines)
     }
 
     /// Finds the first critical value of an input between `low` and `high` ([`sweep::critical_state`]).
@@ -54,8 +58,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<CriticalState, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .critical_state(range)
+        self.settings.critical_state(&self.mechanism, range)
     }
 
     /// Like [`Study::critical_state`], with the sensitivity and spread of the value ([`sweep::critical_tolerance`]).
@@ -75,8 +78,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .critical_tolerance(range)
+        self.settings.critical_tolerance(&self.mechanism, range)
     }
 }
 
@@ -127,8 +129,7 @@ impl<M: DirectionalKernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .crossings(range, line.into())
+        self.settings.crossings(&self.mechanism, range, line.into())
     }
 
     /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
@@ -151,8 +152,7 @@ impl<M: DirectionalKernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .crossing_tolerances(range, line.into())
+        self.settings.crossing_tolerances(&self.mechanism, range, line.into())
     }
 
     /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
@@ -174,8 +174,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .flutter_onsets(range)
+        self.settings.flutter_onsets(&self.mechanism, range)
     }
 
     /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
@@ -195,69 +194,109 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .flutter_onset_tolerances(range)
+        self.settings.flutter_onset_tolerances(&self.mechanism, range)
     }
 }
 
-impl Subject<'_, dyn DirectionalKernels + '_> {
-    fn events(&self, range: Range, lines: &[Line]) -> Result<Events, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let (start, following) = settings.way(kernels, range.input, range.low)?;
+/// The mechanism of a question along an input.
+type Along<'a> = Table<'a, dyn DirectionalKernels + 'a>;
+
+impl Settings {
+    fn events(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        range: Range,
+        lines: &[Line],
+    ) -> Result<Events, Error> {
+        let (u, b) = (&self.inputs, &self.design);
+        let (start, following) = self.along(&self.plain(kernels), range)?;
         sweep::events(kernels, u, b, &start, following, range, lines)
     }
 
-    fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
-        let Self { kernels, settings } = *self;
-        let (start, _) = settings.way(kernels, range.input, range.low)?;
-        sweep::critical_state(kernels, &settings.inputs, &settings.design, &start, range)
+    fn critical_state(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        range: Range,
+    ) -> Result<CriticalState, Error> {
+        self.critical(&self.plain(kernels), range)
     }
 
-    fn critical_tolerance(&self, range: Range) -> Result<EventTolerance, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            let state = own.critical_state(range)?;
-            Ok(sweep::critical_tolerance(own.kernels, &state, tolerances))
-        })
-    }
-}
-
-impl Subject<'_, dyn DirectionalKernels + '_> {
-    fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let (start, following) = settings.way(kernels, range.input, range.low)?;
-        sweep::crossings(kernels, u, b, &start, following, range, line)
+    fn critical_tolerance(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        range: Range,
+    ) -> Result<EventTolerance, Error> {
+        let (table, tolerances) = (self.deviating(kernels)?, self.tolerances()?);
+        let state = self.critical(&table, range)?;
+        Ok(sweep::critical_tolerance(table.kernels(), &state, tolerances))
     }
 
-    fn crossing_tolerances(&self, range: Range, line: Line) -> Result<Vec<EventTolerance>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            Ok(spreads(
-                own.kernels,
-                &own.crossings(range, line)?,
-                tolerances,
-            ))
-        })
+    fn crossings(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        range: Range,
+        line: Line,
+    ) -> Result<Vec<Crossing>, Error> {
+        self.crossed(&self.plain(kernels), range, line)
     }
 
-    fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let (start, following) = settings.way(kernels, range.input, range.low)?;
-        sweep::flutter_onsets(kernels, u, b, &start, following, range)
+    fn crossing_tolerances(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        range: Range,
+        line: Line,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let (table, tolerances) = (self.deviating(kernels)?, self.tolerances()?);
+        let crossings = self.crossed(&table, range, line)?;
+        Ok(spreads(table.kernels(), &crossings, tolerances))
     }
 
-    fn flutter_onset_tolerances(&self, range: Range) -> Result<Vec<EventTolerance>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            Ok(spreads(
-                own.kernels,
-                &own.flutter_onsets(range)?,
-                tolerances,
-            ))
-        })
+    fn flutter_onsets(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        range: Range,
+    ) -> Result<Vec<Crossing>, Error> {
+        self.onsets(&self.plain(kernels), range)
+    }
+
+    fn flutter_onset_tolerances(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        range: Range,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let (table, tolerances) = (self.deviating(kernels)?, self.tolerances()?);
+        let onsets = self.onsets(&table, range)?;
+        Ok(spreads(table.kernels(), &onsets, tolerances))
+    }
+
+    fn along(
+        &self,
+        table: &Along<'_>,
+        range: Range,
+    ) -> Result<(Cow<'_, [f64]>, Following), Error> {
+        self.way(table.plain, table, (range.input, range.low))
+    }
+
+    fn critical(&self, table: &Along<'_>, range: Range) -> Result<CriticalState, Error> {
+        let (start, _) = self.along(table, range)?;
+        sweep::critical_state(table.kernels(), &self.inputs, &table.design, &start, range)
+    }
+
+    fn crossed(
+        &self,
+        table: &Along<'_>,
+        range: Range,
+        line: Line,
+    ) -> Result<Vec<Crossing>, Error> {
+        let (u, b) = (&self.inputs, &table.design);
+        let (start, following) = self.along(table, range)?;
+        sweep::crossings(table.kernels(), u, b, &start, following, range, line)
+    }
+
+    fn onsets(&self, table: &Along<'_>, range: Range) -> Result<Vec<Crossing>, Error> {
+        let (u, b) = (&self.inputs, &table.design);
+        let (start, following) = self.along(table, range)?;
+        sweep::flutter_onsets(table.kernels(), u, b, &start, following, range)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use core::ops::ControlFlow;
 
-use super::subject::Subject;
+use super::deviating::Table;
+use super::settings::Settings;
 use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
@@ -33,8 +34,7 @@ impl<M: BatchKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
     ) -> Result<Sweep, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
-            .sweep((input.any(), &values))
+        self.settings.sweep(&self.mechanism, (input.any(), &values))
     }
 
     /// Like [`Study::sweep`], but passes each point to `each` as soon as it is found and keeps none; `each` can break
@@ -61,8 +61,8 @@ impl<M: BatchKernels> Study<M> {
         mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
     ) -> Result<Sweep, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
-            .sweep_each((input.any(), &values), &mut each)
+        self.settings
+            .sweep_each(&self.mechanism, (input.any(), &values), &mut each)
     }
 
     /// Calls `each` with the equilibrium, the modes and their total derivatives at each value of one input, in order
@@ -87,8 +87,8 @@ impl<M: BatchKernels> Study<M> {
         mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
-            .sensitivity_sweep((input.any(), &values), &mut each)
+        self.settings
+            .sensitivity_sweep(&self.mechanism, (input.any(), &values), &mut each)
     }
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and label
@@ -110,8 +110,8 @@ impl<M: BatchKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
-            .first_order_sweep((input.any(), &values))
+        self.settings
+            .first_order_sweep(&self.mechanism, (input.any(), &values))
     }
 }
 
@@ -135,8 +135,8 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<Campbell, Error> {
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .campbell(&Axes::new(input.any(), &values, &orders))
+        let axes = Axes::new(input.any(), &values, &orders);
+        self.settings.campbell(&self.mechanism, &axes)
     }
 
     /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can
@@ -166,8 +166,9 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<Campbell, Error> {
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .campbell_each(&Axes::new(input.any(), &values, &orders), &mut each)
+        let axes = Axes::new(input.any(), &values, &orders);
+        self.settings
+            .campbell_each(&self.mechanism, &axes, &mut each)
     }
 
     /// Follows branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
@@ -232,8 +233,8 @@ impl<M: DirectionalKernels> Study<M> {
         search: Option<&Search>,
         mut each: impl FnMut(&Branch),
     ) -> Result<Branches, Error> {
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .branches_each((continuation, search), &mut each)
+        self.settings
+            .branches_each(&self.mechanism, (continuation, search), &mut each)
     }
 
     /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be modified and passed to
@@ -255,16 +256,16 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Continuation, Error> {
         let input = input.any();
-        let low = self.settings.input_si(input, low.into())?;
-        let high = self.settings.input_si(input, high.into())?;
+        let low = self.settings.si(input.into(), low.into())?;
+        let high = self.settings.si(input.into(), high.into())?;
         Ok(Continuation::new(input, low, high))
     }
 }
 
-impl Subject<'_, dyn BatchKernels + '_> {
-    fn sweep(&self, along: (Input, &[f64])) -> Result<Sweep, Error> {
+impl Settings {
+    fn sweep(&self, kernels: &dyn BatchKernels, along: (Input, &[f64])) -> Result<Sweep, Error> {
         let mut points = Vec::with_capacity(along.1.len());
-        let mut whole = self.sweep_each(along, &mut |point| {
+        let mut whole = self.sweep_each(kernels, along, &mut |point| {
             points.push(point.clone());
             ControlFlow::Continue(())
         })?;
@@ -274,52 +275,64 @@ impl Subject<'_, dyn BatchKernels + '_> {
 
     fn sweep_each(
         &self,
+        kernels: &dyn BatchKernels,
         along: (Input, &[f64]),
         each: &mut dyn FnMut(&SweepPoint) -> ControlFlow<()>,
     ) -> Result<Sweep, Error> {
-        let Self { kernels, settings } = *self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let (start, following) = settings.way(kernels, along.0, first_of(along.1))?;
-        let watch = settings.watch();
+        let point = (&self.inputs[..], &self.design[..]);
+        let from = (along.0, first_of(along.1));
+        let (start, following) = self.way(kernels, &self.plain(kernels), from)?;
+        let watch = self.watch();
         let each = |found: &SweepPoint| go_on(each(found), watch);
         sweep::sweep_each(kernels, point, &start, following, along, each)
     }
 
     fn sensitivity_sweep(
         &self,
+        kernels: &dyn BatchKernels,
         along: (Input, &[f64]),
         each: &mut dyn FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
-        let Self { kernels, settings } = *self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let (start, following) = settings.way(kernels, along.0, first_of(along.1))?;
-        let watch = settings.watch();
+        self.slopes_along(&self.plain(kernels), along, each)
+    }
+
+    fn slopes_along(
+        &self,
+        table: &Table<'_, dyn BatchKernels + '_>,
+        along: (Input, &[f64]),
+        each: &mut dyn FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+    ) -> Result<(), Error> {
+        let point = (&self.inputs[..], &table.design[..]);
+        let from = (along.0, first_of(along.1));
+        let (start, following) = self.way(table.plain, table, from)?;
+        let watch = self.watch();
         let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
             each(point, slopes);
             go_on(ControlFlow::Continue(()), watch)
         };
-        sweep::sensitivity_sweep(kernels, point, &start, following, along, each)
+        sweep::sensitivity_sweep(table.kernels(), point, &start, following, along, each)
     }
 
     fn first_order_sweep(
         &self,
+        kernels: &dyn BatchKernels,
         along: (Input, &[f64]),
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            let mut found = Vec::with_capacity(along.1.len());
-            own.sensitivity_sweep(along, &mut |point, slopes| {
-                found.push(spread(point, slopes, tolerances));
-            })?;
-            Ok(found)
-        })
+        let tolerances = self.tolerances()?;
+        let mut found = Vec::with_capacity(along.1.len());
+        self.slopes_along(&self.deviating(kernels)?, along, &mut |point, slopes| {
+            found.push(spread(point, slopes, tolerances));
+        })?;
+        Ok(found)
     }
-}
 
-impl Subject<'_, dyn DirectionalKernels + '_> {
-    fn campbell(&self, axes: &Axes<'_>) -> Result<Campbell, Error> {
+    fn campbell(
+        &self,
+        kernels: &dyn DirectionalKernels,
+        axes: &Axes<'_>,
+    ) -> Result<Campbell, Error> {
         let mut points = Vec::with_capacity(axes.values.len());
-        let mut whole = self.campbell_each(axes, &mut |point| {
+        let mut whole = self.campbell_each(kernels, axes, &mut |point| {
             points.push(point);
             ControlFlow::Continue(())
         })?;
@@ -329,33 +342,31 @@ impl Subject<'_, dyn DirectionalKernels + '_> {
 
     fn campbell_each(
         &self,
+        kernels: &dyn DirectionalKernels,
         axes: &Axes<'_>,
         each: &mut dyn FnMut(CampbellPoint) -> ControlFlow<()>,
     ) -> Result<Campbell, Error> {
-        self.deviating(|own| {
-            let Subject { kernels, settings } = *own;
-            let point = (&settings.inputs[..], &settings.design[..]);
-            let first = first_of(axes.values);
-            let (start, following) = settings.way(kernels, axes.input, first)?;
-            let tolerances = settings.tolerances()?;
-            let watch = settings.watch();
-            let each = |found| go_on(each(found), watch);
-            campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
-        })
+        let table = self.deviating(kernels)?;
+        let point = (&self.inputs[..], &table.design[..]);
+        let from = (axes.input, first_of(axes.values));
+        let (start, following) = self.way(kernels, &table, from)?;
+        let (kernels, tolerances, watch) = (table.kernels(), self.tolerances()?, self.watch());
+        let each = |found| go_on(each(found), watch);
+        campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
     }
 
     fn branches_each(
         &self,
-        how: (&Continuation, Option<&Search>),
+        kernels: &dyn DirectionalKernels,
+        (continuation, search): (&Continuation, Option<&Search>),
         each: &mut dyn FnMut(&Branch),
     ) -> Result<Branches, Error> {
-        let Self { kernels, settings } = *self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let (continuation, search) = how;
-        let (start, _) = settings.way(kernels, continuation.input, continuation.low)?;
-        let held = settings.held_in(search, &start);
+        let point = (&self.inputs[..], &self.design[..]);
+        let from = (continuation.input, continuation.low);
+        let (start, _) = self.way(kernels, &self.plain(kernels), from)?;
+        let held = self.held_in(search, &start);
         let how = (continuation, held.as_ref());
-        branches::branches_each(kernels, point, &start, how, settings.watch(), each)
+        branches::branches_each(kernels, point, &start, how, self.watch(), each)
     }
 }
 

@@ -1,13 +1,13 @@
 //! Effect of tolerances on arbitrary responses: quantities of modes, outputs, critical values of an input.
 
-use super::subject::SolvedSubject;
-use super::{Solved, Study};
-use crate::kernels::{CurvatureKernels, SummaryKernels};
+use super::Study;
+use super::deviating::Toleranced;
+use super::settings::Settings;
+use crate::kernels::SummaryKernels;
 use crate::propagation::{
     self, Controlled, Effort, Influence, Points, Propagation, Sampler, Samples, WorstCase,
 };
 use crate::response::{Response, Responses};
-use crate::tolerance::Tolerances;
 use crate::{Error, Watch};
 
 impl<M: SummaryKernels> Study<M> {
@@ -16,19 +16,16 @@ impl<M: SummaryKernels> Study<M> {
     ///
     /// ```
     #[doc = include_str!("example.txt")]
-    /// use eigentol::Quantity;
-    /// use eigentol::response::Response;
-    ///
-    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.propagate(&[frequency, Response::Output(Pendulum::angle.any())])?);
     /// # Ok::<(), eigentol::Error>(())
     /// ```
     ///
     /// # Errors
-    /// As [`Study::solve`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`],
+    /// As [`Study::modes`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`],
     /// [`Error::Setting`] for an invalid response; [`Error::Threads`].
     pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
-        self.solve()?.propagate(wanted)
+        self.settings.propagate(&self.mechanism, wanted)
     }
 
     /// Samples the given responses at any kind of points, over any range of them ([`propagation::sampled`]).
@@ -51,17 +48,14 @@ impl<M: SummaryKernels> Study<M> {
         wanted: &[Response],
         sampler: &Sampler<'_>,
     ) -> Result<Samples, Error> {
-        self.solve()?.sample_responses(wanted, sampler)
+        self.settings.sample_responses(&self.mechanism, wanted, sampler)
     }
 
     /// Smallest and largest value of each response over the box of tolerance limits ([`propagation::worst_case`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
-    /// use eigentol::Quantity;
-    /// use eigentol::response::Response;
-    ///
-    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.worst_case(&[frequency])?);
     /// # Ok::<(), eigentol::Error>(())
     /// ```
@@ -69,7 +63,7 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`].
     pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
-        self.solve()?.worst_case(wanted)
+        self.settings.worst_case(&self.mechanism, wanted)
     }
 
     /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control
@@ -77,10 +71,7 @@ impl<M: SummaryKernels> Study<M> {
     ///
     /// ```
     #[doc = include_str!("example.txt")]
-    /// use eigentol::Quantity;
-    /// use eigentol::response::Response;
-    ///
-    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.samples(200).controlled(&[frequency])?);
     /// # Ok::<(), eigentol::Error>(())
     /// ```
@@ -88,17 +79,14 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for fewer than three samples.
     pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
-        self.solve()?.controlled(wanted)
+        self.settings.controlled(&self.mechanism, wanted)
     }
 
     /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
-    /// use eigentol::Quantity;
-    /// use eigentol::response::Response;
-    ///
-    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.influence(&[frequency])?);
     /// # Ok::<(), eigentol::Error>(())
     /// ```
@@ -106,133 +94,98 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for too few samples.
     pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
-        self.solve()?.influence(wanted)
+        self.settings.influence(&self.mechanism, wanted)
     }
 }
 
-impl<M: SummaryKernels> Solved<'_, M> {
-    /// See [`Study::propagate`].
-    ///
-    /// # Errors
-    /// As [`Study::propagate`].
-    pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
-        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
-            .propagate(wanted)
-    }
-
-    /// See [`Study::sample_responses`].
-    ///
-    /// # Errors
-    /// As [`Study::sample_responses`].
-    pub fn sample_responses(
+impl Settings {
+    fn propagate(
         &self,
+        kernels: &dyn SummaryKernels,
         wanted: &[Response],
-        sampler: &Sampler<'_>,
-    ) -> Result<Samples, Error> {
-        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
-            .sample_responses(wanted, sampler)
-    }
-
-    /// See [`Study::worst_case`].
-    ///
-    /// # Errors
-    /// As [`Study::worst_case`].
-    pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
-        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
-            .worst_case(wanted)
-    }
-
-    /// See [`Study::controlled`].
-    ///
-    /// # Errors
-    /// As [`Study::controlled`].
-    pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
-        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
-            .controlled(wanted)
-    }
-
-    /// See [`Study::influence`].
-    ///
-    /// # Errors
-    /// As [`Study::influence`].
-    pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
-        self.subject::<dyn SummaryKernels>(&self.study.mechanism)
-            .influence(wanted)
-    }
-}
-
-impl SolvedSubject<'_, dyn SummaryKernels + '_> {
-    fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
-        let (watch, effort) = (self.settings.watch(), self.effort());
-        self.about(wanted, watch, |mechanism, responses, tolerances| {
-            propagation::propagate(mechanism, responses, tolerances, effort)
+    ) -> Result<Propagation, Error> {
+        let effort = self.effort();
+        self.about(kernels, wanted, self.watch(), |own, responses| {
+            propagation::propagate(own.kernels(), responses, own.tolerances, effort)
         })
     }
 
     fn sample_responses(
         &self,
+        kernels: &dyn SummaryKernels,
         wanted: &[Response],
         sampler: &Sampler<'_>,
     ) -> Result<Samples, Error> {
-        let watch = self.settings.watch();
+        let watch = self.watch();
         let mut sampler = sampler.clone();
         sampler.progress = sampler.progress.or(watch.progress);
         sampler.stop = sampler.stop.or(watch.stop);
-        self.about(wanted, Watch::default(), |_, responses, tolerances| {
-            propagation::sampled(responses, tolerances, &sampler)
+        self.about(kernels, wanted, Watch::default(), |own, responses| {
+            propagation::sampled(responses, own.tolerances, &sampler)
         })
     }
 
-    fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
-        let watch = self.settings.watch();
-        self.about(wanted, watch, |_, responses, tolerances| {
-            propagation::worst_case(responses, tolerances)
+    fn worst_case(
+        &self,
+        kernels: &dyn SummaryKernels,
+        wanted: &[Response],
+    ) -> Result<WorstCase, Error> {
+        self.about(kernels, wanted, self.watch(), |own, responses| {
+            propagation::worst_case(responses, own.tolerances)
         })
     }
 
-    fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
-        let (watch, effort) = (self.settings.watch(), self.effort());
+    fn controlled(
+        &self,
+        kernels: &dyn SummaryKernels,
+        wanted: &[Response],
+    ) -> Result<Controlled, Error> {
+        let effort = self.effort();
         let sampler = Sampler::new(Points::Random)
             .samples(effort.samples)
             .seed(effort.seed)
             .stream(effort.stream)
             .threads(effort.threads);
-        self.about(wanted, watch, |mechanism, responses, tolerances| {
-            propagation::controlled(mechanism, responses, tolerances, &sampler)
+        self.about(kernels, wanted, self.watch(), |own, responses| {
+            propagation::controlled(own.kernels(), responses, own.tolerances, &sampler)
         })
     }
 
-    fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
-        let (watch, effort) = (self.settings.watch(), self.effort());
-        self.about(wanted, watch, |_, responses, tolerances| {
-            propagation::influence(responses, tolerances, effort)
+    fn influence(
+        &self,
+        kernels: &dyn SummaryKernels,
+        wanted: &[Response],
+    ) -> Result<Influence, Error> {
+        let effort = self.effort();
+        self.about(kernels, wanted, self.watch(), |own, responses| {
+            propagation::influence(responses, own.tolerances, effort)
         })
     }
 
     /// The effort that the settings allow: at least one solution for each sample.
     fn effort(&self) -> Effort {
-        let settings = self.settings;
-        let effort = Effort::default().samples(settings.samples as u64);
+        let effort = Effort::default().samples(self.samples as u64);
         effort
             .solutions(effort.solutions.max(effort.samples))
-            .seed(settings.seed)
-            .stream(settings.stream)
-            .threads(settings.threads)
+            .seed(self.seed)
+            .stream(self.stream)
+            .threads(self.threads)
     }
 
     /// Builds the responses and passes them to `question`.
     fn about<R>(
         &self,
+        kernels: &dyn SummaryKernels,
         wanted: &[Response],
         watch: Watch<'_>,
-        question: impl FnOnce(&dyn CurvatureKernels, &Responses<'_>, &Tolerances) -> Result<R, Error>,
+        question: impl FnOnce(
+            &Toleranced<'_, dyn SummaryKernels + '_>,
+            &Responses<'_>,
+        ) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            let (at, modes) = (own.equilibrium, own.modes);
-            let responses = Responses::side_by_side(own.kernels, at, modes, wanted.to_vec())?;
-            let responses = responses.vectors(own.settings.vectors).watched(watch);
-            question(own.kernels, &responses, tolerances)
-        })
+        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let (state, modes) = own.solved();
+        let responses = Responses::side_by_side(own.kernels(), state, modes, wanted.to_vec())?;
+        question(&own, &responses.vectors(self.vectors).watched(watch))
     }
 }
