@@ -415,7 +415,8 @@ impl<M: CurvatureKernels> Study<M> {
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin, Error> {
-        self.settings.margin(&self.mechanism, (mode, quantity), band)
+        self.settings
+            .margin(&self.mechanism, (mode, quantity), band)
     }
 }
 
@@ -589,7 +590,9 @@ impl Settings {
         let own = self.toleranced(kernels, self.solved(kernels)?)?;
         let (state, modes) = own.solved();
         let (kernels, tolerances) = (own.kernels(), own.tolerances);
-        Ok(second_order::second_order(kernels, state, modes, tolerances))
+        Ok(second_order::second_order(
+            kernels, state, modes, tolerances,
+        ))
     }
 
     fn margin(

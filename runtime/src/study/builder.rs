@@ -102,8 +102,7 @@ impl<M: Kernels> Study<M> {
     /// ```
     #[must_use]
     pub fn design(mut self, variable: DesignVariable<M>, value: impl Into<Value>) -> Self {
-        self.settings
-            .set_value(variable.any().into(), value.into());
+        self.settings.set_value(variable.any().into(), value.into());
         self
     }
 

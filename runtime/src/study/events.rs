@@ -7,9 +7,7 @@ use super::settings::Settings;
 use super::{Study, Value};
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Kernels};
 use crate::second_order::{self, EventCurvature};
-use crate::sweep::{
-    self, CriticalState, Crossing, EventTolerance, Events, Following, Line, Range,
-};
+use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Following, Line, Range};
 use crate::tolerance::Tolerances;
 use crate::{Error, Input};
 
@@ -152,7 +150,8 @@ impl<M: DirectionalKernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings.crossing_tolerances(&self.mechanism, range, line.into())
+        self.settings
+            .crossing_tolerances(&self.mechanism, range, line.into())
     }
 
     /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
@@ -194,7 +193,8 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings.flutter_onset_tolerances(&self.mechanism, range)
+        self.settings
+            .flutter_onset_tolerances(&self.mechanism, range)
     }
 }
 
@@ -228,7 +228,11 @@ impl Settings {
     ) -> Result<EventTolerance, Error> {
         let (table, tolerances) = (self.deviating(kernels)?, self.tolerances()?);
         let state = self.critical(&table, range)?;
-        Ok(sweep::critical_tolerance(table.kernels(), &state, tolerances))
+        Ok(sweep::critical_tolerance(
+            table.kernels(),
+            &state,
+            tolerances,
+        ))
     }
 
     fn crossings(
@@ -269,11 +273,7 @@ impl Settings {
         Ok(spreads(table.kernels(), &onsets, tolerances))
     }
 
-    fn along(
-        &self,
-        table: &Along<'_>,
-        range: Range,
-    ) -> Result<(Cow<'_, [f64]>, Following), Error> {
+    fn along(&self, table: &Along<'_>, range: Range) -> Result<(Cow<'_, [f64]>, Following), Error> {
         self.way(table.plain, table, (range.input, range.low))
     }
 
@@ -282,12 +282,7 @@ impl Settings {
         sweep::critical_state(table.kernels(), &self.inputs, &table.design, &start, range)
     }
 
-    fn crossed(
-        &self,
-        table: &Along<'_>,
-        range: Range,
-        line: Line,
-    ) -> Result<Vec<Crossing>, Error> {
+    fn crossed(&self, table: &Along<'_>, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
         let (u, b) = (&self.inputs, &table.design);
         let (start, following) = self.along(table, range)?;
         sweep::crossings(table.kernels(), u, b, &start, following, range, line)

@@ -48,7 +48,8 @@ impl<M: SummaryKernels> Study<M> {
         wanted: &[Response],
         sampler: &Sampler<'_>,
     ) -> Result<Samples, Error> {
-        self.settings.sample_responses(&self.mechanism, wanted, sampler)
+        self.settings
+            .sample_responses(&self.mechanism, wanted, sampler)
     }
 
     /// Smallest and largest value of each response over the box of tolerance limits ([`propagation::worst_case`]).

@@ -207,6 +207,12 @@ impl Settings {
 impl Toleranced<'_, dyn DirectionalKernels + '_> {
     fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
         let (state, modes) = self.solved();
-        Requirements::new(self.kernels(), state, modes, self.tolerances, wanted.to_vec())
+        Requirements::new(
+            self.kernels(),
+            state,
+            modes,
+            self.tolerances,
+            wanted.to_vec(),
+        )
     }
 }

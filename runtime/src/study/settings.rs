@@ -16,9 +16,7 @@ use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
 use crate::tolerance::{Distribution, Sampling, Tolerances};
-use crate::{
-    Coordinate, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch,
-};
+use crate::{Coordinate, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch};
 use crate::{Matrix, Vector};
 use eigentol_solve::constraints::Structure;
 use eigentol_solve::free::{Held, declared};

@@ -54,24 +54,25 @@ fn closed_form() -> [f64; 3] {
 #[test]
 fn values_are_in_declared_units_and_the_operating_point_comes_last() {
     let study = study();
-    let solved = study.solve().expect("a state");
+    let state = study.equilibrium().expect("a state");
+    let solution = study.modes().expect("a state");
     let [theta, omega, slope] = closed_form();
-    let states = &tables(&solved.equilibrium)[0];
+    let states = &tables(&state)[0];
     close(number(states, "theta", 0), theta);
-    let modes = &tables(&solved.modes)[0];
+    let modes = &tables(&solution)[0];
     close(number(modes, "frequency", 0), omega);
     for table in [states, modes] {
         let last = table.columns.last().expect("columns");
         assert_eq!(last.heading(), "speed [rpm]");
         close(number(table, "speed", 0), RPM);
     }
-    let sensitivities = &tables(&solved.sensitivities().expect("derivatives"))[0];
+    let sensitivities = &tables(&study.sensitivities().expect("derivatives"))[0];
     let Values::Texts(by) = &sensitivities.column("by").expect("variables").values else {
         panic!("words");
     };
     assert_eq!(by[1].as_deref(), Some("l"));
     close(number(sensitivities, "frequency", 1), slope * 1e-3);
-    let first = &tables(&solved.first_order().expect("spreads"))[0];
+    let first = &tables(&study.first_order().expect("spreads"))[0];
     close(number(first, "sigma of frequency", 0), slope * 0.01);
     close(number(first, "variance share of l", 0), 1.0);
 }
@@ -79,13 +80,14 @@ fn values_are_in_declared_units_and_the_operating_point_comes_last() {
 #[test]
 fn every_table_comes_back_from_its_file() {
     let study = study().samples(50).keep_samples(true);
-    let solved = study.solve().expect("a state");
-    let samples = solved.monte_carlo().expect("samples");
+    let state = study.equilibrium().expect("a state");
+    let modes = study.modes().expect("a state");
+    let samples = study.monte_carlo().expect("samples");
     let all = [
-        tables(&solved.equilibrium),
-        tables(&solved.modes),
-        tables(&solved.sensitivities().expect("derivatives")),
-        tables(&solved.first_order().expect("spreads")),
+        tables(&state),
+        tables(&modes),
+        tables(&study.sensitivities().expect("derivatives")),
+        tables(&study.first_order().expect("spreads")),
         tables(&study.second_order().expect("spreads")),
         tables(&study.summary().expect("a summary")),
         tables(&samples),
@@ -179,8 +181,7 @@ fn second_derivatives_of_outputs_and_critical_values() {
 #[test]
 fn a_skewness_has_no_unit() {
     let study = study().samples(50);
-    let solved = study.solve().expect("a state");
-    let table = &tables(&solved.monte_carlo().expect("samples"))[0];
+    let table = &tables(&study.monte_carlo().expect("samples"))[0];
     for (name, unit) in [
         ("sigma of frequency", "rad/s"),
         ("greatest of frequency", "rad/s"),
