@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::Study;
-use super::settings::Settings;
+use super::deviating::{Table, Toleranced};
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Equilibria, Search};
 use crate::kernels::{
@@ -161,7 +161,10 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        self.settings.output_tolerances(&self.mechanism)
+        let table = Table::<dyn Kernels>::deviating(&self.settings, &self.mechanism)?;
+        let state = table.state(self.settings.regular(&self.mechanism)?);
+        let outputs = sensitivity::output_sensitivities(table.kernels(), &state)?;
+        tolerance::output_tolerances(&outputs, self.settings.tolerances()?)
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -193,7 +196,10 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        self.settings.first_order(&self.mechanism)
+        let own = Toleranced::<dyn Kernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        let slopes = sensitivity::sensitivities(own.kernels(), state, modes)?;
+        tolerance::first_order(modes, &slopes, own.tolerances)
     }
 
     /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`](crate::modes::whirls)).
@@ -320,7 +326,9 @@ impl<M: DirectionalKernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        self.settings.clusters(&self.mechanism)
+        let own = Toleranced::<dyn DirectionalKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        clusters::clusters(own.kernels(), state, modes, own.tolerances)
     }
 }
 
@@ -372,7 +380,12 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
-        self.settings.second_order(&self.mechanism)
+        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        let (kernels, tolerances) = (own.kernels(), own.tolerances);
+        Ok(second_order::second_order(
+            kernels, state, modes, tolerances,
+        ))
     }
 
     /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
@@ -415,8 +428,10 @@ impl<M: CurvatureKernels> Study<M> {
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin, Error> {
-        self.settings
-            .margin(&self.mechanism, (mode, quantity), band)
+        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        let what = (mode, quantity);
+        second_order::mode_margin(own.kernels(), state, modes, what, own.tolerances, band)
     }
 }
 
@@ -433,7 +448,7 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`], of the nominal design; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
-        self.settings.monte_carlo(&self.mechanism, &self.sampling())
+        self.sampled(&self.sampling())
     }
 
     /// Like [`Study::monte_carlo`], calling `progress` with the number of samples done since its last call.
@@ -457,8 +472,13 @@ impl<M: BatchKernels> Study<M> {
         &self,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<MonteCarlo, Error> {
-        let sampling = self.sampling().progress(Some(progress));
-        self.settings.monte_carlo(&self.mechanism, &sampling)
+        self.sampled(&self.sampling().progress(Some(progress)))
+    }
+
+    fn sampled(&self, sampling: &Sampling<'_>) -> Result<MonteCarlo, Error> {
+        let own = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        tolerance::monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
     }
 
     /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same
@@ -509,7 +529,9 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::samples_between`].
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
-        self.settings.sample_modes(&self.mechanism, sampling)
+        let own = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        tolerance::partial_monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
     }
 
     /// Solves the missing samples of a run, unless it is stopped again; see [`Study::sample_modes`].
@@ -561,74 +583,8 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::summary`].
     pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
-        self.settings.summary(&self.mechanism, operations)
-    }
-}
-
-impl Settings {
-    fn output_tolerances(&self, kernels: &dyn Kernels) -> Result<OutputTolerances, Error> {
-        let table = self.deviating(kernels)?;
-        let state = table.state(self.regular(kernels)?);
-        let outputs = sensitivity::output_sensitivities(table.kernels(), &state)?;
-        tolerance::output_tolerances(&outputs, self.tolerances()?)
-    }
-
-    fn first_order(&self, kernels: &dyn Kernels) -> Result<FirstOrder, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (state, modes) = own.solved();
-        let slopes = sensitivity::sensitivities(own.kernels(), state, modes)?;
-        tolerance::first_order(modes, &slopes, own.tolerances)
-    }
-
-    fn clusters(&self, kernels: &dyn DirectionalKernels) -> Result<Vec<ClusterTolerance>, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (state, modes) = own.solved();
-        clusters::clusters(own.kernels(), state, modes, own.tolerances)
-    }
-
-    fn second_order(&self, kernels: &dyn CurvatureKernels) -> Result<SecondOrder, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (state, modes) = own.solved();
-        let (kernels, tolerances) = (own.kernels(), own.tolerances);
-        Ok(second_order::second_order(
-            kernels, state, modes, tolerances,
-        ))
-    }
-
-    fn margin(
-        &self,
-        kernels: &dyn CurvatureKernels,
-        what: (usize, Quantity),
-        band: Band,
-    ) -> Result<ModeMargin, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (state, modes) = own.solved();
-        second_order::mode_margin(own.kernels(), state, modes, what, own.tolerances, band)
-    }
-
-    fn monte_carlo(
-        &self,
-        kernels: &dyn BatchKernels,
-        sampling: &Sampling<'_>,
-    ) -> Result<MonteCarlo, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (state, modes) = own.solved();
-        tolerance::monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
-    }
-
-    fn sample_modes(
-        &self,
-        kernels: &dyn BatchKernels,
-        sampling: &Sampling<'_>,
-    ) -> Result<PartialMonteCarlo, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (state, modes) = own.solved();
-        tolerance::partial_monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
-    }
-
-    fn summary(&self, kernels: &dyn SummaryKernels, operations: f64) -> Result<Summary, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (kernels, tolerances) = (own.kernels(), own.tolerances);
-        summary::summary_watched(kernels, own.solved(), tolerances, operations, self.watch())
+        let own = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
+        let (kernels, watch) = (own.kernels(), self.settings.watch());
+        summary::summary_watched(kernels, own.solved(), own.tolerances, operations, watch)
     }
 }

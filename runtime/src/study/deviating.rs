@@ -3,8 +3,8 @@
 //!
 //! # Questions are not generic
 //!
-//! A method of `Study<M>` converts values to SI and passes on a table of kernels and the settings, so the library
-//! compiles each question once, not once per mechanism.
+//! A method of `Study<M>` converts values to SI and passes on a table of kernels, so the library compiles each question
+//! once, not once per mechanism.
 
 use std::borrow::Cow;
 
@@ -14,8 +14,9 @@ use crate::kernels::{
 };
 use crate::{Equilibrium, Error, Modes, Tolerances};
 
-/// A table of kernels, and the same with deviating inputs if any are wanted.
+/// A table of kernels with the settings to study it with, and the same with deviating inputs if any are wanted.
 pub(super) struct Table<'a, K: ?Sized> {
+    pub(super) settings: &'a Settings,
     /// The mechanism without deviations.
     pub(super) plain: &'a K,
     deviating: Option<DeviatingInputs<'a, K>>,
@@ -31,52 +32,6 @@ pub(super) struct Toleranced<'a, K: ?Sized> {
     pub(super) tolerances: &'a Tolerances,
 }
 
-impl Settings {
-    /// The mechanism without deviations.
-    pub(super) fn plain<'a, K: ?Sized>(&'a self, kernels: &'a K) -> Table<'a, K> {
-        Table {
-            plain: kernels,
-            deviating: None,
-            design: Cow::Borrowed(&self.design),
-        }
-    }
-
-    /// The mechanism, with deviations of the inputs that have tolerances.
-    pub(super) fn deviating<'a, K: Kernels + ?Sized>(
-        &'a self,
-        kernels: &'a K,
-    ) -> Result<Table<'a, K>, Error> {
-        let inputs = self.deviating_inputs();
-        if inputs.is_empty() {
-            return Ok(self.plain(kernels));
-        }
-        let deviating = DeviatingInputs::new(kernels, &inputs)?;
-        Ok(Table {
-            plain: kernels,
-            design: Cow::Owned(deviating.design(&self.design).into()),
-            deviating: Some(deviating),
-        })
-    }
-
-    /// Like [`Self::deviating`], with the equilibrium, the modes and the tolerances.
-    pub(super) fn toleranced<'a, K: Kernels + ?Sized>(
-        &'a self,
-        kernels: &'a K,
-        solved: (&'a Equilibrium, &'a Modes),
-    ) -> Result<Toleranced<'a, K>, Error> {
-        let table = self.deviating(kernels)?;
-        let of = table.deviating.as_ref();
-        let deviating =
-            of.map(|of| Box::new((solved.0.with_deviations(of), solved.1.with_deviations(of))));
-        Ok(Toleranced {
-            table,
-            plain: solved,
-            deviating,
-            tolerances: self.tolerances()?,
-        })
-    }
-}
-
 impl<K: Kernels + ?Sized> Table<'_, K> {
     /// An equilibrium of the plain mechanism as one of this mechanism.
     pub(super) fn state<'s>(&self, plain: &'s Equilibrium) -> Cow<'s, Equilibrium> {
@@ -87,7 +42,7 @@ impl<K: Kernels + ?Sized> Table<'_, K> {
     }
 }
 
-impl<K: ?Sized> Toleranced<'_, K> {
+impl<'a, K: ?Sized> Toleranced<'a, K> {
     /// The equilibrium and its modes.
     pub(super) fn solved(&self) -> (&Equilibrium, &Modes) {
         match &self.deviating {
@@ -95,11 +50,40 @@ impl<K: ?Sized> Toleranced<'_, K> {
             None => self.plain,
         }
     }
+
+    pub(super) fn settings(&self) -> &'a Settings {
+        self.table.settings
+    }
 }
 
-macro_rules! kernels {
+macro_rules! tables {
     ($($table:ident),*) => {$(
-        impl<'k> Table<'_, dyn $table + 'k> {
+        impl<'a> Table<'a, dyn $table + 'a> {
+            /// The mechanism without deviations.
+            pub(super) fn plain(settings: &'a Settings, plain: &'a (dyn $table + 'a)) -> Self {
+                Self {
+                    settings,
+                    plain,
+                    deviating: None,
+                    design: Cow::Borrowed(&settings.design),
+                }
+            }
+
+            /// The mechanism with deviations of the inputs that have tolerances.
+            pub(super) fn deviating(
+                settings: &'a Settings,
+                plain: &'a (dyn $table + 'a),
+            ) -> Result<Self, Error> {
+                let mut table = Self::plain(settings, plain);
+                let inputs = settings.deviating_inputs();
+                if !inputs.is_empty() {
+                    let deviating = DeviatingInputs::new(plain, &inputs)?;
+                    table.design = Cow::Owned(deviating.design(&settings.design).into());
+                    table.deviating = Some(deviating);
+                }
+                Ok(table)
+            }
+
             pub(super) fn kernels(&self) -> &(dyn $table + '_) {
                 match &self.deviating {
                     Some(deviating) => deviating,
@@ -108,7 +92,23 @@ macro_rules! kernels {
             }
         }
 
-        impl<'k> Toleranced<'_, dyn $table + 'k> {
+        impl<'a> Toleranced<'a, dyn $table + 'a> {
+            /// Solves the operating point, unless that is done.
+            pub(super) fn of(
+                settings: &'a Settings,
+                kernels: &'a (dyn $table + 'a),
+            ) -> Result<Self, Error> {
+                let plain = settings.solved(kernels)?;
+                let table = Table::<dyn $table>::deviating(settings, kernels)?;
+                let with = |of| (plain.0.with_deviations(of), plain.1.with_deviations(of));
+                Ok(Self {
+                    deviating: table.deviating.as_ref().map(|of| Box::new(with(of))),
+                    table,
+                    plain,
+                    tolerances: settings.tolerances()?,
+                })
+            }
+
             pub(super) fn kernels(&self) -> &(dyn $table + '_) {
                 self.table.kernels()
             }
@@ -116,7 +116,7 @@ macro_rules! kernels {
     )*};
 }
 
-kernels!(
+tables!(
     Kernels,
     DirectionalKernels,
     CurvatureKernels,

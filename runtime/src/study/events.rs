@@ -2,10 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::deviating::Table;
-use super::settings::Settings;
+use super::over_input::Along;
 use super::{Study, Value};
-use crate::kernels::{CurvatureKernels, DirectionalKernels, Kernels};
+use crate::kernels::{CurvatureKernels, DirectionalKernels};
 use crate::second_order::{self, EventCurvature};
 use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Following, Line, Range};
 use crate::tolerance::Tolerances;
@@ -34,7 +33,7 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<Events, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
         let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        self.settings.events(&self.mechanism, range, &lines)
+        Along::plain(&self.settings, &self.mechanism).events(range, &lines)
     }
 
     /// Finds the first critical value of an input between `low` and `high` ([`sweep::critical_state`]).
@@ -56,7 +55,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<CriticalState, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings.critical_state(&self.mechanism, range)
+        Along::plain(&self.settings, &self.mechanism).critical_state(range)
     }
 
     /// Like [`Study::critical_state`], with the sensitivity and spread of the value ([`sweep::critical_tolerance`]).
@@ -76,7 +75,95 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings.critical_tolerance(&self.mechanism, range)
+        Along::deviating(&self.settings, &self.mechanism)?.critical_tolerance(range)
+    }
+
+    /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
+    /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let resonances = study.crossings(Pendulum::omega, 0.5, 3.5, 1.0)?;
+    /// assert!((resonances[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::modes`] at the first point; [`Error::Setting`], [`Error::UnknownHandle`].
+    pub fn crossings(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+        line: impl Into<Line>,
+    ) -> Result<Vec<Crossing>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::plain(&self.settings, &self.mechanism).crossings(range, line.into())
+    }
+
+    /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// for resonance in study.crossing_tolerances(Pendulum::omega, 0.5, 3.5, 1.0)? {
+    ///     println!("{resonance}");
+    /// }
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
+    pub fn crossing_tolerances(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+        line: impl Into<Line>,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::deviating(&self.settings, &self.mechanism)?.crossing_tolerances(range, line.into())
+    }
+
+    /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
+    /// ([`sweep::flutter_onsets`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// // A bar without damping never flutters.
+    /// assert!(study.flutter_onsets(Pendulum::omega, 4.0, 6.0)?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::crossings`].
+    pub fn flutter_onsets(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Vec<Crossing>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::plain(&self.settings, &self.mechanism).flutter_onsets(range)
+    }
+
+    /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.flutter_onset_tolerances(Pendulum::omega, 4.0, 6.0)?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
+    pub fn flutter_onset_tolerances(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::deviating(&self.settings, &self.mechanism)?.flutter_onset_tolerances(range)
     }
 }
 
@@ -106,201 +193,58 @@ impl<M: CurvatureKernels> Study<M> {
     }
 }
 
-impl<M: DirectionalKernels> Study<M> {
-    /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
-    /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// let resonances = study.crossings(Pendulum::omega, 0.5, 3.5, 1.0)?;
-    /// assert!((resonances[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::modes`] at the first point; [`Error::Setting`], [`Error::UnknownHandle`].
-    pub fn crossings(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-        line: impl Into<Line>,
-    ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings.crossings(&self.mechanism, range, line.into())
+impl Along<'_> {
+    fn way(&self, range: Range) -> Result<(Cow<'_, [f64]>, Following), Error> {
+        (self.settings).way(self.plain, self, (range.input, range.low))
     }
 
-    /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// for resonance in study.crossing_tolerances(Pendulum::omega, 0.5, 3.5, 1.0)? {
-    ///     println!("{resonance}");
-    /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
-    pub fn crossing_tolerances(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-        line: impl Into<Line>,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings
-            .crossing_tolerances(&self.mechanism, range, line.into())
+    fn events(&self, range: Range, lines: &[Line]) -> Result<Events, Error> {
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, following) = self.way(range)?;
+        sweep::events(self.kernels(), u, b, &start, following, range, lines)
     }
 
-    /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
-    /// ([`sweep::flutter_onsets`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// // A bar without damping never flutters.
-    /// assert!(study.flutter_onsets(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`].
-    pub fn flutter_onsets(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings.flutter_onsets(&self.mechanism, range)
+    fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, _) = self.way(range)?;
+        sweep::critical_state(self.kernels(), u, b, &start, range)
     }
 
-    /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// assert!(study.flutter_onset_tolerances(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
-    pub fn flutter_onset_tolerances(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.settings
-            .flutter_onset_tolerances(&self.mechanism, range)
-    }
-}
-
-/// The mechanism of a question along an input.
-type Along<'a> = Table<'a, dyn DirectionalKernels + 'a>;
-
-impl Settings {
-    fn events(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        range: Range,
-        lines: &[Line],
-    ) -> Result<Events, Error> {
-        let (u, b) = (&self.inputs, &self.design);
-        let (start, following) = self.along(&self.plain(kernels), range)?;
-        sweep::events(kernels, u, b, &start, following, range, lines)
-    }
-
-    fn critical_state(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        range: Range,
-    ) -> Result<CriticalState, Error> {
-        self.critical(&self.plain(kernels), range)
-    }
-
-    fn critical_tolerance(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        range: Range,
-    ) -> Result<EventTolerance, Error> {
-        let (table, tolerances) = (self.deviating(kernels)?, self.tolerances()?);
-        let state = self.critical(&table, range)?;
+    fn critical_tolerance(&self, range: Range) -> Result<EventTolerance, Error> {
+        let tolerances = self.settings.tolerances()?;
+        let state = self.critical_state(range)?;
         Ok(sweep::critical_tolerance(
-            table.kernels(),
+            self.kernels(),
             &state,
             tolerances,
         ))
     }
 
-    fn crossings(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        range: Range,
-        line: Line,
-    ) -> Result<Vec<Crossing>, Error> {
-        self.crossed(&self.plain(kernels), range, line)
+    fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, following) = self.way(range)?;
+        sweep::crossings(self.kernels(), u, b, &start, following, range, line)
     }
 
-    fn crossing_tolerances(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        range: Range,
-        line: Line,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let (table, tolerances) = (self.deviating(kernels)?, self.tolerances()?);
-        let crossings = self.crossed(&table, range, line)?;
-        Ok(spreads(table.kernels(), &crossings, tolerances))
+    fn crossing_tolerances(&self, range: Range, line: Line) -> Result<Vec<EventTolerance>, Error> {
+        let tolerances = self.settings.tolerances()?;
+        Ok(self.spreads(&self.crossings(range, line)?, tolerances))
     }
 
-    fn flutter_onsets(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        range: Range,
-    ) -> Result<Vec<Crossing>, Error> {
-        self.onsets(&self.plain(kernels), range)
+    fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, following) = self.way(range)?;
+        sweep::flutter_onsets(self.kernels(), u, b, &start, following, range)
     }
 
-    fn flutter_onset_tolerances(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        range: Range,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let (table, tolerances) = (self.deviating(kernels)?, self.tolerances()?);
-        let onsets = self.onsets(&table, range)?;
-        Ok(spreads(table.kernels(), &onsets, tolerances))
+    fn flutter_onset_tolerances(&self, range: Range) -> Result<Vec<EventTolerance>, Error> {
+        let tolerances = self.settings.tolerances()?;
+        Ok(self.spreads(&self.flutter_onsets(range)?, tolerances))
     }
 
-    fn along(&self, table: &Along<'_>, range: Range) -> Result<(Cow<'_, [f64]>, Following), Error> {
-        self.way(table.plain, table, (range.input, range.low))
+    /// The spread of each crossing value.
+    fn spreads(&self, crossings: &[Crossing], tolerances: &Tolerances) -> Vec<EventTolerance> {
+        let spread = |crossing| sweep::crossing_tolerance(self.kernels(), crossing, tolerances);
+        crossings.iter().map(spread).collect()
     }
-
-    fn critical(&self, table: &Along<'_>, range: Range) -> Result<CriticalState, Error> {
-        let (start, _) = self.along(table, range)?;
-        sweep::critical_state(table.kernels(), &self.inputs, &table.design, &start, range)
-    }
-
-    fn crossed(&self, table: &Along<'_>, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
-        let (u, b) = (&self.inputs, &table.design);
-        let (start, following) = self.along(table, range)?;
-        sweep::crossings(table.kernels(), u, b, &start, following, range, line)
-    }
-
-    fn onsets(&self, table: &Along<'_>, range: Range) -> Result<Vec<Crossing>, Error> {
-        let (u, b) = (&self.inputs, &table.design);
-        let (start, following) = self.along(table, range)?;
-        sweep::flutter_onsets(table.kernels(), u, b, &start, following, range)
-    }
-}
-
-/// The spread of each crossing value.
-fn spreads(
-    mechanism: &dyn Kernels,
-    crossings: &[Crossing],
-    tolerances: &Tolerances,
-) -> Vec<EventTolerance> {
-    let spread = |crossing| sweep::crossing_tolerance(mechanism, crossing, tolerances);
-    crossings.iter().map(spread).collect()
 }

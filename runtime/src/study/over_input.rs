@@ -3,7 +3,6 @@
 use core::ops::ControlFlow;
 
 use super::deviating::Table;
-use super::settings::Settings;
 use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
@@ -34,7 +33,7 @@ impl<M: BatchKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
     ) -> Result<Sweep, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.settings.sweep(&self.mechanism, (input.any(), &values))
+        Swept::plain(&self.settings, &self.mechanism).sweep((input.any(), &values))
     }
 
     /// Like [`Study::sweep`], but passes each point to `each` as soon as it is found and keeps none; `each` can break
@@ -61,8 +60,7 @@ impl<M: BatchKernels> Study<M> {
         mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
     ) -> Result<Sweep, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.settings
-            .sweep_each(&self.mechanism, (input.any(), &values), &mut each)
+        Swept::plain(&self.settings, &self.mechanism).sweep_each((input.any(), &values), &mut each)
     }
 
     /// Calls `each` with the equilibrium, the modes and their total derivatives at each value of one input, in order
@@ -87,8 +85,8 @@ impl<M: BatchKernels> Study<M> {
         mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.settings
-            .sensitivity_sweep(&self.mechanism, (input.any(), &values), &mut each)
+        Swept::plain(&self.settings, &self.mechanism)
+            .sensitivity_sweep((input.any(), &values), &mut each)
     }
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and label
@@ -110,8 +108,7 @@ impl<M: BatchKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.settings
-            .first_order_sweep(&self.mechanism, (input.any(), &values))
+        Swept::deviating(&self.settings, &self.mechanism)?.first_order_sweep((input.any(), &values))
     }
 }
 
@@ -136,7 +133,7 @@ impl<M: DirectionalKernels> Study<M> {
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
         let values = self.settings.values_si(input.any(), values)?;
         let axes = Axes::new(input.any(), &values, &orders);
-        self.settings.campbell(&self.mechanism, &axes)
+        Along::deviating(&self.settings, &self.mechanism)?.campbell(&axes)
     }
 
     /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can
@@ -167,8 +164,7 @@ impl<M: DirectionalKernels> Study<M> {
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
         let values = self.settings.values_si(input.any(), values)?;
         let axes = Axes::new(input.any(), &values, &orders);
-        self.settings
-            .campbell_each(&self.mechanism, &axes, &mut each)
+        Along::deviating(&self.settings, &self.mechanism)?.campbell_each(&axes, &mut each)
     }
 
     /// Follows branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
@@ -233,8 +229,7 @@ impl<M: DirectionalKernels> Study<M> {
         search: Option<&Search>,
         mut each: impl FnMut(&Branch),
     ) -> Result<Branches, Error> {
-        self.settings
-            .branches_each(&self.mechanism, (continuation, search), &mut each)
+        Along::plain(&self.settings, &self.mechanism).branches_each(continuation, search, &mut each)
     }
 
     /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be modified and passed to
@@ -262,10 +257,15 @@ impl<M: DirectionalKernels> Study<M> {
     }
 }
 
-impl Settings {
-    fn sweep(&self, kernels: &dyn BatchKernels, along: (Input, &[f64])) -> Result<Sweep, Error> {
+/// The mechanism of a sweep.
+type Swept<'a> = Table<'a, dyn BatchKernels + 'a>;
+/// The mechanism of any other question along an input.
+pub(super) type Along<'a> = Table<'a, dyn DirectionalKernels + 'a>;
+
+impl Swept<'_> {
+    fn sweep(&self, along: (Input, &[f64])) -> Result<Sweep, Error> {
         let mut points = Vec::with_capacity(along.1.len());
-        let mut whole = self.sweep_each(kernels, along, &mut |point| {
+        let mut whole = self.sweep_each(along, &mut |point| {
             points.push(point.clone());
             ControlFlow::Continue(())
         })?;
@@ -275,64 +275,50 @@ impl Settings {
 
     fn sweep_each(
         &self,
-        kernels: &dyn BatchKernels,
         along: (Input, &[f64]),
         each: &mut dyn FnMut(&SweepPoint) -> ControlFlow<()>,
     ) -> Result<Sweep, Error> {
-        let point = (&self.inputs[..], &self.design[..]);
+        let point = (&self.settings.inputs[..], &self.design[..]);
         let from = (along.0, first_of(along.1));
-        let (start, following) = self.way(kernels, &self.plain(kernels), from)?;
-        let watch = self.watch();
+        let (start, following) = self.settings.way(self.plain, self, from)?;
+        let watch = self.settings.watch();
         let each = |found: &SweepPoint| go_on(each(found), watch);
-        sweep::sweep_each(kernels, point, &start, following, along, each)
+        sweep::sweep_each(self.kernels(), point, &start, following, along, each)
     }
 
     fn sensitivity_sweep(
         &self,
-        kernels: &dyn BatchKernels,
         along: (Input, &[f64]),
         each: &mut dyn FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
-        self.slopes_along(&self.plain(kernels), along, each)
-    }
-
-    fn slopes_along(
-        &self,
-        table: &Table<'_, dyn BatchKernels + '_>,
-        along: (Input, &[f64]),
-        each: &mut dyn FnMut(&SweepPoint, &Result<Sensitivities, Error>),
-    ) -> Result<(), Error> {
-        let point = (&self.inputs[..], &table.design[..]);
+        let point = (&self.settings.inputs[..], &self.design[..]);
         let from = (along.0, first_of(along.1));
-        let (start, following) = self.way(table.plain, table, from)?;
-        let watch = self.watch();
+        let (start, following) = self.settings.way(self.plain, self, from)?;
+        let watch = self.settings.watch();
         let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
             each(point, slopes);
             go_on(ControlFlow::Continue(()), watch)
         };
-        sweep::sensitivity_sweep(table.kernels(), point, &start, following, along, each)
+        sweep::sensitivity_sweep(self.kernels(), point, &start, following, along, each)
     }
 
     fn first_order_sweep(
         &self,
-        kernels: &dyn BatchKernels,
         along: (Input, &[f64]),
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
-        let tolerances = self.tolerances()?;
+        let tolerances = self.settings.tolerances()?;
         let mut found = Vec::with_capacity(along.1.len());
-        self.slopes_along(&self.deviating(kernels)?, along, &mut |point, slopes| {
+        self.sensitivity_sweep(along, &mut |point, slopes| {
             found.push(spread(point, slopes, tolerances));
         })?;
         Ok(found)
     }
+}
 
-    fn campbell(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        axes: &Axes<'_>,
-    ) -> Result<Campbell, Error> {
+impl Along<'_> {
+    fn campbell(&self, axes: &Axes<'_>) -> Result<Campbell, Error> {
         let mut points = Vec::with_capacity(axes.values.len());
-        let mut whole = self.campbell_each(kernels, axes, &mut |point| {
+        let mut whole = self.campbell_each(axes, &mut |point| {
             points.push(point);
             ControlFlow::Continue(())
         })?;
@@ -342,31 +328,31 @@ impl Settings {
 
     fn campbell_each(
         &self,
-        kernels: &dyn DirectionalKernels,
         axes: &Axes<'_>,
         each: &mut dyn FnMut(CampbellPoint) -> ControlFlow<()>,
     ) -> Result<Campbell, Error> {
-        let table = self.deviating(kernels)?;
-        let point = (&self.inputs[..], &table.design[..]);
+        let (kernels, settings) = (self.kernels(), self.settings);
+        let point = (&settings.inputs[..], &self.design[..]);
         let from = (axes.input, first_of(axes.values));
-        let (start, following) = self.way(kernels, &table, from)?;
-        let (kernels, tolerances, watch) = (table.kernels(), self.tolerances()?, self.watch());
+        let (start, following) = settings.way(self.plain, self, from)?;
+        let (tolerances, watch) = (settings.tolerances()?, settings.watch());
         let each = |found| go_on(each(found), watch);
         campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
     }
 
     fn branches_each(
         &self,
-        kernels: &dyn DirectionalKernels,
-        (continuation, search): (&Continuation, Option<&Search>),
+        continuation: &Continuation,
+        search: Option<&Search>,
         each: &mut dyn FnMut(&Branch),
     ) -> Result<Branches, Error> {
-        let point = (&self.inputs[..], &self.design[..]);
+        let settings = self.settings;
+        let point = (&settings.inputs[..], &self.design[..]);
         let from = (continuation.input, continuation.low);
-        let (start, _) = self.way(kernels, &self.plain(kernels), from)?;
-        let held = self.held_in(search, &start);
+        let (start, _) = settings.way(self.plain, self, from)?;
+        let held = settings.held_in(search, &start);
         let how = (continuation, held.as_ref());
-        branches::branches_each(kernels, point, &start, how, self.watch(), each)
+        branches::branches_each(self.kernels(), point, &start, how, settings.watch(), each)
     }
 }
 

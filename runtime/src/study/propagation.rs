@@ -2,7 +2,6 @@
 
 use super::Study;
 use super::deviating::Toleranced;
-use super::settings::Settings;
 use crate::kernels::SummaryKernels;
 use crate::propagation::{
     self, Controlled, Effort, Influence, Points, Propagation, Sampler, Samples, WorstCase,
@@ -25,7 +24,9 @@ impl<M: SummaryKernels> Study<M> {
     /// As [`Study::modes`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`],
     /// [`Error::Setting`] for an invalid response; [`Error::Threads`].
     pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
-        self.settings.propagate(&self.mechanism, wanted)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let responses = own.responses(wanted)?;
+        propagation::propagate(own.kernels(), &responses, own.tolerances, own.effort())
     }
 
     /// Samples the given responses at any kind of points, over any range of them ([`propagation::sampled`]).
@@ -48,8 +49,13 @@ impl<M: SummaryKernels> Study<M> {
         wanted: &[Response],
         sampler: &Sampler<'_>,
     ) -> Result<Samples, Error> {
-        self.settings
-            .sample_responses(&self.mechanism, wanted, sampler)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let responses = own.responses(wanted)?.watched(Watch::default());
+        let watch = self.settings.watch();
+        let mut sampler = sampler.clone();
+        sampler.progress = sampler.progress.or(watch.progress);
+        sampler.stop = sampler.stop.or(watch.stop);
+        propagation::sampled(&responses, own.tolerances, &sampler)
     }
 
     /// Smallest and largest value of each response over the box of tolerance limits ([`propagation::worst_case`]).
@@ -64,7 +70,9 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`].
     pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
-        self.settings.worst_case(&self.mechanism, wanted)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let responses = own.responses(wanted)?;
+        propagation::worst_case(&responses, own.tolerances)
     }
 
     /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control
@@ -80,7 +88,15 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for fewer than three samples.
     pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
-        self.settings.controlled(&self.mechanism, wanted)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let responses = own.responses(wanted)?;
+        let effort = own.effort();
+        let sampler = Sampler::new(Points::Random)
+            .samples(effort.samples)
+            .seed(effort.seed)
+            .stream(effort.stream)
+            .threads(effort.threads);
+        propagation::controlled(own.kernels(), &responses, own.tolerances, &sampler)
     }
 
     /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).
@@ -95,98 +111,32 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for too few samples.
     pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
-        self.settings.influence(&self.mechanism, wanted)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let responses = own.responses(wanted)?;
+        propagation::influence(&responses, own.tolerances, own.effort())
     }
 }
 
-impl Settings {
-    fn propagate(
-        &self,
-        kernels: &dyn SummaryKernels,
-        wanted: &[Response],
-    ) -> Result<Propagation, Error> {
-        let effort = self.effort();
-        self.about(kernels, wanted, self.watch(), |own, responses| {
-            propagation::propagate(own.kernels(), responses, own.tolerances, effort)
-        })
-    }
+/// What responses are about.
+type Own<'a> = Toleranced<'a, dyn SummaryKernels + 'a>;
 
-    fn sample_responses(
-        &self,
-        kernels: &dyn SummaryKernels,
-        wanted: &[Response],
-        sampler: &Sampler<'_>,
-    ) -> Result<Samples, Error> {
-        let watch = self.watch();
-        let mut sampler = sampler.clone();
-        sampler.progress = sampler.progress.or(watch.progress);
-        sampler.stop = sampler.stop.or(watch.stop);
-        self.about(kernels, wanted, Watch::default(), |own, responses| {
-            propagation::sampled(responses, own.tolerances, &sampler)
-        })
-    }
-
-    fn worst_case(
-        &self,
-        kernels: &dyn SummaryKernels,
-        wanted: &[Response],
-    ) -> Result<WorstCase, Error> {
-        self.about(kernels, wanted, self.watch(), |own, responses| {
-            propagation::worst_case(responses, own.tolerances)
-        })
-    }
-
-    fn controlled(
-        &self,
-        kernels: &dyn SummaryKernels,
-        wanted: &[Response],
-    ) -> Result<Controlled, Error> {
-        let effort = self.effort();
-        let sampler = Sampler::new(Points::Random)
-            .samples(effort.samples)
-            .seed(effort.seed)
-            .stream(effort.stream)
-            .threads(effort.threads);
-        self.about(kernels, wanted, self.watch(), |own, responses| {
-            propagation::controlled(own.kernels(), responses, own.tolerances, &sampler)
-        })
-    }
-
-    fn influence(
-        &self,
-        kernels: &dyn SummaryKernels,
-        wanted: &[Response],
-    ) -> Result<Influence, Error> {
-        let effort = self.effort();
-        self.about(kernels, wanted, self.watch(), |own, responses| {
-            propagation::influence(responses, own.tolerances, effort)
-        })
+impl Own<'_> {
+    fn responses(&self, wanted: &[Response]) -> Result<Responses<'_>, Error> {
+        let ((state, modes), settings) = (self.solved(), self.settings());
+        let responses = Responses::side_by_side(self.kernels(), state, modes, wanted.to_vec())?;
+        Ok(responses
+            .vectors(settings.vectors)
+            .watched(settings.watch()))
     }
 
     /// The effort that the settings allow: at least one solution for each sample.
     fn effort(&self) -> Effort {
-        let effort = Effort::default().samples(self.samples as u64);
+        let settings = self.settings();
+        let effort = Effort::default().samples(settings.samples as u64);
         effort
             .solutions(effort.solutions.max(effort.samples))
-            .seed(self.seed)
-            .stream(self.stream)
-            .threads(self.threads)
-    }
-
-    /// Builds the responses and passes them to `question`.
-    fn about<R>(
-        &self,
-        kernels: &dyn SummaryKernels,
-        wanted: &[Response],
-        watch: Watch<'_>,
-        question: impl FnOnce(
-            &Toleranced<'_, dyn SummaryKernels + '_>,
-            &Responses<'_>,
-        ) -> Result<R, Error>,
-    ) -> Result<R, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let (state, modes) = own.solved();
-        let responses = Responses::side_by_side(own.kernels(), state, modes, wanted.to_vec())?;
-        question(&own, &responses.vectors(self.vectors).watched(watch))
+            .seed(settings.seed)
+            .stream(settings.stream)
+            .threads(settings.threads)
     }
 }

@@ -2,7 +2,6 @@
 
 use super::Study;
 use super::deviating::Toleranced;
-use super::settings::Settings;
 use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
 use crate::kernels::DirectionalKernels;
@@ -29,7 +28,10 @@ impl<M: DirectionalKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::probabilities`].
     pub fn probability(&self, wanted: &[Requirement]) -> Result<Probabilities, Error> {
-        self.settings.probability(&self.mechanism, wanted)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let requirements = own.requirements(wanted)?.watched(self.settings.watch());
+        // The designs report themselves.
+        requirements.probabilities(&self.sampling().progress(None))
     }
 
     /// Probabilities of meeting the requirements, jointly and individually, from the study's number of samples
@@ -70,7 +72,8 @@ impl<M: DirectionalKernels> Study<M> {
         wanted: &[Requirement],
         sampling: &Sampling<'_>,
     ) -> Result<Chances, Error> {
-        self.settings.chances(&self.mechanism, wanted, sampling)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        own.requirements(wanted)?.chances(sampling)
     }
 
     /// Failure probabilities from design points, with importance factors and exact derivatives
@@ -89,7 +92,9 @@ impl<M: DirectionalKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::reliability`].
     pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
-        self.settings.reliability(&self.mechanism, wanted)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let requirements = own.requirements(wanted)?.watched(self.settings.watch());
+        requirements.reliability(&FormSettings::default())
     }
 
     /// Estimates a small probability of failing any requirement by importance sampling about the design points
@@ -111,8 +116,15 @@ impl<M: DirectionalKernels> Study<M> {
         wanted: &[Requirement],
         settings: &SamplingSettings,
     ) -> Result<RareFailure, Error> {
-        self.settings
-            .rare_failure(&self.mechanism, wanted, settings)
+        let own = Own::of(&self.settings, &self.mechanism)?;
+        let settings = SamplingSettings {
+            seed: self.settings.seed,
+            stream: self.settings.stream,
+            ..settings.clone()
+        };
+        let requirements = own.requirements(wanted)?.watched(self.settings.watch());
+        let about = requirements.reliability(&FormSettings::default())?;
+        requirements.rare_failure(&about, &settings, self.settings.threads)
     }
 
     /// Finds the cheapest tolerances that meet the requirements, checked with the study's number of samples
@@ -140,71 +152,15 @@ impl<M: DirectionalKernels> Study<M> {
         wanted: &[Requirement],
         choices: &Choices<'_>,
     ) -> Result<Allocation, Error> {
-        self.settings.allocation(&self.mechanism, wanted, choices)
-    }
-}
-
-impl Settings {
-    fn probability(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        wanted: &[Requirement],
-    ) -> Result<Probabilities, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let requirements = own.requirements(wanted)?.watched(self.watch());
-        // The designs report themselves.
-        requirements.probabilities(&self.sampling().progress(None))
-    }
-
-    fn chances(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        wanted: &[Requirement],
-        sampling: &Sampling<'_>,
-    ) -> Result<Chances, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        own.requirements(wanted)?.chances(sampling)
-    }
-
-    fn reliability(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        wanted: &[Requirement],
-    ) -> Result<Reliability, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let requirements = own.requirements(wanted)?.watched(self.watch());
-        requirements.reliability(&FormSettings::default())
-    }
-
-    fn rare_failure(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        wanted: &[Requirement],
-        settings: &SamplingSettings,
-    ) -> Result<RareFailure, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
-        let settings = SamplingSettings {
-            seed: self.seed,
-            stream: self.stream,
-            ..settings.clone()
-        };
-        let requirements = own.requirements(wanted)?.watched(self.watch());
-        let about = requirements.reliability(&FormSettings::default())?;
-        requirements.rare_failure(&about, &settings, self.threads)
-    }
-
-    fn allocation(
-        &self,
-        kernels: &dyn DirectionalKernels,
-        wanted: &[Requirement],
-        choices: &Choices<'_>,
-    ) -> Result<Allocation, Error> {
-        let own = self.toleranced(kernels, self.solved(kernels)?)?;
+        let own = Own::of(&self.settings, &self.mechanism)?;
         allocate(&own.requirements(wanted)?, choices, &self.sampling())
     }
 }
 
-impl Toleranced<'_, dyn DirectionalKernels + '_> {
+/// What requirements are about.
+type Own<'a> = Toleranced<'a, dyn DirectionalKernels + 'a>;
+
+impl Own<'_> {
     fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
         let (state, modes) = self.solved();
         Requirements::new(
