@@ -39,7 +39,7 @@
 //! ```
 //!
 //! The table lists the questions that a [`Study`] answers, and the functions behind them. Several questions about one
-//! operating point share its equilibrium and modes through [`Study::solve`].
+//! operating point share its equilibrium and modes, which the study keeps.
 //!
 //! | question | method | function |
 //! | --- | --- | --- |

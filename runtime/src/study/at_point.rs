@@ -20,15 +20,11 @@ use crate::{Coordinate, Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Outpu
 
 impl<M: Kernels> Study<M> {
     /// Finds the dynamic equilibrium ([`equilibrium::equilibrium`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let state = study.equilibrium()?;
     /// let theta = state.coordinates[Pendulum::theta.index()];
     /// assert!((theta.cos() - 1.5 * 9.81 / 25.0).abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::NoEquilibrium`], [`Error::NotAssembled`], [`Error::UnboundedReactions`]; [`Error::NotFinite`],
     /// [`Error::Unphysical`], [`Error::OutsideDomain`] for values that no mechanism can have; [`Error::UnknownHandle`]
@@ -38,14 +34,10 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Assembles the mechanism, holding the coordinates that have a [`Study::start`] ([`equilibrium::assemble`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let assembled = study.assembly()?;
     /// assert_eq!(assembled.coordinates, [1.0]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::NotAssembled`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::OutsideDomain`],
     /// [`Error::UnknownHandle`].
@@ -54,17 +46,13 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Searches for distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::equilibrium::Search;
     ///
     /// // Hanging, upside down, and swung out to either side.
     /// let all = study.equilibria(&Search::new([-3.0], [3.5]))?;
     /// assert_eq!(all.len(), 4);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::NotAssembled`],
     /// [`Error::UnknownHandle`]. Finding none is not an error.
@@ -93,8 +81,6 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Computes the natural modes ([`modes`](crate::modes::modes)). Their shapes are normalised by the mass matrix.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::Complex;
     /// use nalgebra::DMatrix;
@@ -106,9 +92,7 @@ impl<M: Kernels> Study<M> {
     /// let mass = DMatrix::from(study.equilibrium()?.linear.mass).map(Complex::from);
     /// let product = shapes.adjoint() * mass * &shapes;
     /// assert!((product[(0, 0)].re - 1.0).abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::SingularMass`], [`Error::ModesNotFound`],
     /// [`Error::EigenvalueRange`]; of undamped modes [`Error::NonsymmetricStiffness`] and [`Error::NoUndampedModes`].
@@ -118,14 +102,10 @@ impl<M: Kernels> Study<M> {
 
     /// Derivatives of the equilibrium with respect to every input and design variable
     /// ([`sensitivity::equilibrium_shift`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let shift = study.equilibrium_shift()?;
     /// assert!(shift.by_input[Pendulum::theta.index()][Pendulum::omega.index()] > 0.0);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::CriticalState`],
     /// [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
@@ -135,14 +115,10 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Values and total derivatives of the outputs ([`sensitivity::output_sensitivities`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let outputs = study.outputs()?;
     /// println!("the angle is {} rad", outputs.values[Pendulum::angle.index()]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium_shift`]; [`Error::InfiniteOutput`].
     pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
@@ -151,13 +127,9 @@ impl<M: Kernels> Study<M> {
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.output_tolerances()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
@@ -168,15 +140,11 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let slopes = study.sensitivities()?;
     /// let by_design = slopes.modes[0].frequency().map(|slopes| slopes.by_design);
     /// println!("{:?} rad/s per metre", by_design.map(|slopes| slopes[Pendulum::l.index()]));
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`]; [`Error::CriticalState`], [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
@@ -185,14 +153,10 @@ impl<M: Kernels> Study<M> {
     }
 
     /// First-order spread of the modes and frequencies ([`tolerance::first_order`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let spread = study.first_order()?;
     /// println!("{spread}");
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
@@ -203,15 +167,11 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`](crate::modes::whirls)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// for whirl in study.whirls()?.into_iter().flatten() {
     ///     println!("{whirl}");
     /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`].
     pub fn whirls(&self) -> Result<Vec<Option<Whirl>>, Error> {
@@ -227,14 +187,10 @@ impl<M: Kernels> Study<M> {
 
 impl<M: PictureKernels> Study<M> {
     /// The visible scene at the equilibrium: poses and shapes of the bodies ([`picture::scene`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let scene = study.picture()?;
     /// println!("{}: {:?}", scene.bodies[1].name, scene.bodies[1].pose);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`].
     pub fn picture(&self) -> Result<Scene, Error> {
@@ -251,14 +207,10 @@ impl<M: PictureKernels> Study<M> {
     ///
     /// The largest displacement to either side is the fraction `amplitude` of the size of the mechanism
     /// ([`picture::mode_pictures`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let swing = study.mode_pictures(0, 24, 0.1)?;
     /// println!("{:?}", swing.frames[6][1].position);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`]; [`Error::NoSuchMode`], [`Error::Setting`].
     pub fn mode_pictures(
@@ -276,15 +228,11 @@ impl<M: DirectionalKernels> Study<M> {
     /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a
     /// direction in the space of inputs and design variables
     /// ([`directional_derivatives`](crate::clusters::directional_derivatives)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let (inputs, design) = ([1.0], [0.0, 0.0]);
     /// let slopes = study.directional_derivatives(0, (&inputs, &design))?;
     /// println!("{:?} rad/s per rad/s", slopes.frequencies);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`].
     pub fn directional_derivatives(
@@ -298,14 +246,10 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Derivatives of the mode shapes of one mode, counted from 0
     /// ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let slopes = study.shape_sensitivity(0)?;
     /// println!("{}", slopes.right_by_design[Pendulum::l.index()][Pendulum::theta.index()]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
@@ -315,14 +259,10 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Finds the clusters of modes that mix within the tolerances, and their spread
     /// ([`clusters`](crate::clusters::clusters)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// // One mode has no other to mix with.
     /// assert!(study.clusters()?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
@@ -335,15 +275,11 @@ impl<M: DirectionalKernels> Study<M> {
 impl<M: CurvatureKernels> Study<M> {
     /// First and second derivatives of one mode, counted from 0
     /// ([`mode_curvature`](crate::second_order::mode_curvature)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let second = study.mode_curvature(0)?.lambda.by_design;
     /// let l = Pendulum::l.index();
     /// println!("{} 1/s^2 per square metre", second[l][l]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
@@ -352,16 +288,12 @@ impl<M: CurvatureKernels> Study<M> {
     }
 
     /// First and second derivatives of one output ([`output_curvature`](crate::second_order::output_curvature)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let angle = study.output_curvature(Pendulum::angle)?;
     /// // cos(angle) = 3 g / (2 omega^2 l) whatever the mass.
     /// let m = Pendulum::m.index();
     /// assert!(angle.second.by_design[m][m].abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::outputs`]; [`Error::NoSensitivity`](crate::Error::NoSensitivity) where the output is not smooth.
     pub fn output_curvature(&self, output: Output<M>) -> Result<OutputCurvature, Error> {
@@ -370,13 +302,9 @@ impl<M: CurvatureKernels> Study<M> {
     }
 
     /// Second-order spread of every mode ([`second_order`](crate::second_order::second_order)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.second_order()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
@@ -390,16 +318,12 @@ impl<M: CurvatureKernels> Study<M> {
 
     /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
     /// ([`mode_margin`](crate::second_order::mode_margin)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::second_order::Band;
     ///
     /// let band = Band::Between { low: 4.1, high: 4.2 };
     /// println!("{}", study.margin(0, band)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for an
     /// invalid band.
@@ -409,17 +333,13 @@ impl<M: CurvatureKernels> Study<M> {
 
     /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is
     /// the probability that the mode is unstable.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::Quantity;
     /// use eigentol::second_order::Band;
     ///
     /// let band = Band::around(Pendulum::omega.any(), 0.1);
     /// println!("{}", study.margin_of(0, Quantity::NaturalFrequency, band)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::margin`].
     pub fn margin_of(
@@ -437,14 +357,10 @@ impl<M: CurvatureKernels> Study<M> {
 
 impl<M: BatchKernels> Study<M> {
     /// Monte Carlo simulation that solves the equilibrium anew for every sample ([`tolerance::monte_carlo`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let run = study.samples(500).monte_carlo()?;
     /// assert_eq!(run.counts.stable, 500);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`], of the nominal design; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
@@ -452,20 +368,10 @@ impl<M: BatchKernels> Study<M> {
     }
 
     /// Like [`Study::monte_carlo`], calling `progress` with the number of samples done since its last call.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
-    /// use std::sync::atomic::{AtomicUsize, Ordering};
-    ///
-    /// let done = AtomicUsize::new(0);
-    /// let count = |samples| {
-    ///     done.fetch_add(samples, Ordering::Relaxed);
-    /// };
-    /// study.samples(500).monte_carlo_with_progress(&count)?;
-    /// assert_eq!(done.into_inner(), 500);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    /// let dots = |_| print!(".");
+    /// println!("{}", study.samples(500).monte_carlo_with_progress(&dots)?);
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::monte_carlo`].
     pub fn monte_carlo_with_progress(
@@ -483,8 +389,6 @@ impl<M: BatchKernels> Study<M> {
 
     /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same
     /// bits as the whole run.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let study = study.samples(3000);
     /// let mut all = study.samples_between(1000..3000)?;
@@ -496,9 +400,7 @@ impl<M: BatchKernels> Study<M> {
     /// let mut part = study.keep_samples(true).samples_between(300..400)?;
     /// let samples = part.take_samples();
     /// assert_eq!((samples.len(), samples[0].0), (100, 300));
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::monte_carlo`]; [`Error::Setting`] for a range beyond the samples.
     pub fn samples_between(&self, range: Range<u64>) -> Result<PartialMonteCarlo, Error> {
@@ -507,8 +409,6 @@ impl<M: BatchKernels> Study<M> {
 
     /// Like [`Study::samples_between`], with custom settings, for example to watch and stop a run
     /// ([`tolerance::partial_monte_carlo`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use std::sync::atomic::{AtomicBool, Ordering};
     ///
@@ -523,9 +423,7 @@ impl<M: BatchKernels> Study<M> {
     /// // Nothing is lost: later the rest follows.
     /// study.resume_samples(&mut part, &study.sampling())?;
     /// assert_eq!(part.result(), study.monte_carlo()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::samples_between`].
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
@@ -557,13 +455,9 @@ impl<M: SummaryKernels> Study<M> {
     /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
     /// trusted ([`summary`](crate::summary::summary)). The samples that judge are always the same, whatever
     /// [`Study::samples`] and [`Study::seed`].
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// assert!(study.summary()?.trusted());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn summary(&self) -> Result<Summary, Error> {
@@ -572,14 +466,10 @@ impl<M: SummaryKernels> Study<M> {
 
     /// Like [`Study::summary`], with a limit on the number of operations spent on samples
     /// ([`summary_within`](crate::summary::summary_within)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// // No samples: distances and the second-order model.
     /// assert!(study.summary_within(0.0)?.sampled().is_none());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::summary`].
     pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {

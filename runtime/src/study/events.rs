@@ -13,15 +13,11 @@ use crate::{Error, Input};
 impl<M: DirectionalKernels> Study<M> {
     /// Finds every event of an input between `low` and `high`: where frequencies meet lines (engine orders as numbers, or
     /// [`Line`]s), where oscillations start or stop growing, and where stiffness vanishes ([`sweep::events`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let found = study.events(Pendulum::omega, 0.5, 6.0, &[1.0])?;
     /// assert!((found.critical[0].value - 14.715_f64.sqrt()).abs() < 1e-9);
     /// assert!((found.crossings[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotAssembled`].
     pub fn events(
@@ -37,14 +33,10 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Finds the first critical value of an input between `low` and `high` ([`sweep::critical_state`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let critical = study.critical_state(Pendulum::omega, 0.0, 6.0)?;
     /// assert!((critical.value - 14.715_f64.sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::NotInRange`], [`Error::Setting`], [`Error::UnknownHandle`]; where the branch cannot be followed so far,
     /// as [`Study::equilibrium`].
@@ -59,13 +51,9 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Like [`Study::critical_state`], with the sensitivity and spread of the value ([`sweep::critical_tolerance`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.critical_tolerance(Pendulum::omega, 0.0, 6.0)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative carries its own error.
     pub fn critical_tolerance(
@@ -80,14 +68,10 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
     /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let resonances = study.crossings(Pendulum::omega, 0.5, 3.5, 1.0)?;
     /// assert!((resonances[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`] at the first point; [`Error::Setting`], [`Error::UnknownHandle`].
     pub fn crossings(
@@ -102,15 +86,11 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// for resonance in study.crossing_tolerances(Pendulum::omega, 0.5, 3.5, 1.0)? {
     ///     println!("{resonance}");
     /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
     pub fn crossing_tolerances(
@@ -126,14 +106,10 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
     /// ([`sweep::flutter_onsets`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// // A bar without damping never flutters.
     /// assert!(study.flutter_onsets(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::crossings`].
     pub fn flutter_onsets(
@@ -147,13 +123,9 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// assert!(study.flutter_onset_tolerances(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
     pub fn flutter_onset_tolerances(
@@ -170,16 +142,12 @@ impl<M: DirectionalKernels> Study<M> {
 impl<M: CurvatureKernels> Study<M> {
     /// Like [`Study::critical_state`], with first and second derivatives of the value
     /// ([`critical_curvature`](crate::second_order::critical_curvature)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let critical = study.critical_curvature(Pendulum::omega, 0.0, 6.0)?;
     /// // omega_c = sqrt(3 g / (2 l)), so its second derivative is 3 / 4 of it.
     /// let l = Pendulum::l.index();
     /// assert!((critical.second[l][l] - 0.75 * critical.value).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::critical_state`]; [`Error::NoSensitivity`], [`Error::ClusteredMode`] where the value has no derivatives.
     pub fn critical_curvature(

@@ -17,14 +17,10 @@ use crate::{Error, Input, Watch};
 impl<M: BatchKernels> Study<M> {
     /// Computes equilibria and modes at each value of one input, and the critical values between them
     /// ([`sweep::sweep`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let sweep = study.sweep(Pendulum::omega, &[2.0, 3.0, 4.0, 5.0])?;
     /// assert!((sweep.critical[0].value - 14.715_f64.sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::UnknownHandle`], [`Error::NotAssembled`]; a point that fails carries its own error.
     pub fn sweep(
@@ -32,14 +28,17 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Sweep, Error> {
-        let values = self.settings.values_si(input.any(), values)?;
-        Swept::plain(&self.settings, &self.mechanism).sweep((input.any(), &values))
+        let mut points = Vec::with_capacity(values.len());
+        let mut whole = self.sweep_each(input, values, |point| {
+            points.push(point.clone());
+            ControlFlow::Continue(())
+        })?;
+        whole.points = points;
+        Ok(whole)
     }
 
     /// Like [`Study::sweep`], but passes each point to `each` as soon as it is found and keeps none; `each` can break
     /// off the sweep ([`sweep::sweep_each`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use std::ops::ControlFlow;
     ///
@@ -48,9 +47,7 @@ impl<M: BatchKernels> Study<M> {
     ///     println!("{}: {:?}", point.value, point.modes.as_ref().map(|modes| modes.frequencies()));
     ///     ControlFlow::Continue(())
     /// })?;
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`].
     pub fn sweep_each(
@@ -65,17 +62,13 @@ impl<M: BatchKernels> Study<M> {
 
     /// Calls `each` with the equilibrium, the modes and their total derivatives at each value of one input, in order
     /// ([`sweep::sensitivity_sweep`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// study.sensitivity_sweep(Pendulum::omega, &[4.0, 4.5, 5.0], |point, slopes| {
     ///     if let Ok(slopes) = slopes {
     ///         println!("{}: {:?}", point.value, slopes.modes[0].frequency());
     ///     }
     /// })?;
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`].
     pub fn sensitivity_sweep(
@@ -91,15 +84,11 @@ impl<M: BatchKernels> Study<M> {
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and label
     /// ([`Study::sensitivity_sweep`], [`tolerance::first_order`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// for spread in study.first_order_sweep(Pendulum::omega, &[4.0, 4.5, 5.0])? {
     ///     println!("{}", spread?);
     /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`] and [`Study::tolerances`].
     pub fn first_order_sweep(
@@ -115,13 +104,9 @@ impl<M: BatchKernels> Study<M> {
 impl<M: DirectionalKernels> Study<M> {
     /// Campbell diagram along one input, with its crossings of lines: engine orders as numbers, or [`Line`]s
     /// ([`campbell::campbell`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.campbell(Pendulum::omega, &[4.0, 5.0, 6.0], &[1.0, 2.0])?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`] and [`Study::tolerances`].
     pub fn campbell(
@@ -130,16 +115,17 @@ impl<M: DirectionalKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell, Error> {
-        let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        let values = self.settings.values_si(input.any(), values)?;
-        let axes = Axes::new(input.any(), &values, &orders);
-        Along::deviating(&self.settings, &self.mechanism)?.campbell(&axes)
+        let mut points = Vec::with_capacity(values.len());
+        let mut whole = self.campbell_each(input, values, orders, |point| {
+            points.push(point);
+            ControlFlow::Continue(())
+        })?;
+        whole.points = points;
+        Ok(whole)
     }
 
     /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can
     /// break off the sweep ([`campbell::campbell_each`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use std::ops::ControlFlow;
     ///
@@ -149,9 +135,7 @@ impl<M: DirectionalKernels> Study<M> {
     ///     ControlFlow::Continue(())
     /// })?;
     /// assert!(seen == 3 && between.points.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::campbell`].
     pub fn campbell_each(
@@ -168,16 +152,12 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Follows branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let branches = study.branches(Pendulum::omega, 0.0, 6.0)?;
     /// for point in branches.special() {
     ///     println!("{point}");
     /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`] if there is none at either end; [`Error::Setting`], [`Error::UnknownHandle`].
     pub fn branches(
@@ -190,17 +170,13 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Like [`Study::branches`], with custom settings and a search from many starting points.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::equilibrium::Search;
     ///
     /// let settings = study.continuation(Pendulum::omega, 0.0, 6.0)?.max_step(0.1);
     /// let search = Search::new([-3.0], [3.0]);
     /// println!("{}", study.branches_with(&settings, Some(&search))?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::branches`].
     pub fn branches_with(
@@ -213,14 +189,10 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Like [`Study::branches_with`], passing each branch to `each` as soon as it is complete
     /// ([`branches::branches_each`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let settings = study.continuation(Pendulum::omega, 0.0, 6.0)?;
     /// study.branches_each(&settings, None, |branch| println!("{} points", branch.points.len()))?;
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::branches`].
     pub fn branches_each(
@@ -234,14 +206,10 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be modified and passed to
     /// [`Study::branches_with`].
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let fine = study.continuation(Pendulum::omega, 0.0, 6.0)?.max_step(0.01);
     /// println!("{}", study.branches_with(&fine, None)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::UnknownHandle`].
     pub fn continuation(
@@ -263,16 +231,6 @@ type Swept<'a> = Table<'a, dyn BatchKernels + 'a>;
 pub(super) type Along<'a> = Table<'a, dyn DirectionalKernels + 'a>;
 
 impl Swept<'_> {
-    fn sweep(&self, along: (Input, &[f64])) -> Result<Sweep, Error> {
-        let mut points = Vec::with_capacity(along.1.len());
-        let mut whole = self.sweep_each(along, &mut |point| {
-            points.push(point.clone());
-            ControlFlow::Continue(())
-        })?;
-        whole.points = points;
-        Ok(whole)
-    }
-
     fn sweep_each(
         &self,
         along: (Input, &[f64]),
@@ -316,16 +274,6 @@ impl Swept<'_> {
 }
 
 impl Along<'_> {
-    fn campbell(&self, axes: &Axes<'_>) -> Result<Campbell, Error> {
-        let mut points = Vec::with_capacity(axes.values.len());
-        let mut whole = self.campbell_each(axes, &mut |point| {
-            points.push(point);
-            ControlFlow::Continue(())
-        })?;
-        whole.points = points;
-        Ok(whole)
-    }
-
     fn campbell_each(
         &self,
         axes: &Axes<'_>,

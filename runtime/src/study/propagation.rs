@@ -12,14 +12,10 @@ use crate::{Error, Watch};
 impl<M: SummaryKernels> Study<M> {
     /// Computes how tolerances spread the given responses, with their covariance, by the best affordable method
     /// ([`propagation::propagate`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.propagate(&[frequency, Response::Output(Pendulum::angle.any())])?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`],
     /// [`Error::Setting`] for an invalid response; [`Error::Threads`].
@@ -30,8 +26,6 @@ impl<M: SummaryKernels> Study<M> {
     }
 
     /// Samples the given responses at any kind of points, over any range of them ([`propagation::sampled`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::propagation::{Points, Sampler};
     /// use eigentol::response::Response;
@@ -39,9 +33,7 @@ impl<M: SummaryKernels> Study<M> {
     /// let angle = Response::Output(Pendulum::angle.any());
     /// let sampler = Sampler::new(Points::LatinHypercube).samples(800);
     /// println!("{}", study.sample_responses(&[angle], &sampler)?.propagation()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for invalid settings of the sampler.
     pub fn sample_responses(
@@ -59,14 +51,10 @@ impl<M: SummaryKernels> Study<M> {
     }
 
     /// Smallest and largest value of each response over the box of tolerance limits ([`propagation::worst_case`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.worst_case(&[frequency])?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::propagate`].
     pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
@@ -77,14 +65,10 @@ impl<M: SummaryKernels> Study<M> {
 
     /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control
     /// variate ([`propagation::controlled`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.samples(200).controlled(&[frequency])?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for fewer than three samples.
     pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
@@ -100,14 +84,10 @@ impl<M: SummaryKernels> Study<M> {
     }
 
     /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     #[doc = include_str!("frequency.txt")]
     /// println!("{}", study.influence(&[frequency])?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for too few samples.
     pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {

@@ -14,17 +14,13 @@ use crate::tolerance::Sampling;
 impl<M: DirectionalKernels> Study<M> {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points,
     /// lines of designs, or the study's number of samples ([`Requirements::probabilities`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::requirement::Requirement;
     #[doc = include_str!("frequency.txt")]
     /// let found = study.probability(&[Requirement::at_least(frequency, 3.9)])?;
     /// assert!(found.each[0].value < 1e-6 && found.each[0].interval.upper < 1e-6);
     /// println!("{found}");
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::probabilities`].
     pub fn probability(&self, wanted: &[Requirement]) -> Result<Probabilities, Error> {
@@ -36,16 +32,12 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Probabilities of meeting the requirements, jointly and individually, from the study's number of samples
     /// ([`Requirements::chances`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::requirement::Requirement;
     #[doc = include_str!("frequency.txt")]
     /// let wanted = [Requirement::at_least(frequency, 4.0), Requirement::Stable];
     /// println!("{}", study.chances(&wanted)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::chances`].
     pub fn chances(&self, wanted: &[Requirement]) -> Result<Chances, Error> {
@@ -53,8 +45,6 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Like [`Study::chances`], with custom settings, for example a range of the samples, or a run to watch and stop.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::requirement::Requirement;
     #[doc = include_str!("frequency.txt")]
@@ -62,9 +52,7 @@ impl<M: DirectionalKernels> Study<M> {
     /// let part = |range| study.chances_by(&wanted, &study.sampling().range(Some(range)));
     /// let failed = part(0..300)?.all.failed + part(300..1000)?.all.failed;
     /// assert_eq!(failed, study.chances(&wanted)?.all.failed);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::chances`].
     pub fn chances_by(
@@ -78,17 +66,13 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Failure probabilities from design points, with importance factors and exact derivatives
     /// ([`Requirements::reliability`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::requirement::Requirement;
     #[doc = include_str!("frequency.txt")]
     /// let found = study.reliability(&[Requirement::at_least(frequency, 4.0)])?;
     /// assert!(found.verified());
     /// println!("{found}");
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::reliability`].
     pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
@@ -99,16 +83,12 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Estimates a small probability of failing any requirement by importance sampling about the design points
     /// ([`Requirements::rare_failure`]), with the seed, stream and threads of the study.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::requirement::{Requirement, SamplingSettings};
     #[doc = include_str!("frequency.txt")]
     /// let settings = SamplingSettings::default();
     /// println!("{}", study.rare_failure(&[Requirement::at_least(frequency, 3.9)], &settings)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::reliability`] and [`Requirements::rare_failure`].
     pub fn rare_failure(
@@ -129,8 +109,6 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Finds the cheapest tolerances that meet the requirements, checked with the study's number of samples
     /// ([`allocation::allocate`](crate::allocation::allocate)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::allocation::{Choices, Cost, HalfWidth};
     /// use eigentol::requirement::Requirement;
@@ -142,9 +120,7 @@ impl<M: DirectionalKernels> Study<M> {
     /// };
     /// let choices = Choices { half_widths: vec![length], nominals: vec![], failure: vec![1e-3] };
     /// println!("{}", study.allocation(&[Requirement::at_least(frequency, 4.0)], &choices)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`allocation::allocate`](crate::allocation::allocate).
     pub fn allocation(

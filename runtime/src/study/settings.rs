@@ -167,11 +167,6 @@ impl Settings {
         }
     }
 
-    /// Sets tolerance limits as fractions of the value of a parameter.
-    pub(super) fn set_relative_limits(&mut self, parameter: Parameter, limits: (f64, f64)) {
-        self.vary(parameter, |own| own.set_limits(limits, true));
-    }
-
     /// Changes the variation of a parameter.
     pub(super) fn vary(&mut self, parameter: Parameter, change: impl FnOnce(&mut Variation)) {
         let (all, index) = match parameter {
