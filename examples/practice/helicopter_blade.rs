@@ -53,13 +53,12 @@ pub fn study() -> Study<HelicopterBlade> {
 /// Writes the frequencies per revolution, and the probability of the rocking band.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let study = study();
-    let solved = study.solve()?;
-    let frequencies = solved.modes.frequencies();
+    let frequencies = study.modes()?.frequencies();
     let [Some(lag), Some(flap)] = frequencies[..] else {
         return Err("both motions oscillate".into());
     };
     let [high, low] = ROCKING.map(|rocking| FLIGHT - TAU * rocking);
-    let margin = solved.margin(0, Band::Between { low, high })?.margin;
+    let margin = study.margin(0, Band::Between { low, high })?.margin;
     let [lag_ratio, flap_ratio] = [lag / FLIGHT, flap / FLIGHT];
     let [beat, sigma] = [(FLIGHT - lag) / TAU, margin.sigma / TAU];
     let [slow, fast] = ROCKING;

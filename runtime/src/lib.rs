@@ -39,7 +39,7 @@
 //! ```
 //!
 //! The table lists the questions that a [`Study`] answers, and the functions behind them. Several questions about one
-//! operating point share its equilibrium and modes through [`Study::solve`].
+//! operating point share its equilibrium and modes, which the study keeps.
 //!
 //! | question | method | function |
 //! | --- | --- | --- |
@@ -123,7 +123,7 @@ pub use eigentol_tolerance::{FirstOrder, MonteCarlo, Tolerances};
 #[cfg(feature = "std")]
 pub use num_complex::Complex64 as Complex;
 #[cfg(feature = "std")]
-pub use study::{InDeclaredUnit, Parameter, Solved, Study, Value};
+pub use study::{InDeclaredUnit, Parameter, Study, Value};
 
 /// The example of the README, compiled and run.
 #[cfg(all(doctest, feature = "std"))]

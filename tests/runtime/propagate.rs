@@ -70,16 +70,18 @@ fn ask<R>(
     wanted: Vec<Response>,
     question: impl FnOnce(&Responses<'_>) -> R,
 ) -> R {
-    let solved = study.solve().unwrap();
-    let responses = Responses::new(&Bar, &solved.equilibrium, &solved.modes, wanted).unwrap();
+    let state = study.equilibrium().unwrap();
+    let modes = study.modes().unwrap();
+    let responses = Responses::new(&Bar, &state, &modes, wanted).unwrap();
     question(&responses)
 }
 
 /// Puts a question to the mechanism with simple outputs.
 fn ask_sum<R>(wanted: Vec<Response>, question: impl FnOnce(&Responses<'_>) -> R) -> R {
     let study = Study::new(Sum);
-    let solved = study.solve().unwrap();
-    let responses = Responses::new(&Sum, &solved.equilibrium, &solved.modes, wanted).unwrap();
+    let state = study.equilibrium().unwrap();
+    let modes = study.modes().unwrap();
+    let responses = Responses::new(&Sum, &state, &modes, wanted).unwrap();
     question(&responses)
 }
 

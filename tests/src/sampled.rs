@@ -79,8 +79,10 @@ fn compare_one<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
 /// Standard deviations of every quantity of the first mode, in vectors and one by one.
 fn responses<M: Mechanism + Copy>(study: &Study<M>, what: &str) {
     let quantities = Quantity::ALL.map(|quantity| Response::Mode { mode: 0, quantity });
-    let solved = study.solve().expect("a nominal state");
-    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let (at, modes) = (
+        &study.equilibrium().expect("a nominal state"),
+        &study.modes().expect("a nominal state"),
+    );
     let (machine, wanted) = (study.mechanism(), quantities.to_vec());
     let tolerances = study.tolerances().expect("tolerances");
     let sampler = Sampler::new(Points::Sobol).samples(64).threads(1);

@@ -280,8 +280,8 @@ fn samples_need_no_heap() {
             .vectors(Some(Instructions::best()))
             .threads(1)
             .samples(samples);
-        let solved = study.solve().expect("modes");
-        allocations(|| solved.monte_carlo().expect("samples"))
+        study.modes().expect("modes");
+        allocations(|| study.monte_carlo().expect("samples"))
     };
     let more = run(4096) - run(2048);
     assert!(more <= 2048 / 256 + 1 + 2 * 2 * 2, "{more}");

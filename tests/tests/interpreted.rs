@@ -24,24 +24,25 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
     for (k, &value) in operation.start.iter().enumerate() {
         study = study.guess(Coordinate::new(k), value);
     }
-    let solved = study.solve().expect("an equilibrium with modes");
+    let state = study.equilibrium().expect("an equilibrium with modes");
+    let modes = study.modes().expect("an equilibrium with modes");
     let mut answers = vec![
-        ("equilibrium", format!("{:?}", solved.equilibrium)),
-        ("modes", format!("{:?}", solved.modes)),
-        ("whirls", format!("{:?}", solved.whirls())),
-        ("shift", format!("{:?}", solved.equilibrium_shift())),
-        ("sensitivities", format!("{:?}", solved.sensitivities())),
-        ("first order", format!("{:?}", solved.first_order())),
-        ("outputs", format!("{:?}", solved.outputs())),
+        ("equilibrium", format!("{state:?}")),
+        ("modes", format!("{modes:?}")),
+        ("whirls", format!("{:?}", study.whirls())),
+        ("shift", format!("{:?}", study.equilibrium_shift())),
+        ("sensitivities", format!("{:?}", study.sensitivities())),
+        ("first order", format!("{:?}", study.first_order())),
+        ("outputs", format!("{:?}", study.outputs())),
         (
             "spreads of outputs",
-            format!("{:?}", solved.output_tolerances()),
+            format!("{:?}", study.output_tolerances()),
         ),
-        ("curvature", format!("{:?}", solved.mode_curvature(0))),
-        ("shape", format!("{:?}", solved.shape_sensitivity(0))),
+        ("curvature", format!("{:?}", study.mode_curvature(0))),
+        ("shape", format!("{:?}", study.shape_sensitivity(0))),
         ("samples", format!("{:?}", study.monte_carlo())),
-        ("picture", format!("{:?}", solved.picture())),
-        ("swing", format!("{:?}", solved.mode_pictures(0, 4, 0.1))),
+        ("picture", format!("{:?}", study.picture())),
+        ("swing", format!("{:?}", study.mode_pictures(0, 4, 0.1))),
     ];
     if let Some(&value) = operation.inputs.first() {
         let values: Vec<f64> = (0..20)

@@ -4,7 +4,7 @@
 //! similar machine of another size, density and pace: a watch, a micromachine, a crane. Its results, divided by the
 //! same powers, are those of the original up to rounding. Whatever compares numbers of different units fails here.
 
-use eigentol::{Coordinate, Error, Input, Policy, Solved, Study, Unit};
+use eigentol::{Coordinate, Error, Input, Policy, Study, Unit};
 use eigentol_interpreter::Interpreted;
 use eigentol_tests::rederived::{Operation, operating_points};
 use eigentol_tests::tables;
@@ -179,8 +179,8 @@ impl Similar {
 
     /// Equilibrium, modes, outputs and their derivatives, in the units of the original machine.
     fn at_point(&self) -> Result<Results, String> {
-        let solved = self.study.solve().map_err(words)?;
-        let (state, description) = (&solved.equilibrium, self.study.description());
+        let equilibrium = self.study.equilibrium().map_err(words)?;
+        let (state, description) = (&equilibrium, self.study.description());
         let mut found = vec![(format!("{:?}", state.stability), vec![])];
         let coordinates = state.coordinates.iter().zip(description.coordinates.iter());
         for (value, info) in coordinates {
@@ -191,8 +191,8 @@ impl Similar {
         }
         let units = description.design.iter().map(|info| self.unit(&info.unit));
         let units: Vec<f64> = units.collect();
-        found.extend(self.modes(&solved, &units)?);
-        let outputs = solved.outputs().map_err(words)?;
+        found.extend(self.modes(&units)?);
+        let outputs = self.study.outputs().map_err(words)?;
         for (o, info) in description.outputs.iter().enumerate() {
             let own = self.unit(&info.unit);
             found.push((info.name.to_string(), vec![outputs.values[o] / own]));
@@ -205,11 +205,11 @@ impl Similar {
         Ok(found)
     }
 
-    fn modes(&self, solved: &Solved<'_, Interpreted>, units: &[f64]) -> Result<Results, String> {
-        let (time, all) = (self.time(), &solved.modes.modes);
+    fn modes(&self, units: &[f64]) -> Result<Results, String> {
+        let (time, all) = (self.time(), self.study.modes().map_err(words)?.modes);
         let square = time * time;
-        let slopes = solved.sensitivities().map_err(words)?;
-        let spreads = solved.first_order().map_err(words)?;
+        let slopes = self.study.sensitivities().map_err(words)?;
+        let spreads = self.study.first_order().map_err(words)?;
         // Modes of one frequency come in either order.
         let key = |k: &usize| {
             let s = all[*k].s;
@@ -229,7 +229,7 @@ impl Similar {
             if slope.clustered {
                 continue;
             }
-            let curvature = solved.mode_curvature(mode).map_err(words)?;
+            let curvature = self.study.mode_curvature(mode).map_err(words)?;
             let curvature = curvature.lambda.by_design;
             let entries = (0..units.len()).flat_map(|i| (0..units.len()).map(move |j| (i, j)));
             let curvature = entries.map(|(i, j)| curvature[i][j] * square * units[i] * units[j]);
@@ -237,7 +237,7 @@ impl Similar {
                 format!("curvatures of mode {position}"),
                 curvature.collect(),
             ));
-            solved.shape_sensitivity(mode).map_err(words)?;
+            self.study.shape_sensitivity(mode).map_err(words)?;
         }
         Ok(found)
     }

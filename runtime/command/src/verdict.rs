@@ -1,6 +1,7 @@
 //! The verdict of an analysis on a mechanism.
 
-use eigentol::{Equilibrium, Modes};
+use eigentol::{Error, Study};
+use eigentol_interpreter::Interpreted;
 
 /// The verdict behind the numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,15 +20,17 @@ impl Verdict {
     }
 
     /// Whether the equilibrium is stable and no mode grows.
-    pub(crate) fn of(equilibrium: &Equilibrium, modes: &Modes) -> Self {
-        if !equilibrium.stability.holds() {
-            let predicate = equilibrium.stability.predicate();
-            return Self::No(format!("the equilibrium is {predicate}"));
+    pub(crate) fn of(study: &Study<Interpreted>) -> Result<Self, Error> {
+        let modes = study.modes()?.modes;
+        let stability = study.equilibrium()?.stability;
+        if !stability.holds() {
+            let predicate = stability.predicate();
+            return Ok(Self::No(format!("the equilibrium is {predicate}")));
         }
-        let growing = modes.modes.iter().find(|mode| mode.behaviour.grows());
-        match growing {
+        let growing = modes.iter().find(|mode| mode.behaviour.grows());
+        Ok(match growing {
             Some(mode) => Self::No(format!("mode {} {}", mode.label + 1, mode.behaviour)),
             None => Self::Yes,
-        }
+        })
     }
 }

@@ -27,14 +27,13 @@ fn main() -> Result<(), eigentol::Error> {
     let study = Study::new(Pendulum)
         .input(Pendulum::omega, 5.0)
         .start(Pendulum::theta, 1.0);
-    let solved = study.solve()?;
-    println!("{}\n{}", solved.equilibrium, solved.modes);
-    println!("{}", solved.first_order()?);
+    println!("{}\n{}", study.equilibrium()?, study.modes()?);
+    println!("{}", study.first_order()?);
     let frequency = Response::Mode {
         mode: 0,
         quantity: Quantity::Frequency,
     };
     let wanted = [Requirement::at_least(frequency, 4.0)];
-    println!("{}", solved.probability(&wanted)?);
+    println!("{}", study.probability(&wanted)?);
     Ok(())
 }

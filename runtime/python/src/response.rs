@@ -144,15 +144,10 @@ impl Study {
             }
         };
         let nominal = slf.get().ask(py, |study| {
-            let solved = study.solve()?;
+            let (state, modes) = (study.equilibrium()?, study.modes()?);
             // Inconsistent settings are rejected here.
-            Responses::new(
-                study.mechanism(),
-                &solved.equilibrium,
-                &solved.modes,
-                vec![wanted],
-            )?;
-            Ok((solved.equilibrium, solved.modes))
+            Responses::new(study.mechanism(), &state, &modes, vec![wanted])?;
+            Ok((state, modes))
         })?;
         let study = slf.clone().unbind();
         let arguments = of.clone().unbind();

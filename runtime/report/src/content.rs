@@ -69,22 +69,22 @@ impl Content {
         let study = &report.study;
         let setup = Setup::of(study)?;
         let equilibrium = answer(study.equilibrium())?;
-        let solved = answer(study.solve())?;
-        let outputs = match &solved {
-            Ok(solved) => answer(solved.output_tolerances())?,
+        let modes = answer(study.modes())?;
+        let outputs = match &modes {
+            Ok(_) => answer(study.output_tolerances())?,
             Err(error) => Err(error.clone()),
         };
-        let pictures = match (&solved, &equilibrium) {
-            (Ok(solved), _) => answer(Pictures::of(solved))?,
+        let pictures = match (&modes, &equilibrium) {
+            (Ok(_), _) => answer(Pictures::of(study))?,
             (Err(_), Ok(_)) => answer(study.picture())?.map(Pictures::at_rest),
             (Err(error), Err(_)) => Err(error.clone()),
         };
         let varies = setup.tolerances.sigmas().iter().any(|sigma| *sigma > 0.0);
-        let spread = match &solved {
+        let spread = match &modes {
             _ if !varies => None,
-            Ok(solved) => Some(Spreads {
-                summary: answer(solved.summary())?,
-                monte_carlo: answer(solved.monte_carlo())?,
+            Ok(_) => Some(Spreads {
+                summary: answer(study.summary())?,
+                monte_carlo: answer(study.monte_carlo())?,
             }),
             Err(error) => Some(Spreads {
                 summary: Err(error.clone()),
@@ -103,7 +103,7 @@ impl Content {
             brief_style: report.style.clone(),
             equilibrium,
             pictures,
-            modes: solved.map(|solved| solved.modes),
+            modes,
             outputs,
             spread,
             along: along.transpose()?,

@@ -2,7 +2,7 @@
 
 use eigentol::kernels::PictureKernels;
 use eigentol::picture::{ModePictures, Scene};
-use eigentol::{Error, Solved};
+use eigentol::{Error, Study};
 
 /// Maximum number of poses over all modes; they make up most of the file.
 const POSES: usize = 14_000;
@@ -28,10 +28,10 @@ pub(crate) struct Pictures {
 }
 
 impl Pictures {
-    pub(crate) fn of<M: PictureKernels>(solved: &Solved<'_, M>) -> Result<Self, Error> {
-        let scene = solved.picture()?;
-        let (modes, phases) = frames(scene.bodies.len(), solved.modes.modes.len());
-        let modes = (0..modes).map(|mode| solved.mode_pictures(mode, phases, AMPLITUDE));
+    pub(crate) fn of<M: PictureKernels>(study: &Study<M>) -> Result<Self, Error> {
+        let scene = study.picture()?;
+        let (modes, phases) = frames(scene.bodies.len(), study.modes()?.modes.len());
+        let modes = (0..modes).map(|mode| study.mode_pictures(mode, phases, AMPLITUDE));
         Ok(Self {
             modes: modes.collect(),
             scene,

@@ -73,22 +73,14 @@ fn words(html: &str) -> String {
 fn tables_have_the_numbers_of_the_results_bit_by_bit() {
     let study = swinging();
     let html = Report::new(&study).html().unwrap();
-    let solved = study.solve().unwrap();
+    let state = study.equilibrium().unwrap();
+    let solution = study.modes().unwrap();
     let modes = table(&html, "modes");
-    assert_eq!(
-        column(&modes, "frequency"),
-        [solved.modes.modes[0].frequency()]
-    );
+    assert_eq!(column(&modes, "frequency"), [solution.modes[0].frequency()]);
     let equilibrium = table(&html, "equilibrium");
-    let coordinates: Vec<_> = solved
-        .equilibrium
-        .coordinates
-        .iter()
-        .copied()
-        .map(Some)
-        .collect();
+    let coordinates: Vec<_> = state.coordinates.iter().copied().map(Some).collect();
     assert_eq!(column(&equilibrium, "value"), coordinates);
-    let first = solved.first_order().unwrap();
+    let first = study.first_order().unwrap();
     let sigma = first.modes[0].frequency().map(|own| own.sigma);
     assert_eq!(
         column(&table(&html, "summary"), "sigma, first order"),
@@ -98,13 +90,13 @@ fn tables_have_the_numbers_of_the_results_bit_by_bit() {
         column(&table(&html, "shares"), "mode 1"),
         [Some(0.0), Some(100.0)]
     );
-    let sampled = solved.monte_carlo().unwrap();
+    let sampled = study.monte_carlo().unwrap();
     let mean = sampled.modes[0].as_ref().map(|own| own.mean);
     assert_eq!(
         column(&table(&html, "Monte Carlo"), "mean of frequency"),
         [mean]
     );
-    let spread = solved.output_tolerances().unwrap();
+    let spread = study.output_tolerances().unwrap();
     assert_eq!(
         column(&table(&html, "output tolerances"), "mean"),
         [Some(spread.values[0])]
@@ -156,7 +148,7 @@ fn charts_are_the_figures_of_the_results() {
 #[test]
 fn modes_are_called_and_measured_as_the_user_says() {
     let study = swinging();
-    let omega = study.solve().unwrap().modes.modes[0].frequency().unwrap();
+    let omega = study.modes().unwrap().modes[0].frequency().unwrap();
     let page = |style: Style| {
         let report = Report::new(&study).style(style);
         report
@@ -202,9 +194,8 @@ fn the_view_in_3d_has_every_body_and_the_poses_of_every_mode() {
         .map(|own| own["name"].as_str().unwrap())
         .collect();
     assert_eq!(names, ["shaft", "bar"]);
-    let solved = study.solve().unwrap();
     let frames = view["modes"][0]["frames"].as_array().unwrap();
-    let expected = solved.mode_pictures(0, frames.len(), 0.12).unwrap();
+    let expected = study.mode_pictures(0, frames.len(), 0.12).unwrap();
     for (frame, poses) in frames.iter().zip(&expected.frames) {
         let numbers: Vec<f64> = frame
             .as_array()
@@ -671,9 +662,9 @@ fn figures_and_tables_of_each_mode_are_its_own() {
     let study = two_bars();
     let html = Report::new(&study).html().unwrap();
     let figures = data(&html, "figure");
-    let solved = study.solve().unwrap();
-    let summary = solved.summary().unwrap();
-    let (first, sampled) = (summary.first, solved.monte_carlo().unwrap());
+    let modes = study.modes().unwrap();
+    let summary = study.summary().unwrap();
+    let (first, sampled) = (summary.first, study.monte_carlo().unwrap());
     for mode in 0..2 {
         let style = Style::default().title(format!("Mode {}", mode + 1));
         let histogram = Histogram::new(&sampled, mode)
@@ -709,12 +700,7 @@ fn figures_and_tables_of_each_mode_are_its_own() {
     }
     assert!(html.contains("<p class=\"subject\">Bars at omega = 20 rpm</p>"));
     let scene = &data(&html, "scene")[0];
-    for (shown, mode) in scene["modes"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .zip(&solved.modes.modes)
-    {
+    for (shown, mode) in scene["modes"].as_array().unwrap().iter().zip(&modes.modes) {
         let omega = mode.frequency().unwrap();
         let title = numbers(shown["title"].as_str().unwrap());
         let about = numbers(shown["about"].as_str().unwrap());

@@ -2,52 +2,42 @@
 
 use core::ops::Range;
 
-use super::subject::Subject;
-use super::{Solved, Study};
-use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
+use super::Study;
+use super::deviating::{Table, Toleranced};
+use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Equilibria, Search};
-use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
-use crate::modes::Whirls;
+use crate::kernels::{
+    BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
+};
+use crate::modes::{self, Whirls};
 use crate::picture::{self, ModePictures, Scene};
-use crate::second_order::{Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
-use crate::sensitivity;
-use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
-use crate::shapes::ShapeSensitivity;
-use crate::tolerance;
-use crate::tolerance::{OutputTolerances, PartialMonteCarlo, Sampling};
+use crate::second_order::{self, Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
+use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
+use crate::shapes::{self, ShapeSensitivity};
+use crate::summary::{self, BUDGET, Summary};
+use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling};
 use crate::{Coordinate, Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
 
 impl<M: Kernels> Study<M> {
     /// Finds the dynamic equilibrium ([`equilibrium::equilibrium`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let state = study.equilibrium()?;
     /// let theta = state.coordinates[Pendulum::theta.index()];
     /// assert!((theta.cos() - 1.5 * 9.81 / 25.0).abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::NoEquilibrium`], [`Error::NotAssembled`], [`Error::UnboundedReactions`]; [`Error::NotFinite`],
     /// [`Error::Unphysical`], [`Error::OutsideDomain`] for values that no mechanism can have; [`Error::UnknownHandle`]
     /// for a handle that does not exist.
     pub fn equilibrium(&self) -> Result<Equilibrium, Error> {
-        let mut state = self.settings.blank_state();
-        self.settings
-            .equilibrium_into(&self.mechanism, &mut state)?;
-        Ok(state)
+        self.settings.equilibrium(&self.mechanism).cloned()
     }
 
     /// Assembles the mechanism, holding the coordinates that have a [`Study::start`] ([`equilibrium::assemble`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let assembled = study.assembly()?;
     /// assert_eq!(assembled.coordinates, [1.0]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::NotAssembled`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::OutsideDomain`],
     /// [`Error::UnknownHandle`].
@@ -56,17 +46,13 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Searches for distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::equilibrium::Search;
     ///
     /// // Hanging, upside down, and swung out to either side.
     /// let all = study.equilibria(&Search::new([-3.0], [3.5]))?;
     /// assert_eq!(all.len(), 4);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::NotAssembled`],
     /// [`Error::UnknownHandle`]. Finding none is not an error.
@@ -94,27 +80,7 @@ impl<M: Kernels> Study<M> {
         Search::within(&self.settings.description, &start, &bounds)
     }
 
-    /// Solves the equilibrium and its modes once, for several questions about them.
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// let solved = study.solve()?;
-    /// println!("{}{}", solved.equilibrium, solved.modes);
-    /// println!("{}{}", solved.first_order()?, solved.second_order()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::modes`].
-    pub fn solve(&self) -> Result<Solved<'_, M>, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        Ok(solved)
-    }
-
     /// Computes the natural modes ([`modes`](crate::modes::modes)). Their shapes are normalised by the mass matrix.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::Complex;
     /// use nalgebra::DMatrix;
@@ -122,134 +88,109 @@ impl<M: Kernels> Study<M> {
     /// for mode in &study.modes()?.modes {
     ///     println!("{:?} rad/s", mode.frequency());
     /// }
-    /// let solved = study.solve()?;
-    /// let shapes = DMatrix::from(solved.modes.shapes());
-    /// let mass = DMatrix::from(&solved.equilibrium.linear.mass).map(Complex::from);
+    /// let shapes = DMatrix::from(study.modes()?.shapes());
+    /// let mass = DMatrix::from(study.equilibrium()?.linear.mass).map(Complex::from);
     /// let product = shapes.adjoint() * mass * &shapes;
     /// assert!((product[(0, 0)].re - 1.0).abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::SingularMass`], [`Error::ModesNotFound`],
     /// [`Error::EigenvalueRange`]; of undamped modes [`Error::NonsymmetricStiffness`] and [`Error::NoUndampedModes`].
     pub fn modes(&self) -> Result<Modes, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        Ok(solved.modes)
+        Ok(self.solved()?.1.clone())
     }
 
     /// Derivatives of the equilibrium with respect to every input and design variable
     /// ([`sensitivity::equilibrium_shift`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let shift = study.equilibrium_shift()?;
     /// assert!(shift.by_input[Pendulum::theta.index()][Pendulum::omega.index()] > 0.0);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::CriticalState`],
     /// [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn equilibrium_shift(&self) -> Result<EquilibriumShift, Error> {
         let state = self.settings.regular(&self.mechanism)?;
-        sensitivity::equilibrium_shift(&self.mechanism, &state)
+        sensitivity::equilibrium_shift(&self.mechanism, state)
     }
 
     /// Values and total derivatives of the outputs ([`sensitivity::output_sensitivities`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let outputs = study.outputs()?;
     /// println!("the angle is {} rad", outputs.values[Pendulum::angle.index()]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium_shift`]; [`Error::InfiniteOutput`].
     pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
         let state = self.settings.regular(&self.mechanism)?;
-        sensitivity::output_sensitivities(&self.mechanism, &state)
+        sensitivity::output_sensitivities(&self.mechanism, state)
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.output_tolerances()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        self.subject::<dyn Kernels>(&self.mechanism)
-            .output_tolerances()
+        let table = Table::<dyn Kernels>::deviating(&self.settings, &self.mechanism)?;
+        let state = table.state(self.settings.regular(&self.mechanism)?);
+        let outputs = sensitivity::output_sensitivities(table.kernels(), &state)?;
+        tolerance::output_tolerances(&outputs, self.settings.tolerances()?)
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let slopes = study.sensitivities()?;
     /// let by_design = slopes.modes[0].frequency().map(|slopes| slopes.by_design);
     /// println!("{:?} rad/s per metre", by_design.map(|slopes| slopes[Pendulum::l.index()]));
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`]; [`Error::CriticalState`], [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        solved.sensitivities()
+        let (state, modes) = self.solved()?;
+        sensitivity::sensitivities(&self.mechanism, state, modes)
     }
 
     /// First-order spread of the modes and frequencies ([`tolerance::first_order`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let spread = study.first_order()?;
     /// println!("{spread}");
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        let mut solved = Solved::blank(self);
-        solved.solve()?;
-        solved.first_order()
+        let own = Toleranced::<dyn Kernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        let slopes = sensitivity::sensitivities(own.kernels(), state, modes)?;
+        tolerance::first_order(modes, &slopes, own.tolerances)
     }
 
     /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`](crate::modes::whirls)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// for whirl in study.whirls()?.into_iter().flatten() {
     ///     println!("{whirl}");
     /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`].
     pub fn whirls(&self) -> Result<Whirls, Error> {
-        Ok(self.solve()?.whirls())
+        let (state, modes) = self.solved()?;
+        Ok(modes::whirls(&self.mechanism, state, modes))
+    }
+
+    /// The equilibrium and its modes.
+    fn solved(&self) -> Result<(&Equilibrium, &Modes), Error> {
+        self.settings.solved(&self.mechanism)
     }
 }
 
 impl<M: PictureKernels> Study<M> {
     /// The visible scene at the equilibrium: poses and shapes of the bodies ([`picture::scene`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let scene = study.picture()?;
     /// println!("{}: {:?}", scene.bodies[1].name, scene.bodies[1].pose);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`].
     pub fn picture(&self) -> Result<Scene, Error> {
@@ -258,22 +199,18 @@ impl<M: PictureKernels> Study<M> {
             inputs,
             design,
             ..
-        } = self.equilibrium()?;
-        picture::scene(&self.mechanism, &coordinates, &inputs, &design)
+        } = self.settings.equilibrium(&self.mechanism)?;
+        picture::scene(&self.mechanism, coordinates, inputs, design)
     }
 
     /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases.
     ///
     /// The largest displacement to either side is the fraction `amplitude` of the size of the mechanism
     /// ([`picture::mode_pictures`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let swing = study.mode_pictures(0, 24, 0.1)?;
     /// println!("{:?}", swing.frames[6][1].position);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`]; [`Error::NoSuchMode`], [`Error::Setting`].
     pub fn mode_pictures(
@@ -282,7 +219,8 @@ impl<M: PictureKernels> Study<M> {
         phases: usize,
         amplitude: f64,
     ) -> Result<ModePictures, Error> {
-        self.solve()?.mode_pictures(mode, phases, amplitude)
+        let (state, modes) = self.solved()?;
+        picture::mode_pictures(&self.mechanism, state, modes, mode, phases, amplitude)
     }
 }
 
@@ -290,15 +228,11 @@ impl<M: DirectionalKernels> Study<M> {
     /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a
     /// direction in the space of inputs and design variables
     /// ([`directional_derivatives`](crate::clusters::directional_derivatives)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let (inputs, design) = ([1.0], [0.0, 0.0]);
     /// let slopes = study.directional_derivatives(0, (&inputs, &design))?;
     /// println!("{:?} rad/s per rad/s", slopes.frequencies);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`].
     pub fn directional_derivatives(
@@ -306,123 +240,106 @@ impl<M: DirectionalKernels> Study<M> {
         mode: usize,
         direction: (&[f64], &[f64]),
     ) -> Result<DirectionalDerivatives, Error> {
-        self.solve()?.directional_derivatives(mode, direction)
+        let (state, modes) = self.solved()?;
+        clusters::directional_derivatives(&self.mechanism, state, modes, mode, direction)
     }
 
     /// Derivatives of the mode shapes of one mode, counted from 0
     /// ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let slopes = study.shape_sensitivity(0)?;
     /// println!("{}", slopes.right_by_design[Pendulum::l.index()][Pendulum::theta.index()]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
-        self.solve()?.shape_sensitivity(mode)
+        let (state, modes) = self.solved()?;
+        shapes::shape_sensitivity(&self.mechanism, state, modes, mode)
     }
 
     /// Finds the clusters of modes that mix within the tolerances, and their spread
     /// ([`clusters`](crate::clusters::clusters)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// // One mode has no other to mix with.
     /// assert!(study.clusters()?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        self.solve()?.clusters()
+        let own = Toleranced::<dyn DirectionalKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        clusters::clusters(own.kernels(), state, modes, own.tolerances)
     }
 }
 
 impl<M: CurvatureKernels> Study<M> {
     /// First and second derivatives of one mode, counted from 0
     /// ([`mode_curvature`](crate::second_order::mode_curvature)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let second = study.mode_curvature(0)?.lambda.by_design;
     /// let l = Pendulum::l.index();
     /// println!("{} 1/s^2 per square metre", second[l][l]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
-        self.solve()?.mode_curvature(mode)
+        let (state, modes) = self.solved()?;
+        second_order::mode_curvature(&self.mechanism, state, modes, mode)
     }
 
     /// First and second derivatives of one output ([`output_curvature`](crate::second_order::output_curvature)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let angle = study.output_curvature(Pendulum::angle)?;
     /// // cos(angle) = 3 g / (2 omega^2 l) whatever the mass.
     /// let m = Pendulum::m.index();
     /// assert!(angle.second.by_design[m][m].abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::outputs`]; [`Error::NoSensitivity`](crate::Error::NoSensitivity) where the output is not smooth.
     pub fn output_curvature(&self, output: Output<M>) -> Result<OutputCurvature, Error> {
-        self.solve()?.output_curvature(output)
+        let state = self.settings.regular(&self.mechanism)?;
+        second_order::output_curvature(&self.mechanism, state, output.any())
     }
 
     /// Second-order spread of every mode ([`second_order`](crate::second_order::second_order)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.second_order()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
-        self.solve()?.second_order()
+        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        let (kernels, tolerances) = (own.kernels(), own.tolerances);
+        Ok(second_order::second_order(
+            kernels, state, modes, tolerances,
+        ))
     }
 
     /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
     /// ([`mode_margin`](crate::second_order::mode_margin)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::second_order::Band;
     ///
     /// let band = Band::Between { low: 4.1, high: 4.2 };
     /// println!("{}", study.margin(0, band)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for an
     /// invalid band.
     pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
-        self.solve()?.margin(mode, band)
+        self.margin_of(mode, Quantity::Frequency, band)
     }
 
     /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is
     /// the probability that the mode is unstable.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::Quantity;
     /// use eigentol::second_order::Band;
     ///
     /// let band = Band::around(Pendulum::omega.any(), 0.1);
     /// println!("{}", study.margin_of(0, Quantity::NaturalFrequency, band)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::margin`].
     pub fn margin_of(
@@ -431,54 +348,47 @@ impl<M: CurvatureKernels> Study<M> {
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin, Error> {
-        self.solve()?.margin_of(mode, quantity, band)
+        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        let what = (mode, quantity);
+        second_order::mode_margin(own.kernels(), state, modes, what, own.tolerances, band)
     }
 }
 
 impl<M: BatchKernels> Study<M> {
     /// Monte Carlo simulation that solves the equilibrium anew for every sample ([`tolerance::monte_carlo`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let run = study.samples(500).monte_carlo()?;
     /// assert_eq!(run.counts.stable, 500);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`], of the nominal design; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
-        self.solve()?.monte_carlo()
+        self.sampled(&self.sampling())
     }
 
     /// Like [`Study::monte_carlo`], calling `progress` with the number of samples done since its last call.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
-    /// use std::sync::atomic::{AtomicUsize, Ordering};
-    ///
-    /// let done = AtomicUsize::new(0);
-    /// let count = |samples| {
-    ///     done.fetch_add(samples, Ordering::Relaxed);
-    /// };
-    /// study.samples(500).monte_carlo_with_progress(&count)?;
-    /// assert_eq!(done.into_inner(), 500);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    /// let dots = |_| print!(".");
+    /// println!("{}", study.samples(500).monte_carlo_with_progress(&dots)?);
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::monte_carlo`].
     pub fn monte_carlo_with_progress(
         &self,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<MonteCarlo, Error> {
-        self.solve()?.monte_carlo_with_progress(progress)
+        self.sampled(&self.sampling().progress(Some(progress)))
+    }
+
+    fn sampled(&self, sampling: &Sampling<'_>) -> Result<MonteCarlo, Error> {
+        let own = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        tolerance::monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
     }
 
     /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same
     /// bits as the whole run.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let study = study.samples(3000);
     /// let mut all = study.samples_between(1000..3000)?;
@@ -490,19 +400,15 @@ impl<M: BatchKernels> Study<M> {
     /// let mut part = study.keep_samples(true).samples_between(300..400)?;
     /// let samples = part.take_samples();
     /// assert_eq!((samples.len(), samples[0].0), (100, 300));
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::monte_carlo`]; [`Error::Setting`] for a range beyond the samples.
     pub fn samples_between(&self, range: Range<u64>) -> Result<PartialMonteCarlo, Error> {
-        self.solve()?.samples_between(range)
+        self.sample_modes(&self.sampling().range(Some(range)))
     }
 
     /// Like [`Study::samples_between`], with custom settings, for example to watch and stop a run
     /// ([`tolerance::partial_monte_carlo`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use std::sync::atomic::{AtomicBool, Ordering};
     ///
@@ -517,13 +423,13 @@ impl<M: BatchKernels> Study<M> {
     /// // Nothing is lost: later the rest follows.
     /// study.resume_samples(&mut part, &study.sampling())?;
     /// assert_eq!(part.result(), study.monte_carlo()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::samples_between`].
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
-        self.solve()?.sample_modes(sampling)
+        let own = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        tolerance::partial_monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
     }
 
     /// Solves the missing samples of a run, unless it is stopped again; see [`Study::sample_modes`].
@@ -535,16 +441,40 @@ impl<M: BatchKernels> Study<M> {
         done: &mut PartialMonteCarlo,
         sampling: &Sampling<'_>,
     ) -> Result<(), Error> {
-        self.solve()?.resume_samples(done, sampling)
+        let part = |range| self.sample_modes(&sampling.clone().range(Some(range)));
+        // Reject a run of another study before any work is done.
+        done.merge(part(0..0)?)?;
+        for range in done.missing() {
+            done.merge(part(range)?)?;
+        }
+        Ok(())
     }
 }
 
-impl Subject<'_, dyn Kernels + '_> {
-    fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        self.deviating(|own| {
-            let state = own.settings.regular(own.kernels)?;
-            let outputs = sensitivity::output_sensitivities(own.kernels, &state)?;
-            tolerance::output_tolerances(&outputs, own.settings.tolerances()?)
-        })
+impl<M: SummaryKernels> Study<M> {
+    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
+    /// trusted ([`summary`](crate::summary::summary)). The samples that judge are always the same, whatever
+    /// [`Study::samples`] and [`Study::seed`].
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.summary()?.trusted());
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::sensitivities`] and [`Study::tolerances`].
+    pub fn summary(&self) -> Result<Summary, Error> {
+        self.summary_within(BUDGET)
+    }
+
+    /// Like [`Study::summary`], with a limit on the number of operations spent on samples
+    /// ([`summary_within`](crate::summary::summary_within)).
+    #[doc = include_str!("example.txt")]
+    /// // No samples: distances and the second-order model.
+    /// assert!(study.summary_within(0.0)?.sampled().is_none());
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::summary`].
+    pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
+        let own = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
+        let (kernels, watch) = (own.kernels(), self.settings.watch());
+        summary::summary_watched(kernels, own.solved(), own.tolerances, operations, watch)
     }
 }

@@ -42,8 +42,8 @@ use crate::{
 ///
 /// The examples below continue this one. A study starts with the declared nominal values and tolerances, with all
 /// inputs and start values zero, and looks for a stable equilibrium. Values are in SI units unless wrapped in
-/// [`InDeclaredUnit`](crate::InDeclaredUnit). Each method solves whatever it needs; to ask several questions about one
-/// operating point, call [`Study::solve`] once and call the methods of the result.
+/// [`InDeclaredUnit`](crate::InDeclaredUnit). Each question solves whatever it needs. The study keeps the equilibrium and
+/// the modes for the next question, and its clones share them, until a setting moves the operating point.
 ///
 /// Handles such as `Pendulum::omega` belong to their mechanism. Using a handle of another mechanism does not compile:
 ///
@@ -71,6 +71,18 @@ pub struct Study<M> {
     pub(super) settings: Settings,
 }
 
+/// Setters of plain settings.
+macro_rules! setters {
+    ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {$(
+        $(#[$doc])*
+        #[must_use]
+        pub fn $name(mut self, $name: $kind) -> Self {
+            self.settings.$name = $name;
+            self
+        }
+    )*};
+}
+
 impl<M: Kernels> Study<M> {
     /// Creates a study of `mechanism` at its nominal design.
     #[must_use]
@@ -85,7 +97,7 @@ impl<M: Kernels> Study<M> {
     /// Sets the value of an input.
     #[must_use]
     pub fn input(mut self, input: Input<M>, value: impl Into<Value>) -> Self {
-        self.settings.set_input(input.any(), value.into());
+        self.settings.set_value(input.any().into(), value.into());
         self
     }
 
@@ -93,16 +105,13 @@ impl<M: Kernels> Study<M> {
     ///
     /// A declared tolerance keeps its absolute half-width, even if it was declared in percent (use
     /// [`Study::relative_tolerance`] for one that scales with the value).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let longer = study.clone().design(Pendulum::l, 2.0);
     /// assert!(longer.modes()?.frequencies()[0] > study.modes()?.frequencies()[0]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn design(mut self, variable: DesignVariable<M>, value: impl Into<Value>) -> Self {
-        self.settings.set_design(variable.any(), value.into());
+        self.settings.set_value(variable.any().into(), value.into());
         self
     }
 
@@ -161,14 +170,11 @@ impl<M: Kernels> Study<M> {
     /// a design variable, even one in percent (use [`Study::relative_tolerance`] for one that scales with the value). A
     /// declared tolerance of an input in percent follows the value. The distribution is unchanged: normal unless set
     /// otherwise.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// // The speed wanders by 0.1 rad/s about whatever value it has.
     /// let spread = study.clone().tolerance(Pendulum::omega, 0.1).first_order()?;
     /// assert!(spread.modes[0].lambda.sigma > study.first_order()?.modes[0].lambda.sigma);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn tolerance(
         mut self,
@@ -188,19 +194,16 @@ impl<M: Kernels> Study<M> {
     pub fn relative_tolerance(mut self, parameter: impl Into<Parameter<M>>, fraction: f64) -> Self {
         let limits = (-fraction, fraction);
         self.settings
-            .set_relative_limits(parameter.into().any(), limits);
+            .vary(parameter.into().any(), |own| own.set_limits(limits, true));
         self
     }
 
     /// Sets the limits of a tolerance as deviations from the value, lower limit first: `(0.0, 0.1e-3)` for a bore of
     /// +0.1 -0 mm.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let longer = study.limits(Pendulum::l, 0.0, 0.02);
     /// assert!((longer.tolerances()?.shifts()[Pendulum::l.index()] - 0.01).abs() < 1e-15);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn limits(
         mut self,
@@ -214,8 +217,6 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Sets the distribution of a parameter between its tolerance limits.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::Law;
     ///
@@ -224,8 +225,7 @@ impl<M: Kernels> Study<M> {
     /// // Limits hold three standard deviations of a normal variable and the square root of three of a uniform one.
     /// let ratio = uniform.sigmas()[Pendulum::l.index()] / normal.sigmas()[Pendulum::l.index()];
     /// assert!((ratio - 3.0_f64.sqrt()).abs() < 1e-12);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn law(mut self, parameter: impl Into<Parameter<M>>, law: Law) -> Self {
         self.settings
@@ -234,16 +234,13 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Sets the distribution of a parameter's values (SI), independently of its nominal value.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::tolerance::Distribution;
     ///
     /// let measured = Distribution::empirical(&[0.98, 1.01, 1.0, 1.03, 0.99])?;
     /// let study = study.distribution(Pendulum::l, measured);
     /// println!("{}", study.monte_carlo()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn distribution(
         mut self,
@@ -274,7 +271,7 @@ impl<M: Kernels> Study<M> {
     /// Chooses which equilibrium to look for.
     #[must_use]
     pub fn policy(mut self, policy: Policy) -> Self {
-        self.settings.policy = policy;
+        self.settings.set_policy(policy);
         self
     }
 
@@ -284,64 +281,43 @@ impl<M: Kernels> Study<M> {
     /// general modes otherwise ([`Family::of`]).
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
-        self.settings.family = Some(family);
+        self.settings.set_family(family);
         self
     }
 
-    /// Sets the number of Monte Carlo samples (3000 by default).
-    #[must_use]
-    pub fn samples(mut self, samples: usize) -> Self {
-        self.settings.samples = samples;
-        self
-    }
-
-    /// Sets the seed of the random samples (0 by default).
-    #[must_use]
-    pub fn seed(mut self, seed: u64) -> Self {
-        self.settings.seed = seed;
-        self
-    }
-
-    /// Selects one of the independent sample sequences of the seed (0 by default).
-    ///
-    /// With a different stream at each point of a sweep, the sampling errors of the points are independent.
-    #[must_use]
-    pub fn stream(mut self, stream: u64) -> Self {
-        self.settings.stream = stream;
-        self
-    }
-
-    /// Chooses the vector instructions used to solve several samples (in Monte Carlo runs and response studies) or
-    /// several input values (in sweeps) at once, where the mechanism allows it. The default is the best set that the
-    /// processor supports; `None` solves one at a time. Scalar and vector results differ in the last bits; all
-    /// instruction sets give identical bits. A run reports which way was used
-    /// ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
-    #[must_use]
-    pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
-        self.settings.vectors = vectors;
-        self
-    }
-
-    /// Sets the number of threads of a Monte Carlo run; 0, the default, uses all available.
-    ///
-    /// The limit is 256, or the number the machine has if that is larger.
-    #[must_use]
-    pub fn threads(mut self, threads: usize) -> Self {
-        self.settings.threads = threads;
-        self
+    setters! {
+        /// Sets the number of Monte Carlo samples (3000 by default).
+        samples: usize,
+        /// Sets the seed of the random samples (0 by default).
+        seed: u64,
+        /// Selects one of the independent sample sequences of the seed (0 by default).
+        ///
+        /// With a different stream at each point of a sweep, the sampling errors of the points are independent.
+        stream: u64,
+        /// Chooses the vector instructions used to solve several samples (in Monte Carlo runs and response studies) or
+        /// several input values (in sweeps) at once, where the mechanism allows it. The default is the best set that the
+        /// processor supports; `None` solves one at a time. Scalar and vector results differ in the last bits; all
+        /// instruction sets give identical bits. A run reports which way was used
+        /// ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
+        vectors: Option<Instructions>,
+        /// Sets the number of threads of a Monte Carlo run; 0, the default, uses all available.
+        ///
+        /// The limit is 256, or the number the machine has if that is larger.
+        threads: usize,
+        /// Makes Monte Carlo runs return every sample.
+        keep_samples: bool,
+        /// Sets the number of steps used to search a range (200 by default).
+        steps: usize,
     }
 
     /// Registers a callback for long computations.
     ///
     /// It is called from any thread with the number of steps done since its last call: samples, input values, branch
     /// points or tolerance choices.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let study = study.progress(|steps| print!("{}", ".".repeat(steps)));
     /// study.campbell(Pendulum::omega, &[4.0, 4.5, 5.0], &[1.0])?;
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn progress(mut self, progress: impl Fn(usize) + Send + Sync + 'static) -> Self {
         self.settings.watcher.progress = Some(Arc::new(progress));
@@ -352,8 +328,6 @@ impl<M: Kernels> Study<M> {
     ///
     /// Samples, sweeps and branches return what is done so far; anything that is useless when incomplete returns
     /// [`Error::Stopped`].
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use std::sync::Arc;
     /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -363,25 +337,10 @@ impl<M: Kernels> Study<M> {
     /// // After the first value.
     /// let study = study.stop(flag).progress(move |_| own.store(true, Ordering::Relaxed));
     /// assert_eq!(study.campbell(Pendulum::omega, &[4.0, 4.5, 5.0], &[1.0])?.points.len(), 1);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn stop(mut self, flag: Arc<AtomicBool>) -> Self {
         self.settings.watcher.stop = Some(flag);
-        self
-    }
-
-    /// Makes Monte Carlo runs return every sample.
-    #[must_use]
-    pub fn keep_samples(mut self, keep: bool) -> Self {
-        self.settings.keep_samples = keep;
-        self
-    }
-
-    /// Sets the number of steps used to search a range (200 by default).
-    #[must_use]
-    pub fn steps(mut self, steps: usize) -> Self {
-        self.settings.steps = steps;
         self
     }
 
@@ -407,8 +366,6 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Looks up an input by name, for names known only at run time.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let speed = study.find_input("omega")?;
     /// let study = study.input(speed, 4.0);
@@ -416,9 +373,7 @@ impl<M: Kernels> Study<M> {
     ///
     /// let error = study.find_input("speed").unwrap_err();
     /// assert_eq!(error.to_string(), "`Pendulum` has no input `speed`: it has `omega`");
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::UnknownName`], which lists the names that exist.
     pub fn find_input(&self, name: &str) -> Result<Input<M>, Error> {
@@ -427,14 +382,10 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Looks up a design variable by name.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let length = study.find_design("l")?;
     /// assert_eq!(length, Pendulum::l);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::UnknownName`], which lists the names that exist.
     pub fn find_design(&self, name: &str) -> Result<DesignVariable<M>, Error> {
@@ -488,14 +439,11 @@ impl<M: Kernels> Study<M> {
     }
 
     /// The inputs that have a tolerance. In correlation matrices they follow the design variables, in this order.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// assert!(study.deviating_inputs().is_empty());
     /// let study = study.relative_tolerance(Pendulum::omega, 0.01);
     /// assert_eq!(study.deviating_inputs(), [Pendulum::omega]);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
+    #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn deviating_inputs(&self) -> Vec<Input<M>> {
         let all = self.settings.deviating_inputs().into_iter();

@@ -1,25 +1,23 @@
 //! Methods of a study for events along an input: loss of stiffness, a frequency crossing a line, onset of flutter.
 
-use super::subject::Subject;
+use std::borrow::Cow;
+
+use super::over_input::Along;
 use super::{Study, Value};
-use crate::kernels::{CurvatureKernels, DirectionalKernels, Kernels};
+use crate::kernels::{CurvatureKernels, DirectionalKernels};
 use crate::second_order::{self, EventCurvature};
-use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Line, Range};
+use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Following, Line, Range};
 use crate::tolerance::Tolerances;
 use crate::{Error, Input};
 
 impl<M: DirectionalKernels> Study<M> {
     /// Finds every event of an input between `low` and `high`: where frequencies meet lines (engine orders as numbers, or
     /// [`Line`]s), where oscillations start or stop growing, and where stiffness vanishes ([`sweep::events`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let found = study.events(Pendulum::omega, 0.5, 6.0, &[1.0])?;
     /// assert!((found.critical[0].value - 14.715_f64.sqrt()).abs() < 1e-9);
     /// assert!((found.crossings[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotAssembled`].
     pub fn events(
@@ -31,19 +29,14 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<Events, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
         let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .events(range, &lines)
+        Along::plain(&self.settings, &self.mechanism).events(range, &lines)
     }
 
     /// Finds the first critical value of an input between `low` and `high` ([`sweep::critical_state`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let critical = study.critical_state(Pendulum::omega, 0.0, 6.0)?;
     /// assert!((critical.value - 14.715_f64.sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::NotInRange`], [`Error::Setting`], [`Error::UnknownHandle`]; where the branch cannot be followed so far,
     /// as [`Study::equilibrium`].
@@ -54,18 +47,13 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<CriticalState, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .critical_state(range)
+        Along::plain(&self.settings, &self.mechanism).critical_state(range)
     }
 
     /// Like [`Study::critical_state`], with the sensitivity and spread of the value ([`sweep::critical_tolerance`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.critical_tolerance(Pendulum::omega, 0.0, 6.0)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative carries its own error.
     pub fn critical_tolerance(
@@ -75,24 +63,91 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .critical_tolerance(range)
+        Along::deviating(&self.settings, &self.mechanism)?.critical_tolerance(range)
+    }
+
+    /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
+    /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
+    #[doc = include_str!("example.txt")]
+    /// let resonances = study.crossings(Pendulum::omega, 0.5, 3.5, 1.0)?;
+    /// assert!((resonances[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::modes`] at the first point; [`Error::Setting`], [`Error::UnknownHandle`].
+    pub fn crossings(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+        line: impl Into<Line>,
+    ) -> Result<Vec<Crossing>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::plain(&self.settings, &self.mechanism).crossings(range, line.into())
+    }
+
+    /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
+    #[doc = include_str!("example.txt")]
+    /// for resonance in study.crossing_tolerances(Pendulum::omega, 0.5, 3.5, 1.0)? {
+    ///     println!("{resonance}");
+    /// }
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
+    pub fn crossing_tolerances(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+        line: impl Into<Line>,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::deviating(&self.settings, &self.mechanism)?.crossing_tolerances(range, line.into())
+    }
+
+    /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
+    /// ([`sweep::flutter_onsets`]).
+    #[doc = include_str!("example.txt")]
+    /// // A bar without damping never flutters.
+    /// assert!(study.flutter_onsets(Pendulum::omega, 4.0, 6.0)?.is_empty());
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::crossings`].
+    pub fn flutter_onsets(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Vec<Crossing>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::plain(&self.settings, &self.mechanism).flutter_onsets(range)
+    }
+
+    /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.flutter_onset_tolerances(Pendulum::omega, 4.0, 6.0)?.is_empty());
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
+    pub fn flutter_onset_tolerances(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        Along::deviating(&self.settings, &self.mechanism)?.flutter_onset_tolerances(range)
     }
 }
 
 impl<M: CurvatureKernels> Study<M> {
     /// Like [`Study::critical_state`], with first and second derivatives of the value
     /// ([`critical_curvature`](crate::second_order::critical_curvature)).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let critical = study.critical_curvature(Pendulum::omega, 0.0, 6.0)?;
     /// // omega_c = sqrt(3 g / (2 l)), so its second derivative is 3 / 4 of it.
     /// let l = Pendulum::l.index();
     /// assert!((critical.second[l][l] - 0.75 * critical.value).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::critical_state`]; [`Error::NoSensitivity`], [`Error::ClusteredMode`] where the value has no derivatives.
     pub fn critical_curvature(
@@ -106,167 +161,58 @@ impl<M: CurvatureKernels> Study<M> {
     }
 }
 
-impl<M: DirectionalKernels> Study<M> {
-    /// Finds the values of an input between `low` and `high` where a frequency crosses a line: a number `k` for the
-    /// line `k u`, or a [`Line`] ([`sweep::crossings`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// let resonances = study.crossings(Pendulum::omega, 0.5, 3.5, 1.0)?;
-    /// assert!((resonances[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::modes`] at the first point; [`Error::Setting`], [`Error::UnknownHandle`].
-    pub fn crossings(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-        line: impl Into<Line>,
-    ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .crossings(range, line.into())
+impl Along<'_> {
+    fn way(&self, range: Range) -> Result<(Cow<'_, [f64]>, Following), Error> {
+        (self.settings).way(self.plain, self, (range.input, range.low))
     }
 
-    /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// for resonance in study.crossing_tolerances(Pendulum::omega, 0.5, 3.5, 1.0)? {
-    ///     println!("{resonance}");
-    /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
-    pub fn crossing_tolerances(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-        line: impl Into<Line>,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .crossing_tolerances(range, line.into())
-    }
-
-    /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
-    /// ([`sweep::flutter_onsets`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// // A bar without damping never flutters.
-    /// assert!(study.flutter_onsets(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`].
-    pub fn flutter_onsets(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .flutter_onsets(range)
-    }
-
-    /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// assert!(study.flutter_onset_tolerances(Pendulum::omega, 4.0, 6.0)?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
-    pub fn flutter_onset_tolerances(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .flutter_onset_tolerances(range)
-    }
-}
-
-impl Subject<'_, dyn DirectionalKernels + '_> {
     fn events(&self, range: Range, lines: &[Line]) -> Result<Events, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let (start, following) = settings.way(kernels, range.input, range.low)?;
-        sweep::events(kernels, u, b, &start, following, range, lines)
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, following) = self.way(range)?;
+        sweep::events(self.kernels(), u, b, &start, following, range, lines)
     }
 
     fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
-        let Self { kernels, settings } = *self;
-        let (start, _) = settings.way(kernels, range.input, range.low)?;
-        sweep::critical_state(kernels, &settings.inputs, &settings.design, &start, range)
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, _) = self.way(range)?;
+        sweep::critical_state(self.kernels(), u, b, &start, range)
     }
 
     fn critical_tolerance(&self, range: Range) -> Result<EventTolerance, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            let state = own.critical_state(range)?;
-            Ok(sweep::critical_tolerance(own.kernels, &state, tolerances))
-        })
+        let tolerances = self.settings.tolerances()?;
+        let state = self.critical_state(range)?;
+        Ok(sweep::critical_tolerance(
+            self.kernels(),
+            &state,
+            tolerances,
+        ))
     }
-}
 
-impl Subject<'_, dyn DirectionalKernels + '_> {
     fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let (start, following) = settings.way(kernels, range.input, range.low)?;
-        sweep::crossings(kernels, u, b, &start, following, range, line)
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, following) = self.way(range)?;
+        sweep::crossings(self.kernels(), u, b, &start, following, range, line)
     }
 
     fn crossing_tolerances(&self, range: Range, line: Line) -> Result<Vec<EventTolerance>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            Ok(spreads(
-                own.kernels,
-                &own.crossings(range, line)?,
-                tolerances,
-            ))
-        })
+        let tolerances = self.settings.tolerances()?;
+        Ok(self.spreads(&self.crossings(range, line)?, tolerances))
     }
 
     fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
-        let Self { kernels, settings } = *self;
-        let (u, b) = (&settings.inputs, &settings.design);
-        let (start, following) = settings.way(kernels, range.input, range.low)?;
-        sweep::flutter_onsets(kernels, u, b, &start, following, range)
+        let (u, b) = (&self.settings.inputs, &self.design);
+        let (start, following) = self.way(range)?;
+        sweep::flutter_onsets(self.kernels(), u, b, &start, following, range)
     }
 
     fn flutter_onset_tolerances(&self, range: Range) -> Result<Vec<EventTolerance>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            Ok(spreads(
-                own.kernels,
-                &own.flutter_onsets(range)?,
-                tolerances,
-            ))
-        })
+        let tolerances = self.settings.tolerances()?;
+        Ok(self.spreads(&self.flutter_onsets(range)?, tolerances))
     }
-}
 
-/// The spread of each crossing value.
-fn spreads(
-    mechanism: &dyn Kernels,
-    crossings: &[Crossing],
-    tolerances: &Tolerances,
-) -> Vec<EventTolerance> {
-    let spread = |crossing| sweep::crossing_tolerance(mechanism, crossing, tolerances);
-    crossings.iter().map(spread).collect()
+    /// The spread of each crossing value.
+    fn spreads(&self, crossings: &[Crossing], tolerances: &Tolerances) -> Vec<EventTolerance> {
+        let spread = |crossing| sweep::crossing_tolerance(self.kernels(), crossing, tolerances);
+        crossings.iter().map(spread).collect()
+    }
 }

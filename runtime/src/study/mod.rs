@@ -3,20 +3,18 @@
 // The documentation of `Study` shows its methods in the order of these modules: `Study::new` first.
 mod at_point;
 mod builder;
+mod cache;
+mod deviating;
 mod events;
 mod over_input;
 mod parameter;
 mod propagation;
 mod requirements;
 mod settings;
-mod solved;
-mod subject;
-mod summary;
 mod value;
 mod variation;
 mod watcher;
 
 pub use builder::Study;
 pub use parameter::Parameter;
-pub use solved::Solved;
 pub use value::{InDeclaredUnit, Value};

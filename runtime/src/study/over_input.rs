@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::subject::Subject;
+use super::deviating::Table;
 use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
@@ -17,14 +17,10 @@ use crate::{Error, Input, Watch};
 impl<M: BatchKernels> Study<M> {
     /// Computes equilibria and modes at each value of one input, and the critical values between them
     /// ([`sweep::sweep`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let sweep = study.sweep(Pendulum::omega, &[2.0, 3.0, 4.0, 5.0])?;
     /// assert!((sweep.critical[0].value - 14.715_f64.sqrt()).abs() < 1e-9);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::UnknownHandle`], [`Error::NotAssembled`]; a point that fails carries its own error.
     pub fn sweep(
@@ -32,15 +28,17 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Sweep, Error> {
-        let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
-            .sweep((input.any(), &values))
+        let mut points = Vec::with_capacity(values.len());
+        let mut whole = self.sweep_each(input, values, |point| {
+            points.push(point.clone());
+            ControlFlow::Continue(())
+        })?;
+        whole.points = points;
+        Ok(whole)
     }
 
     /// Like [`Study::sweep`], but passes each point to `each` as soon as it is found and keeps none; `each` can break
     /// off the sweep ([`sweep::sweep_each`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use std::ops::ControlFlow;
     ///
@@ -49,9 +47,7 @@ impl<M: BatchKernels> Study<M> {
     ///     println!("{}: {:?}", point.value, point.modes.as_ref().map(|modes| modes.frequencies()));
     ///     ControlFlow::Continue(())
     /// })?;
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`].
     pub fn sweep_each(
@@ -61,23 +57,18 @@ impl<M: BatchKernels> Study<M> {
         mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
     ) -> Result<Sweep, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
-            .sweep_each((input.any(), &values), &mut each)
+        Swept::plain(&self.settings, &self.mechanism).sweep_each((input.any(), &values), &mut each)
     }
 
     /// Calls `each` with the equilibrium, the modes and their total derivatives at each value of one input, in order
     /// ([`sweep::sensitivity_sweep`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// study.sensitivity_sweep(Pendulum::omega, &[4.0, 4.5, 5.0], |point, slopes| {
     ///     if let Ok(slopes) = slopes {
     ///         println!("{}: {:?}", point.value, slopes.modes[0].frequency());
     ///     }
     /// })?;
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`].
     pub fn sensitivity_sweep(
@@ -87,21 +78,17 @@ impl<M: BatchKernels> Study<M> {
         mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
+        Swept::plain(&self.settings, &self.mechanism)
             .sensitivity_sweep((input.any(), &values), &mut each)
     }
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and label
     /// ([`Study::sensitivity_sweep`], [`tolerance::first_order`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// for spread in study.first_order_sweep(Pendulum::omega, &[4.0, 4.5, 5.0])? {
     ///     println!("{}", spread?);
     /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`] and [`Study::tolerances`].
     pub fn first_order_sweep(
@@ -110,21 +97,16 @@ impl<M: BatchKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn BatchKernels>(&self.mechanism)
-            .first_order_sweep((input.any(), &values))
+        Swept::deviating(&self.settings, &self.mechanism)?.first_order_sweep((input.any(), &values))
     }
 }
 
 impl<M: DirectionalKernels> Study<M> {
     /// Campbell diagram along one input, with its crossings of lines: engine orders as numbers, or [`Line`]s
     /// ([`campbell::campbell`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// println!("{}", study.campbell(Pendulum::omega, &[4.0, 5.0, 6.0], &[1.0, 2.0])?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::sweep`] and [`Study::tolerances`].
     pub fn campbell(
@@ -133,16 +115,17 @@ impl<M: DirectionalKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell, Error> {
-        let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .campbell(&Axes::new(input.any(), &values, &orders))
+        let mut points = Vec::with_capacity(values.len());
+        let mut whole = self.campbell_each(input, values, orders, |point| {
+            points.push(point);
+            ControlFlow::Continue(())
+        })?;
+        whole.points = points;
+        Ok(whole)
     }
 
     /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can
     /// break off the sweep ([`campbell::campbell_each`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use std::ops::ControlFlow;
     ///
@@ -152,9 +135,7 @@ impl<M: DirectionalKernels> Study<M> {
     ///     ControlFlow::Continue(())
     /// })?;
     /// assert!(seen == 3 && between.points.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::campbell`].
     pub fn campbell_each(
@@ -166,21 +147,17 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<Campbell, Error> {
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
         let values = self.settings.values_si(input.any(), values)?;
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .campbell_each(&Axes::new(input.any(), &values, &orders), &mut each)
+        let axes = Axes::new(input.any(), &values, &orders);
+        Along::deviating(&self.settings, &self.mechanism)?.campbell_each(&axes, &mut each)
     }
 
     /// Follows branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let branches = study.branches(Pendulum::omega, 0.0, 6.0)?;
     /// for point in branches.special() {
     ///     println!("{point}");
     /// }
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`] if there is none at either end; [`Error::Setting`], [`Error::UnknownHandle`].
     pub fn branches(
@@ -193,17 +170,13 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Like [`Study::branches`], with custom settings and a search from many starting points.
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::equilibrium::Search;
     ///
     /// let settings = study.continuation(Pendulum::omega, 0.0, 6.0)?.max_step(0.1);
     /// let search = Search::new([-3.0], [3.0]);
     /// println!("{}", study.branches_with(&settings, Some(&search))?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::branches`].
     pub fn branches_with(
@@ -216,14 +189,10 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Like [`Study::branches_with`], passing each branch to `each` as soon as it is complete
     /// ([`branches::branches_each`]).
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let settings = study.continuation(Pendulum::omega, 0.0, 6.0)?;
     /// study.branches_each(&settings, None, |branch| println!("{} points", branch.points.len()))?;
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::branches`].
     pub fn branches_each(
@@ -232,20 +201,15 @@ impl<M: DirectionalKernels> Study<M> {
         search: Option<&Search>,
         mut each: impl FnMut(&Branch),
     ) -> Result<Branches, Error> {
-        self.subject::<dyn DirectionalKernels>(&self.mechanism)
-            .branches_each((continuation, search), &mut each)
+        Along::plain(&self.settings, &self.mechanism).branches_each(continuation, search, &mut each)
     }
 
     /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be modified and passed to
     /// [`Study::branches_with`].
-    ///
-    /// ```
     #[doc = include_str!("example.txt")]
     /// let fine = study.continuation(Pendulum::omega, 0.0, 6.0)?.max_step(0.01);
     /// println!("{}", study.branches_with(&fine, None)?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
+    #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::UnknownHandle`].
     pub fn continuation(
@@ -255,34 +219,29 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Continuation, Error> {
         let input = input.any();
-        let low = self.settings.input_si(input, low.into())?;
-        let high = self.settings.input_si(input, high.into())?;
+        let low = self.settings.si(input.into(), low.into())?;
+        let high = self.settings.si(input.into(), high.into())?;
         Ok(Continuation::new(input, low, high))
     }
 }
 
-impl Subject<'_, dyn BatchKernels + '_> {
-    fn sweep(&self, along: (Input, &[f64])) -> Result<Sweep, Error> {
-        let mut points = Vec::with_capacity(along.1.len());
-        let mut whole = self.sweep_each(along, &mut |point| {
-            points.push(point.clone());
-            ControlFlow::Continue(())
-        })?;
-        whole.points = points;
-        Ok(whole)
-    }
+/// The mechanism of a sweep.
+type Swept<'a> = Table<'a, dyn BatchKernels + 'a>;
+/// The mechanism of any other question along an input.
+pub(super) type Along<'a> = Table<'a, dyn DirectionalKernels + 'a>;
 
+impl Swept<'_> {
     fn sweep_each(
         &self,
         along: (Input, &[f64]),
         each: &mut dyn FnMut(&SweepPoint) -> ControlFlow<()>,
     ) -> Result<Sweep, Error> {
-        let Self { kernels, settings } = *self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let (start, following) = settings.way(kernels, along.0, first_of(along.1))?;
-        let watch = settings.watch();
+        let point = (&self.settings.inputs[..], &self.design[..]);
+        let from = (along.0, first_of(along.1));
+        let (start, following) = self.settings.way(self.plain, self, from)?;
+        let watch = self.settings.watch();
         let each = |found: &SweepPoint| go_on(each(found), watch);
-        sweep::sweep_each(kernels, point, &start, following, along, each)
+        sweep::sweep_each(self.kernels(), point, &start, following, along, each)
     }
 
     fn sensitivity_sweep(
@@ -290,72 +249,58 @@ impl Subject<'_, dyn BatchKernels + '_> {
         along: (Input, &[f64]),
         each: &mut dyn FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
-        let Self { kernels, settings } = *self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let (start, following) = settings.way(kernels, along.0, first_of(along.1))?;
-        let watch = settings.watch();
+        let point = (&self.settings.inputs[..], &self.design[..]);
+        let from = (along.0, first_of(along.1));
+        let (start, following) = self.settings.way(self.plain, self, from)?;
+        let watch = self.settings.watch();
         let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
             each(point, slopes);
             go_on(ControlFlow::Continue(()), watch)
         };
-        sweep::sensitivity_sweep(kernels, point, &start, following, along, each)
+        sweep::sensitivity_sweep(self.kernels(), point, &start, following, along, each)
     }
 
     fn first_order_sweep(
         &self,
         along: (Input, &[f64]),
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
-        self.deviating(|own| {
-            let tolerances = own.settings.tolerances()?;
-            let mut found = Vec::with_capacity(along.1.len());
-            own.sensitivity_sweep(along, &mut |point, slopes| {
-                found.push(spread(point, slopes, tolerances));
-            })?;
-            Ok(found)
-        })
+        let tolerances = self.settings.tolerances()?;
+        let mut found = Vec::with_capacity(along.1.len());
+        self.sensitivity_sweep(along, &mut |point, slopes| {
+            found.push(spread(point, slopes, tolerances));
+        })?;
+        Ok(found)
     }
 }
 
-impl Subject<'_, dyn DirectionalKernels + '_> {
-    fn campbell(&self, axes: &Axes<'_>) -> Result<Campbell, Error> {
-        let mut points = Vec::with_capacity(axes.values.len());
-        let mut whole = self.campbell_each(axes, &mut |point| {
-            points.push(point);
-            ControlFlow::Continue(())
-        })?;
-        whole.points = points;
-        Ok(whole)
-    }
-
+impl Along<'_> {
     fn campbell_each(
         &self,
         axes: &Axes<'_>,
         each: &mut dyn FnMut(CampbellPoint) -> ControlFlow<()>,
     ) -> Result<Campbell, Error> {
-        self.deviating(|own| {
-            let Subject { kernels, settings } = *own;
-            let point = (&settings.inputs[..], &settings.design[..]);
-            let first = first_of(axes.values);
-            let (start, following) = settings.way(kernels, axes.input, first)?;
-            let tolerances = settings.tolerances()?;
-            let watch = settings.watch();
-            let each = |found| go_on(each(found), watch);
-            campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
-        })
+        let (kernels, settings) = (self.kernels(), self.settings);
+        let point = (&settings.inputs[..], &self.design[..]);
+        let from = (axes.input, first_of(axes.values));
+        let (start, following) = settings.way(self.plain, self, from)?;
+        let (tolerances, watch) = (settings.tolerances()?, settings.watch());
+        let each = |found| go_on(each(found), watch);
+        campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
     }
 
     fn branches_each(
         &self,
-        how: (&Continuation, Option<&Search>),
+        continuation: &Continuation,
+        search: Option<&Search>,
         each: &mut dyn FnMut(&Branch),
     ) -> Result<Branches, Error> {
-        let Self { kernels, settings } = *self;
-        let point = (&settings.inputs[..], &settings.design[..]);
-        let (continuation, search) = how;
-        let (start, _) = settings.way(kernels, continuation.input, continuation.low)?;
+        let settings = self.settings;
+        let point = (&settings.inputs[..], &self.design[..]);
+        let from = (continuation.input, continuation.low);
+        let (start, _) = settings.way(self.plain, self, from)?;
         let held = settings.held_in(search, &start);
         let how = (continuation, held.as_ref());
-        branches::branches_each(kernels, point, &start, how, settings.watch(), each)
+        branches::branches_each(self.kernels(), point, &start, how, settings.watch(), each)
     }
 }
 

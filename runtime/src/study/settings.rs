@@ -1,12 +1,14 @@
 //! The settings of a study, and the steps that do not depend on the mechanism's type.
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
+use super::cache::Cache;
+use super::deviating::Table;
 use super::parameter::Parameter;
 use super::value::Value;
 use super::variation::Variation;
 use super::watcher::Watcher;
-use crate::ToleranceInfo;
 use crate::equilibrium;
 use crate::equilibrium::{Assembly, OperatingPoint, Policy, Search};
 use crate::kernels::Kernels;
@@ -14,13 +16,17 @@ use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
 use crate::tolerance::{Distribution, Sampling, Tolerances};
-use crate::{
-    Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Mode, Modes, Shared, Unit,
-    Watch,
-};
+use crate::{Coordinate, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch};
 use crate::{Matrix, Vector};
 use eigentol_solve::constraints::Structure;
 use eigentol_solve::free::{Held, declared};
+
+/// What is solved at an operating point.
+#[derive(Clone, Debug, Default)]
+struct Solution {
+    equilibrium: OnceLock<Result<Box<Equilibrium>, Error>>,
+    modes: OnceLock<Result<Modes, Error>>,
+}
 
 /// The operating point, the tolerances and the solver options.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +47,8 @@ pub(super) struct Settings {
     sigma_level: f64,
     correlation: Option<Matrix>,
     /// The tolerances that result from these settings at the current inputs and design.
-    tolerances: Result<Tolerances, Error>,
+    tolerances: Cache<OnceLock<Result<Tolerances, Error>>>,
+    solution: Cache<Solution>,
     pub(super) samples: usize,
     pub(super) seed: u64,
     pub(super) stream: u64,
@@ -57,8 +64,9 @@ impl Settings {
     /// The nominal design with the declared tolerances.
     pub(super) fn new(description: Shared<Description>) -> Self {
         let (design, unknowns) = (&description.design, description.coordinates.len());
-        let mut settings = Self {
-            tolerances: Tolerances::declared(&description),
+        Self {
+            tolerances: Cache::default(),
+            solution: Cache::default(),
             inputs: Vector::zeros(description.inputs.len()),
             design: design.iter().map(|info| info.nominal).collect(),
             start: Vector::zeros(unknowns),
@@ -84,28 +92,26 @@ impl Settings {
             watcher: Watcher::default(),
             fault: None,
             description,
+        }
+    }
+
+    /// Sets the value of a parameter.
+    pub(super) fn set_value(&mut self, parameter: Parameter, value: Value) {
+        let value = self.si(parameter, value);
+        let (place, is_fixed) = match parameter {
+            Parameter::Design(variable) => (
+                self.design.get_mut(variable.index()),
+                self.design_variations.iter().all(Variation::is_fixed),
+            ),
+            Parameter::Input(input) => (
+                self.inputs.get_mut(input.index()),
+                self.input_variations.iter().all(Variation::is_none),
+            ),
         };
-        if !settings.deviating_inputs().is_empty() {
-            settings.make_tolerances();
-        }
-        settings
-    }
-
-    pub(super) fn set_input(&mut self, input: Input, value: Value) {
-        let value = self.input_si(input, value);
-        let place = self.inputs.get_mut(input.index());
         set(place, value, &mut self.fault);
-        if !(self.input_variations.iter()).all(Variation::is_none) {
-            self.make_tolerances();
-        }
-    }
-
-    pub(super) fn set_design(&mut self, variable: DesignVariable, value: Value) {
-        let value = self.design_si(variable, value);
-        let place = self.design.get_mut(variable.index());
-        set(place, value, &mut self.fault);
-        if !(self.design_variations.iter()).all(Variation::is_fixed) {
-            self.make_tolerances();
+        self.solution.clear();
+        if !is_fixed {
+            self.tolerances.clear();
         }
     }
 
@@ -115,6 +121,7 @@ impl Settings {
         if let Some(&value) = self.start.get(unknown.index()) {
             self.holds.retain(|held| held.unknown != unknown.index());
             self.holds.push(Held::at(unknown.index(), value));
+            self.solution.clear();
         }
     }
 
@@ -122,6 +129,7 @@ impl Settings {
     pub(super) fn start_at(&mut self, unknowns: &[f64]) {
         self.start = unknowns.into();
         self.named.fill(true);
+        self.solution.clear();
     }
 
     pub(super) fn set_start(&mut self, coordinate: Coordinate, value: Value, named: bool) {
@@ -135,22 +143,28 @@ impl Settings {
         if let Some(place) = self.named.get_mut(coordinate.index()) {
             *place = named;
         }
+        self.solution.clear();
+    }
+
+    /// Chooses which equilibrium to look for.
+    pub(super) fn set_policy(&mut self, policy: Policy) {
+        self.policy = policy;
+        self.solution.clear();
+    }
+
+    /// Chooses the family of modes.
+    pub(super) fn set_family(&mut self, family: Family) {
+        self.family = Some(family);
+        self.solution.clear();
     }
 
     /// Sets tolerance limits as deviations from the value of a parameter.
     pub(super) fn set_limits(&mut self, parameter: Parameter, lower: Value, upper: Value) {
-        match self.unit(parameter) {
-            Ok(unit) => {
-                let limits = (lower.si(&unit), upper.si(&unit));
-                self.vary(parameter, |own| own.set_limits(limits, false));
-            }
+        let limits = (self.unit(parameter)).map(|unit| (lower.si(unit), upper.si(unit)));
+        match limits {
+            Ok(limits) => self.vary(parameter, |own| own.set_limits(limits, false)),
             Err(error) => self.refuse(error),
         }
-    }
-
-    /// Sets tolerance limits as fractions of the value of a parameter.
-    pub(super) fn set_relative_limits(&mut self, parameter: Parameter, limits: (f64, f64)) {
-        self.vary(parameter, |own| own.set_limits(limits, true));
     }
 
     /// Changes the variation of a parameter.
@@ -159,32 +173,12 @@ impl Settings {
             Parameter::Design(variable) => (&mut self.design_variations, variable.index()),
             Parameter::Input(input) => (&mut self.input_variations, input.index()),
         };
-        match all.get_mut(index) {
-            Some(own) => change(own),
-            None => {
-                if let Err(error) = self.unit(parameter) {
-                    self.refuse(error);
-                }
-            }
+        if let Some(own) = all.get_mut(index) {
+            change(own);
+        } else if let Err(error) = self.unit(parameter).cloned() {
+            self.refuse(error);
         }
-        self.make_tolerances();
-    }
-
-    fn unit(&self, parameter: Parameter) -> Result<Unit, Error> {
-        let d = &self.description;
-        match parameter {
-            Parameter::Design(variable) => {
-                let info = d.design.get(variable.index());
-                info.map(|info| info.unit.clone()).ok_or_else(|| {
-                    self.unknown("design variable", variable.index(), d.design.len())
-                })
-            }
-            Parameter::Input(input) => {
-                let info = d.inputs.get(input.index());
-                info.map(|info| info.unit.clone())
-                    .ok_or_else(|| self.unknown("input", input.index(), d.inputs.len()))
-            }
-        }
+        self.tolerances.clear();
     }
 
     fn refuse(&mut self, error: Error) {
@@ -193,27 +187,34 @@ impl Settings {
 
     pub(super) fn set_sigma_level(&mut self, level: f64) {
         self.sigma_level = level;
-        self.make_tolerances();
+        self.tolerances.clear();
     }
 
     pub(super) fn set_correlation(&mut self, matrix: Matrix) {
         self.correlation = Some(matrix);
-        self.make_tolerances();
+        self.tolerances.clear();
     }
 
-    /// Converts a value of an input to SI.
-    pub(super) fn input_si(&self, input: Input, value: Value) -> Result<f64, Error> {
-        match self.description.inputs.get(input.index()) {
-            Some(info) => Ok(value.si(&info.unit)),
-            None => Err(self.unknown("input", input.index(), self.inputs.len())),
-        }
+    fn unit(&self, parameter: Parameter) -> Result<&Unit, Error> {
+        let Description { design, inputs, .. } = &*self.description;
+        let (unit, kind, index, count) = match parameter {
+            Parameter::Design(variable) => {
+                let info = design.get(variable.index());
+                let unit = info.map(|info| &info.unit);
+                (unit, "design variable", variable.index(), design.len())
+            }
+            Parameter::Input(input) => {
+                let info = inputs.get(input.index());
+                let unit = info.map(|info| &info.unit);
+                (unit, "input", input.index(), inputs.len())
+            }
+        };
+        unit.ok_or_else(|| self.unknown(kind, index, count))
     }
 
-    fn design_si(&self, variable: DesignVariable, value: Value) -> Result<f64, Error> {
-        match self.description.design.get(variable.index()) {
-            Some(info) => Ok(value.si(&info.unit)),
-            None => Err(self.unknown("design variable", variable.index(), self.design.len())),
-        }
+    /// Converts a value of a parameter to SI.
+    pub(super) fn si(&self, parameter: Parameter, value: Value) -> Result<f64, Error> {
+        self.unit(parameter).map(|unit| value.si(unit))
     }
 
     fn unknown(&self, kind: &'static str, index: usize, count: usize) -> Error {
@@ -235,11 +236,8 @@ impl Settings {
     /// The tolerances of the design variables, followed by those of the inputs that have one.
     pub(super) fn tolerances(&self) -> Result<&Tolerances, Error> {
         self.ready()?;
-        self.tolerances.as_ref().map_err(Error::clone)
-    }
-
-    fn make_tolerances(&mut self) {
-        self.tolerances = self.tolerances_here();
+        let made = self.tolerances.get_or_init(|| self.tolerances_here());
+        made.as_ref().map_err(Error::clone)
     }
 
     fn tolerances_here(&self) -> Result<Tolerances, Error> {
@@ -257,18 +255,6 @@ impl Settings {
         let values: Vec<Distribution> = values.collect::<Result<_, _>>()?;
         let nominal: Vector = all.map(|(_, value)| *value).collect();
         Tolerances::distributed(&nominal, values, level, correlation)
-    }
-
-    /// Settings for the mechanism in which input deviations are additional design variables. The tolerances are
-    /// unchanged; the inputs themselves no longer vary.
-    pub(super) fn widened(&self, description: Shared<Description>, design: Vector) -> Self {
-        let none = Variation::About(ToleranceInfo::NONE);
-        let mut settings = self.clone();
-        settings.input_variations.fill(none.clone());
-        settings.design_variations.resize(design.len(), none);
-        settings.design = design;
-        settings.description = description;
-        settings
     }
 
     /// The inputs that have a tolerance.
@@ -301,17 +287,17 @@ impl Settings {
 
     /// The start of a way along an input from a value, and what to follow: a start value that is given keeps an unstable
     /// equilibrium, and picks the member of a family of steady motions.
-    pub(super) fn way(
+    pub(super) fn way<K: Kernels + ?Sized>(
         &self,
-        mechanism: &dyn Kernels,
-        input: Input,
-        first: f64,
+        plain: &dyn Kernels,
+        table: &Table<'_, K>,
+        (input, first): (Input, f64),
     ) -> Result<(Cow<'_, [f64]>, Following), Error> {
-        let start = self.assembled_start(mechanism)?;
+        let start = self.assembled_start(plain)?;
         let following = Following::from(self.policy)
             .family(self.family)
             .vectors(self.vectors);
-        let (_, named) = self.beginning(mechanism);
+        let (_, named) = self.beginning(plain);
         let asked = named.contains(&true) || !self.holds.is_empty();
         if !asked && self.description.held.is_empty() {
             return Ok((start, following));
@@ -320,19 +306,17 @@ impl Settings {
         if let Some(own) = there.inputs.get_mut(input.index()) {
             *own = first;
         }
-        let mut state = there.blank_state();
-        if there.equilibrium_into(mechanism, &mut state).is_err()
-            || state.stability.holds() && state.free.held.is_empty()
-        {
-            return Ok((start, following));
-        }
+        let state = match there.solve(plain) {
+            Ok((state, _)) if !state.stability.holds() || !state.free.held.is_empty() => state,
+            _ => return Ok((start, following)),
+        };
         let mut following = following.policy(Policy::about(&state));
-        following.held = state.free.held;
+        following.held = table.state(&state).free.held.clone();
         Ok((Cow::Owned(state.coordinates.into()), following))
     }
 
     pub(super) fn range(&self, input: Input, low: Value, high: Value) -> Result<Range, Error> {
-        let (low, high) = (self.input_si(input, low)?, self.input_si(input, high)?);
+        let (low, high) = (self.si(input.into(), low)?, self.si(input.into(), high)?);
         Ok(Range::new(input, low, high).steps(self.steps))
     }
 
@@ -342,7 +326,7 @@ impl Settings {
         input: Input,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<f64>, Error> {
-        let si = |&value: &_| self.input_si(input, Into::into(value));
+        let si = |&value: &_| self.si(input.into(), Into::into(value));
         values.iter().map(si).collect()
     }
 
@@ -396,49 +380,53 @@ impl Settings {
         Ok(Cow::Owned(assembly.coordinates.into()))
     }
 
-    /// An empty equilibrium at this operating point, to be overwritten.
-    pub(super) fn blank_state(&self) -> Equilibrium {
-        Equilibrium::blank(&self.description, &self.inputs, &self.design)
+    /// Solves the equilibrium, and returns its general modes if they were needed to judge its stability. The result is
+    /// large to move.
+    fn solve(&self, mechanism: &dyn Kernels) -> Result<(Box<Equilibrium>, Vec<Mode>), Error> {
+        let start = self.assembled_start(mechanism)?;
+        let (u, b) = (&self.inputs, &self.design);
+        let (_, named) = self.beginning(mechanism);
+        let point = OperatingPoint::unchecked(mechanism, u, b).asked(&named, self.holds.clone());
+        let mut state = Box::new(Equilibrium::blank(&self.description, u, b));
+        let judged = equilibrium::equilibrium_into(&point, &start, self.policy, &mut state)?;
+        state.kept = self.policy == Policy::Nearest;
+        Ok((state, judged))
     }
 
-    /// Solves the equilibrium into `state`; returns its general modes if they were needed to judge its stability.
-    pub(super) fn equilibrium_into(
-        &self,
-        mechanism: &dyn Kernels,
-        state: &mut Equilibrium,
-    ) -> Result<Vec<Mode>, Error> {
-        let start = self.assembled_start(mechanism)?;
-        let point = OperatingPoint::unchecked(mechanism, &self.inputs, &self.design);
-        let (_, named) = self.beginning(mechanism);
-        let point = point.asked(&named, self.holds.clone());
-        let modes = equilibrium::equilibrium_into(&point, &start, self.policy, state)?;
-        state.kept = self.policy == Policy::Nearest;
-        Ok(modes)
+    /// The equilibrium, solved once.
+    pub(super) fn equilibrium(&self, mechanism: &dyn Kernels) -> Result<&Equilibrium, Error> {
+        self.ready()?;
+        let state = self.solution.equilibrium.get_or_init(|| {
+            let (state, judged) = self.solve(mechanism)?;
+            if !judged.is_empty() {
+                let _ = self.solution.modes.set(self.modes_about(&state, judged));
+            }
+            Ok(state)
+        });
+        state.as_deref().map_err(Error::clone)
     }
 
     /// An equilibrium that is regular, so that it has derivatives.
-    pub(super) fn regular(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
-        let mut state = self.blank_state();
-        self.equilibrium_into(mechanism, &mut state)?;
+    pub(super) fn regular(&self, mechanism: &dyn Kernels) -> Result<&Equilibrium, Error> {
+        let state = self.equilibrium(mechanism)?;
         state.regular()?;
         Ok(state)
     }
 
-    /// The family of the requested modes.
-    pub(super) fn family(&self) -> Family {
-        self.family.unwrap_or(Family::of(&self.description))
+    /// The equilibrium and its modes, solved once.
+    pub(super) fn solved(&self, mechanism: &dyn Kernels) -> Result<(&Equilibrium, &Modes), Error> {
+        let state = self.regular(mechanism)?;
+        let modes = &self.solution.modes;
+        let modes = modes.get_or_init(|| self.modes_about(state, Vec::new()));
+        Ok((state, modes.as_ref().map_err(Error::clone)?))
     }
 
-    /// Solves equilibrium and modes into existing buffers.
-    pub(super) fn solve_into(
-        &self,
-        mechanism: &dyn Kernels,
-        state: &mut Equilibrium,
-        modes: &mut Modes,
-    ) -> Result<(), Error> {
-        let judged = self.equilibrium_into(mechanism, state)?;
+    fn modes_about(&self, state: &Equilibrium, judged: Vec<Mode>) -> Result<Modes, Error> {
         state.regular()?;
-        modes.solve_at(state, judged)
+        let family = self.family.unwrap_or(Family::of(&self.description));
+        let mut modes = Modes::empty(family, &self.description);
+        modes.solve_at(state, judged)?;
+        Ok(modes)
     }
 }
 

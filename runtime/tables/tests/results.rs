@@ -1,7 +1,8 @@
 //! Tables of results: the numbers of the results in declared units, with the same columns for any values.
 
+use eigentol::sweep::sweep_table;
 use eigentol::{InDeclaredUnit, Study, mechanism};
-use eigentol_tables::{Table, Values, csv, sweep_table, tables};
+use eigentol_tables::{Answer as _, Table, Values, csv};
 
 mechanism! {
     /// The rotating bar with a closed form: `cos theta = 3 g / (2 l Omega^2)`, `omega^2 = Omega^2 sin^2 theta`.
@@ -54,24 +55,25 @@ fn closed_form() -> [f64; 3] {
 #[test]
 fn values_are_in_declared_units_and_the_operating_point_comes_last() {
     let study = study();
-    let solved = study.solve().expect("a state");
+    let state = study.equilibrium().expect("a state");
+    let solution = study.modes().expect("a state");
     let [theta, omega, slope] = closed_form();
-    let states = &solved.equilibrium.tables()[0];
+    let states = &state.tables()[0];
     close(number(states, "theta", 0), theta);
-    let modes = &solved.modes.tables()[0];
+    let modes = &solution.tables()[0];
     close(number(modes, "frequency", 0), omega);
     for table in [states, modes] {
         let last = table.columns.last().expect("columns");
         assert_eq!(last.heading(), "speed [rpm]");
         close(number(table, "speed", 0), RPM);
     }
-    let sensitivities = &tables(&solved.sensitivities().expect("derivatives"))[0];
+    let sensitivities = &study.sensitivities().expect("derivatives").tables()[0];
     let Values::Texts(by) = &sensitivities.column("by").expect("variables").values else {
         panic!("words");
     };
     assert_eq!(by[1].as_deref(), Some("l"));
     close(number(sensitivities, "frequency", 1), slope * 1e-3);
-    let first = &tables(&solved.first_order().expect("spreads"))[0];
+    let first = &study.first_order().expect("spreads").tables()[0];
     close(number(first, "sigma of frequency", 0), slope * 0.01);
     close(number(first, "variance share of l", 0), 1.0);
 }
@@ -79,15 +81,16 @@ fn values_are_in_declared_units_and_the_operating_point_comes_last() {
 #[test]
 fn every_table_comes_back_from_its_file() {
     let study = study().samples(50).keep_samples(true);
-    let solved = study.solve().expect("a state");
-    let samples = solved.monte_carlo().expect("samples");
+    let state = study.equilibrium().expect("a state");
+    let modes = study.modes().expect("a state");
+    let samples = study.monte_carlo().expect("samples");
     let all = [
-        solved.equilibrium.tables(),
-        solved.modes.tables(),
-        tables(&solved.sensitivities().expect("derivatives")),
-        tables(&solved.first_order().expect("spreads")),
-        tables(&study.second_order().expect("spreads")),
-        tables(&study.summary().expect("a summary")),
+        state.tables(),
+        modes.tables(),
+        study.sensitivities().expect("derivatives").tables(),
+        study.first_order().expect("spreads").tables(),
+        study.second_order().expect("spreads").tables(),
+        study.summary().expect("a summary").tables(),
         samples.tables(),
     ];
     for table in all.iter().flatten() {
@@ -133,7 +136,7 @@ fn parts_of_a_sweep_are_the_sweep() {
 fn second_derivatives_are_per_declared_units() {
     let frequency_slope = |length: f64| {
         let study = study().design(RotatingBar::l, InDeclaredUnit(length));
-        let table = &tables(&study.sensitivities().expect("derivatives"))[0];
+        let table = &study.sensitivities().expect("derivatives").tables()[0];
         number(table, "frequency", 1)
     };
     let step = 1e-2;
@@ -179,8 +182,7 @@ fn second_derivatives_of_outputs_and_critical_values() {
 #[test]
 fn a_skewness_has_no_unit() {
     let study = study().samples(50);
-    let solved = study.solve().expect("a state");
-    let table = &tables(&solved.monte_carlo().expect("samples"))[0];
+    let table = &study.monte_carlo().expect("samples").tables()[0];
     for (name, unit) in [
         ("sigma of frequency", "rad/s"),
         ("greatest of frequency", "rad/s"),

@@ -30,13 +30,14 @@ fn spreads(ratio: f64, tolerance: f64) -> Result<[Propagation; 4], Error> {
         .start(Bar::theta, 1.0)
         .tolerance(Bar::l, tolerance);
     let tolerances = study.tolerances()?;
-    let solved = study.solve()?;
+    let state = study.equilibrium()?;
+    let modes = study.modes()?;
     let frequency = Response::Mode {
         mode: 0,
         quantity: Quantity::Frequency,
     };
     let wanted = vec![frequency, Response::Output(Bar::angle.any())];
-    let responses = Responses::new(&Bar, &solved.equilibrium, &solved.modes, wanted)?;
+    let responses = Responses::new(&Bar, &state, &modes, wanted)?;
     let effort = Effort::default().solutions(200);
     Ok([
         first_order(&Bar, &responses, &tolerances)?,

@@ -350,8 +350,7 @@ mechanism! {
 }
 
 fn solved<M: Mechanism>(study: &Study<M>) -> (eigentol::Equilibrium, eigentol::Modes) {
-    let solved = study.solve().unwrap();
-    (solved.equilibrium.clone(), solved.modes.clone())
+    (study.equilibrium().unwrap(), study.modes().unwrap())
 }
 
 #[test]

@@ -24,8 +24,7 @@ fn how(samples: &Samples) -> &str {
 
 /// The same samples, solved one by one.
 fn alone<M: SummaryKernels>(study: &Study<M>, sampler: &Sampler<'_>) -> Samples {
-    let solved = study.solve().unwrap();
-    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let (at, modes) = (&study.equilibrium().unwrap(), &study.modes().unwrap());
     let responses = Responses::new(study.mechanism(), at, modes, vec![FREQUENCY]).unwrap();
     sampled(&responses, &study.tolerances().unwrap(), sampler).unwrap()
 }
@@ -138,12 +137,11 @@ proptest! {
         points in prop::sample::select(vec![Points::Random, Points::LatinHypercube, Points::Sobol]),
     ) {
         let study = bar();
-        let solved = study.solve().unwrap();
         let sampler = Sampler::new(points).samples(3000);
         let total = sampler.total().unwrap();
         let run = |range, threads| {
             let own = sampler.clone().range(range).threads(threads);
-            solved.sample_responses(&[FREQUENCY], &own).unwrap()
+            study.sample_responses(&[FREQUENCY], &own).unwrap()
         };
         let mut all = run(Some(0..0), 1);
         for (k, range) in ranges(cuts, &order).into_iter().enumerate() {

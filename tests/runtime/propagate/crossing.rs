@@ -157,8 +157,7 @@ fn an_onset_of_flutter() {
         condition: Condition::FlutterOnset,
         range: Range::new(Whirl::speed.any(), 5.0, 60.0).steps(40),
     };
-    let solved = study.solve().unwrap();
-    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let (at, modes) = (&study.equilibrium().unwrap(), &study.modes().unwrap());
     let responses = Responses::new(&Whirl, at, modes, vec![response]).unwrap();
     let stiffer = [m, 1.1 * k, e, i];
     let value = responses
@@ -183,8 +182,7 @@ fn a_mode_or_an_input_that_is_not_there() {
         range: Range::new(input, 1.0, 2.0),
     };
     let study = bar();
-    let solved = study.solve().unwrap();
-    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let (at, modes) = (&study.equilibrium().unwrap(), &study.modes().unwrap());
     let refused = |response| Responses::new(&Bar, at, modes, vec![response]).err();
     let error = refused(of(1, Bar::omega.any()));
     assert_eq!(error, Some(Error::NoSuchMode { mode: 1, count: 1 }));

@@ -219,8 +219,8 @@ mechanism! {
 #[test]
 fn first_order_where_there_is_no_second() {
     let study = Study::new(Twins).tolerance(Twins::m, 0.01);
-    let (solved, tolerances) = (study.solve().unwrap(), study.tolerances().unwrap());
-    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let (at, modes) = (&study.equilibrium().unwrap(), &study.modes().unwrap());
+    let tolerances = study.tolerances().unwrap();
     let responses = Responses::new(&Twins, at, modes, vec![FREQUENCY]).unwrap();
     let effort = Effort::default().solutions(1);
     let all = propagate(&Twins, &responses, &tolerances, effort).unwrap();

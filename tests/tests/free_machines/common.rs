@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use eigentol::{Solved, Study};
+use eigentol::Study;
 use eigentol_interpreter::Interpreted;
 use serde_json::Value;
 
@@ -49,8 +49,9 @@ pub(crate) fn study(text: &str) -> Study<Interpreted> {
 }
 
 /// The frequencies of the modes that oscillate.
-pub(crate) fn frequencies(solved: &Solved<'_, Interpreted>) -> Vec<f64> {
-    solved.modes.frequencies().into_iter().flatten().collect()
+pub(crate) fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
+    let modes = study.modes().expect("modes");
+    modes.frequencies().into_iter().flatten().collect()
 }
 
 #[track_caller]

@@ -65,8 +65,9 @@ fn a_coin_in_a_circle() {
         (by_yaw, "held_lean_and_yaw_rate"),
         (by_spin, "held_lean_and_spin"),
     ] {
-        let solved = study.solve().expect(name);
-        let state = &solved.equilibrium;
+        let equilibrium = study.equilibrium().expect(name);
+        let modes = study.modes().expect(name);
+        let state = &equilibrium;
         assert!(
             state.notes.contains(&Note::Member { dimension: 2 }),
             "{:?}",
@@ -75,12 +76,11 @@ fn a_coin_in_a_circle() {
         let at = |unknown: Coordinate<_>| state.coordinates[unknown.index()];
         close(at(spin), values[1], 1e-11, "spin");
         close(at(yaw), values[2], 1e-11, "yaw rate");
-        let found = frequencies(&solved);
-        assert_eq!(found.len(), 1, "{:?}", solved.modes);
+        let found = frequencies(&study);
+        assert_eq!(found.len(), 1, "{:?}", modes);
         close(found[0], values[0], 1e-10, "frequency");
-        let slopes = solved.sensitivities().expect("derivatives");
-        let r = solved
-            .modes
+        let slopes = study.sensitivities().expect("derivatives");
+        let r = modes
             .modes
             .iter()
             .position(|mode| mode.frequency().is_some());
@@ -141,16 +141,14 @@ impl Wobble {
         by: &[[f64; 3]],
         by_two: impl Fn(usize, usize) -> [f64; 3],
     ) {
-        let solved = study.solve().expect("a steady motion");
+        let state = study.equilibrium().expect("a steady motion");
+        let solution = study.modes().expect("a steady motion");
         assert!(
-            solved
-                .equilibrium
-                .notes
-                .contains(&Note::Member { dimension: 2 }),
+            state.notes.contains(&Note::Member { dimension: 2 }),
             "{:?}",
-            solved.equilibrium.notes
+            state.notes
         );
-        let modes = &solved.modes.modes;
+        let modes = &solution.modes;
         let mode = modes.iter().position(|mode| mode.frequency().is_some());
         let mode = mode.expect("it wobbles");
         close(
@@ -159,12 +157,12 @@ impl Wobble {
             1e-10,
             "frequency",
         );
-        let slopes = solved.sensitivities().expect("derivatives");
+        let slopes = study.sensitivities().expect("derivatives");
         let first = slopes.modes[mode]
             .frequency()
             .expect("derivatives")
             .by_design;
-        let second = solved.mode_curvature(mode).expect("second derivatives");
+        let second = study.mode_curvature(mode).expect("second derivatives");
         let second = second
             .of(Quantity::Frequency)
             .expect("of a frequency")
@@ -285,14 +283,13 @@ fn declared_values_follow_inputs_and_samples() {
         .guess(of("height"), 0.5)
         .guess(of("yaw"), -1.0)
         .input(Input::new(0), spin * 0.5);
-    let solved = study.solve().expect("a steady motion");
-    let mode = solved
-        .modes
+    let modes = study.modes().expect("a steady motion");
+    let mode = modes
         .modes
         .iter()
         .position(|mode| mode.frequency().is_some());
     let mode = mode.expect("it wobbles");
-    let slopes = solved.sensitivities().expect("derivatives");
+    let slopes = study.sensitivities().expect("derivatives");
     let own = slopes.modes[mode].frequency().expect("derivatives");
     let wobble = Wobble::new(&truth, "held_lean_and_spin", "spin");
     close(own.by_input[0], wobble.first[2] / 0.5, 1e-9, "by the input");
@@ -305,7 +302,7 @@ fn declared_values_follow_inputs_and_samples() {
     close(faster.coordinates[of("spin").index()], 6.0, 1e-12, "spin");
     close(faster.coordinates[of("lean").index()], lean, 1e-12, "lean");
 
-    let spread = solved.first_order().expect("a spread");
+    let spread = study.first_order().expect("a spread");
     let spread = &spread.modes[mode];
     let sigma = spread.frequency().expect("a frequency").sigma;
     close(
@@ -315,7 +312,7 @@ fn declared_values_follow_inputs_and_samples() {
         "spread",
     );
     let study = study.samples(500);
-    let sampled = study.solve().expect("it rolls");
+    let sampled = study;
     let found = sampled.monte_carlo().expect("samples");
     let statistics = found.modes[mode].as_ref().expect("statistics");
     assert_eq!(statistics.count, 500);
@@ -410,22 +407,21 @@ fn a_conical_pendulum() {
             .clone()
             .input(Input::new(0), w)
             .start(Coordinate::new(0), 0.9);
-        let solved = study.solve().expect("it goes round");
+        let modes = study.modes().expect("it goes round");
         let at = |w: f64, l: f64, n: f64| {
             let cosine = 3.0 * 9.81 / (2.0 * l * (n * w).powi(2));
             n * w * (1.0 + 3.0 * cosine * cosine).sqrt()
         };
-        let mode = solved
-            .modes
+        let mode = modes
             .modes
             .iter()
             .position(|mode| mode.frequency().is_some());
         let mode = mode.expect("it nods");
-        let found = solved.modes.modes[mode].frequency().expect("a frequency");
+        let found = modes.modes[mode].frequency().expect("a frequency");
         close(found, at(w, 0.8, 2.0), 1e-11, "frequency");
         // cos^2 ~ l^-2 (n w)^-4
         let share = 3.0 * (3.0 * 9.81 / (2.0 * 0.8 * 4.0 * w * w)).powi(2);
-        let slopes = solved.sensitivities().expect("derivatives");
+        let slopes = study.sensitivities().expect("derivatives");
         let own = slopes.modes[mode].frequency().expect("derivatives");
         let by_speed = found * (1.0 - 2.0 * share / (1.0 + share));
         close(own.by_input[0], by_speed / w, 1e-10, "by the speed");

@@ -64,15 +64,15 @@ fn tolerances_of_inputs_act_through_steady_values() {
     let study = at(&conical(""), w)
         .relative_tolerance(Parameter::Input(Input::new(0)), 0.05)
         .samples(4000);
-    let solved = study.solve().expect("it goes round");
-    let modes = &solved.modes.modes;
+    let solution = study.modes().expect("it goes round");
+    let modes = &solution.modes;
     let mode = modes.iter().position(|mode| mode.frequency().is_some());
     let mode = mode.expect("it nods");
     let sigma = by_speed(w).abs() * w * 0.05 / 3.0;
-    let spread = solved.first_order().expect("a spread");
+    let spread = study.first_order().expect("a spread");
     let found = spread.modes[mode].frequency().expect("a frequency").sigma;
     close(found, sigma, 1e-9, "spread");
-    let sampled = solved.monte_carlo().expect("samples");
+    let sampled = study.monte_carlo().expect("samples");
     let statistics = sampled.modes[mode].as_ref().expect("statistics");
     assert_eq!(statistics.count, 4000);
     let found = statistics.sigma.expect("a sigma");
@@ -148,10 +148,10 @@ fn samples_of_members_stay_on_their_branch() {
         .start(TILT, 0.2)
         .relative_tolerance(Parameter::Design(ratio), 0.03)
         .samples(4000);
-    let solved = study.solve().expect("it goes round");
-    let modes = &solved.modes.modes;
+    let solution = study.modes().expect("it goes round");
+    let modes = &solution.modes;
     let mode = modes.iter().position(|mode| mode.frequency().is_some());
-    let found = solved.monte_carlo().expect("samples");
+    let found = study.monte_carlo().expect("samples");
     assert_eq!(found.counts.stable, 4000, "{:?}", found.counts);
     // P(z < -(1 - 1/1.01) / 0.01)
     let slower = 0.161_063_f64;
@@ -303,13 +303,10 @@ fn samples_of_a_top_that_was_asked_to_stay() {
             .stay()
             .relative_tolerance(Parameter::Design(moment), 0.06)
             .samples(2000);
-        let solved = study.solve().expect("it sleeps");
-        assert!(solved.equilibrium.stability.holds());
-        assert!(!matches!(
-            solved.equilibrium.stability,
-            Stability::Flutter { .. }
-        ));
-        let found = solved.monte_carlo().expect("samples");
+        let state = study.equilibrium().expect("it sleeps");
+        assert!(state.stability.holds());
+        assert!(!matches!(state.stability, Stability::Flutter { .. }));
+        let found = study.monte_carlo().expect("samples");
         // P(z < -(1 - 1/1.02) / 0.02)
         let falls = 0.163_446_f64;
         let scatter = 4.0 * (2000.0 * falls * (1.0 - falls)).sqrt();
@@ -332,9 +329,9 @@ fn frequencies_of_a_sleeping_top() {
     let root = ((c * w).powi(2) - 4.0 * about_tip * m * G * l).sqrt();
     for spin in ["driven at w;", "coasting; steady spin = w;"] {
         let study = top(spin).input(Input::new(0), w).stay();
-        let solved = study.solve().expect("it sleeps");
-        let slopes = solved.sensitivities().expect("derivatives");
-        let modes = solved.modes.modes.iter().zip(&slopes.modes);
+        let solution = study.modes().expect("it sleeps");
+        let slopes = study.sensitivities().expect("derivatives");
+        let modes = solution.modes.iter().zip(&slopes.modes);
         let found = modes.filter_map(|(mode, own)| Some((mode.frequency()?, own.frequency()?)));
         let found: Vec<_> = found.collect();
         assert_eq!(found.len(), 2, "{spin}");

@@ -112,10 +112,10 @@ type Derived = (f64, f64, Vec<(String, f64)>);
 
 /// Eigenvalues that are not zero, with the derivatives of the frequency or else of the growth by name.
 fn numbers(study: &Study<Interpreted>) -> Vec<Derived> {
-    let solved = study.solve().expect("modes");
-    let slopes = solved.sensitivities().expect("derivatives");
+    let modes = study.modes().expect("modes");
+    let slopes = study.sensitivities().expect("derivatives");
     let design = &study.description().design;
-    let each = solved.modes.modes.iter().zip(&slopes.modes);
+    let each = modes.modes.iter().zip(&slopes.modes);
     let mut found: Vec<_> = each
         .filter(|(mode, _)| mode.behaviour != Behaviour::Free)
         .map(|(mode, slopes)| {

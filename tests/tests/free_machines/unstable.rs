@@ -189,10 +189,10 @@ fn samples_stay_where_it_is_unstable() {
         .start(Coordinate::new(1), HALF_TURN)
         .samples(4000)
         .keep_samples(true);
-    let solved = study.solve().expect("upright");
-    assert_eq!(solved.equilibrium.notes, [Note::Stays]);
-    let spread = solved.first_order().expect("a spread");
-    let found = solved.monte_carlo().expect("samples");
+    let state = study.equilibrium().expect("upright");
+    assert_eq!(state.notes, [Note::Stays]);
+    let spread = study.first_order().expect("a spread");
+    let found = study.monte_carlo().expect("samples");
     assert_eq!((found.counts.divergent, found.counts.stable), (4000, 0));
     let rates: Vec<f64> = (found.all.iter().flatten())
         .map(|sample| sample.eigenvalues[0].expect("found").re)
@@ -210,6 +210,6 @@ fn samples_stay_where_it_is_unstable() {
     let sampled = found.modes[1].as_ref().expect("statistics");
     assert_eq!(sampled.count, 4000);
     assert!((sampled.sigma.expect("a sigma") / swing.sigma - 1.0).abs() < 0.04);
-    let summary = solved.summary().expect("a summary");
+    let summary = study.summary().expect("a summary");
     assert!(summary.trust[1].trusted(), "{summary}");
 }

@@ -23,14 +23,15 @@ fn double_pendulum() -> Study<RotatingDoublePendulum> {
 #[test]
 fn frames_are_scenes_along_the_shape() {
     let study = double_pendulum();
-    let solved = study.solve().expect("modes");
+    let state = study.equilibrium().expect("modes");
+    let modes = study.modes().expect("modes");
     for mode in 0..2 {
-        let swing = solved.mode_pictures(mode, 8, 0.1).expect("a swing");
+        let swing = study.mode_pictures(mode, 8, 0.1).expect("a swing");
         assert_eq!((swing.mode, swing.frames.len()), (mode, 8));
         for (k, frame) in swing.frames.iter().enumerate() {
             let angle = std::f64::consts::TAU * k as f64 / 8.0;
-            let at = &solved.equilibrium;
-            let shape = &solved.modes.modes[mode].shape;
+            let at = &state;
+            let shape = &modes.modes[mode].shape;
             let q: Vec<f64> = (at.coordinates.iter().zip(shape))
                 .map(|(q, phi)| q + swing.amplitude * angle.cos() * phi.re)
                 .collect();
@@ -46,12 +47,11 @@ fn frames_are_scenes_along_the_shape() {
 /// To first order: for a small share the tip moves by the requested amount, whatever the mode.
 #[test]
 fn what_moves_most_moves_by_the_share_of_the_size() {
-    let solved = double_pendulum();
-    let solved = solved.solve().expect("modes");
-    let rest = solved.picture().expect("a picture");
+    let study = double_pendulum();
+    let rest = study.picture().expect("a picture");
     for mode in 0..2 {
         let share = 1e-4;
-        let swing = solved.mode_pictures(mode, 4, share).expect("a swing");
+        let swing = study.mode_pictures(mode, 4, share).expect("a swing");
         let tips = rest.bodies.iter().enumerate().flat_map(|(body, shown)| {
             shown.solids.iter().flat_map(move |solid| {
                 // The bar of this machine hangs from the origin of its body.
@@ -78,9 +78,8 @@ fn loops_stay_closed() {
     let study = Study::new(SliderCrank)
         .input(SliderCrank::omega, 3.0)
         .start(SliderCrank::crank_angle, 0.6);
-    let solved = study.solve().expect("modes");
-    let rest = solved.picture().expect("a picture");
-    let swing = solved.mode_pictures(0, 12, 0.1).expect("a swing");
+    let rest = study.picture().expect("a picture");
+    let swing = study.mode_pictures(0, 12, 0.1).expect("a swing");
     assert!(rest.joints.iter().any(|joint| joint.closes_loop));
     let mut most = 0.0_f64;
     for frame in &swing.frames {
@@ -115,10 +114,10 @@ fn with(scene: &Scene, frame: &[Pose]) -> Scene {
 #[test]
 fn whirling_shapes_circle() {
     let study = Study::new(JeffcottRotor).input(JeffcottRotor::speed, 50.0);
-    let solved = study.solve().expect("modes");
-    let rest = solved.picture().expect("a picture");
-    for mode in 0..solved.modes.modes.len() {
-        let swing = solved.mode_pictures(mode, 8, 0.05).expect("a swing");
+    let modes = study.modes().expect("modes");
+    let rest = study.picture().expect("a picture");
+    for mode in 0..modes.modes.len() {
+        let swing = study.mode_pictures(mode, 8, 0.05).expect("a swing");
         assert!(swing.amplitude > 0.0);
         let body = rest.bodies.len() - 1;
         let offset = |k: usize| {
@@ -171,16 +170,16 @@ fn modes_of_speeds_alone_stand_still() {
         }",
     );
     let study = Study::new(machine.expect("a declaration")).input(Input::new(0), 2.0);
-    let solved = study.solve().expect("modes");
-    let rest = solved.picture().expect("a picture");
+    let modes = study.modes().expect("modes");
+    let rest = study.picture().expect("a picture");
     let moved = |mode: usize| {
-        let swing = solved.mode_pictures(mode, 3, 0.1).expect("a swing");
+        let swing = study.mode_pictures(mode, 3, 0.1).expect("a swing");
         let first = swing.frames[0].iter().zip(&rest.bodies);
         let moved: Vec<bool> = first.map(|(pose, body)| *pose != body.pose).collect();
         assert_eq!(swing.amplitude > 0.0, moved.contains(&true));
         moved
     };
-    let mut all: Vec<Vec<bool>> = (0..solved.modes.modes.len()).map(moved).collect();
+    let mut all: Vec<Vec<bool>> = (0..modes.modes.len()).map(moved).collect();
     all.sort();
     assert_eq!(all, [[false, false], [false, true]]);
 }

@@ -75,20 +75,20 @@ impl Answers {
         for (k, &value) in operation.start.iter().enumerate() {
             study = study.guess(Coordinate::new(k), value);
         }
-        let solved = study.solve().expect("an equilibrium with modes");
-        self.both(name, Ok(solved.equilibrium.clone()));
-        self.both(name, Ok(solved.modes.clone()));
+        let state = study.equilibrium().expect("an equilibrium with modes");
+        self.both(name, Ok(state.clone()));
+        self.both(name, study.modes());
         self.both(name, study.assembly());
-        self.both(name, solved.equilibrium_shift());
-        self.both(name, solved.outputs());
-        self.both(name, solved.output_tolerances());
-        self.both(name, solved.sensitivities());
-        self.both(name, solved.first_order());
-        self.both(name, solved.second_order());
-        self.both::<Vec<ClusterTolerance>>(name, solved.clusters());
+        self.both(name, study.equilibrium_shift());
+        self.both(name, study.outputs());
+        self.both(name, study.output_tolerances());
+        self.both(name, study.sensitivities());
+        self.both(name, study.first_order());
+        self.both(name, study.second_order());
+        self.both::<Vec<ClusterTolerance>>(name, study.clusters());
         self.both(
             name,
-            solved.margin(
+            study.margin(
                 0,
                 Band::Between {
                     low: 0.0,
@@ -97,21 +97,21 @@ impl Answers {
             ),
         );
         self.both(name, study.monte_carlo());
-        self.both(name, Ok(solved.whirls()));
-        self.plain(name, &solved.picture().expect("a picture"));
-        let swing = solved.mode_pictures(0, 4, 0.1);
+        self.both(name, study.whirls());
+        self.plain(name, &study.picture().expect("a picture"));
+        let swing = study.mode_pictures(0, 4, 0.1);
         self.plain(name, &swing.expect("a mode"));
-        self.both(name, solved.shape_sensitivity(0));
-        self.both(name, solved.mode_curvature(0));
-        if !solved.equilibrium.description.outputs.is_empty() {
-            self.both(name, solved.output_curvature(Output::new(0)));
+        self.both(name, study.shape_sensitivity(0));
+        self.both(name, study.mode_curvature(0));
+        if !state.description.outputs.is_empty() {
+            self.both(name, study.output_curvature(Output::new(0)));
         }
         let (u, b) = (
             vec![1.0; operation.inputs.len()],
             vec![1.0; study.design_values().len()],
         );
-        self.both(name, solved.directional_derivatives(0, (&u, &b)));
-        if solved.equilibrium.coordinates.len() <= SMALL {
+        self.both(name, study.directional_derivatives(0, (&u, &b)));
+        if state.coordinates.len() <= SMALL {
             self.ask_of_chance(name, &study);
             if let Some(&value) = operation.inputs.first() {
                 self.ask_along(name, &study, value);

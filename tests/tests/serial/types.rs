@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Types that cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 29] = [
+const NOT_WRITTEN: [(&str, &str); 28] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
@@ -30,7 +30,6 @@ const NOT_WRITTEN: [(&str, &str); 29] = [
     ("Sampling", "that of Monte Carlo holds a function"),
     ("Shared", "written by hand"),
     ("Sizes", "an intermediate result of kernels"),
-    ("Solved", "borrows a study"),
     ("Study", "holds a mechanism"),
     ("Watch", "holds a function"),
     ("Workspace", "room for computations"),

@@ -74,7 +74,6 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
         ("equilibria", |s, _| answered(s.equilibria(&search(s)))),
         // Some machines need bounds.
         ("search", |s, _| drop(black_box(s.search(&[])))),
-        ("solve", |s, _| answered(s.solve())),
         ("modes", |s, _| answered(s.modes())),
         ("equilibrium_shift", |s, _| answered(s.equilibrium_shift())),
         ("outputs", |s, _| answered(s.outputs())),
@@ -117,58 +116,12 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
             let mut part = s.samples_between(1..2).expect("samples");
             answered(s.resume_samples(&mut part, &s.sampling()));
         }),
+        ("summary", |s, _| answered(s.summary())),
+        ("summary_within", |s, _| answered(s.summary_within(1e5))),
     ]
 }
 
-/// Questions about one state of a solved study.
-pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels + PictureKernels>()
--> Vec<Question<M>> {
-    macro_rules! solved {
-        ($study:ident: $($name:ident($($argument:expr),*);)*) => {
-            vec![$((stringify!($name), |$study, _| {
-                answered($study.solve().expect("solved").$name($($argument),*));
-            })),*]
-        };
-    }
-    let mut questions: Vec<Question<M>> = solved! { study:
-        equilibrium_shift();
-        outputs();
-        output_tolerances();
-        sensitivities();
-        first_order();
-        picture();
-        mode_pictures(mode(study), 2, 0.1);
-        shape_sensitivity(mode(study));
-        mode_curvature(mode(study));
-        output_curvature(Output::new(0));
-        second_order();
-        clusters();
-        margin(mode(study), BAND);
-        margin_of(mode(study), Quantity::Growth, BAND);
-        monte_carlo();
-        monte_carlo_with_progress(&|done| {
-            black_box(done);
-        });
-        samples_between(0..1);
-        sample_modes(&study.sampling());
-    };
-    questions.push(("resume_samples", |s, _| {
-        let solved = s.solve().expect("solved");
-        let mut part = solved.samples_between(1..2).expect("samples");
-        answered(solved.resume_samples(&mut part, &s.sampling()));
-    }));
-    questions.push(("whirls", |s, _| {
-        black_box(s.solve().expect("solved").whirls());
-    }));
-    questions.push(("directional_derivatives", |s, _| {
-        let (u, b) = direction(s);
-        let solved = s.solve().expect("solved");
-        answered(solved.directional_derivatives(mode(s), (&u, &b)));
-    }));
-    questions
-}
-
-/// Statistical questions: each solves the study, then asks the solution.
+/// Statistical questions.
 pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
     const SAMPLES: u64 = 8;
     fn response<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> Response {
@@ -190,10 +143,6 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
         let _ = black_box(answer);
     }
     vec![
-        ("summary", |s, _| answered(s.summary())),
-        ("summary_within", |s, _| {
-            answered(s.solve().expect("solved").summary_within(1e5))
-        }),
         ("propagate", |s, _| replied(s.propagate(&[response(s)]))),
         ("sample_responses", |s, _| {
             let sampler = Sampler::new(Points::Random).samples(SAMPLES);

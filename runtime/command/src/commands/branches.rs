@@ -2,8 +2,8 @@
 
 use clap::Args;
 use eigentol::branches::BranchEnd;
-use eigentol_figures as figures;
 use eigentol::branches::branch_table;
+use eigentol_figures as figures;
 use eigentol_tables::Table;
 
 use crate::failure::Failure;

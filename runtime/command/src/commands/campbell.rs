@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use clap::Args;
 use eigentol::campbell::CampbellPoint;
-use eigentol_figures as figures;
 use eigentol::campbell::campbell_table;
+use eigentol_figures as figures;
 
 use crate::failure::Failure;
 use crate::output::Output;

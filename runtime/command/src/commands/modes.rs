@@ -25,13 +25,13 @@ impl Modes {
         self.output.check()?;
         self.picture.check(&self.output)?;
         let question = self.point.question()?;
-        let solved = question.study.solve()?;
+        let modes = question.study.modes()?;
         let mut answer = self.output.answer();
-        answer.add(&solved.modes)?;
-        answer.add(&solved.equilibrium)?;
-        let style = self.picture.style(&question, solved.modes.modes.len())?;
-        self.picture.draw(|| mode_shapes(&solved.modes, &style))?;
+        answer.add(&modes)?;
+        answer.add(&question.study.equilibrium()?)?;
+        let style = self.picture.style(&question, modes.modes.len())?;
+        self.picture.draw(|| mode_shapes(&modes, &style))?;
         self.output.write(&answer)?;
-        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+        Ok(Verdict::of(&question.study)?)
     }
 }

@@ -79,8 +79,7 @@ impl Report {
             return Ok(Verdict::Stopped(reason.to_owned()));
         }
         // An equilibrium or modes that the report lacks count here as the answer "no".
-        let solved = study.solve()?;
-        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+        Ok(Verdict::of(&study)?)
     }
 
     /// Refuses more names than there can be modes: of those along an input only the greatest number is known before.
@@ -90,10 +89,8 @@ impl Report {
             false => 0,
         };
         // The report says why there are no modes.
-        match question.study.solve() {
-            Ok(solved) => self
-                .wording
-                .check(question, most.max(solved.modes.modes.len())),
+        match question.study.modes() {
+            Ok(modes) => self.wording.check(question, most.max(modes.modes.len())),
             Err(_) => Ok(()),
         }
     }

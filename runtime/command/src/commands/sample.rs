@@ -4,10 +4,10 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::Args;
-use eigentol::tolerance::{PartialMonteCarlo, Sample as Solution, Sampling};
-use eigentol::{Error, Solved};
-use eigentol_interpreter::Interpreted;
 use eigentol::tolerance::numbered_samples_table;
+use eigentol::tolerance::{PartialMonteCarlo, Sample as Solution, Sampling};
+use eigentol::{Error, Study};
+use eigentol_interpreter::Interpreted;
 use indicatif::ProgressBar;
 
 use crate::failure::Failure;
@@ -70,9 +70,8 @@ impl Sample {
         let range = self.shard.unwrap_or(Shard::WHOLE).range(samples as u64);
         let bar = progress::bar("samples", Some(range.end - range.start));
         let study = progress::watched(study, &bar);
-        let solved = study.solve()?;
         let run = Run {
-            solved: &solved,
+            study: &study,
             sampling: study.sampling(),
             range: &range,
             bar: &bar,
@@ -103,7 +102,7 @@ impl Sample {
                 "after {done} of {wanted} samples"
             )));
         }
-        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+        Ok(Verdict::of(&study)?)
     }
 
     /// Computes the missing samples of a run and writes them as they arrive.
@@ -130,7 +129,7 @@ const TOGETHER: u64 = 16_384;
 
 /// A run in progress.
 struct Run<'a> {
-    solved: &'a Solved<'a, Interpreted>,
+    study: &'a Study<Interpreted>,
     sampling: Sampling<'a>,
     range: &'a Range<u64>,
     bar: &'a ProgressBar,
@@ -139,7 +138,7 @@ struct Run<'a> {
 impl Run<'_> {
     fn take(&self, range: Range<u64>) -> Result<PartialMonteCarlo, Error> {
         let sampling = self.sampling.clone();
-        self.solved.sample_modes(&sampling.range(Some(range)))
+        self.study.sample_modes(&sampling.range(Some(range)))
     }
 
     /// Computes the missing samples, `together` at a time, and passes each part to `each` before merging it.

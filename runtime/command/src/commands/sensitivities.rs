@@ -32,18 +32,19 @@ impl Sensitivities {
         let shown = self
             .output
             .shown(&kinds[..if has_outputs { 3 } else { 2 }])?;
-        let solved = question.study.solve()?;
+        let study = &question.study;
+        let verdict = Verdict::of(study)?;
         let mut answer = self.output.answer();
         if shown[0] {
-            answer.add(&solved.sensitivities()?)?;
+            answer.add(&study.sensitivities()?)?;
         }
         if shown[1] {
-            answer.add(&solved.equilibrium_shift()?)?;
+            answer.add(&study.equilibrium_shift()?)?;
         }
         if shown.get(2) == Some(&true) {
-            answer.add(&solved.outputs()?)?;
+            answer.add(&study.outputs()?)?;
         }
         self.output.write(&answer)?;
-        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+        Ok(verdict)
     }
 }

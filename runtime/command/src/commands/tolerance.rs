@@ -48,13 +48,13 @@ impl Tolerance {
                 .zip(&shown)
                 .any(|(own, shown)| own.0 == kind && *shown)
         };
-        let solved = study.solve()?;
+        let modes = study.modes()?;
         let mut answer = self.output.answer();
-        let summary = of(Summary::KIND).then(|| solved.summary());
+        let summary = of(Summary::KIND).then(|| study.summary());
         bar.finish_and_clear();
         let stopped = matches!(summary, Some(Err(Error::Stopped)));
         let first = match of(FirstOrder::KIND) || stopped || self.picture.is_wanted() {
-            true => Some(solved.first_order()?),
+            true => Some(study.first_order()?),
             false => None,
         };
         if let Some(first) = &first {
@@ -68,13 +68,13 @@ impl Tolerance {
         }
         let mut without_outputs = None;
         if of(OutputTolerances::KIND) {
-            match solved.output_tolerances() {
+            match study.output_tolerances() {
                 Ok(outputs) => answer.add(&outputs)?,
                 Err(error) => without_outputs = Some(error),
             }
         }
         if let Some(first) = &first {
-            let style = self.picture.style(&question, solved.modes.modes.len())?;
+            let style = self.picture.style(&question, modes.modes.len())?;
             self.picture.draw(|| shares_of_all(first, &style))?;
         }
         self.output.write(&answer)?;
@@ -85,6 +85,6 @@ impl Tolerance {
             let reason = "before samples and second order could judge the first-order spread";
             return Ok(Verdict::Stopped(reason.to_owned()));
         }
-        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+        Ok(Verdict::of(study)?)
     }
 }

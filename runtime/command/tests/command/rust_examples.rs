@@ -68,11 +68,12 @@ fn same(found: &[Option<f64>], expected: &[Option<f64>], what: &str) {
 /// Modes, equilibrium, sensitivities and standard deviations at one point.
 fn compare<M: SummaryKernels>(study: &Study<M>, point: &[&str]) {
     let ask = |command: &str, more: &[&str]| document(&[&[command], point].concat(), more);
-    let solved = study.solve().unwrap();
+    let equilibrium = study.equilibrium().unwrap();
+    let solution = study.modes().unwrap();
     let d = study.description();
 
     let found = ask("modes", &[]);
-    let modes = &solved.modes.modes;
+    let modes = &solution.modes;
     let of =
         |pick: &dyn Fn(&eigentol::Mode) -> Option<f64>| modes.iter().map(pick).collect::<Vec<_>>();
     same(
@@ -94,7 +95,7 @@ fn compare<M: SummaryKernels>(study: &Study<M>, point: &[&str]) {
     }
 
     let found = ask("modes", &["--result", "equilibrium"]);
-    let state = &solved.equilibrium.coordinates;
+    let state = &equilibrium.coordinates;
     let values: Vec<_> = d
         .coordinates
         .iter()
@@ -103,7 +104,7 @@ fn compare<M: SummaryKernels>(study: &Study<M>, point: &[&str]) {
     let expected: Vec<_> = state.iter().map(|&value| Some(value)).collect();
     same(&values, &expected, "equilibrium");
 
-    let spreads = solved.first_order().unwrap();
+    let spreads = study.first_order().unwrap();
     let found = ask("tolerance", &[]);
     let expected: Vec<_> = (spreads.modes.iter())
         .map(|own| own.frequency().map(|spread| spread.sigma))

@@ -232,7 +232,10 @@ fn modes_are_sorted_as_their_numbers_say() {
     let close = |found: &[f64], expected: &[f64]| {
         assert_eq!(found.len(), expected.len(), "{found:?}");
         for (found, expected) in found.iter().zip(expected) {
-            assert!((found - expected).abs() < 1e-5 * 318.8, "{found} {expected}");
+            assert!(
+                (found - expected).abs() < 1e-5 * 318.8,
+                "{found} {expected}"
+            );
         }
     };
     let other = 101_633_f64.sqrt();

@@ -160,16 +160,13 @@ fn a_margin_shows_its_probability() {
 #[test]
 fn mode_shapes_are_relative_to_the_largest_component() {
     let study = bars().input(Bars::omega, 5.0);
-    let solved = study.solve().unwrap();
-    let figure = mode_shapes(
-        &solved.modes,
-        &Style::default().name_modes(["together", "apart"]),
-    )
-    .unwrap();
+    let state = study.equilibrium().unwrap();
+    let modes = study.modes().unwrap();
+    let figure = mode_shapes(&modes, &Style::default().name_modes(["together", "apart"])).unwrap();
     let [panel] = &figure.panels[..] else {
         panic!("undamped shapes have no phase")
     };
-    for (bars, mode) in panel.bars.iter().zip(&solved.modes.modes) {
+    for (bars, mode) in panel.bars.iter().zip(&modes.modes) {
         let largest = mode
             .shape
             .iter()
@@ -183,10 +180,10 @@ fn mode_shapes_are_relative_to_the_largest_component() {
     assert!(panel.bars[0].label.starts_with("together, "));
     save(&figure, "mode_shapes");
 
-    let figure = participation(&solved.modes, &solved.equilibrium, &Style::of(&study)).unwrap();
+    let figure = participation(&modes, &state, &Style::of(&study)).unwrap();
     // Twice the kinetic energy is the shape times M times the shape, coordinate by coordinate.
-    let mass = &solved.equilibrium.linear.mass;
-    for (bars, mode) in figure.panels[0].bars.iter().zip(&solved.modes.modes) {
+    let mass = &state.linear.mass;
+    for (bars, mode) in figure.panels[0].bars.iter().zip(&modes.modes) {
         let shape: Vec<f64> = mode.shape.iter().map(|own| own.re).collect();
         let energy = [0, 1].map(|i| shape[i] * (mass[i][0] * shape[0] + mass[i][1] * shape[1]));
         let whole: f64 = energy.iter().sum();

@@ -186,15 +186,16 @@ fn damaged_results_do_no_harm() {
         .start(Swing::theta, 1.0)
         .samples(64)
         .keep_samples(true);
-    let solved = study.solve().expect("a state");
-    lists_of_other_lengths_are_refused(&solved.equilibrium);
-    lists_of_other_lengths_are_refused(&solved.modes);
-    lists_of_other_lengths_are_refused(&solved.equilibrium_shift().expect("derivatives"));
-    lists_of_other_lengths_are_refused(&solved.outputs().expect("outputs"));
-    lists_of_other_lengths_are_refused(&solved.sensitivities().expect("derivatives"));
-    lists_of_other_lengths_are_refused(&solved.first_order().expect("spreads"));
-    lists_of_other_lengths_are_refused(&solved.second_order().expect("spreads"));
-    lists_of_other_lengths_are_refused(&solved.summary().expect("a summary"));
+    let state = study.equilibrium().expect("a state");
+    let modes = study.modes().expect("a state");
+    lists_of_other_lengths_are_refused(&state);
+    lists_of_other_lengths_are_refused(&modes);
+    lists_of_other_lengths_are_refused(&study.equilibrium_shift().expect("derivatives"));
+    lists_of_other_lengths_are_refused(&study.outputs().expect("outputs"));
+    lists_of_other_lengths_are_refused(&study.sensitivities().expect("derivatives"));
+    lists_of_other_lengths_are_refused(&study.first_order().expect("spreads"));
+    lists_of_other_lengths_are_refused(&study.second_order().expect("spreads"));
+    lists_of_other_lengths_are_refused(&study.summary().expect("a summary"));
     let few = study.clone().samples(3);
     lists_of_other_lengths_are_refused(&few.monte_carlo().expect("samples"));
     let sweep = study
@@ -211,11 +212,11 @@ fn damaged_results_do_no_harm() {
     let wanted = [Requirement::at_least(responses[0], 5.8)];
     lists_of_other_lengths_are_refused(&study.chances(&wanted).expect("chances"));
     lists_of_other_lengths_are_refused(&study.reliability(&wanted).expect("points"));
-    lists_of_other_lengths_are_refused(&solved.output_tolerances().expect("spreads"));
-    lists_of_other_lengths_are_refused(&solved.mode_curvature(0).expect("derivatives"));
-    lists_of_other_lengths_are_refused(&solved.shape_sensitivity(0).expect("derivatives"));
-    lists_of_other_lengths_are_refused(&solved.whirls());
-    let along = solved.directional_derivatives(0, (&[1.0], &[1.0]));
+    lists_of_other_lengths_are_refused(&study.output_tolerances().expect("spreads"));
+    lists_of_other_lengths_are_refused(&study.mode_curvature(0).expect("derivatives"));
+    lists_of_other_lengths_are_refused(&study.shape_sensitivity(0).expect("derivatives"));
+    lists_of_other_lengths_are_refused(&study.whirls().expect("a state"));
+    let along = study.directional_derivatives(0, (&[1.0], &[1.0]));
     lists_of_other_lengths_are_refused(&along.expect("derivatives"));
     let speeds = [6.0, 6.1, 6.2];
     let diagram = study.campbell(Swing::speed, &speeds, &[1.0]);
