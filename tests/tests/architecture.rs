@@ -95,7 +95,7 @@ const CRATES: [(&str, &[&str], usize); 18] = [
             "eigentol-solve",
             "eigentol-tolerance",
         ],
-        3_900,
+        2_800,
     ),
     ("macros/compiler", &[], 28_800),
     ("macros", &["eigentol-compiler"], 14),
