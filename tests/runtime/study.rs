@@ -1,6 +1,7 @@
 //! The public interface: values in and out, relative tolerances, standard deviations of critical speeds and resonances,
 //! random streams.
 
+mod kept;
 mod operating_point;
 
 use crate::common::close;

@@ -96,7 +96,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-solve",
             "eigentol-tolerance",
         ],
-        3_900,
+        2_800,
     ),
     ("macros/symbolic", &[], 3_600),
     ("macros/compiler", &["eigentol-symbolic"], 25_300),

@@ -13,7 +13,9 @@ use eigentol::second_order::second_order;
 use eigentol::sensitivity::sensitivities;
 use eigentol::summary::summary_within;
 use eigentol::tolerance::first_order;
-use eigentol::{Description, Matrix, Mechanism, PoseMargin, Shared, Study, Violation, mechanism};
+use eigentol::{
+    Description, Input, Matrix, Mechanism, PoseMargin, Shared, Study, Violation, mechanism,
+};
 
 /// Kinds of kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -351,6 +353,24 @@ mechanism! {
 
 fn solved<M: Mechanism>(study: &Study<M>) -> (eigentol::Equilibrium, eigentol::Modes) {
     (study.equilibrium().unwrap(), study.modes().unwrap())
+}
+
+#[test]
+fn a_study_solves_its_operating_point_once() {
+    let study = Study::new(Counting::new(&Three)).input(Input::new(0), 1.0);
+    let modes = study.modes().unwrap();
+    assert!(study.mechanism().taken()[Kind::Plain as usize] > 0);
+    let kept = |study: &Study<Counting<'_>>| {
+        assert_eq!(study.modes().unwrap(), modes);
+        assert_eq!(study.equilibrium().unwrap().inputs[..], [1.0]);
+        assert_eq!(study.mechanism().taken(), [0; 4]);
+    };
+    kept(&study);
+    let study = study.samples(10).sigma_level(2.0).threads(1);
+    kept(&study);
+    let study = study.input(Input::new(0), 1.1);
+    assert_ne!(study.modes().unwrap(), modes);
+    assert!(study.mechanism().taken()[Kind::Plain as usize] > 0);
 }
 
 #[test]

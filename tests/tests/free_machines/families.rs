@@ -65,9 +65,8 @@ fn a_coin_in_a_circle() {
         (by_yaw, "held_lean_and_yaw_rate"),
         (by_spin, "held_lean_and_spin"),
     ] {
-        let equilibrium = study.equilibrium().expect(name);
+        let state = &study.equilibrium().expect(name);
         let modes = study.modes().expect(name);
-        let state = &equilibrium;
         assert!(
             state.notes.contains(&Note::Member { dimension: 2 }),
             "{:?}",
@@ -77,7 +76,7 @@ fn a_coin_in_a_circle() {
         close(at(spin), values[1], 1e-11, "spin");
         close(at(yaw), values[2], 1e-11, "yaw rate");
         let found = frequencies(&study);
-        assert_eq!(found.len(), 1, "{:?}", modes);
+        assert_eq!(found.len(), 1, "{modes:?}");
         close(found[0], values[0], 1e-10, "frequency");
         let slopes = study.sensitivities().expect("derivatives");
         let r = modes
@@ -142,13 +141,12 @@ impl Wobble {
         by_two: impl Fn(usize, usize) -> [f64; 3],
     ) {
         let state = study.equilibrium().expect("a steady motion");
-        let solution = study.modes().expect("a steady motion");
+        let modes = &study.modes().expect("a steady motion").modes;
         assert!(
             state.notes.contains(&Note::Member { dimension: 2 }),
             "{:?}",
             state.notes
         );
-        let modes = &solution.modes;
         let mode = modes.iter().position(|mode| mode.frequency().is_some());
         let mode = mode.expect("it wobbles");
         close(

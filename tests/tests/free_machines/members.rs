@@ -64,8 +64,7 @@ fn tolerances_of_inputs_act_through_steady_values() {
     let study = at(&conical(""), w)
         .relative_tolerance(Parameter::Input(Input::new(0)), 0.05)
         .samples(4000);
-    let solution = study.modes().expect("it goes round");
-    let modes = &solution.modes;
+    let modes = &study.modes().expect("it goes round").modes;
     let mode = modes.iter().position(|mode| mode.frequency().is_some());
     let mode = mode.expect("it nods");
     let sigma = by_speed(w).abs() * w * 0.05 / 3.0;
@@ -148,8 +147,7 @@ fn samples_of_members_stay_on_their_branch() {
         .start(TILT, 0.2)
         .relative_tolerance(Parameter::Design(ratio), 0.03)
         .samples(4000);
-    let solution = study.modes().expect("it goes round");
-    let modes = &solution.modes;
+    let modes = &study.modes().expect("it goes round").modes;
     let mode = modes.iter().position(|mode| mode.frequency().is_some());
     let found = study.monte_carlo().expect("samples");
     assert_eq!(found.counts.stable, 4000, "{:?}", found.counts);

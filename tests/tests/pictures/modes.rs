@@ -23,14 +23,13 @@ fn double_pendulum() -> Study<RotatingDoublePendulum> {
 #[test]
 fn frames_are_scenes_along_the_shape() {
     let study = double_pendulum();
-    let state = study.equilibrium().expect("modes");
+    let at = study.equilibrium().expect("modes");
     let modes = study.modes().expect("modes");
     for mode in 0..2 {
         let swing = study.mode_pictures(mode, 8, 0.1).expect("a swing");
         assert_eq!((swing.mode, swing.frames.len()), (mode, 8));
         for (k, frame) in swing.frames.iter().enumerate() {
             let angle = std::f64::consts::TAU * k as f64 / 8.0;
-            let at = &state;
             let shape = &modes.modes[mode].shape;
             let q: Vec<f64> = (at.coordinates.iter().zip(shape))
                 .map(|(q, phi)| q + swing.amplitude * angle.cos() * phi.re)
