@@ -52,7 +52,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
         &["eigentol-contract", "eigentol-statistics"],
         7_400,
     ),
-    ("runtime/results", &["eigentol-contract"], 600),
+    ("runtime/results", &["eigentol-contract"], 1_150),
     (
         "runtime/solve",
         &[
@@ -61,7 +61,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        15_000,
+        15_200,
     ),
     (
         "runtime/tolerance",
@@ -93,6 +93,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-contract",
             "eigentol-macros",
             "eigentol-numerics",
+            "eigentol-results",
             "eigentol-solve",
             "eigentol-tolerance",
         ],
@@ -108,7 +109,11 @@ const CRATES: [(&str, &[&str], usize); 19] = [
         &["eigentol", "eigentol-compiler"],
         1_900,
     ),
-    ("runtime/tables", &["eigentol"], 3_500),
+    (
+        "runtime/tables",
+        &["eigentol-contract", "eigentol-results"],
+        1_000,
+    ),
     ("runtime/figures", &["eigentol"], 4_400),
     (
         "runtime/report",
@@ -164,13 +169,14 @@ const CRATE_ROOMS: [(&str, &[&str]); 6] = [
             "modes",
             "equilibrium",
             "sensitivity",
-            "report",
         ],
     ),
-    ("runtime/tolerance", &["batched", "tolerance", "report"]),
+    ("runtime/tolerance", &["batched", "tolerance"]),
     (
         "runtime/analysis",
         &[
+            "along",
+            "variables",
             "branches",
             "sweep",
             "shapes",
@@ -186,7 +192,6 @@ const CRATE_ROOMS: [(&str, &[&str]); 6] = [
             "campbell",
             "picture",
             "motion",
-            "report",
         ],
     ),
 ];

@@ -1,12 +1,10 @@
 //! Methods of a study for events along an input: loss of stiffness, a frequency crossing a line, onset of flutter.
 
-use std::borrow::Cow;
-
 use super::over_input::Along;
 use super::{Study, Value};
 use crate::kernels::{CurvatureKernels, DirectionalKernels};
 use crate::second_order::{self, EventCurvature};
-use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Following, Line, Range};
+use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Line, Range};
 use crate::tolerance::Tolerances;
 use crate::{Error, Input};
 
@@ -162,19 +160,15 @@ impl<M: CurvatureKernels> Study<M> {
 }
 
 impl Along<'_> {
-    fn way(&self, range: Range) -> Result<(Cow<'_, [f64]>, Following), Error> {
-        (self.settings).way(self.plain, self, (range.input, range.low))
-    }
-
     fn events(&self, range: Range, lines: &[Line]) -> Result<Events, Error> {
         let (u, b) = (&self.settings.inputs, &self.design);
-        let (start, following) = self.way(range)?;
+        let (start, following) = self.way(self.plain, (range.input, range.low))?;
         sweep::events(self.kernels(), u, b, &start, following, range, lines)
     }
 
     fn critical_state(&self, range: Range) -> Result<CriticalState, Error> {
         let (u, b) = (&self.settings.inputs, &self.design);
-        let (start, _) = self.way(range)?;
+        let (start, _) = self.way(self.plain, (range.input, range.low))?;
         sweep::critical_state(self.kernels(), u, b, &start, range)
     }
 
@@ -190,7 +184,7 @@ impl Along<'_> {
 
     fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
         let (u, b) = (&self.settings.inputs, &self.design);
-        let (start, following) = self.way(range)?;
+        let (start, following) = self.way(self.plain, (range.input, range.low))?;
         sweep::crossings(self.kernels(), u, b, &start, following, range, line)
     }
 
@@ -201,7 +195,7 @@ impl Along<'_> {
 
     fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
         let (u, b) = (&self.settings.inputs, &self.design);
-        let (start, following) = self.way(range)?;
+        let (start, following) = self.way(self.plain, (range.input, range.low))?;
         sweep::flutter_onsets(self.kernels(), u, b, &start, following, range)
     }
 

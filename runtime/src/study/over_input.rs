@@ -238,7 +238,7 @@ impl Swept<'_> {
     ) -> Result<Sweep, Error> {
         let point = (&self.settings.inputs[..], &self.design[..]);
         let from = (along.0, first_of(along.1));
-        let (start, following) = self.settings.way(self.plain, self, from)?;
+        let (start, following) = self.way(self.plain, from)?;
         let watch = self.settings.watch();
         let each = |found: &SweepPoint| go_on(each(found), watch);
         sweep::sweep_each(self.kernels(), point, &start, following, along, each)
@@ -251,7 +251,7 @@ impl Swept<'_> {
     ) -> Result<(), Error> {
         let point = (&self.settings.inputs[..], &self.design[..]);
         let from = (along.0, first_of(along.1));
-        let (start, following) = self.settings.way(self.plain, self, from)?;
+        let (start, following) = self.way(self.plain, from)?;
         let watch = self.settings.watch();
         let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
             each(point, slopes);
@@ -282,7 +282,7 @@ impl Along<'_> {
         let (kernels, settings) = (self.kernels(), self.settings);
         let point = (&settings.inputs[..], &self.design[..]);
         let from = (axes.input, first_of(axes.values));
-        let (start, following) = settings.way(self.plain, self, from)?;
+        let (start, following) = self.way(self.plain, from)?;
         let (tolerances, watch) = (settings.tolerances()?, settings.watch());
         let each = |found| go_on(each(found), watch);
         campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
@@ -297,7 +297,7 @@ impl Along<'_> {
         let settings = self.settings;
         let point = (&settings.inputs[..], &self.design[..]);
         let from = (continuation.input, continuation.low);
-        let (start, _) = settings.way(self.plain, self, from)?;
+        let (start, _) = self.way(self.plain, from)?;
         let held = settings.held_in(search, &start);
         let how = (continuation, held.as_ref());
         branches::branches_each(self.kernels(), point, &start, how, settings.watch(), each)

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use super::cache::Cache;
-use super::deviating::Table;
 use super::parameter::Parameter;
 use super::value::Value;
 use super::variation::Variation;
@@ -14,7 +13,7 @@ use crate::equilibrium::{Assembly, OperatingPoint, Policy, Search};
 use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
-use crate::sweep::{Following, Range};
+use crate::sweep::Range;
 use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{Coordinate, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch};
 use crate::{Matrix, Vector};
@@ -285,34 +284,24 @@ impl Settings {
         })
     }
 
-    /// The start of a way along an input from a value, and what to follow: a start value that is given keeps an unstable
+    /// The equilibrium at this value of an input that is to be kept along it: a start value that is given keeps an unstable
     /// equilibrium, and picks the member of a family of steady motions.
-    pub(super) fn way<K: Kernels + ?Sized>(
+    pub(super) fn kept(
         &self,
         plain: &dyn Kernels,
-        table: &Table<'_, K>,
         (input, first): (Input, f64),
-    ) -> Result<(Cow<'_, [f64]>, Following), Error> {
-        let start = self.assembled_start(plain)?;
-        let following = Following::from(self.policy)
-            .family(self.family)
-            .vectors(self.vectors);
+    ) -> Option<Equilibrium> {
         let (_, named) = self.beginning(plain);
         let asked = named.contains(&true) || !self.holds.is_empty();
         if !asked && self.description.held.is_empty() {
-            return Ok((start, following));
+            return None;
         }
         let mut there = self.clone();
         if let Some(own) = there.inputs.get_mut(input.index()) {
             *own = first;
         }
-        let state = match there.solve(plain) {
-            Ok((state, _)) if !state.stability.holds() || !state.free.held.is_empty() => state,
-            _ => return Ok((start, following)),
-        };
-        let mut following = following.policy(Policy::about(&state));
-        following.held = table.state(&state).free.held.clone();
-        Ok((Cow::Owned(state.coordinates.into()), following))
+        let (state, _) = there.solve(plain).ok()?;
+        (!state.stability.holds() || !state.free.held.is_empty()).then_some(*state)
     }
 
     pub(super) fn range(&self, input: Input, low: Value, high: Value) -> Result<Range, Error> {

@@ -161,7 +161,7 @@ fn second_derivatives_of_outputs_and_critical_values() {
     let [theta, ..] = closed_form();
     let (sin, cos) = theta.sin_cos();
     let angle = study().output_curvature(RotatingBar::angle);
-    let table = &tables(&angle.expect("derivatives"))[0];
+    let table = &angle.expect("derivatives").tables()[0];
     assert_eq!(table.rows(), 4);
     close(
         number(table, "angle", 3),
@@ -173,7 +173,7 @@ fn second_derivatives_of_outputs_and_critical_values() {
     close(number(table, "angle", 2), mixed);
     let (low, high) = (InDeclaredUnit(1.0), InDeclaredUnit(100.0));
     let critical = study().critical_curvature(RotatingBar::speed, low, high);
-    let table = &tables(&critical.expect("derivatives"))[0];
+    let table = &critical.expect("derivatives").tables()[0];
     assert_eq!(table.rows(), 1);
     let speed = (1.5_f64 * 9.81).sqrt() * 60.0 / std::f64::consts::TAU;
     close(number(table, "speed", 0), 0.75e-6 * speed);

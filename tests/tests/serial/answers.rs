@@ -48,7 +48,11 @@ impl Answers {
     }
 
     /// Writes and reads back in a document, including errors.
-    fn both<A: Answer + PartialEq + Debug>(&mut self, name: &str, answer: Result<A, Error>) {
+    fn both<A: Answer + Serialize + DeserializeOwned + PartialEq + Debug>(
+        &mut self,
+        name: &str,
+        answer: Result<A, Error>,
+    ) {
         self.plain(name, &answer);
         let Ok(answer) = answer else {
             self.refused += 1;

@@ -5,7 +5,7 @@ use std::io;
 use eigentol::requirement::Requirement;
 use eigentol::response::Response;
 use eigentol::{Equilibrium, FirstOrder, InDeclaredUnit, Modes, Quantity, Study, mechanism};
-use eigentol_tables::{Answer, Error, Values, json, tables};
+use eigentol_tables::{Answer, Error, Values, json};
 use serde_json::Value;
 
 use crate::common::Disk;
@@ -66,7 +66,7 @@ fn another_program_finds_its_way() {
 fn a_result_comes_back_with_its_description() {
     let back: Modes = json::read(text().as_bytes()).expect("modes");
     assert_eq!(back, modes());
-    assert_eq!(back.tables(), tables(&modes()));
+    assert_eq!(back.tables(), modes().tables());
 }
 
 /// A mode without a neighbour has an infinite distance to the next one.

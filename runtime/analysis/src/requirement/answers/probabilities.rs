@@ -4,7 +4,7 @@ use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use super::reliability::variables;
-use crate::judge::chance;
+use super::words::probability;
 use crate::requirement::{FailureProbability, Interval, Probabilities, Reliability};
 
 /// `probabilities of failure`: a row for each requirement and one for any of them; the tables of design points and
@@ -97,11 +97,6 @@ impl Probabilities {
         designs.shown();
         said.columns(table);
     }
-}
-
-/// A probability without an error.
-pub(super) fn probability(value: f64) -> String {
-    chance(value, 0.0)
 }
 
 /// The most probable way to fail each limit.

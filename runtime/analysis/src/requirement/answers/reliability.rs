@@ -4,7 +4,7 @@ use eigentol_results::relevance::{BELOW, names, relevant};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
 
-use super::probabilities::probability;
+use super::words::probability;
 use crate::Description;
 use crate::judge::{judged, verdict};
 use crate::requirement::{DesignPoint, LimitReliability, Reliability, SystemFailure};

@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use crate::judge::chance;
 use crate::requirement::{Edge, Found, Limit, Requirement};
 use crate::{Description, Text, Unit};
 use eigentol_results::numbers::{given_in, with_unit};
@@ -67,4 +68,9 @@ impl Edge {
             Self::Outside { low, high } => format!("outside {} to {}", one(low), one(high)),
         }
     }
+}
+
+/// A probability without an error.
+pub(super) fn probability(value: f64) -> String {
+    chance(value, 0.0)
 }
