@@ -1,7 +1,7 @@
 """Natural frequencies of mechanisms in steady motion, and how manufacturing tolerances move them.
 
-Numbers are SI, texts have a unit ("3000 rpm"); modes are counted from 0, as arrays are. Where a result has no number, its
-array has NaN.
+A `Mechanism` is read from a file or a text; a `Study` of it is asked questions. Numbers are SI, texts have a unit
+("3000 rpm"); modes are counted from 0, as arrays are. Where a result has no number, its array has NaN.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,40 +18,26 @@ Real: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
 Flags: TypeAlias = NDArray[np.bool_]
 Whole: TypeAlias = NDArray[np.int64]
+Choices: TypeAlias = Mapping[str, tuple[Value, Value, tuple[float, float, float]]]
+EventKind: TypeAlias = Literal["critical", "crossing", "flutter"]
+EventChange: TypeAlias = Literal["onset", "end", "pass", "touch", "to divergence", "to flutter"]
 Value: TypeAlias = float | str
-Quantity: TypeAlias = Literal["frequency", "natural_frequency", "damping_ratio", "growth"]
-Numbers: TypeAlias = ArrayLike | Mapping[str, Value] | None
-Requirement: TypeAlias = (
-    Literal["stable"]
-    | tuple[tuple[Any, ...], float | None, float | None]
-    | tuple[Literal["outside"], tuple[Any, ...], float, float]
-)
+Numbers: TypeAlias = ArrayLike | Mapping[str, Value]
+Ranges: TypeAlias = Mapping[str, tuple[Value, Value]]
+Counts: TypeAlias = dict[str, int]
 Table: TypeAlias = dict[str, Any]
-
-@type_check_only
-class Settings(TypedDict, total=False):
-    """Settings of a study."""
-
-    inputs: Mapping[str, Value]
-    design: Mapping[str, Value]
-    start: Mapping[str, Value]
-    guess: Mapping[str, Value]
-    hold: Mapping[str, Value]
-    stay: bool
-    at: Equilibrium
-    tolerances: Mapping[str, Value | tuple[Value, Value]]
-    measured: Mapping[str, ArrayLike]
-    sigma_level: float
-    correlation: ArrayLike
-    policy: Literal["stable", "nearest"]
-    family: Literal["undamped", "general"]
-    samples: int
-    seed: int
-    stream: int
-    threads: int
-    keep_samples: bool
-    vectors: bool
-    steps: int
+Quantity: TypeAlias = Literal["frequency", "natural_frequency", "damping_ratio", "growth"]
+QuantityOrLambda: TypeAlias = Quantity | Literal["lambda"]
+Family: TypeAlias = Literal["undamped", "general"]
+Nominal: TypeAlias = dict[str, float]
+Units: TypeAlias = dict[str, str]
+Around: TypeAlias = tuple[str, float] | tuple[str, float, float]
+Along: TypeAlias = tuple[str, ArrayLike] | tuple[str, ArrayLike, str]
+FrequencyUnit: TypeAlias = Literal["Hz", "rad/s"]
+Requirement: TypeAlias = Literal["stable"] | tuple[tuple[Any, ...], float | None, float | None] | tuple[Literal["outside"], tuple[Any, ...], float, float]
+FoundBy: TypeAlias = Literal["design point", "lines", "samples"]
+AssemblySide: TypeAlias = Literal["positive", "negative"]
+Advised: TypeAlias = Literal["first order", "second order", "cluster", "samples"]
 
 @type_check_only
 class UrdfOptions(TypedDict, total=False):
@@ -67,44 +53,68 @@ class UrdfOptions(TypedDict, total=False):
     nearest_inertias: bool
     name: str | None
 
-def json_schema() -> str: ...
-def import_urdf(path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Import: ...
+@type_check_only
+class Settings(TypedDict, total=False):
+    """Settings of a study."""
 
-@final
-class Import:
-    """A robot as a declaration; numbers are SI."""
+    inputs: Mapping[str, Value]
+    design: Mapping[str, Value]
+    start: Mapping[str, Value]
+    guess: Mapping[str, Value]
+    hold: Mapping[str, Value]
+    sigma_level: float
+    tolerances: Mapping[str, Value | tuple[Value, Value]]
+    measured: Mapping[str, ArrayLike]
+    correlation: ArrayLike
+    policy: Literal["stable", "nearest"]
+    stay: bool
+    at: Equilibrium
+    family: Family
+    samples: int
+    seed: int
+    stream: int
+    threads: int
+    keep_samples: bool
+    steps: int
+    vectors: bool
 
-    def __new__(cls, declaration: str, names: Mapping[str, str], notes: Sequence[str]) -> Import: ...
-    @property
-    def declaration(self) -> str: ...
-    @property
-    def names(self) -> dict[str, str]: ...
-    @property
-    def notes(self) -> list[str]: ...
-    def mechanism(self) -> Mechanism: ...
+def json_schema() -> str:
+    """The JSON Schema of the documents that `to_json` gives, as a text."""
+
+def import_urdf(path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Import:
+    """The declaration of a robot from its URDF file.
+
+    Options: `base`, "fixed", "floating" or "planar"; `resistance` of the joints, "springs" on every coordinate,
+    "drives" that hold at 0 the joints that nothing resists, or "none" for a mechanism of kernels alone; of springs
+    `stiffness` (50 N m/rad), `damping` (0.5 N m s/rad), `linear_stiffness` (50 N/m), `linear_damping` (0.5 N s/m);
+    `file_damping`, whether the damping of the file is taken (True); `nearest_inertias`, whether impossible inertias are
+    replaced by the nearest possible ones (False); `name` of the mechanism.
+
+    Raises OSError when the file cannot be read, DeclarationError with line and column of every mistake.
+    """
 
 class Error(Exception):
     """Any failure of this module."""
 
 class DeclarationError(Error, ValueError):
-    """A text declares no mechanism."""
+    """A text declares no mechanism. `mistakes` lists what is wrong, each with `line`, `column`, `end_line`, `end_column`, `message` and `help`; `path` is the file, or None."""
 
     mistakes: list[Mistake]
     path: PathLike[str] | None
 
 class InvalidValue(Error, ValueError):
-    """A value, unit, setting or list makes no sense."""
+    """A value, unit, setting or list makes no sense (also a ValueError)."""
 
 class UnknownName(Error, LookupError):
-    """Nothing has this name."""
+    """Nothing has this name (also a LookupError)."""
 
 class NoEquilibrium(Error):
-    """No equilibrium was found from the start values."""
+    """No equilibrium was found from the start values. `coordinates` is the last state, SI."""
 
     coordinates: list[float]
 
 class NotAssembled(Error):
-    """The constraints cannot be met together from the start values."""
+    """The constraints cannot be met together from the start values. `coordinates` is the last state, SI."""
 
     coordinates: list[float]
 
@@ -117,1171 +127,1965 @@ class NoDerivative(Error):
 class NotInRange(Error):
     """What was looked for is not in the range of the input."""
 
-@final
-class Mistake:
-    """One mistake in a declaration; lines and columns are counted from 1."""
-
-    line: int
-    column: int
-    end_line: int
-    end_column: int
-    message: str
-    help: str | None
-    def __new__(
-        cls, line: int, column: int, end_line: int, end_column: int, message: str, help: str | None
-    ) -> Mistake: ...
-
-@final
-class Mechanism:
-    """A mechanism: names, units and kernels."""
-
-    @classmethod
-    def from_file(cls, path: str | PathLike[str]) -> Mechanism: ...
-    @classmethod
-    def from_urdf(cls, path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Mechanism: ...
-    @classmethod
-    def from_text(cls, text: str) -> Mechanism: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def text(self) -> str: ...
-    @property
-    def unknowns(self) -> list[str]: ...
-    @property
-    def coordinates(self) -> list[str]: ...
-    @property
-    def speeds(self) -> list[str]: ...
-    @property
-    def reactions(self) -> list[str]: ...
-    @property
-    def inputs(self) -> list[str]: ...
-    @property
-    def design(self) -> list[str]: ...
-    @property
-    def outputs(self) -> list[str]: ...
-    @property
-    def nominal(self) -> dict[str, float]: ...
-    @property
-    def units(self) -> dict[str, str]: ...
-    def residual(self, q: Numbers, inputs: Numbers = None, design: Numbers = None) -> Real: ...
-    def linear(self, q: Numbers, inputs: Numbers = None, design: Numbers = None) -> tuple[Real, Real, Real]: ...
-    def linear_partials(
-        self, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> tuple[tuple[Real, Real, Real], tuple[Real, Real, Real], tuple[Real, Real, Real]]: ...
-    def residual_partials(
-        self, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> tuple[Real, Real]: ...
-    def output_values(self, q: Numbers, inputs: Numbers = None, design: Numbers = None) -> Real: ...
-    def mode_gradient(
-        self, phi: Numbers, eigenvalue: float, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> tuple[Real, Real, Real]: ...
-    def residual_gradient(
-        self, w: Numbers, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> tuple[Real, Real, Real]: ...
-    def pencil_gradient(
-        self,
-        left: Numbers,
-        acceleration: Numbers,
-        velocity: Numbers,
-        position: Numbers,
-        q: Numbers,
-        inputs: Numbers = None,
-        design: Numbers = None,
-    ) -> tuple[Real, Real, Real]: ...
-    def motion_residual(
-        self, acceleration: Numbers, velocity: Numbers, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> Real: ...
-    def motion_linear(
-        self, acceleration: Numbers, velocity: Numbers, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> tuple[Real, Real, Real]: ...
-    def mass_and_forces(
-        self, velocity: Numbers, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> tuple[Real, Real]: ...
-    def accelerations(
-        self, velocity: Numbers, q: Numbers, inputs: Numbers = None, design: Numbers = None
-    ) -> Real: ...
-    def motion(self, inputs: Numbers = None, design: Numbers = None) -> Motion: ...
-
-@final
-class Motion:
-    """The nonlinear motion as a function for `scipy.integrate.solve_ivp`."""
-
-    @property
-    def names(self) -> list[str]: ...
-    def __call__(self, t: float, y: ArrayLike) -> Real: ...
-    def state(self, coordinates: Numbers = None, rates: Numbers = None) -> Real: ...
-
-@final
-class Study:
-    """A mechanism at one operating point, with tolerances and settings."""
-
-    def __new__(cls, mechanism: Mechanism, **settings: Unpack[Settings]) -> Study: ...
-    def replace(self, **settings: Unpack[Settings]) -> Study: ...
-    @property
-    def mechanism(self) -> Mechanism: ...
-    @property
-    def settings(self) -> Settings: ...
-    @property
-    def inputs(self) -> Real: ...
-    @property
-    def design(self) -> Real: ...
-    @property
-    def sigmas(self) -> Real: ...
-    def motion(self) -> Motion: ...
-    def equilibrium(self) -> Equilibrium: ...
-    def assembly(self) -> Assembly: ...
-    def equilibria(
-        self,
-        bounds: Mapping[str, tuple[Value, Value]] | None = None,
-        starts: int | None = None,
-        seed: int | None = None,
-    ) -> list[Equilibrium]: ...
-    def equilibrium_shift(self) -> EquilibriumShift: ...
-    def modes(self) -> Modes: ...
-    def whirls(self) -> Real: ...
-    def sensitivities(self) -> Sensitivities: ...
-    def outputs(self) -> OutputSensitivities: ...
-    def output_tolerances(self) -> OutputTolerances: ...
-    def first_order(self) -> FirstOrder: ...
-    def second_order(self) -> SecondOrder: ...
-    def summary(self) -> Summary: ...
-    def monte_carlo(self) -> MonteCarlo: ...
-    def samples_between(self, start: int, stop: int) -> PartialMonteCarlo: ...
-    def mode_curvature(self, mode: int) -> ModeCurvature: ...
-    def output_curvature(self, output: str) -> OutputCurvature: ...
-    def shape_sensitivity(self, mode: int) -> ShapeSensitivity: ...
-    def margin(
-        self,
-        mode: int,
-        low: float | None = None,
-        high: float | None = None,
-        *,
-        around: tuple[str, float] | tuple[str, float, float] | None = None,
-        quantity: Quantity = "frequency",
-    ) -> ModeMargin: ...
-    def response(self, what: str, *of: Any, variables: Sequence[str] | None = None) -> Response: ...
-    def propagate(self, responses: Sequence[tuple[Any, ...]]) -> Propagation: ...
-    def influence(self, responses: Sequence[tuple[Any, ...]]) -> Influence: ...
-    def worst_case(self, responses: Sequence[tuple[Any, ...]]) -> WorstCase: ...
-    def chances(
-        self, requirements: Sequence[Requirement], start: int | None = None, stop: int | None = None
-    ) -> Chances: ...
-    def probability(self, requirements: Sequence[Requirement]) -> Probabilities: ...
-    def reliability(self, requirements: Sequence[Requirement]) -> Reliability: ...
-    def rare_failure(self, requirements: Sequence[Requirement]) -> RareFailure: ...
-    def allocate(
-        self,
-        requirements: Sequence[Requirement],
-        *,
-        failure: Sequence[float],
-        tolerances: Mapping[str, tuple[Value, Value, tuple[float, float, float]]],
-        nominals: Mapping[str, tuple[Value, Value]] | None = None,
-    ) -> Allocation: ...
-    def clusters(self) -> Clusters: ...
-    def directional_derivatives(
-        self, mode: int, inputs: Numbers = None, design: Numbers = None
-    ) -> DirectionalDerivatives: ...
-    def sweep(self, input: str, values: ArrayLike, unit: str | None = None) -> Sweep: ...
-    def campbell(
-        self, input: str, values: ArrayLike, orders: Sequence[float] = ..., unit: str | None = None
-    ) -> Campbell: ...
-    def branches(self, input: str, low: Value, high: Value) -> Branches: ...
-    def report(
-        self,
-        path: str | PathLike[str],
-        sweep: tuple[str, ArrayLike] | tuple[str, ArrayLike, str] | None = None,
-        orders: Sequence[float] = ...,
-        title: str | None = None,
-        mode_names: Sequence[str] = ...,
-        frequency_unit: Literal["Hz", "rad/s"] | None = None,
-    ) -> None: ...
-    def critical(self, input: str, low: Value, high: Value) -> Event: ...
-    def critical_curvature(self, input: str, low: Value, high: Value) -> EventCurvature: ...
-    def crossings(
-        self, input: str, low: Value, high: Value, order: float = 1.0, offset: float = 0.0
-    ) -> list[Event]: ...
-    def flutter_onsets(self, input: str, low: Value, high: Value) -> list[Event]: ...
-
-@final
-class Response:
-    """A number that a design gives, as a function of arrays of designs."""
-
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def nominal(self) -> Real: ...
-    def __call__(self, x: ArrayLike) -> Any: ...
-    def gradient(self, x: ArrayLike) -> Real: ...
-
 @type_check_only
 class _Result:
-    """What all results with tables have."""
+    """What all results have."""
 
-    def table(self, name: str | None = None) -> Table: ...
-    @property
-    def tables(self) -> list[str]: ...
-    @property
-    def mechanism(self) -> str | None: ...
-    @property
-    def operating_point(self) -> dict[str, float]: ...
-    def to_json(self) -> str: ...
-    @classmethod
-    def from_json(cls, text: str) -> Self: ...
+    def _repr_html_(self) -> str: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    def _repr_html_(self) -> str: ...
+    def table(self, name: str | None = None) -> Table:
+        """A table of the result as a dictionary, a column for each heading ("frequency [rad/s]"), which
+        pandas.DataFrame and polars.DataFrame take. Values are in declared units. Without a name it is the
+        first, the answer.
+        """
+    def to_json(self) -> str:
+        """The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is
+        `eigentol.json_schema()`; under "result" it holds every number of the result, SI.
+        """
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """The result that such a document holds, bit for bit. Raises InvalidValue for another text."""
+    @property
+    def tables(self) -> list[str]:
+        """Names of the tables."""
+    @property
+    def notes(self) -> list[str]:
+        """The sentences of its text: what to know besides the tables."""
+    @property
+    def mechanism(self) -> str | None:
+        """Name of the mechanism; None where the result is an empty list."""
+    @property
+    def operating_point(self) -> dict[str, float]:
+        """The inputs it belongs to, SI, by name, without one that varies; empty where derivatives are all there is."""
 
 @final
-class Equilibrium(_Result):
-    """An equilibrium and the linearised mechanism there, SI."""
+class Allocation(_Result):
+    """The cheapest tolerances that were found. `k` is the number of requirements."""
 
     @property
-    def names(self) -> list[str]: ...
+    def names(self) -> list[str]:
+        """Names of the design variables, and after them of the inputs that have a tolerance."""
     @property
-    def coordinates(self) -> Real: ...
+    def nominal(self) -> Real:
+        """Nominal values, SI, shape (variables,)."""
     @property
-    def inputs(self) -> Real: ...
+    def half_widths(self) -> Real:
+        """Half-widths, SI, shape (variables,)."""
     @property
-    def design(self) -> Real: ...
+    def cost(self) -> float:
+        """Sum of the costs."""
     @property
-    def mass(self) -> Real: ...
+    def cost_before(self) -> float:
+        """The same for the tolerances at the start."""
     @property
-    def damping(self) -> Real: ...
+    def sampled_failure(self) -> Real:
+        """Share of the samples that fail each requirement, shape (k,)."""
     @property
-    def stiffness(self) -> Real: ...
+    def refuted(self) -> list[int]:
+        """Positions of the requirements that the samples refute: first order failed there, allow less."""
     @property
-    def residual(self) -> Real: ...
+    def failure(self) -> Real:
+        """Greatest probability of failing each requirement that was allowed, shape (k,)."""
     @property
-    def relative_residual(self) -> float: ...
+    def reliability(self) -> Reliability:
+        """Reliability of what was found, by design points."""
     @property
-    def stability(self) -> str: ...
+    def chances(self) -> Chances:
+        """Chances of what was found, by samples."""
     @property
-    def stable(self) -> bool: ...
+    def evaluations(self) -> int:
+        """Number of choices that were tried."""
     @property
-    def iterations(self) -> int: ...
-    @property
-    def notes(self) -> list[str]: ...
-    @property
-    def held(self) -> dict[str, float]: ...
-    @property
-    def free(self) -> Real: ...
-    @property
-    def rounding(self) -> float: ...
-    @property
-    def freedom(self) -> int: ...
-    @property
-    def redundant(self) -> int: ...
-    @property
-    def dependent_constraints(self) -> list[str]: ...
-    @property
-    def singular(self) -> bool: ...
-    @property
-    def pose(self) -> tuple[str, float] | None: ...
-    @property
-    def left_unstable_region(self) -> bool: ...
-    @property
-    def kept(self) -> bool: ...
+    def stopped(self) -> bool:
+        """Whether the search was stopped, so that there may be cheaper ones."""
 
 @final
-class Assembly(_Result):
-    """A state that closes the loops of a mechanism, SI."""
+class Clusters(_Result):
+    """The modes that tolerances bring together. `k` is the number of clusters."""
 
     @property
-    def names(self) -> list[str]: ...
+    def modes(self) -> list[list[int]]:
+        """Positions of the modes of each cluster, from 0."""
     @property
-    def coordinates(self) -> Real: ...
+    def distances(self) -> Real:
+        """Least distance of two members, in standard deviations of their difference, shape (k,)."""
     @property
-    def held(self) -> list[bool]: ...
+    def eigenvalues(self) -> list[Complex]:
+        """Nominal eigenvalues of each cluster: lambda (1/s^2) of undamped modes, s (1/s) of general ones, complex."""
     @property
-    def moved(self) -> Real: ...
+    def equal(self) -> Flags:
+        """Whether the members of each are equal in every design, shape (k,)."""
     @property
-    def gaps(self) -> Real: ...
+    def mean_eigenvalues(self) -> Complex:
+        """Means of the eigenvalues of each, complex, shape (k,); NaN where they have merged."""
     @property
-    def mode(self) -> Literal["positive", "negative"] | None: ...
+    def mean_frequency_sigmas(self) -> Real:
+        """Standard deviations of the mean frequencies to first order, rad/s, shape (k,)."""
     @property
-    def margin(self) -> float: ...
+    def samples(self) -> Whole:
+        """Numbers of samples behind the members of each, shape (k,)."""
     @property
-    def singular(self) -> bool: ...
+    def failures(self) -> list[str | None]:
+        """Why the members of a cluster have no spread: a text for each cluster, or None."""
     @property
-    def iterations(self) -> int: ...
+    def family(self) -> Family | None:
+        """"undamped" or "general"; None without clusters."""
     @property
-    def freedom(self) -> int: ...
+    def defective(self) -> list[bool]:
+        """Whether the members of each have merged into one eigenvalue that no derivative describes."""
     @property
-    def redundant(self) -> int: ...
+    def unstable(self) -> Whole:
+        """Numbers of samples that are unstable, shape (k,)."""
     @property
-    def dependent_constraints(self) -> list[str]: ...
-
-@final
-class EquilibriumShift(_Result):
-    """How an equilibrium moves with inputs and design variables, SI."""
-
+    def unsolved(self) -> Whole:
+        """Numbers of samples that could not be solved, shape (k,)."""
     @property
-    def by_input(self) -> Real: ...
-    @property
-    def by_design(self) -> Real: ...
-    @property
-    def names(self) -> list[str]: ...
-
-@final
-class Modes(_Result):
-    """The modes about an equilibrium."""
-
-    @property
-    def eigenvalues(self) -> Complex: ...
-    @property
-    def state_space_eigenvalues(self) -> Complex: ...
-    @property
-    def frequencies(self) -> Real: ...
-    @property
-    def natural_frequencies(self) -> Real: ...
-    @property
-    def damping_ratios(self) -> Real: ...
-    @property
-    def lambdas(self) -> Real: ...
-    @property
-    def shapes(self) -> Complex: ...
-    @property
-    def left_shapes(self) -> Complex: ...
-    @property
-    def errors(self) -> Real: ...
-    @property
-    def labels(self) -> Whole: ...
-    @property
-    def behaviours(self) -> list[str]: ...
-    @property
-    def stable(self) -> bool: ...
-    @property
-    def family(self) -> Literal["undamped", "general"]: ...
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def residuals(self) -> Real: ...
-    @property
-    def conditions(self) -> Real: ...
-    @property
-    def clusters(self) -> list[list[int]]: ...
-    @property
-    def damping_ignored(self) -> bool: ...
+    def sigma_level(self) -> float | None:
+        """Standard deviations that a tolerance and a band stand for; None without clusters."""
+    def mean(self, quantity: QuantityOrLambda = "frequency") -> list[Real]:
+        """Means of the members of each cluster from the lowest up, and at last of the distance of the highest from the
+        lowest: arrays of shape (members + 1,). The quantity is "frequency" (rad/s), "lambda" (1/s^2), "growth" (1/s) or
+        "damping_ratio".
+        """
+    def sigma(self, quantity: QuantityOrLambda = "frequency") -> list[Real]:
+        """Standard deviations likewise."""
     def __len__(self) -> int: ...
 
 @final
-class Sensitivities(_Result):
-    """Total derivatives of all modes, per SI unit."""
+class DirectionalDerivatives(_Result):
+    """Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative
+    belongs to which mode is not defined.
+    """
 
     @property
-    def family(self) -> Literal["undamped", "general"]: ...
+    def modes(self) -> list[int]:
+        """Positions of the modes, from 0."""
     @property
-    def method(self) -> str: ...
+    def eigenvalues(self) -> Complex:
+        """Derivatives of lambda (1/s^2) of undamped modes, of s (1/s) of general ones, ascending, complex, shape (k,)."""
     @property
-    def by_design(self) -> Complex: ...
+    def frequencies(self) -> Real:
+        """Derivatives of the frequencies, rad/s, ascending, shape (k,); NaN where the modes do not oscillate."""
     @property
-    def by_input(self) -> Complex: ...
-    @property
-    def lambda_by_design(self) -> Real: ...
-    @property
-    def lambda_by_input(self) -> Real: ...
-    @property
-    def clustered(self) -> list[bool]: ...
-    def of(self, name: Quantity) -> tuple[Real, Real]: ...
-
-@final
-class OutputCurvature(_Result):
-    """First and second total derivatives of an output, per SI unit."""
-
-    @property
-    def output(self) -> str: ...
-    @property
-    def value(self) -> float: ...
-    @property
-    def gradient(self) -> Real: ...
-    @property
-    def gradient_by_input(self) -> Real: ...
-    @property
-    def hessian(self) -> Real: ...
-    @property
-    def by_input(self) -> Real: ...
-    @property
-    def by_input_and_design(self) -> Real: ...
-    @property
-    def asymmetry(self) -> float: ...
+    def family(self) -> Family:
+        """"undamped" or "general"."""
 
 @final
-class EventCurvature(_Result):
-    """First and second total derivatives of a value of an input at which something happens, per SI unit."""
+class Mistake:
+    """One mistake in a declaration."""
 
+    def __new__(cls, line: int, column: int, end_line: int, end_column: int, message: str, help: str | None) -> Self: ...
     @property
-    def input(self) -> str: ...
+    def line(self) -> int:
+        """Line, from 1."""
     @property
-    def value(self) -> float: ...
+    def column(self) -> int:
+        """Column of its first character, from 1."""
     @property
-    def gradient(self) -> Real: ...
+    def end_line(self) -> int:
+        """Line of its end."""
     @property
-    def hessian(self) -> Real: ...
+    def end_column(self) -> int:
+        """Column behind its last character."""
     @property
-    def asymmetry(self) -> float: ...
-
-@final
-class ModeCurvature(_Result):
-    """First and second total derivatives of one mode, per SI unit."""
-
+    def message(self) -> str:
+        """What is wrong."""
     @property
-    def mode(self) -> int: ...
-    @property
-    def eigenvalue(self) -> complex: ...
-    @property
-    def clustered(self) -> bool: ...
-    @property
-    def asymmetry(self) -> float: ...
-    def gradient(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def gradient_by_input(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def hessian(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def by_input(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def by_input_and_design(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-
-@final
-class ShapeSensitivity(_Result):
-    """Derivatives of the shapes of one mode, per SI unit."""
-
-    @property
-    def right_by_input(self) -> Complex: ...
-    @property
-    def right_by_design(self) -> Complex: ...
-    @property
-    def left_by_input(self) -> Complex: ...
-    @property
-    def left_by_design(self) -> Complex: ...
-
-@final
-class OutputSensitivities(_Result):
-    """The declared outputs and their total derivatives, SI."""
-
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def values(self) -> Real: ...
-    @property
-    def by_input(self) -> Real: ...
-    @property
-    def by_design(self) -> Real: ...
-
-@final
-class FirstOrder(_Result):
-    """First-order spread of all modes."""
-
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def distances_to_critical(self) -> Real: ...
-    @property
-    def doubts(self) -> list[list[str]]: ...
-    @property
-    def trusted(self) -> bool: ...
-    @property
-    def trusted_modes(self) -> Flags: ...
-    @property
-    def distance_to_critical(self) -> float: ...
-    @property
-    def distances_to_instability(self) -> Real: ...
-    @property
-    def distances_to_neighbour(self) -> Real: ...
-    @property
-    def clustered(self) -> Flags: ...
-    @property
-    def behaviours(self) -> list[str]: ...
-    @property
-    def sigma_level(self) -> float: ...
-    @property
-    def varies(self) -> bool: ...
-    @property
-    def family(self) -> Literal["undamped", "general"]: ...
-    def mean(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def sigma(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def band(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def gradient(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-    def shares(self, quantity: Quantity | Literal["lambda"] = "frequency") -> Real: ...
-
-@final
-class SecondOrder(_Result):
-    """Spread of all modes to second order."""
-
-    @property
-    def doubts(self) -> list[list[str]]: ...
-    @property
-    def failures(self) -> list[str | None]: ...
-    @property
-    def sigma_level(self) -> float: ...
-    @property
-    def varies(self) -> bool: ...
-    def mean(self, quantity: Quantity = "frequency") -> Real: ...
-    def sigma(self, quantity: Quantity = "frequency") -> Real: ...
-    def skewness(self, quantity: Quantity = "frequency") -> Real: ...
-    def excess_kurtosis(self, quantity: Quantity = "frequency") -> Real: ...
-    def mean_shift(self, quantity: Quantity = "frequency") -> Real: ...
-    def first_order_sigma(self, quantity: Quantity = "frequency") -> Real: ...
-    def curvature_sigma(self, quantity: Quantity = "frequency") -> Real: ...
-    def first_order_error(self, quantity: Quantity = "frequency") -> Real: ...
-
-@final
-class Summary(_Result):
-    """First order, second order, and whether each mode can be trusted."""
-
-    @property
-    def first(self) -> FirstOrder: ...
-    @property
-    def second(self) -> SecondOrder: ...
-    @property
-    def trusted(self) -> bool: ...
-    @property
-    def doubts(self) -> list[list[str]]: ...
-    @property
-    def trusted_modes(self) -> Flags: ...
-    @property
-    def use_instead(self) -> list[Literal["first order", "second order", "cluster", "samples"]]: ...
-    @property
-    def clusters(self) -> Clusters: ...
-    @property
-    def samples(self) -> int | None: ...
-    @property
-    def outcomes(self) -> dict[str, tuple[float, float]]: ...
-    @property
-    def on_another_branch(self) -> tuple[float, float] | None: ...
-    def sampled_mean(self, quantity: Quantity = "frequency") -> Real: ...
-    def sampled_sigma(self, quantity: Quantity = "frequency") -> Real: ...
-    def sampled_sigma_error(self, quantity: Quantity = "frequency") -> Real: ...
-    def first_order_error(self, quantity: Quantity = "frequency") -> Real: ...
-    def second_order_error(self, quantity: Quantity = "frequency") -> Real: ...
-
-@final
-class MonteCarlo(_Result):
-    """Samples of the design, each with its own equilibrium and modes."""
-
-    @property
-    def counts(self) -> dict[str, int]: ...
-    @property
-    def samples(self) -> int: ...
-    @property
-    def seed(self) -> int: ...
-    @property
-    def stream(self) -> int: ...
-    @property
-    def on_another_branch(self) -> int: ...
-    @property
-    def designs(self) -> Real: ...
-    @property
-    def coordinates(self) -> Real: ...
-    @property
-    def eigenvalues(self) -> Complex: ...
-    @property
-    def frequencies(self) -> Real: ...
-    @property
-    def damping_ratios(self) -> Real: ...
-    @property
-    def outcomes(self) -> list[str]: ...
-    @property
-    def planned(self) -> int: ...
-    @property
-    def ranges(self) -> list[tuple[int, int]]: ...
-    @property
-    def side_by_side(self) -> bool: ...
-    @property
-    def clustered(self) -> bool: ...
-    @property
-    def varies(self) -> bool: ...
-    @property
-    def family(self) -> Literal["undamped", "general"]: ...
-    def mean(self, quantity: Quantity = "frequency") -> Real: ...
-    def sigma(self, quantity: Quantity = "frequency") -> Real: ...
-    def standard_error(self, quantity: Quantity = "frequency") -> Real: ...
-    def sigma_error(self, quantity: Quantity = "frequency") -> Real: ...
-    def count(self, quantity: Quantity = "frequency") -> Real: ...
-    def skewness(self, quantity: Quantity = "frequency") -> Real: ...
-    def skewness_error(self, quantity: Quantity = "frequency") -> Real: ...
-    def excess_kurtosis(self, quantity: Quantity = "frequency") -> Real: ...
-    def kurtosis_error(self, quantity: Quantity = "frequency") -> Real: ...
-    def least(self, quantity: Quantity = "frequency") -> Real: ...
-    def greatest(self, quantity: Quantity = "frequency") -> Real: ...
-    def quantile(self, probability: float, quantity: Quantity = "frequency") -> Real: ...
-
-@final
-class PartialMonteCarlo:
-    """Some samples of a Monte Carlo run: parts merge to the same bits as the whole, in any order and from any machine."""
-
-    def to_json(self) -> str: ...
-    @classmethod
-    def from_json(cls, text: str) -> PartialMonteCarlo: ...
-    def merge(self, other: PartialMonteCarlo) -> None: ...
-    @property
-    def ranges(self) -> list[tuple[int, int]]: ...
-    @property
-    def missing(self) -> list[tuple[int, int]]: ...
-    def result(self) -> MonteCarlo: ...
-
-@final
-class OutputTolerances(_Result):
-    """First-order spread of the outputs, SI."""
-
-    @property
-    def values(self) -> Real: ...
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def variables(self) -> list[str]: ...
-    @property
-    def mean(self) -> Real: ...
-    @property
-    def sigma(self) -> Real: ...
-    @property
-    def band(self) -> Real: ...
-    @property
-    def gradient(self) -> Real: ...
-    @property
-    def shares(self) -> Real: ...
-    @property
-    def sigma_level(self) -> float: ...
-    @property
-    def varies(self) -> bool: ...
-
-@final
-class ModeMargin(_Result):
-    """Probability that a quantity of a mode lies in a forbidden band."""
-
-    @property
-    def probability(self) -> float: ...
-    @property
-    def error(self) -> float: ...
-    @property
-    def first_order(self) -> float: ...
-    @property
-    def solved_anew(self) -> float | None: ...
-    @property
-    def interval(self) -> tuple[float, float] | None: ...
-    @property
-    def verified(self) -> bool: ...
-    @property
-    def mixed_with(self) -> list[int]: ...
-    @property
-    def band(self) -> tuple[float, float]: ...
-    @property
-    def distance(self) -> float: ...
-    @property
-    def mode(self) -> int: ...
-    @property
-    def quantity(self) -> str: ...
-    @property
-    def value(self) -> float: ...
-    @property
-    def sigma(self) -> float: ...
-    @property
-    def model_error(self) -> float | None: ...
-    @property
-    def judgement(self) -> dict[str, Any]: ...
-    @property
-    def by_input(self) -> Real: ...
-    @property
-    def by_design(self) -> Real: ...
-    @property
-    def by_half_width(self) -> Real: ...
-
-@final
-class Propagation(_Result):
-    """How tolerances spread responses, SI."""
-
-    @property
-    def doubts(self) -> list[list[str]]: ...
-    @property
-    def method(self) -> str: ...
-    @property
-    def reason(self) -> str: ...
-    @property
-    def nominal(self) -> Real: ...
-    @property
-    def mean(self) -> Real: ...
-    @property
-    def sigma(self) -> Real: ...
-    @property
-    def sigma_error(self) -> Real: ...
-    @property
-    def skewness(self) -> Real: ...
-    @property
-    def quantiles(self) -> Real: ...
-    @property
-    def covariance(self) -> Real: ...
-    @property
-    def share(self) -> Real: ...
-    @property
-    def evaluations(self) -> int: ...
-    @property
-    def counts(self) -> dict[str, int]: ...
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def mean_error(self) -> Real: ...
-    @property
-    def skewness_error(self) -> Real: ...
-    @property
-    def quantile_errors(self) -> Real: ...
-    @property
-    def probabilities(self) -> Real: ...
-    @property
-    def covariance_with_design(self) -> Real: ...
-
-@final
-class Influence(_Result):
-    """Which variables the scatter of responses comes from."""
-
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def first(self) -> Real: ...
-    @property
-    def total(self) -> Real: ...
-    @property
-    def correlation(self) -> Real: ...
-    @property
-    def at_low(self) -> Real: ...
-    @property
-    def at_high(self) -> Real: ...
-    @property
-    def responses(self) -> list[str]: ...
-    @property
-    def nominal(self) -> Real: ...
-    @property
-    def first_interval(self) -> Real: ...
-    @property
-    def total_interval(self) -> Real: ...
-    @property
-    def rank_correlation(self) -> Real: ...
-    @property
-    def regression(self) -> Real: ...
-    @property
-    def determination(self) -> Real: ...
-    @property
-    def missing(self) -> Whole: ...
-    @property
-    def limits(self) -> Real: ...
-    @property
-    def counts(self) -> dict[str, int]: ...
-
-@final
-class WorstCase(_Result):
-    """The least and the greatest values of responses within the limits, SI."""
-
-    @property
-    def least(self) -> Real: ...
-    @property
-    def greatest(self) -> Real: ...
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def nominal(self) -> Real: ...
-    @property
-    def least_designs(self) -> Real: ...
-    @property
-    def greatest_designs(self) -> Real: ...
-    @property
-    def confirmed(self) -> list[tuple[bool, bool]]: ...
-    @property
-    def turning(self) -> list[list[str]]: ...
-    @property
-    def missing(self) -> list[list[tuple[list[float], str]]]: ...
-    @property
-    def limits(self) -> Real: ...
-    @property
-    def evaluations(self) -> int: ...
+    def help(self) -> str | None:
+        """What to do, or None."""
 
 @final
 class Event(_Result):
     """A value of an input at which something happens, and how tolerances move it, SI."""
 
     @property
-    def kind(self) -> Literal["critical", "crossing", "flutter"]: ...
+    def family(self) -> Family:
+        """"undamped" or "general"."""
     @property
-    def change(self) -> Literal["onset", "end", "pass", "touch", "to divergence", "to flutter"]: ...
+    def sigma_level(self) -> float:
+        """Standard deviations that a tolerance and a band stand for."""
     @property
-    def mode(self) -> int | None: ...
+    def input(self) -> str:
+        """Name of the input."""
     @property
-    def eigenvalue(self) -> complex | None: ...
+    def kind(self) -> EventKind:
+        """What happens: "critical", "crossing" or "flutter"."""
     @property
-    def whirl(self) -> float | None: ...
+    def change(self) -> EventChange:
+        """Which way: "onset", "end", "pass", "touch", "to divergence" or "to flutter"."""
     @property
-    def order(self) -> float | None: ...
+    def mode(self) -> int | None:
+        """Position of the mode, from 0; None for a critical value."""
     @property
-    def offset(self) -> float | None: ...
+    def eigenvalue(self) -> complex | None:
+        """Its eigenvalue there, 1/s; None for a critical value."""
     @property
-    def input(self) -> str: ...
+    def whirl(self) -> float | None:
+        """Whirl of the mode there: minor over major axis of the orbit, positive along the rotation; None where it does not
+        apply.
+        """
     @property
-    def value(self) -> float: ...
+    def order(self) -> float | None:
+        """Multiple of the input that a frequency meets in a crossing."""
     @property
-    def sigma(self) -> float | None: ...
+    def offset(self) -> float | None:
+        """What is added to that, rad/s."""
     @property
-    def band(self) -> float | None: ...
+    def value(self) -> float:
+        """The nominal value of the input, SI."""
     @property
-    def gradient(self) -> Real: ...
+    def sigma(self) -> float | None:
+        """Its standard deviation to first order, SI; None where it has no derivative."""
     @property
-    def shares(self) -> Real: ...
+    def band(self) -> float | None:
+        """Half-width of the band that holds as many standard deviations as the tolerances do, SI."""
     @property
-    def failure(self) -> str | None: ...
+    def gradient(self) -> Real:
+        """Derivatives per SI unit of each variable, shape (variables,); NaN where there are none: `failure` says why."""
     @property
-    def sigma_level(self) -> float: ...
+    def shares(self) -> Real:
+        """Shares of the variables in the variance, shape (variables,)."""
     @property
-    def family(self) -> Literal["undamped", "general"]: ...
+    def failure(self) -> str | None:
+        """Why it has no derivatives: a text, or None."""
     @property
-    def names(self) -> list[str]: ...
+    def names(self) -> list[str]:
+        """Names of the variables."""
 
 @final
-class Sweep(_Result):
-    """States along an input."""
+class Mechanism:
+    """A mechanism: names, units and kernels.
 
+    It comes from a declaration in the language of eigentol, by `from_file` or `from_text`.
+    """
+
+    def residual(self, q: Numbers | None, inputs: Numbers | None = None, design: Numbers | None = None) -> Real:
+        """Residual of the equations of motion at rest, N or N m, shape (n,). It is zero at an equilibrium."""
+    def linear(
+        self,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real, Real]:
+        """Mhat, Chat and Khat about the state `q`: three arrays of shape (n, n), SI."""
+    def linear_partials(
+        self,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[tuple[Real, Real, Real], tuple[Real, Real, Real], tuple[Real, Real, Real]]:
+        """Explicit derivatives of Mhat, Chat and Khat, SI: for each matrix three arrays, by unknown, by input, by design
+        variable, of shape (n, n, variables).
+        """
+    def residual_partials(
+        self,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real]:
+        """Explicit derivatives of the residual at rest by inputs, shape (n, inputs), and by design variables, shape (n,
+        design), SI.
+        """
+    def mode_gradient(
+        self,
+        phi: Numbers | None,
+        eigenvalue: float,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real, Real]:
+        """Explicit gradient of `phi^T (Khat - lambda Mhat) phi`, SI, by unknowns, inputs and design variables: arrays of
+        shapes (n,), (inputs,) and (design,). With `phi^T Mhat phi = 1` that is the one of the `eigenvalue` lambda of an
+        undamped mode of shape `phi`, (n,), with the equilibrium held.
+        """
+    def residual_gradient(
+        self,
+        w: Numbers | None,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real, Real]:
+        """Explicit gradient of `w^T g`, with `g` the residual at rest and `w` of shape (n,), SI, by unknowns, inputs and
+        design variables: arrays of shapes (n,), (inputs,) and (design,).
+        """
+    def pencil_gradient(
+        self,
+        left: Numbers | None,
+        acceleration: Numbers | None,
+        velocity: Numbers | None,
+        position: Numbers | None,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real, Real]:
+        """Explicit gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`, four vectors of shape (n,), SI,
+        by unknowns, inputs and design variables: arrays of shapes (n,), (inputs,) and (design,).
+        """
+    def output_values(self, q: Numbers | None, inputs: Numbers | None = None, design: Numbers | None = None) -> Real:
+        """The declared outputs at the state `q`, SI, shape (outputs,)."""
+    def motion_residual(
+        self,
+        acceleration: Numbers | None,
+        velocity: Numbers | None,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> Real:
+        """Residual of the equations of the full nonlinear motion, N or N m, shape (n,): the forces that this motion would
+        need besides those that act. `acceleration` is qddot, `velocity` qdot.
+        """
+    def motion_linear(
+        self,
+        acceleration: Numbers | None,
+        velocity: Numbers | None,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real, Real]:
+        """Derivatives of that residual by qddot, qdot and q: three arrays of shape (n, n), SI."""
+    def mass_and_forces(
+        self,
+        velocity: Numbers | None,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real]:
+        """Mass matrix and forces of the full nonlinear motion, `M qddot = Q`: shapes (n, n) and (n,), SI. `velocity` is
+        qdot.
+        """
+    def accelerations(
+        self,
+        velocity: Numbers | None,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> Real:
+        """Accelerations of the full nonlinear motion, shape (n,), rad/s^2 or m/s^2; in the places of speeds their rates,
+        in those of constraints the reactions. `velocity` is qdot.
+
+        `Mechanism.motion` gives a right-hand side that integrators call.
+        """
     @property
-    def values(self) -> Real: ...
+    def name(self) -> str:
+        """Its name."""
     @property
-    def coordinates(self) -> Real: ...
+    def unknowns(self) -> list[str]:
+        """Names of the unknowns in the order of arrays: coordinates (rad or m), after them those whose speed is the unknown
+        (SI), after these the reactions of constraints (SI).
+        """
     @property
-    def eigenvalues(self) -> Complex: ...
+    def coordinates(self) -> list[str]:
+        """Names of the coordinates, those among them whose speed is the unknown: `eigentol check` counts the same."""
     @property
-    def frequencies(self) -> Real: ...
+    def speeds(self) -> list[str]:
+        """Names of the coordinates of which the speed, not the position, is the unknown."""
     @property
-    def damping_ratios(self) -> Real: ...
+    def reactions(self) -> list[str]:
+        """Names of the reactions of constraints."""
     @property
-    def critical(self) -> Real: ...
+    def inputs(self) -> list[str]:
+        """Names of the inputs in the order of arrays."""
     @property
-    def critical_kinds(self) -> list[str]: ...
+    def design(self) -> list[str]:
+        """Names of the design variables in the order of arrays."""
     @property
-    def flutter_onsets(self) -> Real: ...
+    def outputs(self) -> list[str]:
+        """Names of the outputs in the order of arrays."""
     @property
-    def searched(self) -> tuple[float, float, float] | None: ...
+    def nominal(self) -> Nominal:
+        """The nominal design, SI, by name."""
     @property
-    def unsearched(self) -> list[tuple[float, float]]: ...
+    def units(self) -> Units:
+        """The declared unit of every input, design variable, unknown and output, by name: "rpm"."""
+    @classmethod
+    def from_file(cls, path: str | PathLike[str]) -> Self:
+        """The mechanism that a file declares.
+
+        Raises OSError (FileNotFoundError ...) when the file cannot be read, DeclarationError with line and column of
+        every mistake.
+        """
+    @classmethod
+    def from_text(cls, text: str) -> Self:
+        """The mechanism that a text declares: `mechanism Name { ... }`.
+
+        Raises DeclarationError with line and column of every mistake.
+        """
     @property
-    def unreached(self) -> int: ...
-    @property
-    def input(self) -> str: ...
-    @property
-    def failures(self) -> list[str | None]: ...
-    @property
-    def equilibria(self) -> list[Equilibrium | None]: ...
-    @property
-    def modes(self) -> list[Modes | None]: ...
-    def __len__(self) -> int: ...
+    def text(self) -> str:
+        """The declaration."""
+    def motion(self, inputs: Numbers | None = None, design: Numbers | None = None) -> Motion:
+        """The nonlinear motion at these inputs and this design, for `scipy.integrate.solve_ivp`.
+
+        Both are SI or texts with units, in a dictionary by name or in a list; unless given, inputs are zero and the
+        design is nominal.
+        """
+    @classmethod
+    def from_urdf(cls, path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Self:
+        """The robot that a URDF file describes; options as of `import_urdf`, which also tells names and remarks."""
 
 @final
-class Campbell(_Result):
-    """A Campbell diagram: every mode against an input, with spreads and crossings."""
+class Motion:
+    """The nonlinear motion at fixed inputs and design: `motion(t, y)` returns dy/dt, as `scipy.integrate.solve_ivp` wants
+    it.
+
+    `y` holds the coordinates (rad or m), after them their rates (rad/s or m/s), after these the speeds that are
+    unknowns: `names` says which. Reactions of constraints are not part of it.
+    """
 
     @property
-    def values(self) -> Real: ...
-    @property
-    def labels(self) -> list[int]: ...
-    @property
-    def eigenvalues(self) -> Complex: ...
-    @property
-    def frequencies(self) -> Real: ...
-    @property
-    def frequency_sigmas(self) -> Real: ...
-    @property
-    def damping_ratios(self) -> Real: ...
-    @property
-    def damping_ratio_sigmas(self) -> Real: ...
-    @property
-    def whirls(self) -> Real: ...
-    @property
-    def crossings(self) -> list[Event]: ...
-    @property
-    def critical(self) -> list[Event]: ...
-    @property
-    def flutter_onsets(self) -> list[Event]: ...
-    @property
-    def behaviours(self) -> list[list[str | None]]: ...
-    @property
-    def whirl_senses(self) -> list[list[str | None]]: ...
-    @property
-    def clustered(self) -> Flags: ...
-    @property
-    def coordinates(self) -> Real: ...
-    @property
-    def equilibria(self) -> list[Equilibrium | None]: ...
-    @property
-    def failures(self) -> list[str | None]: ...
-    @property
-    def orders(self) -> list[tuple[float, float]]: ...
-    @property
-    def searched(self) -> tuple[float, float, float] | None: ...
-    @property
-    def unsearched(self) -> list[tuple[float, float]]: ...
-    @property
-    def unreached(self) -> int: ...
-    @property
-    def input(self) -> str: ...
-    @property
-    def sigma_level(self) -> float: ...
-    @property
-    def family(self) -> Literal["undamped", "general"]: ...
-    def __len__(self) -> int: ...
+    def names(self) -> list[str]:
+        """Names of the entries of `y`; a rate is marked by a prime: "theta", "theta'"."""
+    def __call__(self, t: float, y: ArrayLike) -> Real:
+        """dy/dt at the state `y`, the same shape. `t` does not matter: inputs are constant."""
+    def state(self, coordinates: Numbers | None = None, rates: Numbers | None = None) -> Real:
+        """A state `y` from coordinates and speeds, and from rates, by name; zero unless given. SI or texts with units;
+        rates are SI.
+        """
 
 @final
-class Branches(_Result):
-    """The branches of equilibria along an input."""
+class PartialMonteCarlo:
+    """Some samples of a Monte Carlo run: parts merge to the same bits as the whole, in any order and from any machine."""
 
     @property
-    def branches(self) -> list[Branch]: ...
+    def ranges(self) -> list[tuple[int, int]]:
+        """First sample and the one behind the last of each range that is done."""
     @property
-    def truncated(self) -> bool: ...
-    def __len__(self) -> int: ...
-
-@final
-class Branch(_Result):
-    """One branch of equilibria."""
-
-    @property
-    def values(self) -> Real: ...
-    @property
-    def coordinates(self) -> Real: ...
-    @property
-    def stable(self) -> list[bool]: ...
-    @property
-    def equilibria(self) -> list[Equilibrium]: ...
-    @property
-    def input(self) -> str: ...
-    @property
-    def tangents(self) -> Real: ...
-    @property
-    def input_tangents(self) -> Real: ...
-    @property
-    def special_equilibria(self) -> list[Equilibrium]: ...
-    @property
-    def critical_vectors(self) -> Real: ...
-    @property
-    def left_critical_vectors(self) -> Real: ...
-    @property
-    def special(self) -> list[tuple[str, float]]: ...
-    @property
-    def ends(self) -> list[str]: ...
-    def __len__(self) -> int: ...
-
-@final
-class Probabilities(_Result):
-    """Probabilities of failing requirements."""
-
-    @property
-    def failure(self) -> Real: ...
-    @property
-    def lower(self) -> Real: ...
-    @property
-    def upper(self) -> Real: ...
-    @property
-    def untold(self) -> Real: ...
-    @property
-    def found_by(self) -> list[Literal["design point", "lines", "samples"]]: ...
-    @property
-    def any_failure(self) -> float: ...
-    @property
-    def any_interval(self) -> tuple[float, float]: ...
-    @property
-    def reliability(self) -> Reliability | None: ...
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def designs(self) -> Whole: ...
-    @property
-    def any_untold(self) -> float: ...
-    @property
-    def any_found_by(self) -> Literal["design point", "lines", "samples"]: ...
-    @property
-    def any_designs(self) -> int: ...
-    @property
-    def chances(self) -> Chances | None: ...
+    def missing(self) -> list[tuple[int, int]]:
+        """The same of the ranges that are missing."""
+    def to_json(self) -> str:
+        """The text of a file: what the command `eigentol sample --partial` writes and `eigentol merge` reads."""
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """A part from such a text."""
+    def merge(self, other: Self) -> None:
+        """Adds samples of the same run; those of another one, and samples that are here already, are refused."""
+    def result(self) -> MonteCarlo:
+        """Statistics of the samples that are done."""
 
 @final
 class Chances(_Result):
-    """Chances of meeting requirements."""
+    """Chances of meeting requirements. `k` is their number."""
 
     @property
-    def failure(self) -> Real: ...
+    def varies(self) -> bool:
+        """Whether any variable has a tolerance."""
     @property
-    def samples(self) -> int: ...
+    def counts(self) -> Counts:
+        """How many designs became what, by name."""
     @property
-    def met(self) -> Whole: ...
+    def failure(self) -> Real:
+        """Share of the samples that fail each requirement, shape (k,)."""
     @property
-    def all_met(self) -> float: ...
+    def samples(self) -> int:
+        """Number of samples."""
     @property
-    def lower(self) -> Real: ...
+    def met(self) -> Whole:
+        """How many samples meet each requirement, shape (k,)."""
     @property
-    def upper(self) -> Real: ...
+    def all_met(self) -> float:
+        """Share of the samples that meet all requirements."""
     @property
-    def failed(self) -> Whole: ...
+    def lower(self) -> Real:
+        """Lower ends of the 95 % intervals of `failure`, shape (k,)."""
     @property
-    def untold(self) -> Whole: ...
+    def upper(self) -> Real:
+        """Upper ends, shape (k,)."""
     @property
-    def any_failure(self) -> float: ...
+    def failed(self) -> Whole:
+        """How many samples fail each requirement, shape (k,)."""
     @property
-    def any_interval(self) -> tuple[float, float] | None: ...
+    def untold(self) -> Whole:
+        """How many samples lack the response needed to tell, shape (k,)."""
     @property
-    def all_counts(self) -> tuple[int, int, int]: ...
+    def any_failure(self) -> float:
+        """Share of the samples that fail any requirement."""
     @property
-    def counts(self) -> dict[str, int]: ...
+    def any_interval(self) -> tuple[float, float] | None:
+        """Its 95 % interval."""
     @property
-    def planned(self) -> int: ...
+    def all_counts(self) -> tuple[int, int, int]:
+        """How many samples meet all requirements, fail one, lack the response needed to tell."""
     @property
-    def varies(self) -> bool: ...
+    def planned(self) -> int:
+        """Number of samples that were asked for."""
+
+@final
+class Probabilities(_Result):
+    """Probabilities of failing requirements. `k` is their number. No model is behind them: every design is solved anew."""
+
+    @property
+    def failure(self) -> Real:
+        """Probability of failing each requirement, shape (k,)."""
+    @property
+    def lower(self) -> Real:
+        """Lower ends of their 95 % intervals, shape (k,)."""
+    @property
+    def upper(self) -> Real:
+        """Upper ends, shape (k,)."""
+    @property
+    def untold(self) -> Real:
+        """Probabilities that a design lacks the response needed to tell, shape (k,)."""
+    @property
+    def found_by(self) -> list[FoundBy]:
+        """How each was found: "design point", "lines" or "samples"."""
+    @property
+    def any_failure(self) -> float:
+        """Probability of failing any requirement."""
+    @property
+    def any_interval(self) -> tuple[float, float]:
+        """Its 95 % interval."""
+    @property
+    def reliability(self) -> Reliability | None:
+        """The design points, or None: what changes the probabilities."""
+    @property
+    def names(self) -> list[str]:
+        """The requirements, in words."""
+    @property
+    def designs(self) -> Whole:
+        """Numbers of designs that were solved for each, shape (k,)."""
+    @property
+    def any_untold(self) -> float:
+        """Probability that a design lacks a response needed to tell of any."""
+    @property
+    def any_found_by(self) -> FoundBy:
+        """How `any_failure` was found."""
+    @property
+    def any_designs(self) -> int:
+        """Number of designs that were solved for it."""
+    @property
+    def chances(self) -> Chances | None:
+        """The samples, or None where none were drawn."""
 
 @final
 class RareFailure(_Result):
     """A small probability of failure."""
 
     @property
-    def failure(self) -> float: ...
+    def failure(self) -> float:
+        """Probability that any requirement is failed."""
     @property
-    def trusted(self) -> bool: ...
+    def trusted(self) -> bool:
+        """Whether the samples reached their target and lines of designs do not contradict them."""
     @property
-    def standard_error(self) -> float: ...
+    def standard_error(self) -> float:
+        """Standard error of `failure`."""
     @property
-    def without_design_point(self) -> list[int]: ...
+    def without_design_point(self) -> list[int]:
+        """Positions of the requirements of which some failure has no design point, such as `"stable"`."""
     @property
-    def unseen(self) -> float: ...
+    def unseen(self) -> float:
+        """Probability that failures of these may have without having been seen, at a confidence of 95 %."""
     @property
-    def coefficient_of_variation(self) -> float | None: ...
+    def coefficient_of_variation(self) -> float | None:
+        """Standard error of `failure` over it; None where nothing failed."""
     @property
-    def reached(self) -> bool: ...
+    def reached(self) -> bool:
+        """Whether the samples reached their target."""
     @property
-    def contradicted(self) -> bool: ...
+    def contradicted(self) -> bool:
+        """Whether lines of designs contradict the samples."""
     @property
-    def samples(self) -> int: ...
+    def samples(self) -> int:
+        """Number of samples."""
     @property
-    def failures(self) -> int: ...
+    def failures(self) -> int:
+        """Number of samples that fail."""
     @property
-    def without_value(self) -> int: ...
+    def without_value(self) -> int:
+        """Number of samples that lack the response needed to tell."""
     @property
-    def untold(self) -> float: ...
+    def untold(self) -> float:
+        """Probability of designs that do."""
     @property
-    def centres(self) -> int: ...
+    def centres(self) -> int:
+        """Number of design points about which samples were drawn."""
     @property
-    def counts(self) -> dict[str, int]: ...
+    def counts(self) -> Counts:
+        """What became of the samples, by name; their shares are no probabilities."""
     @property
-    def judgement(self) -> dict[str, Any]: ...
-
-@final
-class Allocation(_Result):
-    """The cheapest tolerances that were found."""
-
-    @property
-    def names(self) -> list[str]: ...
-    @property
-    def nominal(self) -> Real: ...
-    @property
-    def half_widths(self) -> Real: ...
-    @property
-    def cost(self) -> float: ...
-    @property
-    def cost_before(self) -> float: ...
-    @property
-    def sampled_failure(self) -> Real: ...
-    @property
-    def refuted(self) -> list[int]: ...
-    @property
-    def failure(self) -> Real: ...
-    @property
-    def reliability(self) -> Reliability: ...
-    @property
-    def chances(self) -> Chances: ...
-    @property
-    def evaluations(self) -> int: ...
-    @property
-    def stopped(self) -> bool: ...
-
-@final
-class Clusters(_Result):
-    """The modes that tolerances bring together."""
-
-    @property
-    def modes(self) -> list[list[int]]: ...
-    @property
-    def distances(self) -> Real: ...
-    @property
-    def eigenvalues(self) -> list[Complex]: ...
-    @property
-    def equal(self) -> Flags: ...
-    @property
-    def mean_eigenvalues(self) -> Complex: ...
-    @property
-    def mean_frequency_sigmas(self) -> Real: ...
-    @property
-    def samples(self) -> Whole: ...
-    @property
-    def failures(self) -> list[str | None]: ...
-    @property
-    def family(self) -> Literal["undamped", "general"] | None: ...
-    @property
-    def defective(self) -> list[bool]: ...
-    @property
-    def unstable(self) -> Whole: ...
-    @property
-    def unsolved(self) -> Whole: ...
-    @property
-    def sigma_level(self) -> float | None: ...
-    def mean(self, quantity: Quantity | Literal["lambda"] = "frequency") -> list[Real]: ...
-    def sigma(self, quantity: Quantity | Literal["lambda"] = "frequency") -> list[Real]: ...
-    def __len__(self) -> int: ...
-
-@final
-class DirectionalDerivatives(_Result):
-    """Derivatives of the eigenvalues of one cluster along one direction."""
-
-    @property
-    def modes(self) -> list[int]: ...
-    @property
-    def family(self) -> Literal["undamped", "general"]: ...
-    @property
-    def eigenvalues(self) -> Complex: ...
-    @property
-    def frequencies(self) -> Real: ...
+    def judgement(self) -> dict[str, Any]:
+        """What lines of designs say, by name; under "open" why there are none."""
 
 @final
 class Reliability(_Result):
-    """Reliability of a design."""
+    """Reliability of a design. `l` is the number of limits that requirements put to responses."""
 
     @property
-    def failure(self) -> Real: ...
+    def failure(self) -> Real:
+        """Probability to first order that each limit is passed, shape (l,); NaN without a design point."""
     @property
-    def beta(self) -> Real: ...
+    def beta(self) -> Real:
+        """Reliability index of each limit, shape (l,); NaN without a design point."""
     @property
-    def solved_anew(self) -> Real: ...
+    def solved_anew(self) -> Real:
+        """Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
+        where that was not done.
+        """
     @property
-    def error(self) -> Real: ...
+    def error(self) -> Real:
+        """Half-widths of their 95 % intervals, shape (l,)."""
     @property
-    def verified(self) -> list[bool]: ...
+    def verified(self) -> list[bool]:
+        """Whether designs solved anew confirm the probability to first order of each limit, within 10 %."""
     @property
-    def any_failure(self) -> float | None: ...
+    def any_failure(self) -> float | None:
+        """Probability that any limit is passed, to first order; None where it is not known."""
     @property
-    def limits(self) -> list[tuple[int, str]]: ...
+    def limits(self) -> list[tuple[int, str]]:
+        """The limits: the position of the requirement, and the name of the response."""
     @property
-    def edges(self) -> list[tuple[str, list[float]]]: ...
+    def edges(self) -> list[tuple[str, list[float]]]:
+        """Where each response fails: "below", "above" or "between", and the ends, SI."""
     @property
-    def second_order(self) -> Real: ...
+    def second_order(self) -> Real:
+        """Probability to second order that each limit is passed, shape (l,); NaN without a design point."""
     @property
-    def names(self) -> list[str]: ...
+    def names(self) -> list[str]:
+        """Names of the design variables, and after them of the inputs that have a tolerance."""
     @property
-    def design_points(self) -> Real: ...
+    def design_points(self) -> Real:
+        """The most probable design that fails for each limit, SI, shape (l, variables); NaN without one."""
     @property
-    def importance(self) -> Real: ...
+    def importance(self) -> Real:
+        """Shares of the variables in each `beta`, shape (l, variables)."""
     @property
-    def beta_by_nominal(self) -> Real: ...
+    def beta_by_nominal(self) -> Real:
+        """Derivatives of each `beta` by nominal values, per SI unit, shape (l, variables)."""
     @property
-    def beta_by_half_width(self) -> Real: ...
+    def beta_by_half_width(self) -> Real:
+        """The same by half-widths of tolerances, shape (l, variables)."""
     @property
-    def point_counts(self) -> Whole: ...
+    def point_counts(self) -> Whole:
+        """Number of design points of each limit, shape (l,)."""
     @property
-    def out_of_reach(self) -> Flags: ...
+    def out_of_reach(self) -> Flags:
+        """Whether no design within reach passes the limit, shape (l,)."""
     @property
-    def failures(self) -> list[str | None]: ...
+    def failures(self) -> list[str | None]:
+        """Why a limit has no design point: a text for each limit, or None."""
     @property
-    def judgements(self) -> list[dict[str, Any]]: ...
+    def judgements(self) -> list[dict[str, Any]]:
+        """What the designs solved anew say of each limit, by name; under "open" why there are none."""
     @property
-    def any_judgement(self) -> dict[str, Any]: ...
+    def any_judgement(self) -> dict[str, Any]:
+        """The same of failing any requirement, those without a limit included."""
     @property
-    def any_verified(self) -> bool: ...
+    def any_verified(self) -> bool:
+        """Whether designs solved anew confirm `any_failure`."""
     @property
-    def any_error(self) -> float | None: ...
+    def any_error(self) -> float | None:
+        """Standard error of the integration behind `any_failure`; None where that is not known."""
     @property
-    def any_bounds(self) -> tuple[float, float] | None: ...
+    def any_bounds(self) -> tuple[float, float] | None:
+        """Bounds of `any_failure` from pairs of limits; None where it is not known."""
     @property
-    def left_out(self) -> list[int]: ...
+    def left_out(self) -> list[int]:
+        """Positions of the requirements without a limit, such as `"stable"`."""
+
+@final
+class Response:
+    """A number that a design gives: a quantity of a mode, an output, a critical value of an input. `response(x)` evaluates
+    it.
+
+    `x` holds the variables `names`, SI: an array of shape (variables,), for one number, or of shape (N, variables), for
+    an array of shape (N,). Every design is solved anew from the nominal equilibrium, its modes matched to the nominal
+    ones by shape. NaN stands where a design has no stable equilibrium or no such response.
+
+    For OpenTURNS:
+
+        openturns.PythonFunction(
+            len(response.names), 1,
+            func=lambda x: [response(x)],
+            func_sample=lambda xs: response(xs)[:, None],
+            gradient=lambda x: response.gradient(x)[:, None],
+        )
+    """
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the variables, in the order of `x`."""
+    @property
+    def nominal(self) -> Real:
+        """Nominal values of the variables, SI, shape (variables,)."""
+    def __call__(self, x: ArrayLike) -> Any:
+        """The response at a design, or at each of several, SI."""
+    def gradient(self, x: ArrayLike) -> Real:
+        """Total derivatives by the variables, SI: shape (variables,) for one design, (N, variables) for several."""
+
+@final
+class Assembly(_Result):
+    """A state that closes the loops of a mechanism, SI. `n` is the number of unknowns."""
+
+    @property
+    def held(self) -> list[bool]:
+        """Which unknowns were held at their start values."""
+    @property
+    def moved(self) -> Real:
+        """How far each unknown moved from its start value, shape (n,)."""
+    @property
+    def gaps(self) -> Real:
+        """Gap left in each constraint, at the place of its reaction, shape (n,): rounding."""
+    @property
+    def mode(self) -> AssemblySide | None:
+        """On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the
+        other but through a dead centre. None unless as many coordinates are held as the mechanism has degrees of
+        freedom.
+        """
+    @property
+    def margin(self) -> float:
+        """How well the constraints determine the coordinates that are not held: 1 at best, 0 at a dead centre."""
+    @property
+    def singular(self) -> bool:
+        """Whether it is a dead centre or a singular configuration."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the unknowns."""
+    @property
+    def coordinates(self) -> Real:
+        """The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,)."""
+    @property
+    def iterations(self) -> int:
+        """Iterations spent."""
+    @property
+    def freedom(self) -> int:
+        """Number of coordinates that the constraints leave free."""
+    @property
+    def redundant(self) -> int:
+        """Number of constraints that follow from others."""
+    @property
+    def dependent_constraints(self) -> list[str]:
+        """Names of the constraints that depend on each other."""
+
+@final
+class Branch(_Result):
+    """One branch of equilibria. `k` is the number of its points, `n` that of the unknowns."""
+
+    @property
+    def input(self) -> str:
+        """Name of the input."""
+    def __len__(self) -> int: ...
+    @property
+    def values(self) -> Real:
+        """Values of the input, SI, shape (k,)."""
+    @property
+    def coordinates(self) -> Real:
+        """Unknowns, SI, shape (k, n)."""
+    @property
+    def stable(self) -> list[bool]:
+        """Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which counts as stable."""
+    @property
+    def equilibria(self) -> list[Equilibrium]:
+        """The equilibrium at each point."""
+    @property
+    def tangents(self) -> Real:
+        """Derivatives of the unknowns by length along the branch, shape (k, n)."""
+    @property
+    def input_tangents(self) -> Real:
+        """The same of the input, SI, shape (k,)."""
+    @property
+    def special_equilibria(self) -> list[Equilibrium]:
+        """The equilibria at the special points."""
+    @property
+    def critical_vectors(self) -> Real:
+        """Critical vectors of the special points, `Khat v = 0`, shape (special points, n)."""
+    @property
+    def left_critical_vectors(self) -> Real:
+        """Left critical vectors, `Khat^T w = 0`, shape (special points, n)."""
+    @property
+    def special(self) -> list[tuple[str, float]]:
+        """Special points: what each is, in words, and the value of the input there, SI."""
+    @property
+    def ends(self) -> list[str]:
+        """How it ends at either side, in words."""
+
+@final
+class Branches(_Result):
+    """The branches of equilibria along an input."""
+
+    def __len__(self) -> int: ...
+    @property
+    def branches(self) -> list[Branch]:
+        """The branches."""
+    @property
+    def truncated(self) -> bool:
+        """Whether the search ended early, so that there may be more branches."""
+
+@final
+class Campbell(_Result):
+    """A Campbell diagram: every mode against an input, with spreads and crossings. `k` is the number of values; a
+    column of an array over modes is one motion, in the order of `labels`.
+    """
+
+    @property
+    def family(self) -> Family:
+        """"undamped" or "general"."""
+    @property
+    def sigma_level(self) -> float:
+        """Standard deviations that a tolerance and a band stand for."""
+    @property
+    def input(self) -> str:
+        """Name of the input."""
+    def __len__(self) -> int: ...
+    @property
+    def labels(self) -> list[int]:
+        """Numbers of the motions, one for each column."""
+    @property
+    def eigenvalues(self) -> Complex:
+        """Eigenvalues, 1/s, complex, shape (k, motions)."""
+    @property
+    def frequencies(self) -> Real:
+        """Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate."""
+    @property
+    def frequency_sigmas(self) -> Real:
+        """Standard deviations of the frequencies to first order, rad/s, shape (k, motions)."""
+    @property
+    def damping_ratios(self) -> Real:
+        """Means of the damping ratios, shape (k, motions)."""
+    @property
+    def damping_ratio_sigmas(self) -> Real:
+        """Standard deviations of the damping ratios to first order, shape (k, motions)."""
+    @property
+    def whirls(self) -> Real:
+        """Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does
+        not apply.
+        """
+    @property
+    def crossings(self) -> list[Event]:
+        """Where a frequency meets a line, with spreads."""
+    @property
+    def critical(self) -> list[Event]:
+        """Where the stable equilibrium loses its stiffness, with spreads."""
+    @property
+    def flutter_onsets(self) -> list[Event]:
+        """Where an oscillation begins or ceases to grow, with spreads."""
+    @property
+    def behaviours(self) -> list[list[str | None]]:
+        """What each motion does, in words, a list for each value; None where it was not found."""
+    @property
+    def whirl_senses(self) -> list[list[str | None]]:
+        """The direction of each whirl, in words, a list for each value; None where it does not apply."""
+    @property
+    def clustered(self) -> Flags:
+        """Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions)."""
+    @property
+    def orders(self) -> list[tuple[float, float]]:
+        """The lines whose crossings were searched for: multiple of the input, and offset in rad/s."""
+    @property
+    def values(self) -> Real:
+        """Values of the input, SI, shape (k,)."""
+    @property
+    def coordinates(self) -> Real:
+        """Unknowns of the equilibria, shape (k, n); NaN where there is none."""
+    @property
+    def failures(self) -> list[str | None]:
+        """Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both."""
+    @property
+    def equilibria(self) -> list[Equilibrium | None]:
+        """The equilibrium at each value, or None."""
+    @property
+    def searched(self) -> tuple[float, float, float] | None:
+        """The range that was searched for events, SI: its ends, and how close two of them may be; or None."""
+    @property
+    def unsearched(self) -> list[tuple[float, float]]:
+        """Stretches of it, SI, in which something may have been missed."""
+    @property
+    def unreached(self) -> int:
+        """Number of values that were not reached."""
+
+@final
+class Equilibrium(_Result):
+    """An equilibrium and the linearised mechanism there, SI. `n` is the number of unknowns."""
+
+    @property
+    def inputs(self) -> Real:
+        """The inputs it belongs to, SI, shape (inputs,)."""
+    @property
+    def design(self) -> Real:
+        """The design variables it belongs to, SI, shape (design,)."""
+    @property
+    def mass(self) -> Real:
+        """Mass matrix Mhat, shape (n, n)."""
+    @property
+    def damping(self) -> Real:
+        """Damping and gyroscopic matrix Chat, shape (n, n)."""
+    @property
+    def stiffness(self) -> Real:
+        """Stiffness matrix Khat, shape (n, n)."""
+    @property
+    def residual(self) -> Real:
+        """Remaining residual, N or N m, shape (n,)."""
+    @property
+    def relative_residual(self) -> float:
+        """Greatest remaining residual, relative to the forces in its own equation."""
+    @property
+    def stability(self) -> str:
+        """What the mechanism would do there, in words."""
+    @property
+    def stable(self) -> bool:
+        """Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable."""
+    @property
+    def held(self) -> dict[str, float]:
+        """The unknowns that hold it in a family of steady motions, with their values, SI."""
+    @property
+    def free(self) -> Real:
+        """Motions that nothing resists, wherever the mechanism stands, shape (r, n)."""
+    @property
+    def rounding(self) -> float:
+        """Estimated effect of rounding on the residual, relative to the forces in its equation."""
+    @property
+    def singular(self) -> bool:
+        """Whether it is a singular configuration of the constraints."""
+    @property
+    def pose(self) -> tuple[str, float] | None:
+        """The joint of three turns that is closest to its singular pose, and how far: 1 at best, 0 there. None without
+        such joints.
+        """
+    @property
+    def left_unstable_region(self) -> bool:
+        """Whether the search passed an unstable region: the start was not in the valley of the answer."""
+    @property
+    def kept(self) -> bool:
+        """Whether it was asked for whatever its stability."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the unknowns."""
+    @property
+    def coordinates(self) -> Real:
+        """The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,)."""
+    @property
+    def iterations(self) -> int:
+        """Iterations spent."""
+    @property
+    def freedom(self) -> int:
+        """Number of coordinates that the constraints leave free."""
+    @property
+    def redundant(self) -> int:
+        """Number of constraints that follow from others."""
+    @property
+    def dependent_constraints(self) -> list[str]:
+        """Names of the constraints that depend on each other."""
+
+@final
+class EquilibriumShift(_Result):
+    """How an equilibrium moves with inputs and design variables, SI. `n` is the number of unknowns."""
+
+    @property
+    def by_input(self) -> Real:
+        """Derivatives of the unknowns by inputs, shape (n, inputs)."""
+    @property
+    def by_design(self) -> Real:
+        """Derivatives of the unknowns by design variables, shape (n, design)."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the unknowns: the rows."""
+
+@final
+class EventCurvature(_Result):
+    """First and second total derivatives, by design variables, of a value of an input at which something happens."""
+
+    @property
+    def input(self) -> str:
+        """Name of the input."""
+    @property
+    def asymmetry(self) -> float:
+        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
+        zero.
+        """
+    @property
+    def value(self) -> float:
+        """Its value, SI."""
+    @property
+    def gradient(self) -> Real:
+        """First derivatives, shape (design,)."""
+    @property
+    def hessian(self) -> Real:
+        """Second derivatives, shape (design, design)."""
+
+@final
+class ModeCurvature(_Result):
+    """First and second total derivatives of one mode, per SI unit. Quantities are "frequency" (rad/s),
+    "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2).
+    """
+
+    @property
+    def asymmetry(self) -> float:
+        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
+        zero.
+        """
+    @property
+    def mode(self) -> int:
+        """Its position, from 0."""
+    @property
+    def eigenvalue(self) -> complex:
+        """Its eigenvalue, 1/s."""
+    @property
+    def clustered(self) -> bool:
+        """Whether it is one of a cluster of nearly equal eigenvalues."""
+    def gradient(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """First derivatives of a quantity by design variables, shape (design,)."""
+    def gradient_by_input(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """First derivatives of a quantity by inputs, shape (inputs,)."""
+    def hessian(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """The Hessian of a quantity by design variables, shape (design, design)."""
+    def by_input(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """Second derivatives of a quantity by inputs, shape (inputs, inputs)."""
+    def by_input_and_design(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """Second derivatives of a quantity by an input and a design variable, shape (inputs, design)."""
+
+@final
+class Modes(_Result):
+    """The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that do not oscillate first. `m` is their
+    number, `n` that of the unknowns.
+    """
+
+    @property
+    def family(self) -> Family:
+        """"undamped" or "general"."""
+    def __len__(self) -> int: ...
+    @property
+    def eigenvalues(self) -> Complex:
+        """Eigenvalues `s`, 1/s, complex, shape (m,): motions go as exp(s t). Of a conjugate pair the one with positive
+        imaginary part.
+        """
+    @property
+    def state_space_eigenvalues(self) -> Complex:
+        """All eigenvalues of the first-order form, 1/s, complex. The oscillating ones stand in ROSS's order: those with a
+        positive imaginary part, ascending in it, after these their conjugates, again ascending. The real ones follow,
+        ascending.
+
+        A neutral undamped mode has two that are zero, a divergent one both signs.
+        """
+    @property
+    def frequencies(self) -> Real:
+        """Frequencies `Im s`, rad/s, shape (m,); NaN for a mode that does not oscillate."""
+    @property
+    def natural_frequencies(self) -> Real:
+        """Natural frequencies `|s|`, rad/s, shape (m,); NaN for a mode that does not oscillate."""
+    @property
+    def damping_ratios(self) -> Real:
+        """Damping ratios `-Re s / |s|`, shape (m,); NaN for a neutral mode."""
+    @property
+    def lambdas(self) -> Real:
+        """`-Re s^2`, 1/s^2, shape (m,): of an undamped mode the eigenvalue of `Khat phi = lambda Mhat phi`."""
+    @property
+    def shapes(self) -> Complex:
+        """Shapes, complex, shape (m, n): row `r` is mode `r`, with `phi^H Mhat phi = 1` where there are no speeds."""
+    @property
+    def left_shapes(self) -> Complex:
+        """Left vectors, complex, shape (m, n)."""
+    @property
+    def errors(self) -> Real:
+        """Estimated absolute errors of the eigenvalues, 1/s, shape (m,)."""
+    @property
+    def labels(self) -> Whole:
+        """Numbers of the motions: modes with one label along a sweep are one motion."""
+    @property
+    def behaviours(self) -> list[str]:
+        """What each mode does, in words."""
+    @property
+    def stable(self) -> bool:
+        """Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the unknowns: the columns of the shapes."""
+    @property
+    def residuals(self) -> Real:
+        """What is left of each eigenproblem, relative to its terms, shape (m,)."""
+    @property
+    def conditions(self) -> Real:
+        """Condition numbers of the eigenvalues, shape (m,)."""
+    @property
+    def clusters(self) -> list[list[int]]:
+        """For each mode the positions of all that are nearly equal to it, its own among them."""
+    @property
+    def damping_ignored(self) -> bool:
+        """Whether undamped modes were asked for of a mechanism that is damped."""
+
+@final
+class OutputCurvature(_Result):
+    """First and second total derivatives of an output, per SI unit."""
+
+    @property
+    def asymmetry(self) -> float:
+        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
+        zero.
+        """
+    @property
+    def output(self) -> str:
+        """Name of the output."""
+    @property
+    def value(self) -> float:
+        """Its value, SI."""
+    @property
+    def gradient(self) -> Real:
+        """First derivatives by design variables, shape (design,)."""
+    @property
+    def gradient_by_input(self) -> Real:
+        """First derivatives by inputs, shape (inputs,)."""
+    @property
+    def hessian(self) -> Real:
+        """Second derivatives by design variables, shape (design, design)."""
+    @property
+    def by_input(self) -> Real:
+        """Second derivatives by inputs, shape (inputs, inputs)."""
+    @property
+    def by_input_and_design(self) -> Real:
+        """Second derivatives by an input and a design variable, shape (inputs, design)."""
+
+@final
+class OutputSensitivities(_Result):
+    """The declared outputs and their total derivatives, SI. `o` is their number."""
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the outputs."""
+    @property
+    def values(self) -> Real:
+        """Values, SI, shape (o,)."""
+    @property
+    def by_input(self) -> Real:
+        """Derivatives by inputs, shape (o, inputs); NaN where there is none."""
+    @property
+    def by_design(self) -> Real:
+        """Derivatives by design variables, shape (o, design); NaN where there is none."""
+
+@final
+class Sensitivities(_Result):
+    """Total derivatives of all modes, per SI unit of inputs and design variables. `m` is the number of modes."""
+
+    @property
+    def family(self) -> Family:
+        """"undamped" or "general"."""
+    @property
+    def method(self) -> str:
+        """How the derivatives were found, in words."""
+    @property
+    def by_design(self) -> Complex:
+        """Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
+        `s` has none.
+        """
+    @property
+    def by_input(self) -> Complex:
+        """Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
+        none.
+        """
+    @property
+    def lambda_by_design(self) -> Real:
+        """Derivatives of `lambda = -Re s^2` by design variables, 1/s^2 per SI unit, shape (m, design)."""
+    @property
+    def lambda_by_input(self) -> Real:
+        """Derivatives of `lambda = -Re s^2` by inputs, 1/s^2 per SI unit, shape (m, inputs)."""
+    @property
+    def clustered(self) -> list[bool]:
+        """Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
+        basis only.
+        """
+    def of(self, name: Quantity) -> tuple[Real, Real]:
+        """Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
+        by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
+        none.
+        """
+
+@final
+class ShapeSensitivity(_Result):
+    """Derivatives of the shapes of one mode, per SI unit, complex. `n` is the number of unknowns."""
+
+    @property
+    def right_by_input(self) -> Complex:
+        """Of the shape by inputs, shape (n, inputs)."""
+    @property
+    def right_by_design(self) -> Complex:
+        """Of the shape by design variables, shape (n, design)."""
+    @property
+    def left_by_input(self) -> Complex:
+        """Of the left vector by inputs, shape (n, inputs)."""
+    @property
+    def left_by_design(self) -> Complex:
+        """Of the left vector by design variables, shape (n, design)."""
+
+@final
+class Sweep(_Result):
+    """States along an input. `k` is their number, `n` that of the unknowns; a column of an array over modes is one
+    motion.
+    """
+
+    @property
+    def input(self) -> str:
+        """Name of the input."""
+    def __len__(self) -> int: ...
+    @property
+    def eigenvalues(self) -> Complex:
+        """Eigenvalues, 1/s, complex, shape (k, motions); NaN where a motion was not found."""
+    @property
+    def frequencies(self) -> Real:
+        """Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate."""
+    @property
+    def damping_ratios(self) -> Real:
+        """Damping ratios, shape (k, motions)."""
+    @property
+    def critical(self) -> Real:
+        """Values of the input at which the stable equilibrium loses its stiffness, SI."""
+    @property
+    def critical_kinds(self) -> list[str]:
+        """What happens at each of these, in words."""
+    @property
+    def flutter_onsets(self) -> Real:
+        """Values of the input at which an oscillation begins or ceases to grow, SI."""
+    @property
+    def modes(self) -> list[Modes | None]:
+        """The modes at each value, or None."""
+    @property
+    def values(self) -> Real:
+        """Values of the input, SI, shape (k,)."""
+    @property
+    def coordinates(self) -> Real:
+        """Unknowns of the equilibria, shape (k, n); NaN where there is none."""
+    @property
+    def failures(self) -> list[str | None]:
+        """Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both."""
+    @property
+    def equilibria(self) -> list[Equilibrium | None]:
+        """The equilibrium at each value, or None."""
+    @property
+    def searched(self) -> tuple[float, float, float] | None:
+        """The range that was searched for events, SI: its ends, and how close two of them may be; or None."""
+    @property
+    def unsearched(self) -> list[tuple[float, float]]:
+        """Stretches of it, SI, in which something may have been missed."""
+    @property
+    def unreached(self) -> int:
+        """Number of values that were not reached."""
+
+@final
+class Import:
+    """A robot as a declaration; numbers are SI."""
+
+    def __new__(cls, declaration: str, names: Mapping[str, str], notes: Sequence[str]) -> Self: ...
+    @property
+    def declaration(self) -> str:
+        """Text in the language of eigentol."""
+    @property
+    def names(self) -> dict[str, str]:
+        """By the name in the declaration, that in the file: of every link and joint that had to be renamed."""
+    @property
+    def notes(self) -> list[str]:
+        """What the declaration does not say, or says in another way than the file."""
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+
+@final
+class FirstOrder(_Result):
+    """First-order spread of all modes. `m` is the number of modes; quantities are "frequency" (rad/s),
+    "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2). NaN stands where a mode has
+    none.
+    """
+
+    @property
+    def family(self) -> Family:
+        """"undamped" or "general"."""
+    @property
+    def sigma_level(self) -> float:
+        """Standard deviations that a tolerance and a band stand for."""
+    @property
+    def varies(self) -> bool:
+        """Whether any variable has a tolerance."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the design variables, and after them of the inputs that have a tolerance: the columns of gradients and
+        shares.
+        """
+    @property
+    def distances_to_critical(self) -> Real:
+        """Standard deviations between each mode and the state where its stiffness vanishes, shape (m,); may be infinite."""
+    @property
+    def doubts(self) -> list[list[str]]:
+        """For each mode the doubts that distances raise about its standard deviations: texts, none where they are large.
+        They do not tell how large an error is; `summary` lets samples decide.
+        """
+    @property
+    def trusted(self) -> bool:
+        """Whether distances leave no doubt about any mode. Where they do, `summary` lets samples decide."""
+    @property
+    def trusted_modes(self) -> Flags:
+        """The same of each mode, shape (m,)."""
+    @property
+    def distance_to_critical(self) -> float:
+        """Least of `distances_to_critical`."""
+    @property
+    def distances_to_instability(self) -> Real:
+        """Standard deviations between the growth of each mode and zero, shape (m,); may be infinite."""
+    @property
+    def distances_to_neighbour(self) -> Real:
+        """Standard deviations between the eigenvalue of each mode and the nearest one, shape (m,); may be infinite."""
+    @property
+    def clustered(self) -> Flags:
+        """Whether each mode is one of a cluster of nearly equal eigenvalues, shape (m,)."""
+    @property
+    def behaviours(self) -> list[str]:
+        """What each mode does, in words."""
+    def mean(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """Means, shape (m,)."""
+    def sigma(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """Standard deviations, shape (m,)."""
+    def band(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """Half-widths of the bands that hold as many standard deviations as the tolerances do, shape (m,)."""
+    def gradient(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """Derivatives per SI unit of each variable, shape (m, variables)."""
+    def shares(self, quantity: QuantityOrLambda = "frequency") -> Real:
+        """Shares of the variables in the variance, shape (m, variables)."""
+
+@final
+class Influence(_Result):
+    """Which variables the scatter of responses comes from. `k` is the number of responses; columns are the variables
+    that vary.
+    """
+
+    @property
+    def counts(self) -> Counts:
+        """How many designs became what, by name."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the variables that vary."""
+    @property
+    def first(self) -> Real:
+        """Sobol' indices of first order, shape (k, variables)."""
+    @property
+    def total(self) -> Real:
+        """Total Sobol' indices, shape (k, variables)."""
+    @property
+    def correlation(self) -> Real:
+        """Correlations (Pearson), shape (k, variables)."""
+    @property
+    def at_low(self) -> Real:
+        """Responses with a variable at its lower limit, all others nominal, SI, shape (k, variables)."""
+    @property
+    def at_high(self) -> Real:
+        """The same at the upper limit."""
+    @property
+    def responses(self) -> list[str]:
+        """Names of the responses: the rows."""
+    @property
+    def nominal(self) -> Real:
+        """Values at the nominal design, SI, shape (k,)."""
+    @property
+    def first_interval(self) -> Real:
+        """Ends of the 95 % intervals of `first`, shape (k, variables, 2)."""
+    @property
+    def total_interval(self) -> Real:
+        """Ends of the 95 % intervals of `total`, shape (k, variables, 2)."""
+    @property
+    def rank_correlation(self) -> Real:
+        """Rank correlations (Spearman), shape (k, variables)."""
+    @property
+    def regression(self) -> Real:
+        """Standardised regression coefficients, shape (k, variables)."""
+    @property
+    def determination(self) -> Real:
+        """Shares of the variance that the linear fit explains, shape (k,)."""
+    @property
+    def missing(self) -> Whole:
+        """Numbers of evaluations without a value, which are left out, shape (k,)."""
+    @property
+    def limits(self) -> Real:
+        """Least and greatest values of all design variables, SI, shape (design, 2)."""
+
+@final
+class ModeMargin(_Result):
+    """Probability that a quantity of a mode lies in a forbidden band."""
+
+    @property
+    def probability(self) -> float:
+        """Probability by the exact distribution of the second-order model."""
+    @property
+    def error(self) -> float:
+        """Error of that: of the integration, and of the model where designs were solved anew."""
+    @property
+    def first_order(self) -> float:
+        """Probability to first order."""
+    @property
+    def solved_anew(self) -> float | None:
+        """Probability by designs solved anew, which judges the other two; None where that is too dear."""
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """95 % interval of that."""
+    @property
+    def verified(self) -> bool:
+        """Whether designs solved anew confirm the probability of the second-order model."""
+    @property
+    def mixed_with(self) -> list[int]:
+        """Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on."""
+    @property
+    def band(self) -> tuple[float, float]:
+        """The band, in the unit of the quantity (rad/s, 1/s)."""
+    @property
+    def distance(self) -> float:
+        """Standard deviations between the value and the nearest end of the band."""
+    @property
+    def mode(self) -> int:
+        """Position of the mode, from 0."""
+    @property
+    def quantity(self) -> str:
+        """Name of the quantity, as `margin` takes it."""
+    @property
+    def value(self) -> float:
+        """Its nominal value, rad/s or 1/s."""
+    @property
+    def sigma(self) -> float:
+        """Its standard deviation to first order."""
+    @property
+    def model_error(self) -> float | None:
+        """Error of the model alone; None where no designs were solved anew."""
+    @property
+    def judgement(self) -> dict[str, Any]:
+        """What the designs solved anew say, by name; under "open" why there are none."""
+    @property
+    def by_input(self) -> Real:
+        """Derivatives of the probability to first order by inputs, shape (inputs,); NaN where there are none."""
+    @property
+    def by_design(self) -> Real:
+        """The same by nominal values of design variables, shape (design,)."""
+    @property
+    def by_half_width(self) -> Real:
+        """The same by half-widths of their tolerances, shape (design,)."""
+
+@final
+class MonteCarlo(_Result):
+    """Samples of the design, each with its own equilibrium and modes. `m` is the number of modes, `N` that of the
+    samples; modes are in the order of the nominal ones.
+    """
+
+    @property
+    def family(self) -> Family:
+        """"undamped" or "general"."""
+    @property
+    def varies(self) -> bool:
+        """Whether any variable has a tolerance."""
+    @property
+    def counts(self) -> Counts:
+        """How many designs became what, by name."""
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+    @property
+    def seed(self) -> int:
+        """Seed of the random numbers."""
+    @property
+    def stream(self) -> int:
+        """Which of the seed's independent sequences."""
+    @property
+    def on_another_branch(self) -> int:
+        """How many stable samples lie on another branch of equilibria than the nominal one."""
+    @property
+    def designs(self) -> Real:
+        """Design variables of the samples, SI, shape (N, design). The samples have to be kept (`keep_samples=True`)."""
+    @property
+    def coordinates(self) -> Real:
+        """Equilibria of the samples, SI, shape (N, n); NaN where there is none."""
+    @property
+    def eigenvalues(self) -> Complex:
+        """Eigenvalues of the samples, 1/s, complex, shape (N, m); NaN where there is none."""
+    @property
+    def frequencies(self) -> Real:
+        """Frequencies of the samples, rad/s, shape (N, m)."""
+    @property
+    def damping_ratios(self) -> Real:
+        """Damping ratios of the samples, shape (N, m)."""
+    @property
+    def outcomes(self) -> list[str]:
+        """What became of each sample: "Stable", "Divergent", "Flutter", "NoEquilibrium" ..."""
+    @property
+    def planned(self) -> int:
+        """Number of samples that were asked for: more than `samples` if the run was stopped or is a part."""
+    @property
+    def ranges(self) -> list[tuple[int, int]]:
+        """First sample and the one behind the last of each range that is done."""
+    @property
+    def side_by_side(self) -> bool:
+        """Whether samples were solved side by side in vectors."""
+    @property
+    def clustered(self) -> bool:
+        """Whether some nominal modes have equal eigenvalues, and are told apart by their order only."""
+    def mean(self, quantity: Quantity = "frequency") -> Real:
+        """Means of "frequency" (rad/s) or "damping_ratio" over the stable samples, shape (m,)."""
+    def sigma(self, quantity: Quantity = "frequency") -> Real:
+        """Standard deviations likewise, shape (m,)."""
+    def standard_error(self, quantity: Quantity = "frequency") -> Real:
+        """Standard errors of the means, shape (m,); those of the standard deviations are `sigma_error`."""
+    def sigma_error(self, quantity: Quantity = "frequency") -> Real:
+        """Standard errors of the standard deviations, shape (m,), for any distribution."""
+    def count(self, quantity: Quantity = "frequency") -> Real:
+        """Number of samples in which each mode has the quantity, shape (m,)."""
+    def skewness(self, quantity: Quantity = "frequency") -> Real:
+        """Skewness, shape (m,)."""
+    def skewness_error(self, quantity: Quantity = "frequency") -> Real:
+        """Standard errors of the skewness of normal values, shape (m,)."""
+    def excess_kurtosis(self, quantity: Quantity = "frequency") -> Real:
+        """Excess kurtosis, shape (m,)."""
+    def kurtosis_error(self, quantity: Quantity = "frequency") -> Real:
+        """Standard errors of the kurtosis of normal values, shape (m,)."""
+    def least(self, quantity: Quantity = "frequency") -> Real:
+        """Least values, shape (m,)."""
+    def greatest(self, quantity: Quantity = "frequency") -> Real:
+        """Greatest values, shape (m,)."""
+    def quantile(self, probability: float, quantity: Quantity = "frequency") -> Real:
+        """Quantiles of "frequency" (rad/s) or "damping_ratio" over the stable samples for a probability between 0 and 1,
+        shape (m,).
+        """
+
+@final
+class OutputTolerances(_Result):
+    """First-order spread of the outputs, SI. `o` is the number of outputs; NaN stands where one has no derivatives."""
+
+    @property
+    def sigma_level(self) -> float:
+        """Standard deviations that a tolerance and a band stand for."""
+    @property
+    def varies(self) -> bool:
+        """Whether any variable has a tolerance."""
+    @property
+    def values(self) -> Real:
+        """Values, SI, shape (o,)."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the outputs."""
+    @property
+    def variables(self) -> list[str]:
+        """Names of the design variables, and after them of the inputs that have a tolerance: the columns of gradients
+        and shares.
+        """
+    @property
+    def mean(self) -> Real:
+        """Means, SI, shape (o,)."""
+    @property
+    def sigma(self) -> Real:
+        """Standard deviations, SI, shape (o,)."""
+    @property
+    def band(self) -> Real:
+        """Half-widths of the bands that hold as many standard deviations as the tolerances do, SI, shape (o,)."""
+    @property
+    def gradient(self) -> Real:
+        """Derivatives per SI unit of each variable, shape (o, variables)."""
+    @property
+    def shares(self) -> Real:
+        """Shares of the variables in the variance, shape (o, variables)."""
+
+@final
+class Propagation(_Result):
+    """How tolerances spread responses, SI. `k` is the number of responses; NaN stands where one has no number."""
+
+    @property
+    def counts(self) -> Counts:
+        """How many designs became what, by name."""
+    @property
+    def doubts(self) -> list[list[str]]:
+        """For each response the doubts that distances raise about the model: texts; none for samples, which need no model."""
+    @property
+    def method(self) -> str:
+        """How it was found, in words."""
+    @property
+    def reason(self) -> str:
+        """Why it was found that way."""
+    @property
+    def nominal(self) -> Real:
+        """Values at the nominal design, shape (k,)."""
+    @property
+    def mean(self) -> Real:
+        """Means, shape (k,)."""
+    @property
+    def sigma(self) -> Real:
+        """Standard deviations, shape (k,)."""
+    @property
+    def sigma_error(self) -> Real:
+        """Errors of the standard deviations by the method's own estimate, shape (k,); NaN where nothing is known."""
+    @property
+    def skewness(self) -> Real:
+        """Skewness, shape (k,)."""
+    @property
+    def quantiles(self) -> Real:
+        """Quantiles, shape (k, 7), for the probabilities of -3, -2 ... 3 standard deviations of a normal variable."""
+    @property
+    def covariance(self) -> Real:
+        """Covariances of the responses, shape (k, k)."""
+    @property
+    def share(self) -> Real:
+        """Shares of the designs that have each response, shape (k,)."""
+    @property
+    def evaluations(self) -> int:
+        """Designs that were evaluated."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the responses."""
+    @property
+    def mean_error(self) -> Real:
+        """Errors of the means by the method's own estimate, shape (k,); NaN where nothing is known."""
+    @property
+    def skewness_error(self) -> Real:
+        """The same of the skewness, shape (k,)."""
+    @property
+    def quantile_errors(self) -> Real:
+        """The same of the quantiles, shape (k, 7)."""
+    @property
+    def probabilities(self) -> Real:
+        """Probabilities of the quantiles, shape (7,)."""
+    @property
+    def covariance_with_design(self) -> Real:
+        """Covariances of the responses with the design variables, SI, shape (k, design)."""
+
+@final
+class SecondOrder(_Result):
+    """Spread of all modes to second order. `m` is the number of modes; quantities are "frequency" (rad/s),
+    "natural_frequency" (rad/s) and "damping_ratio". NaN stands where a mode has none.
+    """
+
+    @property
+    def sigma_level(self) -> float:
+        """Standard deviations that a tolerance and a band stand for."""
+    @property
+    def varies(self) -> bool:
+        """Whether any variable has a tolerance."""
+    @property
+    def doubts(self) -> list[list[str]]:
+        """For each mode the doubts that distances raise, as those of first order."""
+    @property
+    def failures(self) -> list[str | None]:
+        """Why a mode has no second order: a text for each mode, or None."""
+    def mean(self, quantity: Quantity = "frequency") -> Real:
+        """Means, shape (m,)."""
+    def sigma(self, quantity: Quantity = "frequency") -> Real:
+        """Standard deviations, shape (m,)."""
+    def skewness(self, quantity: Quantity = "frequency") -> Real:
+        """Skewness, shape (m,)."""
+    def excess_kurtosis(self, quantity: Quantity = "frequency") -> Real:
+        """Excess kurtosis, shape (m,)."""
+    def mean_shift(self, quantity: Quantity = "frequency") -> Real:
+        """Shifts of the means by curvature, shape (m,)."""
+    def first_order_sigma(self, quantity: Quantity = "frequency") -> Real:
+        """Standard deviations to first order, shape (m,)."""
+    def curvature_sigma(self, quantity: Quantity = "frequency") -> Real:
+        """Part of the standard deviations that curvature adds (its square is added to that of first order), shape (m,)."""
+    def first_order_error(self, quantity: Quantity = "frequency") -> Real:
+        """Relative errors of the standard deviations to first order by this model, shape (m,)."""
+
+@final
+class Summary(_Result):
+    """First order, second order, and for each mode whether its standard deviation can be trusted."""
+
+    @property
+    def first(self) -> FirstOrder:
+        """The first-order spread."""
+    @property
+    def second(self) -> SecondOrder:
+        """The spread to second order."""
+    @property
+    def trusted(self) -> bool:
+        """Whether every mode is trusted."""
+    @property
+    def doubts(self) -> list[list[str]]:
+        """For each mode why its standard deviation is in doubt: texts, none where it can be trusted."""
+    @property
+    def trusted_modes(self) -> Flags:
+        """Whether each mode is trusted, shape (m,)."""
+    @property
+    def use_instead(self) -> list[Advised]:
+        """What to use for each mode: "first order", "second order", "cluster" or "samples"."""
+    @property
+    def clusters(self) -> Clusters:
+        """The modes that tolerances bring together."""
+    @property
+    def samples(self) -> int | None:
+        """Number of samples that judged; None where none were needed or they are too dear."""
+    @property
+    def outcomes(self) -> dict[str, tuple[float, float]]:
+        """How probable each outcome is by the samples, by name: 95 % interval."""
+    @property
+    def on_another_branch(self) -> tuple[float, float] | None:
+        """How probable it is that a design settles on another branch: 95 % interval; None where it was not looked for."""
+    def sampled_mean(self, quantity: Quantity = "frequency") -> Real:
+        """Means of a quantity over the samples that judged, shape (m,); NaN where there are none."""
+    def sampled_sigma(self, quantity: Quantity = "frequency") -> Real:
+        """Standard deviations likewise, shape (m,)."""
+    def sampled_sigma_error(self, quantity: Quantity = "frequency") -> Real:
+        """Standard errors of these, shape (m,)."""
+    def first_order_error(self, quantity: Quantity = "frequency") -> Real:
+        """Relative errors of the standard deviations to first order by the same samples, shape (m,)."""
+    def second_order_error(self, quantity: Quantity = "frequency") -> Real:
+        """Relative errors of those to second order, shape (m,)."""
+
+@final
+class WorstCase(_Result):
+    """The least and the greatest values of responses within the limits, SI. `k` is the number of responses."""
+
+    @property
+    def least(self) -> Real:
+        """Least values, shape (k,); NaN where there is none."""
+    @property
+    def greatest(self) -> Real:
+        """Greatest values, shape (k,); NaN where there is none."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the responses."""
+    @property
+    def nominal(self) -> Real:
+        """Values at the nominal design, SI, shape (k,)."""
+    @property
+    def least_designs(self) -> Real:
+        """Designs of the least values, SI, shape (k, design)."""
+    @property
+    def greatest_designs(self) -> Real:
+        """Designs of the greatest values, SI, shape (k, design)."""
+    @property
+    def confirmed(self) -> list[tuple[bool, bool]]:
+        """Whether no design near that of the least and of the greatest value is worse, a pair for each response."""
+    @property
+    def turning(self) -> list[list[str]]:
+        """For each response the names of the variables in which it is not monotonic."""
+    @property
+    def missing(self) -> list[list[tuple[list[float], str]]]:
+        """For each response the designs at corners of the limits that lack it, SI, and what became of them."""
+    @property
+    def limits(self) -> Real:
+        """Least and greatest values of all design variables, SI, shape (design, 2)."""
+    @property
+    def evaluations(self) -> int:
+        """Number of designs that were evaluated."""
+
+@final
+class Study:
+    """A mechanism at one operating point, with tolerances and settings.
+
+    Every value is a number, SI, or a text with a unit; a study starts from the declared nominal values and tolerances,
+    with inputs and start values of zero.
+
+        study = eigentol.Study(mechanism, inputs={"speed": "3000 rpm"}, tolerances={"l": "3%"})
+
+    Settings:
+      inputs, design: values by name.
+      start: where the search for the equilibrium starts, by coordinate; held while a mechanism with loops is assembled.
+      guess: the same for dependent coordinates, which move freely.
+      hold: values of unknowns where steady motions come in a family; derivatives hold them too.
+      stay: True for the equilibrium next to the start whatever its stability. Start values of an unstable equilibrium are kept
+          without it: `notes` of the equilibrium says so.
+      at: an equilibrium found by `equilibria`, whatever its stability.
+      tolerances: by name of a design variable or an input: a half-width, a text ("3%", "+0.2 -0.1 mm uniform",
+          "one of [9, 10] mm"), or a pair of deviations, lower and upper. Per cent given here are of the value that the
+          study has, whatever `replace` changes; per cent of the declaration are of the declared nominal value of a design
+          variable, also where `design` sets another, as in Rust and in the command.
+      measured: arrays of measured values by name, SI, which take the place of a tolerance.
+      sigma_level: standard deviations that a half-width stands for (3).
+      correlation: matrix of the design variables, and after them of the inputs that have a tolerance.
+      policy: "stable", or "nearest" for the equilibrium next to the start whatever its stability. With coasting joints, rolling
+          wheels or forces without a potential, "stable" is the same as "nearest": look at `stability`.
+      family: "undamped" or "general"; unless given, modes neglect nothing.
+      samples (3000), seed (0), stream (0), threads (0: all), keep_samples (False), vectors (True): of sampling.
+      steps: in which a range is searched (200).
+
+    A study does not change: `replace` gives another one.
+    """
+
+    def __new__(cls, mechanism: Mechanism, **settings: Unpack[Settings]) -> Self: ...
+    def allocate(
+        self,
+        requirements: Sequence[Requirement],
+        *,
+        failure: Sequence[float],
+        tolerances: Choices,
+        nominals: Ranges | None = None,
+    ) -> Allocation:
+        """The cheapest tolerances that meet requirements, as `chances` takes them; samples check what is found.
+
+            study.allocate(
+                [(("frequency", 0), 3.9, None)],
+                failure=[1e-3],
+                tolerances={"l": ("0.1 mm", "5 mm", (0.0, 1e-3, 1.0))},
+            )
+
+        Arguments:
+          failure: greatest probability of failing each requirement.
+          tolerances: by name of a design variable, or of an input that has a tolerance: least and greatest half-width T, and what
+              it costs, (fixed, factor, power): fixed + factor / T^power, T in SI.
+          nominals: by name of a design variable that may move: least and greatest nominal value.
+        """
+    def clusters(self) -> Clusters:
+        """The modes that tolerances bring together, and their spread."""
+    def directional_derivatives(
+        self,
+        mode: int,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> DirectionalDerivatives:
+        """Derivatives of the eigenvalues in the cluster of a mode, counted from 0, along a change of inputs and design
+        variables: lists, SI, or dictionaries by name; what is not named stays as it is. Equal eigenvalues split
+        differently in each direction.
+        """
+    def samples_between(self, start: int, stop: int) -> PartialMonteCarlo:
+        """The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the
+        whole run.
+        """
+    def assembly(self) -> Assembly:
+        """The state that closes the loops from the start values, before any equilibrium is looked for: which of the
+        assemblies it is, and how far from a dead centre. Coordinates with a start value are held.
+        """
+    def equilibrium(self) -> Equilibrium:
+        """Where the mechanism stays: equilibrium, Mhat, Chat, Khat, stability."""
+    def equilibrium_shift(self) -> EquilibriumShift:
+        """How the equilibrium moves with inputs and design variables."""
+    def modes(self) -> Modes:
+        """How it vibrates about the equilibrium."""
+    def sensitivities(self) -> Sensitivities:
+        """Total derivatives of all modes."""
+    def outputs(self) -> OutputSensitivities:
+        """The outputs and their total derivatives."""
+    def output_tolerances(self) -> OutputTolerances:
+        """First-order spread of the outputs."""
+    def first_order(self) -> FirstOrder:
+        """First-order spread of all modes."""
+    def second_order(self) -> SecondOrder:
+        """Spread of all modes to second order."""
+    def summary(self) -> Summary:
+        """First order, second order, and for each mode whether its standard deviation can be trusted. The samples that
+        judge are always the same, whatever `samples` and `seed` of the study.
+        """
+    def propagate(self, responses: Sequence[tuple[Any, ...]]) -> Propagation:
+        """How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
+        "angle"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
+        """
+    def influence(self, responses: Sequence[tuple[Any, ...]]) -> Influence:
+        """Which variables the scatter of responses comes from; tuples as `propagate` takes them."""
+    def worst_case(self, responses: Sequence[tuple[Any, ...]]) -> WorstCase:
+        """The least and the greatest values of responses within the limits; tuples as `propagate` takes them."""
+    def branches(self, input: str, low: Value, high: Value) -> Branches:
+        """Branches of equilibria along an input between two values, SI or texts with units."""
+    def critical(self, input: str, low: Value, high: Value) -> Event:
+        """The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its
+        stiffness, and how tolerances move it. Raises NotInRange where there is none. A tolerance of this input counts
+        with a derivative of -1, as the value that is set lies below the one that acts by the deviation; one in per cent
+        is that at the operating point.
+        """
+    def critical_curvature(self, input: str, low: Value, high: Value) -> EventCurvature:
+        """First and second derivatives of that value by the design variables."""
+    def flutter_onsets(self, input: str, low: Value, high: Value) -> list[Event]:
+        """Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
+        how tolerances move them.
+        """
+    def monte_carlo(self) -> MonteCarlo:
+        """Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
+        is done, take the samples in parts (`samples_between`).
+        """
+    def equilibria(
+        self,
+        bounds: Ranges | None = None,
+        starts: int | None = None,
+        seed: int | None = None,
+    ) -> list[Equilibrium]:
+        """Equilibria found from random starts: between bounds for the coordinates that have some,
+        `{"x": ("-10 mm", "10 mm")}`, and anywhere for other angles. A displacement needs bounds.
+        """
+    def whirls(self) -> Real:
+        """Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it
+        does not apply.
+        """
+    def mode_curvature(self, mode: int) -> ModeCurvature:
+        """First and second derivatives of one mode, counted from 0."""
+    def output_curvature(self, output: str) -> OutputCurvature:
+        """First and second derivatives of an output."""
+    def shape_sensitivity(self, mode: int) -> ShapeSensitivity:
+        """Derivatives of the shapes of one mode, counted from 0."""
+    def margin(
+        self,
+        mode: int,
+        low: float | None = None,
+        high: float | None = None,
+        *,
+        around: Around | None = None,
+        quantity: Quantity = "frequency",
+    ) -> ModeMargin:
+        """Probability that a quantity of a mode, counted from 0, lies between `low` and `high` (rad/s, 1/s; None for no
+        end), or within a fraction of a multiple of an input: `around=("speed", 0.1)` or `("speed", 0.1, order)`.
+        """
+    def sweep(self, input: str, values: ArrayLike, unit: str | None = None) -> Sweep:
+        """Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`."""
+    def campbell(
+        self,
+        input: str,
+        values: ArrayLike,
+        orders: Sequence[float] = ...,
+        unit: str | None = None,
+    ) -> Campbell:
+        """A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input.
+        Values are SI, texts with units, or numbers in `unit`.
+        """
+    def crossings(self, input: str, low: Value, high: Value, order: float = 1.0, offset: float = 0.0) -> list[Event]:
+        """Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
+        `offset` (rad/s) more, and how tolerances move them.
+        """
+    def report(
+        self,
+        path: str | PathLike[str],
+        sweep: Along | None = None,
+        orders: Sequence[float] = ...,
+        title: str | None = None,
+        mode_names: Sequence[str] = ...,
+        frequency_unit: FrequencyUnit | None = None,
+    ) -> None:
+        """Writes a report: one HTML file with the mechanism in 3-D, its modes in motion, charts, verdicts and tables.
+
+        `sweep` is a tuple of the name of an input and values of it, SI or texts with units, and may have a unit for
+        plain numbers as its third entry: `("speed", range(0, 6001, 100), "rpm")`. `orders` are multiples of that input
+        whose crossings are marked. Samples and seed are those of the study. `mode_names` are what figures and sentences
+        call the modes, the first one first, and `frequency_unit` is the unit of frequencies in them, `"Hz"` or
+        `"rad/s"`.
+
+        Raises OSError when the file cannot be written. What an analysis refuses is said in the report.
+        """
+    def chances(
+        self,
+        requirements: Sequence[Requirement],
+        start: int | None = None,
+        stop: int | None = None,
+    ) -> Chances:
+        """Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low
+        and a high end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band:
+        `("outside", ("frequency", 0), 3.0, 4.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
+        `start` to below `stop` are taken; numbers of samples of parts add up to those of the whole. Ctrl-C ends it.
+        """
+    def probability(self, requirements: Sequence[Requirement]) -> Probabilities:
+        """How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
+        of designs, or samples; requirements as `chances` takes them.
+        """
+    def reliability(self, requirements: Sequence[Requirement]) -> Reliability:
+        """Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
+        takes them.
+        """
+    def rare_failure(self, requirements: Sequence[Requirement]) -> RareFailure:
+        """A small probability of failing any requirement, by importance sampling about the design points; requirements as
+        `chances` takes them.
+        """
+    def response(self, what: str, *of: Any, variables: Sequence[str] | None = None) -> Response:
+        """A response as a function of arrays of designs.
+
+        `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
+        number of a mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value,
+        between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
+        high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
+        vary, in order; all unless given.
+        """
+    @property
+    def settings(self) -> Settings:
+        """The settings as given."""
+    @property
+    def inputs(self) -> Real:
+        """Values of the inputs, SI, shape (inputs,)."""
+    @property
+    def design(self) -> Real:
+        """Values of the design variables, SI, shape (design,)."""
+    @property
+    def sigmas(self) -> Real:
+        """Standard deviations of the design variables, and after them of the inputs that have a tolerance, SI."""
+    def replace(self, **settings: Unpack[Settings]) -> Self:
+        """The same study with other settings. Dictionaries by name change the names in them only."""
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+    def motion(self) -> Motion:
+        """The nonlinear motion at the inputs and the design of this study, for `scipy.integrate.solve_ivp`."""

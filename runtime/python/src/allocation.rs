@@ -1,16 +1,21 @@
 //! Allocation of the cheapest tolerances that meet the requirements.
 
-use eigentol::allocation::{self, Choices, Cost, HalfWidth, Nominal};
+use eigentol::allocation::{self, Cost, HalfWidth, Nominal};
 use eigentol::{Description, Unit};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{Array1, vector};
-use crate::names;
-use crate::requirements::{Chances, Reliability};
+use crate::requirements::{Chances, Reliability, Requirement};
 use crate::results::{attributes, result};
 use crate::study::Study;
 use crate::values::{List, number};
+use crate::{hints, names};
+
+/// Half-widths and what they cost, by name.
+///
+/// In Python `Mapping[str, tuple[Value, Value, tuple[float, float, float]]]`.
+type Choices<'py> = Bound<'py, PyDict>;
 
 /// Minimum and maximum half-width, and its cost: fixed, factor, power.
 type Chosen<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, (f64, f64, f64));
@@ -34,10 +39,10 @@ impl Study {
     fn allocate(
         &self,
         py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
+        requirements: Vec<Requirement<'_>>,
         failure: Vec<f64>,
-        tolerances: &Bound<'_, PyDict>,
-        nominals: Option<&Bound<'_, PyDict>>,
+        tolerances: &Choices<'_>,
+        nominals: Option<&hints::Ranges<'_>>,
     ) -> PyResult<Allocation> {
         let wanted = self.requirements(&requirements)?;
         let of = self.inner.description();
@@ -63,7 +68,7 @@ impl Study {
                 limits,
                 cost: Cost::reciprocal(fixed, factor, power),
             };
-            let choices = Choices {
+            let choices = allocation::Choices {
                 half_widths: half_widths.into_iter().map(own).collect(),
                 nominals: moving,
                 failure,

@@ -5,6 +5,7 @@ use eigentol::{Complex, tolerance::Statistics};
 use pyo3::prelude::*;
 
 use crate::arrays::{Array1, optional, vector};
+use crate::hints;
 use crate::results::{attributes, family, result};
 use crate::study::Study;
 use crate::values::{List, mode_number, word};
@@ -24,8 +25,8 @@ impl Study {
         &self,
         py: Python<'_>,
         mode: i64,
-        inputs: Option<&Bound<'_, PyAny>>,
-        design: Option<&Bound<'_, PyAny>>,
+        inputs: Option<&hints::Numbers<'_>>,
+        design: Option<&hints::Numbers<'_>>,
     ) -> PyResult<DirectionalDerivatives> {
         let mode = mode_number(py, mode)?;
         let of = self.inner.description();
@@ -40,24 +41,13 @@ impl Study {
 
 result! {
     /// The modes that tolerances bring together. `k` is the number of clusters.
-    Clusters(Vec<ClusterTolerance>), |own| match own.is_empty() {
-        true => "tolerances bring no modes together\n".to_owned(),
-        false => own.iter().map(ToString::to_string).collect(),
-    }
+    Clusters(Vec<ClusterTolerance>)
 }
 
 impl Clusters {
-    fn counts<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&ClusterSpread) -> usize,
-    ) -> Array1<'py, i64> {
-        vector(
-            py,
-            self.0
-                .iter()
-                .map(|own| own.spread.as_ref().map_or(0, |own| of(own) as i64)),
-        )
+    fn counts<'py>(&self, py: Python<'py>, of: fn(&ClusterSpread) -> usize) -> Array1<'py, i64> {
+        let count = |own: &ClusterTolerance| own.spread.as_ref().map_or(0, |own| of(own) as i64);
+        vector(py, self.0.iter().map(count))
     }
 
     /// A number of each member in ascending order, and of the distance of the lowest from the highest, for each cluster.
@@ -68,17 +58,13 @@ impl Clusters {
         of: impl Fn(&Statistics) -> Option<f64>,
     ) -> PyResult<Vec<Array1<'py>>> {
         type Part = fn(&ClusterSpread) -> Option<&SortedSpread>;
-        let part: Part = word(
-            py,
-            "quantity",
-            quantity,
-            &[
-                ("frequency", (|own| Some(&own.frequency)) as Part),
-                ("lambda", |own| own.lambda.as_ref()),
-                ("growth", |own| own.growth.as_ref()),
-                ("damping_ratio", |own| own.damping_ratio.as_ref()),
-            ],
-        )?;
+        let words: [(&str, Part); 4] = [
+            ("frequency", |own| Some(&own.frequency)),
+            ("lambda", |own| own.lambda.as_ref()),
+            ("growth", |own| own.growth.as_ref()),
+            ("damping_ratio", |own| own.damping_ratio.as_ref()),
+        ];
+        let part = word(py, "quantity", quantity, &words)?;
         let each = self.0.iter().map(|own| {
             let spread = own.spread.as_ref().ok().and_then(part);
             let members = (0..own.modes.len()).map(|k| spread?.members.get(k)?.value.as_ref());
@@ -116,7 +102,7 @@ attributes! {
         failures: Vec<Option<String>> =
             self.0.iter().map(|own| Some(own.spread.as_ref().err()?.to_string())).collect();
         /// "undamped" or "general"; None without clusters.
-        family: Option<&'static str> = Some(family(self.0.first()?.family));
+        family: Option<&'static hints::Family> = Some(family(self.0.first()?.family));
         /// Whether the members of each have merged into one eigenvalue that no derivative describes.
         defective: Vec<bool> = self.0.iter().map(ClusterTolerance::defective).collect();
         /// Numbers of samples that are unstable, shape (k,).
@@ -129,7 +115,7 @@ attributes! {
 }
 
 attributes! {
-    Clusters(self, py, quantity) {
+    Clusters(self, py, quantity: hints::QuantityOrLambda) {
         /// Means of the members of each cluster from the lowest up, and at last of the distance of the highest from the
         /// lowest: arrays of shape (members + 1,). The quantity is "frequency" (rad/s), "lambda" (1/s^2), "growth" (1/s) or
         /// "damping_ratio".
@@ -139,27 +125,16 @@ attributes! {
     }
 }
 
-#[pymethods]
-impl Clusters {
-    fn __len__(&self) -> usize {
-        self.0.len()
-    }
-}
-
 result! {
     /// Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative
     /// belongs to which mode is not defined.
-    DirectionalDerivatives(clusters::DirectionalDerivatives), |own| {
-        format!("DirectionalDerivatives(modes={:?})", own.modes)
-    }
+    DirectionalDerivatives(clusters::DirectionalDerivatives)
 }
 
 attributes! {
     DirectionalDerivatives(self, py) {
         /// Positions of the modes, from 0.
         modes: Vec<usize> = self.0.modes.clone();
-        /// "undamped" or "general".
-        family: &'static str = family(self.0.family);
         /// Derivatives of lambda (1/s^2) of undamped modes, of s (1/s) of general ones, ascending, complex, shape (k,).
         eigenvalues: Array1<'py, Complex> = vector(py, self.0.eigenvalues.iter().copied());
         /// Derivatives of the frequencies, rad/s, ascending, shape (k,); NaN where the modes do not oscillate.

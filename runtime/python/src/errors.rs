@@ -4,7 +4,7 @@ use std::path::Path;
 
 use eigentol::Error;
 use eigentol_interpreter::{Mistakes, ReadError};
-use pyo3::exceptions::{PyException, PyLookupError, PyOSError, PyValueError};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple, PyType};
@@ -47,69 +47,58 @@ impl Mistake {
     }
 }
 
-/// The kinds of exceptions, in the order of [`Kind`].
-const KINDS: [(&str, &str); 9] = [
-    ("Error", "Any failure of this module."),
-    (
-        "DeclarationError",
-        "A text declares no mechanism. `mistakes` lists what is wrong, each with `line`, `column`, `end_line`, `end_column`, \
-          `message` and `help`; `path` is the file, or None.",
-    ),
-    (
-        "InvalidValue",
-        "A value, unit, setting or list makes no sense (also a ValueError).",
-    ),
-    ("UnknownName", "Nothing has this name (also a LookupError)."),
-    (
-        "NoEquilibrium",
-        "No equilibrium was found from the start values. `coordinates` is the last state, SI.",
-    ),
-    (
-        "NotAssembled",
-        "The constraints cannot be met together from the start values.",
-    ),
-    ("NoModes", "The modes were not found."),
-    ("NoDerivative", "A derivative does not exist at this state."),
-    (
-        "NotInRange",
-        "What was looked for is not in the range of the input.",
-    ),
-];
+/// Defines the exceptions: documentation, name, base in Python besides the first of them, attributes with their types.
+macro_rules! exceptions {
+    ($($(#[doc = $doc:literal])+ $kind:ident($base:literal $(, $attribute:literal)*);)+) => {
+        /// Which exception it is.
+        #[derive(Clone, Copy)]
+        pub(crate) enum Kind {
+            $($kind,)+
+        }
 
-/// Which exception it is.
-#[derive(Clone, Copy)]
-pub(crate) enum Kind {
-    Error,
-    Declaration,
-    InvalidValue,
-    UnknownName,
-    NoEquilibrium,
-    NotAssembled,
-    NoModes,
-    NoDerivative,
-    NotInRange,
+        /// Name, base, documentation and attributes in the order of [`Kind`].
+        const KINDS: &[(&str, &str, &str, &[&str])] =
+            &[$((stringify!($kind), $base, concat!($($doc),+), &[$($attribute),*])),+];
+    };
+}
+
+exceptions! {
+    /// Any failure of this module.
+    Error("Exception");
+    /// A text declares no mechanism. `mistakes` lists what is wrong, each with `line`, `column`, `end_line`,
+    /// `end_column`, `message` and `help`; `path` is the file, or None.
+    DeclarationError("ValueError", "mistakes: list[Mistake]", "path: PathLike[str] | None");
+    /// A value, unit, setting or list makes no sense (also a ValueError).
+    InvalidValue("ValueError");
+    /// Nothing has this name (also a LookupError).
+    UnknownName("LookupError");
+    /// No equilibrium was found from the start values. `coordinates` is the last state, SI.
+    NoEquilibrium("", "coordinates: list[float]");
+    /// The constraints cannot be met together from the start values. `coordinates` is the last state, SI.
+    NotAssembled("", "coordinates: list[float]");
+    /// The modes were not found.
+    NoModes("");
+    /// A derivative does not exist at this state.
+    NoDerivative("");
+    /// What was looked for is not in the range of the input.
+    NotInRange("");
 }
 
 static TYPES: PyOnceLock<Vec<Py<PyType>>> = PyOnceLock::new();
 
 fn types(py: Python<'_>) -> PyResult<&Vec<Py<PyType>>> {
     TYPES.get_or_try_init(py, || {
+        let builtins = py.import("builtins")?;
         let mut all: Vec<Py<PyType>> = Vec::new();
-        for (kind, (name, doc)) in KINDS.into_iter().enumerate() {
-            let bases = match all.first() {
-                None => vec![py.get_type::<PyException>()],
-                Some(own) => {
-                    let own = own.bind(py).clone();
-                    match kind {
-                        1 | 2 => vec![own, py.get_type::<PyValueError>()],
-                        3 => vec![own, py.get_type::<PyLookupError>()],
-                        _ => vec![own],
-                    }
-                }
-            };
+        for (name, base, doc, _) in KINDS {
+            let mut bases: Vec<Bound<'_, PyAny>> = Vec::new();
+            bases.extend(all.first().map(|own| own.bind(py).clone().into_any()));
+            if !base.is_empty() {
+                bases.push(builtins.getattr(*base)?);
+            }
             let own = PyDict::new(py);
             own.set_item("__module__", "eigentol")?;
-            own.set_item("__doc__", doc)?;
+            own.set_item("__doc__", doc.trim_start())?;
             let made = py.get_type::<PyType>();
             let made = made.call1((name, PyTuple::new(py, bases)?, own))?;
             all.push(made.cast_into::<PyType>()?.unbind());
@@ -210,15 +199,26 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
 
 /// A text that declares no mechanism.
 pub(crate) fn declaration(py: Python<'_>, mistakes: &Mistakes, path: Option<&Path>) -> PyErr {
-    let at = |mistake| match path {
-        Some(path) => format!("{}:{mistake}", path.display()),
-        None => format!("{mistake}"),
-    };
-    let lines: Vec<String> = mistakes.iter().map(at).collect();
-    let error = new(py, Kind::Declaration, lines.join("\n"));
-    let all: Vec<Mistake> = mistakes.iter().map(Mistake::from).collect();
+    let lines = mistakes.iter().map(ToString::to_string).collect();
+    let mistakes = mistakes.iter().map(Mistake::from).collect();
+    no_mechanism(py, lines, mistakes, path)
+}
+
+/// The exception for a text with mistakes, a line for each.
+fn no_mechanism(
+    py: Python<'_>,
+    mut lines: Vec<String>,
+    mistakes: Vec<Mistake>,
+    path: Option<&Path>,
+) -> PyErr {
+    if let Some(path) = path {
+        for line in &mut lines {
+            line.insert_str(0, &format!("{}:", path.display()));
+        }
+    }
+    let error = new(py, Kind::DeclarationError, lines.join("\n"));
     with(py, error, |exception| {
-        exception.setattr("mistakes", all)?;
+        exception.setattr("mistakes", mistakes)?;
         exception.setattr("path", path)
     })
 }
@@ -261,11 +261,6 @@ pub(crate) fn unreadable(path: &Path, source: &std::io::Error) -> PyErr {
 
 /// A URDF file that describes no robot.
 pub(crate) fn urdf(py: Python<'_>, error: &eigentol_urdf::ImportError, path: &Path) -> PyErr {
-    let each = error.mistakes.iter();
-    let lines: Vec<String> = each
-        .map(|own| format!("{}:{own}", path.display()))
-        .collect();
-    let raised = new(py, Kind::Declaration, lines.join("\n"));
     let mistake = |own: &eigentol_urdf::Mistake| Mistake {
         line: own.line as usize,
         column: own.column as usize,
@@ -274,9 +269,7 @@ pub(crate) fn urdf(py: Python<'_>, error: &eigentol_urdf::ImportError, path: &Pa
         message: own.reason.to_string(),
         help: Some(own.reason.help()),
     };
-    let all: Vec<Mistake> = error.mistakes.iter().map(mistake).collect();
-    with(py, raised, |exception| {
-        exception.setattr("mistakes", all)?;
-        exception.setattr("path", path)
-    })
+    let lines = error.mistakes.iter().map(ToString::to_string).collect();
+    let mistakes = error.mistakes.iter().map(mistake).collect();
+    no_mechanism(py, lines, mistakes, Some(path))
 }

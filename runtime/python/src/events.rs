@@ -7,7 +7,13 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Array1, vector};
 use crate::names;
-use crate::results::{attributes, family, result};
+use crate::results::{attributes, result};
+
+/// In Python `Literal["critical", "crossing", "flutter"]`.
+type EventKind = str;
+
+/// In Python `Literal["onset", "end", "pass", "touch", "to divergence", "to flutter"]`.
+type EventChange = str;
 
 result! {
     /// A value of an input at which something happens, and how tolerances move it, SI.
@@ -41,13 +47,13 @@ impl Event {
 attributes! {
     Event(self, py) {
         /// What happens: "critical", "crossing" or "flutter".
-        kind: &'static str = match self.0.event {
+        kind: &'static EventKind = match self.0.event {
             eigentol::sweep::Event::Critical => "critical",
             _ if self.line().is_some() => "crossing",
             _ => "flutter",
         };
         /// Which way: "onset", "end", "pass", "touch", "to divergence" or "to flutter".
-        change: &'static str = match self.0.change {
+        change: &'static EventChange = match self.0.change {
             Change::Onset => "onset",
             Change::End => "end",
             Change::Touch => "touch",
@@ -75,8 +81,6 @@ attributes! {
         order: Option<f64> = self.line().map(|own| own.ratio);
         /// What is added to that, rad/s.
         offset: Option<f64> = self.line().map(|own| own.offset);
-        /// Name of the input.
-        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
         /// The nominal value of the input, SI.
         value: f64 = self.0.value;
         /// Its standard deviation to first order, SI; None where it has no derivative.
@@ -89,10 +93,6 @@ attributes! {
         shares: Array1<'py> = vector(py, self.each(|own| &own.variance_shares));
         /// Why it has no derivatives: a text, or None.
         failure: Option<String> = Some(self.0.spread.as_ref().err()?.to_string());
-        /// Standard deviations that a tolerance and a band stand for.
-        sigma_level: f64 = self.0.sigma_level;
-        /// "undamped" or "general".
-        family: &'static str = family(self.0.family);
         /// Names of the variables.
         names: Vec<&str> = names::design(&self.0.description);
     }

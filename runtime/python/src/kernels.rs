@@ -6,10 +6,11 @@ use pyo3::prelude::*;
 
 use crate::arrays::{self, Array1, Array2, Array3};
 use crate::errors::raise;
+use crate::hints;
 use crate::mechanism::Mechanism;
 use crate::values::List;
 
-type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
+type Given<'a, 'py> = Option<&'a hints::Numbers<'py>>;
 
 impl Mechanism {
     fn point(&self, py: Python<'_>, [q, u, b]: [Given<'_, '_>; 3]) -> PyResult<[Vec<f64>; 3]> {
@@ -30,8 +31,8 @@ impl Mechanism {
     }
 
     /// One number for each unknown.
-    fn each(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-        List::Coordinates.read(py, self.inner.description(), Some(given))
+    fn each(&self, py: Python<'_>, given: Given<'_, '_>) -> PyResult<Vec<f64>> {
+        List::Coordinates.read(py, self.inner.description(), given)
     }
 
     /// Rejects kernel results evaluated outside their domain.
@@ -51,9 +52,7 @@ impl Mechanism {
         };
         Err(raise(py, error))
     }
-}
 
-impl Mechanism {
     fn three<'py>(&self, py: Python<'py>, q: &[f64], own: &Linear) -> PyResult<Three<'py>> {
         let all = [&own.mass, &own.damping, &own.stiffness];
         self.finite(py, q, all.into_iter().map(|own| own.as_flattened()))?;
@@ -95,7 +94,7 @@ macro_rules! kernels {
                 fn $name<'py>(
                     &$own,
                     $py: Python<'py>,
-                    $($list: &Bound<'py, PyAny>,)*
+                    $($list: Given<'_, 'py>,)*
                     $($number: f64,)?
                     q: Given<'_, 'py>,
                     inputs: Given<'_, 'py>,

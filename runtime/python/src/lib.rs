@@ -3,8 +3,10 @@
 mod allocation;
 mod arrays;
 mod clusters;
+mod common;
 mod errors;
 mod events;
+mod hints;
 mod kernels;
 mod mechanism;
 mod motion;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use eigentol::Role;
 use eigentol_interpreter::Interpreted;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::{IntoPyDict, PyDict, PyType};
 
 use crate::errors;
 use crate::names;
@@ -41,6 +41,12 @@ impl Mechanism {
     }
 }
 
+/// In Python `dict[str, float]`.
+type Nominal<'py> = Bound<'py, PyDict>;
+
+/// In Python `dict[str, str]`.
+type Units<'py> = Bound<'py, PyDict>;
+
 attributes! {
     Mechanism(self, py) {
         /// Its name.
@@ -61,26 +67,18 @@ attributes! {
         /// Names of the outputs in the order of arrays.
         outputs: Vec<&str> = names::outputs(self.inner.description());
         /// The nominal design, SI, by name.
-        nominal: PyResult<Bound<'py, PyDict>> = {
-            let all = PyDict::new(py);
-            for own in self.inner.description().design.iter() {
-                all.set_item(&*own.name, own.nominal)?;
-            }
-            Ok(all)
+        nominal: PyResult<Nominal<'py>> = {
+            let all = self.inner.description().design.iter();
+            all.map(|own| (&*own.name, own.nominal)).into_py_dict(py)
         };
         /// The declared unit of every input, design variable, unknown and output, by name: "rpm".
-        units: PyResult<Bound<'py, PyDict>> = {
-            let all = PyDict::new(py);
+        units: PyResult<Units<'py>> = {
             let of = self.inner.description();
-            for own in of.outputs.iter() {
-                all.set_item(&*own.name, &*own.unit.symbol)?;
-            }
-            for list in [List::Coordinates, List::Design, List::Inputs] {
-                for own in list.quantities(of) {
-                    all.set_item(&*own.name, &*own.unit.symbol)?;
-                }
-            }
-            Ok(all)
+            let outputs = of.outputs.iter().map(|own| (own.name.clone(), own.unit.clone()));
+            let lists = [List::Coordinates, List::Design, List::Inputs];
+            let others = lists.into_iter().flat_map(|list| list.quantities(of));
+            let all = outputs.chain(others.map(|own| (own.name, own.unit)));
+            all.map(|(name, unit)| (name.to_string(), unit.symbol.to_string())).into_py_dict(py)
         };
     }
 }

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Array1, vector};
 use crate::errors::{invalid, raise};
+use crate::hints;
 use crate::mechanism::Mechanism;
 use crate::results::attributes;
 use crate::values::{List, numbers};
@@ -75,8 +76,8 @@ impl Mechanism {
     #[pyo3(signature = (inputs=None, design=None))]
     fn motion(
         slf: &Bound<'_, Self>,
-        inputs: Option<&Bound<'_, PyAny>>,
-        design: Option<&Bound<'_, PyAny>>,
+        inputs: Option<&hints::Numbers<'_>>,
+        design: Option<&hints::Numbers<'_>>,
     ) -> PyResult<Motion> {
         let (py, of) = (slf.py(), slf.get().inner.description());
         let inputs = List::Inputs.read(py, of, inputs)?;
@@ -108,7 +109,7 @@ impl Motion {
         &self,
         py: Python<'py>,
         t: f64,
-        y: &Bound<'py, PyAny>,
+        y: &hints::ArrayLike<'py>,
     ) -> PyResult<Array1<'py>> {
         let _ = t;
         let y = numbers(y, "y")?;
@@ -124,8 +125,8 @@ impl Motion {
     fn state<'py>(
         &self,
         py: Python<'py>,
-        coordinates: Option<&Bound<'py, PyAny>>,
-        rates: Option<&Bound<'py, PyAny>>,
+        coordinates: Option<&hints::Numbers<'py>>,
+        rates: Option<&hints::Numbers<'py>>,
     ) -> PyResult<Array1<'py>> {
         let of = self.description();
         let (positions, speeds) = (self.count(Role::Position), self.count(Role::Speed));

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 use crate::errors::{Kind, new, raise};
+use crate::hints;
 use crate::results::attributes;
 use crate::settings::whole;
 use crate::spreads::MonteCarlo;
@@ -77,8 +78,8 @@ impl Study {
     fn samples_between(
         &self,
         py: Python<'_>,
-        start: &Bound<'_, PyAny>,
-        stop: &Bound<'_, PyAny>,
+        start: &hints::Count<'_>,
+        stop: &hints::Count<'_>,
     ) -> PyResult<Part> {
         let (start, stop) = (whole(start, "start")?, whole(stop, "stop")?);
         let found = self.ask_stoppably(py, |study| study.samples_between(start..stop));

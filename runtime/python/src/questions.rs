@@ -6,10 +6,11 @@ use eigentol::{Coordinate, Input};
 use eigentol_interpreter::Interpreted;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyTuple};
+use pyo3::types::{PyString, PyTuple};
 
 use crate::arrays::{Array1, optional};
 use crate::events::{Event, events};
+use crate::hints;
 use crate::response::wanted;
 use crate::results::{
     Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature, ModeCurvature,
@@ -38,6 +39,9 @@ macro_rules! questions {
 }
 
 questions! {
+    /// The state that closes the loops from the start values, before any equilibrium is looked for: which of the
+    /// assemblies it is, and how far from a dead centre. Coordinates with a start value are held.
+    assembly -> Assembly;
     /// Where the mechanism stays: equilibrium, Mhat, Chat, Khat, stability.
     equilibrium -> Equilibrium;
     /// How the equilibrium moves with inputs and design variables.
@@ -100,8 +104,8 @@ macro_rules! between {
                     &self,
                     py: Python<'_>,
                     input: &str,
-                    low: &Bound<'_, PyAny>,
-                    high: &Bound<'_, PyAny>,
+                    low: &hints::Value<'_>,
+                    high: &hints::Value<'_>,
                 ) -> PyResult<$result> {
                     let (input, low, high) = self.range(py, input, low, high)?;
                     self.ask_stoppably(py, |study| study.$question(input, low, high)).map($wrap)
@@ -132,8 +136,8 @@ impl Study {
         &self,
         py: Python<'_>,
         input: &str,
-        low: &Bound<'_, PyAny>,
-        high: &Bound<'_, PyAny>,
+        low: &hints::Value<'_>,
+        high: &hints::Value<'_>,
     ) -> PyResult<(Input<Interpreted>, f64, f64)> {
         let (place, unit) = List::Inputs.find(py, self.inner.description(), input)?;
         let (low, high) = (number(low, &unit, input)?, number(high, &unit, input)?);
@@ -145,7 +149,7 @@ impl Study {
         &self,
         py: Python<'_>,
         input: &str,
-        values: &Bound<'_, PyAny>,
+        values: &hints::ArrayLike<'_>,
         unit: Option<&str>,
     ) -> PyResult<(Input<Interpreted>, Vec<f64>)> {
         let (place, declared) = List::Inputs.find(py, self.inner.description(), input)?;
@@ -189,6 +193,9 @@ impl Study {
     }
 }
 
+/// An input, a fraction and perhaps an order. In Python `tuple[str, float] | tuple[str, float, float]`.
+type Around<'py> = Bound<'py, PyTuple>;
+
 #[pymethods]
 impl Study {
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
@@ -204,7 +211,7 @@ impl Study {
     fn equilibria(
         &self,
         py: Python<'_>,
-        bounds: Option<&Bound<'_, PyDict>>,
+        bounds: Option<&hints::Ranges<'_>>,
         starts: Option<usize>,
         seed: Option<u64>,
     ) -> PyResult<Vec<Equilibrium>> {
@@ -222,12 +229,6 @@ impl Study {
         search.seed = seed.unwrap_or(search.seed);
         let found = self.ask(py, |study| study.equilibria(&search))?;
         Ok(found.into_iter().map(Equilibrium).collect())
-    }
-
-    /// The state that closes the loops from the start values, before any equilibrium is looked for: which of the
-    /// assemblies it is, and how far from a dead centre. Coordinates with a start value are held.
-    fn assembly(&self, py: Python<'_>) -> PyResult<Assembly> {
-        self.ask(py, |study| study.assembly()).map(Assembly)
     }
 
     /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it
@@ -271,8 +272,8 @@ impl Study {
         mode: i64,
         low: Option<f64>,
         high: Option<f64>,
-        around: Option<&Bound<'_, PyTuple>>,
-        quantity: &str,
+        around: Option<&Around<'_>>,
+        quantity: &hints::Quantity,
     ) -> PyResult<ModeMargin> {
         let (mode, wanted) = (mode_number(py, mode)?, self::quantity(py, quantity)?);
         let band = match around {
@@ -315,7 +316,7 @@ impl Study {
         &self,
         py: Python<'_>,
         input: &str,
-        values: &Bound<'_, PyAny>,
+        values: &hints::ArrayLike<'_>,
         unit: Option<&str>,
     ) -> PyResult<Sweep> {
         let (input, values) = self.values(py, input, values, unit)?;
@@ -330,7 +331,7 @@ impl Study {
         &self,
         py: Python<'_>,
         input: &str,
-        values: &Bound<'_, PyAny>,
+        values: &hints::ArrayLike<'_>,
         orders: Vec<f64>,
         unit: Option<&str>,
     ) -> PyResult<Campbell> {
@@ -349,8 +350,8 @@ impl Study {
         &self,
         py: Python<'_>,
         input: &str,
-        low: &Bound<'_, PyAny>,
-        high: &Bound<'_, PyAny>,
+        low: &hints::Value<'_>,
+        high: &hints::Value<'_>,
         order: f64,
         offset: f64,
     ) -> PyResult<Vec<Event>> {

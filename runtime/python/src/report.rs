@@ -12,6 +12,12 @@ use crate::errors::raise;
 use crate::study::Study;
 use crate::values::not_finite;
 
+/// An input, its values and perhaps a unit. In Python `tuple[str, ArrayLike] | tuple[str, ArrayLike, str]`.
+type Along<'py> = Bound<'py, PyTuple>;
+
+/// In Python `Literal["Hz", "rad/s"]`.
+type FrequencyUnit = str;
+
 #[pymethods]
 impl Study {
     /// Writes a report: one HTML file with the mechanism in 3-D, its modes in motion, charts, verdicts and tables.
@@ -29,11 +35,11 @@ impl Study {
         &self,
         py: Python<'_>,
         path: PathBuf,
-        sweep: Option<&Bound<'_, PyTuple>>,
+        sweep: Option<&Along<'_>>,
         orders: Vec<f64>,
         title: Option<String>,
         mode_names: Vec<String>,
-        frequency_unit: Option<&str>,
+        frequency_unit: Option<&FrequencyUnit>,
     ) -> PyResult<()> {
         let style = Style::default().name_modes(mode_names);
         let style = match frequency_unit {

@@ -1,29 +1,26 @@
 //! Probabilities of meeting requirements.
 
-use eigentol::requirement::{self, Requirement, SamplingSettings};
+use eigentol::requirement::{self, DesignPoint, LimitReliability, SamplingSettings};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyTuple};
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::{Array1, Array2, optional, optional_rows, vector};
-use crate::names;
 use crate::response::wanted;
 use crate::results::{attributes, result};
 use crate::spreads::{counts, judgement};
 use crate::study::Study;
 use crate::values::not_finite;
+use crate::{hints, names};
 
 /// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before
 /// the ends for a forbidden band.
 fn requirement(
     study: &eigentol::Study<eigentol_interpreter::Interpreted>,
-    given: &Bound<'_, PyAny>,
-) -> PyResult<Requirement> {
-    if given
-        .cast::<PyString>()
-        .is_ok_and(|word| word.to_cow().is_ok_and(|word| word == "stable"))
-    {
-        return Ok(Requirement::Stable);
+    given: &Requirement<'_>,
+) -> PyResult<requirement::Requirement> {
+    if given.extract::<String>().is_ok_and(|word| word == "stable") {
+        return Ok(requirement::Requirement::Stable);
     }
     let (response, low, high, outside) = ends(given)?;
     for end in [low, high].into_iter().flatten() {
@@ -39,18 +36,24 @@ fn requirement(
         high.unwrap_or(f64::INFINITY),
     );
     Ok(match outside {
-        true => Requirement::Outside {
+        true => requirement::Requirement::Outside {
             response,
             low,
             high,
         },
-        false => Requirement::Within {
+        false => requirement::Requirement::Within {
             response,
             low,
             high,
         },
     })
 }
+
+/// "stable"; a response with a low and a high end; a forbidden band.
+///
+/// In Python `Literal["stable"] | tuple[tuple[Any, ...], float | None, float | None] | tuple[Literal["outside"],
+/// tuple[Any, ...], float, float]`.
+pub(crate) type Requirement<'py> = Bound<'py, PyAny>;
 
 type Ends<'py> = (Bound<'py, PyTuple>, Option<f64>, Option<f64>, bool);
 
@@ -81,7 +84,7 @@ impl Study {
     fn chances(
         &self,
         py: Python<'_>,
-        requirements: Vec<Bound<'_, PyAny>>,
+        requirements: Vec<Requirement<'_>>,
         start: Option<u64>,
         stop: Option<u64>,
     ) -> PyResult<Chances> {
@@ -105,7 +108,7 @@ macro_rules! of_requirements {
                 fn $question(
                     &self,
                     py: Python<'_>,
-                    requirements: Vec<Bound<'_, PyAny>>,
+                    requirements: Vec<Requirement<'_>>,
                 ) -> PyResult<$result> {
                     let wanted = self.requirements(&requirements)?;
                     let found =
@@ -130,7 +133,10 @@ of_requirements! {
 }
 
 impl Study {
-    pub(crate) fn requirements(&self, given: &[Bound<'_, PyAny>]) -> PyResult<Vec<Requirement>> {
+    pub(crate) fn requirements(
+        &self,
+        given: &[Requirement<'_>],
+    ) -> PyResult<Vec<requirement::Requirement>> {
         let one = |given| requirement(&self.inner, given);
         given.iter().map(one).collect()
     }
@@ -141,7 +147,10 @@ result! {
     Probabilities(requirement::Probabilities)
 }
 
-fn found_by(own: requirement::Found) -> &'static str {
+/// In Python `Literal["design point", "lines", "samples"]`.
+type FoundBy = str;
+
+fn found_by(own: requirement::Found) -> &'static FoundBy {
     match own {
         requirement::Found::DesignPoint => "design point",
         requirement::Found::Lines => "lines",
@@ -160,7 +169,7 @@ attributes! {
         /// Probabilities that a design lacks the response needed to tell, shape (k,).
         untold: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.untold));
         /// How each was found: "design point", "lines" or "samples".
-        found_by: Vec<&'static str> = self.0.each.iter().map(|own| found_by(own.by)).collect();
+        found_by: Vec<&'static FoundBy> = self.0.each.iter().map(|own| found_by(own.by)).collect();
         /// Probability of failing any requirement.
         any_failure: f64 = self.0.any.value;
         /// Its 95 % interval.
@@ -175,7 +184,7 @@ attributes! {
         /// Probability that a design lacks a response needed to tell of any.
         any_untold: f64 = self.0.any.untold;
         /// How `any_failure` was found.
-        any_found_by: &'static str = found_by(self.0.any.by);
+        any_found_by: &'static FoundBy = found_by(self.0.any.by);
         /// Number of designs that were solved for it.
         any_designs: u64 = self.0.any.designs;
         /// The samples, or None where none were drawn.
@@ -218,12 +227,8 @@ attributes! {
         any_interval: Option<(f64, f64)> = interval(&self.0.all);
         /// How many samples meet all requirements, fail one, lack the response needed to tell.
         all_counts: (usize, usize, usize) = (self.0.all.met, self.0.all.failed, self.0.all.untold);
-        /// What became of the samples, by name.
-        counts: PyResult<Bound<'py, PyDict>> = counts(py, &self.0.counts);
         /// Number of samples that were asked for.
         planned: usize = self.0.planned;
-        /// Whether any variable has a tolerance.
-        varies: bool = self.0.varies;
     }
 }
 
@@ -233,55 +238,40 @@ result! {
 }
 
 impl Reliability {
+    fn each<'py>(&self, py: Python<'py>, of: fn(&LimitReliability) -> Option<f64>) -> Array1<'py> {
+        optional(py, self.0.limits.iter().map(of))
+    }
+
     /// Numbers of the most probable design point of each limit, a row each.
     fn points<'py>(
         &self,
         py: Python<'py>,
-        of: impl Fn(&requirement::DesignPoint) -> Vec<f64>,
+        of: fn(&DesignPoint) -> Vec<f64>,
     ) -> PyResult<Array2<'py>> {
-        let first = self
-            .0
-            .limits
-            .iter()
-            .map(|own| own.design_points.as_ref().ok()?.first());
-        optional_rows(
-            py,
-            self.0.description.design.len(),
-            first.map(|own| own.map(&of)),
-        )
+        let points = self.0.limits.iter().map(|own| own.design_points.as_ref());
+        let first = points.map(|own| own.ok()?.first().map(&of));
+        optional_rows(py, self.0.description.design.len(), first)
     }
 }
 
 attributes! {
     Reliability(self, py) {
         /// Probability to first order that each limit is passed, shape (l,); NaN without a design point.
-        failure: Array1<'py> = {
-            let all = self.0.limits.iter();
-            optional(py, all.map(requirement::LimitReliability::probability))
-        };
+        failure: Array1<'py> = self.each(py, LimitReliability::probability);
         /// Reliability index of each limit, shape (l,); NaN without a design point.
-        beta: Array1<'py> = {
-            let all = self.0.limits.iter();
-            optional(py, all.map(requirement::LimitReliability::beta))
-        };
+        beta: Array1<'py> = self.each(py, LimitReliability::beta);
         /// Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
         /// where that was not done.
-        solved_anew: Array1<'py> = {
-            let judged = self.0.limits.iter().map(|own| own.judgement.judged());
-            optional(py, judged.map(|own| own.map(|own| own.probability.value)))
-        };
+        solved_anew: Array1<'py> =
+            self.each(py, |own| Some(own.judgement.judged()?.probability.value));
         /// Half-widths of their 95 % intervals, shape (l,).
-        error: Array1<'py> = {
-            let judged = self.0.limits.iter().map(|own| own.judgement.judged());
-            let half = |own: &eigentol::judge::Judged| {
-                let interval = own.interval();
-                0.5 * (interval.upper - interval.lower)
-            };
-            optional(py, judged.map(|own| own.map(half)))
-        };
+        error: Array1<'py> = self.each(py, |own| {
+            let interval = own.judgement.judged()?.interval();
+            Some(0.5 * (interval.upper - interval.lower))
+        });
         /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
         verified: Vec<bool> =
-            self.0.limits.iter().map(requirement::LimitReliability::verified).collect();
+            self.0.limits.iter().map(LimitReliability::verified).collect();
         /// Probability that any limit is passed, to first order; None where it is not known.
         any_failure: Option<f64> = self.0.system.as_ref().map(|own| own.probability.value);
         /// The limits: the position of the requirement, and the name of the response.
@@ -302,8 +292,7 @@ attributes! {
             .collect()
         };
         /// Probability to second order that each limit is passed, shape (l,); NaN without a design point.
-        second_order: Array1<'py> =
-            optional(py, self.0.limits.iter().map(requirement::LimitReliability::second_order));
+        second_order: Array1<'py> = self.each(py, LimitReliability::second_order);
         /// Names of the design variables, and after them of the inputs that have a tolerance.
         names: Vec<&str> = names::design(&self.0.description);
         /// The most probable design that fails for each limit, SI, shape (l, variables); NaN without one.
@@ -323,7 +312,7 @@ attributes! {
         };
         /// Whether no design within reach passes the limit, shape (l,).
         out_of_reach: Array1<'py, bool> =
-            vector(py, self.0.limits.iter().map(requirement::LimitReliability::out_of_reach));
+            vector(py, self.0.limits.iter().map(LimitReliability::out_of_reach));
         /// Why a limit has no design point: a text for each limit, or None.
         failures: Vec<Option<String>> =
             self.0.limits.iter()
@@ -381,7 +370,7 @@ attributes! {
         /// Number of design points about which samples were drawn.
         centres: usize = self.0.centres;
         /// What became of the samples, by name; their shares are no probabilities.
-        counts: PyResult<Bound<'py, PyDict>> = counts(py, &self.0.counts);
+        counts: PyResult<hints::Counts<'py>> = counts(py, &self.0.counts);
         /// What lines of designs say, by name; under "open" why there are none.
         judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
     }

@@ -2,21 +2,21 @@
 
 use std::sync::Arc;
 
-use eigentol::response::{Responses, Workspace};
+use eigentol::response::{self, Responses, Workspace};
 use eigentol::sweep::{Condition, Line, Range};
 use eigentol::{Equilibrium, Error, Modes, Output};
 use eigentol_interpreter::Interpreted;
-use numpy::{AllowTypeChange, PyArrayLike2, PyArrayMethods};
+use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyTuple};
 
-use crate::arrays::{or_nan, rows, vector};
+use crate::arrays::{Array1, or_nan, rows, vector};
 use crate::errors::raise;
-use crate::names;
 use crate::results::{attributes, quantity};
 use crate::study::Study;
 use crate::values::{List, mode_number, number, numbers};
+use crate::{hints, names};
 
 /// A number that a design gives: a quantity of a mode, an output, a critical value of an input. `response(x)` evaluates
 /// it.
@@ -39,7 +39,7 @@ pub(crate) struct Response {
     /// Study, kind and arguments that it was made of.
     given: (Py<Study>, String, Py<PyTuple>),
     nominal: Arc<(Equilibrium, Modes)>,
-    wanted: eigentol::response::Response,
+    wanted: response::Response,
     variables: Vec<usize>,
     text: String,
 }
@@ -50,7 +50,7 @@ pub(crate) fn wanted(
     study: &eigentol::Study<Interpreted>,
     what: &str,
     given: &Bound<'_, PyTuple>,
-) -> PyResult<eigentol::response::Response> {
+) -> PyResult<response::Response> {
     let py = given.py();
     let count = |expected: usize, list: &str| match given.len() == expected {
         true => Ok(()),
@@ -61,29 +61,21 @@ pub(crate) fn wanted(
             count(1, "the name of an output")?;
             let name = given.get_item(0)?.extract::<String>()?;
             let output = study.find_output(&name).map_err(|error| raise(py, error))?;
-            Ok(eigentol::response::Response::Output(Output::new(
-                output.index(),
-            )))
+            Ok(response::Response::Output(Output::new(output.index())))
         }
         "critical" => {
             count(3, "the name of an input, a low and a high value")?;
-            range(study, given, 0).map(eigentol::response::Response::Critical)
+            range(study, given, 0).map(response::Response::Critical)
         }
         "resonance" | "flutter" => {
-            let most = if what == "resonance" { 5 } else { 4 };
-            if given.len() != 4 && given.len() != most {
-                let list = "the number of a mode, the name of an input, a low and a high value";
-                let order = if most == 5 {
-                    ", and perhaps an order"
-                } else {
-                    ""
-                };
-                return Err(PyTypeError::new_err(format!(
-                    "\"{what}\" needs {list}{order}"
-                )));
+            let list = "the number of a mode, the name of an input, a low and a high value";
+            match (what, given.len()) {
+                (_, 4) | ("resonance", 5) => {}
+                ("resonance", _) => count(5, &format!("{list}, and perhaps an order"))?,
+                _ => count(4, list)?,
             }
             let order = given.get_item(4).map_or(Ok(1.0), |order| order.extract())?;
-            Ok(eigentol::response::Response::Crossing {
+            Ok(response::Response::Crossing {
                 mode: mode_number(py, given.get_item(0)?.extract()?)?,
                 condition: match what {
                     "resonance" => Condition::Line(Line::from(order)),
@@ -96,7 +88,7 @@ pub(crate) fn wanted(
             let quantity = quantity(py, other)?;
             count(1, "the number of a mode, from 0")?;
             let mode = mode_number(py, given.get_item(0)?.extract()?)?;
-            Ok(eigentol::response::Response::Mode { mode, quantity })
+            Ok(response::Response::Mode { mode, quantity })
         }
     }
 }
@@ -224,9 +216,9 @@ attributes! {
             own.map(|place| all[*place].to_owned()).collect()
         };
         /// Nominal values of the variables, SI, shape (variables,).
-        nominal: Bound<'py, PyAny> = {
+        nominal: Array1<'py> = {
             let design = &self.nominal.0.design;
-            vector(py, self.variables.iter().map(|place| design[*place])).into_any()
+            vector(py, self.variables.iter().map(|place| design[*place]))
         };
     }
 }
@@ -234,7 +226,11 @@ attributes! {
 #[pymethods]
 impl Response {
     /// The response at a design, or at each of several, SI.
-    fn __call__<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        x: &hints::ArrayLike<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (designs, single) = self.designs(x)?;
         let values = self.evaluate(py, &designs, |responses, room, design| {
             let found = responses.at(room, design)?;
@@ -247,7 +243,11 @@ impl Response {
     }
 
     /// Total derivatives by the variables, SI: shape (variables,) for one design, (N, variables) for several.
-    fn gradient<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn gradient<'py>(
+        &self,
+        py: Python<'py>,
+        x: &hints::ArrayLike<'py>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (designs, single) = self.designs(x)?;
         let values = self.evaluate(py, &designs, |responses, room, design| {
             let found = responses.with_gradients(room, design)?;
@@ -259,9 +259,9 @@ impl Response {
         })?;
         let all = rows(py, self.variables.len(), values)?;
         if single {
-            return Ok(all.reshape([self.variables.len()])?.into_any());
+            return Ok(all.reshape([self.variables.len()])?.to_dyn().clone());
         }
-        Ok(all.into_any())
+        Ok(all.to_dyn().clone())
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, ())> {

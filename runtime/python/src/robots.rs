@@ -24,28 +24,34 @@ pub(crate) struct Import {
     notes: Vec<String>,
 }
 
-/// The options by name.
-const OPTIONS: [&str; 9] = [
-    "base",
-    "resistance",
-    "stiffness",
-    "damping",
-    "linear_stiffness",
-    "linear_damping",
-    "file_damping",
-    "nearest_inertias",
-    "name",
+/// How a URDF file becomes a declaration.
+///
+/// In Python `keys of OPTIONS`.
+pub(crate) type UrdfOptions<'py> = Bound<'py, PyDict>;
+
+/// The options by name, with their types in Python.
+const OPTIONS: [(&str, &str); 9] = [
+    ("base", "Literal[\"fixed\", \"floating\", \"planar\"]"),
+    ("resistance", "Literal[\"springs\", \"drives\", \"none\"]"),
+    ("stiffness", "float"),
+    ("damping", "float"),
+    ("linear_stiffness", "float"),
+    ("linear_damping", "float"),
+    ("file_damping", "bool"),
+    ("nearest_inertias", "bool"),
+    ("name", "str | None"),
 ];
 
-fn options(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Options> {
+fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options> {
     let mut options = Options::default();
     let Some(given) = given else {
         return Ok(options);
     };
     for key in given.keys() {
         let key = key.extract::<String>()?;
-        if !OPTIONS.contains(&key.as_str()) {
-            let message = format!("there is no option `{key}`{}", did_you_mean(&key, OPTIONS));
+        let known = OPTIONS.iter().map(|(name, _)| *name);
+        if !known.clone().any(|name| name == key) {
+            let message = format!("there is no option `{key}`{}", did_you_mean(&key, known));
             return Err(PyTypeError::new_err(message));
         }
     }
@@ -104,7 +110,7 @@ fn options(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Option
 fn read(
     py: Python<'_>,
     path: &Path,
-    given: Option<&Bound<'_, PyDict>>,
+    given: Option<&UrdfOptions<'_>>,
 ) -> PyResult<eigentol_urdf::Import> {
     let options = options(py, given)?;
     let text = std::fs::read_to_string(path).map_err(|source| errors::unreadable(path, &source))?;
@@ -126,7 +132,7 @@ fn read(
 pub(crate) fn import_urdf(
     py: Python<'_>,
     path: PathBuf,
-    options: Option<&Bound<'_, PyDict>>,
+    options: Option<&UrdfOptions<'_>>,
 ) -> PyResult<Import> {
     let found = read(py, &path, options)?;
     let notes = found.notes.iter().map(ToString::to_string).collect();
@@ -162,7 +168,7 @@ impl Mechanism {
     fn from_urdf(
         class: &Bound<'_, PyType>,
         path: PathBuf,
-        options: Option<&Bound<'_, PyDict>>,
+        options: Option<&UrdfOptions<'_>>,
     ) -> PyResult<Self> {
         let found = read(class.py(), &path, options)?;
         Self::read(class.py(), found.declaration)

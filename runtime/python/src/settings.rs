@@ -19,98 +19,107 @@ use crate::values::{List, number, numbers, refused, word, wrong_type};
 
 type Set = fn(Study<Interpreted>, &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>>;
 
-/// The settings in the order of application: those that depend on values come after them.
-const SETTINGS: [(&str, Set); 20] = [
-    ("inputs", |study, given| {
+/// Settings of a study.
+///
+/// In Python `keys of SETTINGS`.
+pub(crate) type Settings<'py> = Bound<'py, PyDict>;
+
+/// The settings by name, with their types in Python, in the order of application: those that depend on values come after
+/// them.
+const SETTINGS: [(&str, &str, Set); 20] = [
+    ("inputs", "Mapping[str, Value]", |study, given| {
         let list = ("inputs", List::Inputs);
         values(study, given, list, |study, k, value| {
             study.input(Input::new(k), value)
         })
     }),
-    ("design", |study, given| {
+    ("design", "Mapping[str, Value]", |study, given| {
         let list = ("design", List::Design);
         values(study, given, list, |study, k, value| {
             study.design(DesignVariable::new(k), value)
         })
     }),
-    ("start", |study, given| {
+    ("start", "Mapping[str, Value]", |study, given| {
         let list = ("start", List::Coordinates);
         values(study, given, list, |study, k, value| {
             study.start(Coordinate::new(k), value)
         })
     }),
-    ("guess", |study, given| {
+    ("guess", "Mapping[str, Value]", |study, given| {
         let list = ("guess", List::Coordinates);
         values(study, given, list, |study, k, value| {
             study.guess(Coordinate::new(k), value)
         })
     }),
-    ("hold", |study, given| {
+    ("hold", "Mapping[str, Value]", |study, given| {
         let list = ("hold", List::Coordinates);
         values(study, given, list, |study, k, value| {
             study.hold(Coordinate::new(k), value)
         })
     }),
-    ("sigma_level", |study, given| {
+    ("sigma_level", "float", |study, given| {
         Ok(study.sigma_level(real(given, "sigma_level")?))
     }),
-    ("tolerances", tolerances),
-    ("measured", measured),
-    ("correlation", correlation),
-    ("policy", policy),
-    ("stay", |study, given| {
-        Ok(match given.extract::<bool>()? {
-            true => study.stay(),
-            false => study,
-        })
+    (
+        "tolerances",
+        "Mapping[str, Value | tuple[Value, Value]]",
+        tolerances,
+    ),
+    ("measured", "Mapping[str, ArrayLike]", measured),
+    ("correlation", "ArrayLike", correlation),
+    (
+        "policy",
+        "Literal[\"stable\", \"nearest\"]",
+        |study, given| {
+            let words = [("stable", Policy::Stable), ("nearest", Policy::Nearest)];
+            Ok(study.policy(chosen(given, "policy", &words)?))
+        },
+    ),
+    ("stay", "bool", |study, given| {
+        let wanted = given.extract::<bool>()?;
+        Ok(if wanted { study.stay() } else { study })
     }),
-    ("at", |study, given| {
+    ("at", "Equilibrium", |study, given| {
         let state: PyRef<'_, Equilibrium> = given.extract()?;
         let count = study.description().coordinates.len();
-        match state.0.coordinates.len() == count {
-            true => Ok(study.at(&state.0)),
-            false => Err(invalid(
-                given.py(),
-                "`at`: this equilibrium belongs to another mechanism".to_owned(),
-            )),
+        if state.0.coordinates.len() == count {
+            return Ok(study.at(&state.0));
+        }
+        let message = "`at`: this equilibrium belongs to another mechanism";
+        Err(invalid(given.py(), message.to_owned()))
+    }),
+    ("family", "Family", |study, given| {
+        let words = [("undamped", Family::Undamped), ("general", Family::General)];
+        Ok(study.family(chosen(given, "family", &words)?))
+    }),
+    ("samples", "int", |study, given| {
+        match whole(given, "samples")? {
+            0 => {
+                let message = "`samples`: at least one is needed";
+                Err(invalid(given.py(), message.to_owned()))
+            }
+            samples => Ok(study.samples(samples)),
         }
     }),
-    ("family", family),
-    ("samples", |study, given| match whole(given, "samples")? {
-        0 => Err(invalid(
-            given.py(),
-            "`samples`: at least one is needed".to_owned(),
-        )),
-        samples => Ok(study.samples(samples)),
+    ("seed", "int", |study, given| {
+        Ok(study.seed(whole(given, "seed")?))
     }),
-    ("seed", |study, given| Ok(study.seed(whole(given, "seed")?))),
-    ("stream", |study, given| {
+    ("stream", "int", |study, given| {
         Ok(study.stream(whole(given, "stream")?))
     }),
-    ("threads", |study, given| {
+    ("threads", "int", |study, given| {
         Ok(study.threads(whole(given, "threads")?))
     }),
-    ("keep_samples", |study, given| {
+    ("keep_samples", "bool", |study, given| {
         Ok(study.keep_samples(given.extract()?))
     }),
-    ("steps", |study, given| {
+    ("steps", "int", |study, given| {
         Ok(study.steps(whole(given, "steps")?))
     }),
-    ("vectors", |study, given| {
+    ("vectors", "bool", |study, given| {
         let wanted = given.extract::<bool>()?;
         Ok(if wanted { study } else { study.vectors(None) })
     }),
-];
-
-/// The settings that are dictionaries by name.
-const BY_NAME: [&str; 7] = [
-    "inputs",
-    "design",
-    "start",
-    "guess",
-    "hold",
-    "tolerances",
-    "measured",
 ];
 
 /// A study with these settings.
@@ -120,14 +129,14 @@ pub(crate) fn study(
 ) -> PyResult<Study<Interpreted>> {
     for key in settings.keys() {
         let key = key.extract::<String>()?;
-        if SETTINGS.iter().all(|(name, _)| *name != key) {
-            let near = did_you_mean(&key, SETTINGS.iter().map(|(name, _)| *name));
+        if SETTINGS.iter().all(|(name, ..)| *name != key) {
+            let near = did_you_mean(&key, SETTINGS.iter().map(|(name, ..)| *name));
             let message = format!("Study has no setting `{key}`{near}");
             return Err(PyTypeError::new_err(message));
         }
     }
     let mut study = Study::new(mechanism);
-    for (name, set) in SETTINGS {
+    for (name, _, set) in SETTINGS {
         if let Some(given) = settings.get_item(name)?.filter(|given| !given.is_none()) {
             study = set(study, &given)?;
         }
@@ -180,7 +189,7 @@ pub(crate) fn merged<'py>(
 /// A copy independent of the caller's dictionaries.
 pub(crate) fn copied<'py>(settings: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
     let all = settings.copy()?;
-    for name in BY_NAME {
+    for (name, ..) in SETTINGS {
         let own = all.get_item(name)?;
         if let Some(own) = own.as_ref().and_then(|own| own.cast::<PyDict>().ok()) {
             all.set_item(name, own.copy()?)?;
@@ -370,14 +379,11 @@ fn correlation(
     Ok(study.correlation(matrix))
 }
 
-fn policy(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
-    let words = [("stable", Policy::Stable), ("nearest", Policy::Nearest)];
-    let given = (given.py(), given.extract::<String>()?);
-    Ok(study.policy(word(given.0, "policy", &given.1, &words)?))
-}
-
-fn family(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
-    let words = [("undamped", Family::Undamped), ("general", Family::General)];
-    let given = (given.py(), given.extract::<String>()?);
-    Ok(study.family(word(given.0, "family", &given.1, &words)?))
+/// One of several words.
+fn chosen<T: Copy>(
+    given: &Bound<'_, PyAny>,
+    what: &str,
+    words: &[(&'static str, T)],
+) -> PyResult<T> {
+    word(given.py(), what, &given.extract::<String>()?, words)
 }

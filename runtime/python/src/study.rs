@@ -15,7 +15,7 @@ use crate::errors::{raise, with_note};
 use crate::mechanism::Mechanism;
 use crate::motion::Motion;
 use crate::results::attributes;
-use crate::settings;
+use crate::settings::{self, Settings};
 
 /// Interval between checks for Ctrl-C while waiting for an answer.
 const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
@@ -82,22 +82,15 @@ impl Study {
             true => settings::unset_inputs(&self.inner, self.settings.bind(py)),
             false => Vec::new(),
         };
-        match &names[..] {
-            [] => raise(py, error),
-            [name] => with_note(
-                py,
-                error,
-                &format!("the input `{name}` was given no value and counts as 0"),
-            ),
-            names => with_note(
-                py,
-                error,
-                &format!(
-                    "the inputs `{}` were given no values and count as 0",
-                    names.join("`, `")
-                ),
-            ),
-        }
+        let note = match &names[..] {
+            [] => return raise(py, error),
+            [name] => format!("the input `{name}` was given no value and counts as 0"),
+            names => {
+                let names = names.join("`, `");
+                format!("the inputs `{names}` were given no values and count as 0")
+            }
+        };
+        with_note(py, error, &note)
     }
 
     /// Runs a long analysis like [`Self::ask`]; Ctrl-C ends it and is raised.
@@ -156,7 +149,7 @@ impl Study {
 attributes! {
     Study(self, py) {
         /// The settings as given.
-        settings: PyResult<Bound<'py, PyDict>> = settings::copied(self.settings.bind(py));
+        settings: PyResult<Settings<'py>> = settings::copied(self.settings.bind(py));
         /// Values of the inputs, SI, shape (inputs,).
         inputs: Array1<'py> = vector(py, self.inner.input_values().iter().copied());
         /// Values of the design variables, SI, shape (design,).
@@ -173,10 +166,7 @@ attributes! {
 impl Study {
     #[new]
     #[pyo3(signature = (mechanism, **settings))]
-    fn new(
-        mechanism: &Bound<'_, Mechanism>,
-        settings: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Self> {
+    fn new(mechanism: &Bound<'_, Mechanism>, settings: Option<&Settings<'_>>) -> PyResult<Self> {
         let settings = match settings {
             Some(given) => settings::copied(given)?,
             None => PyDict::new(mechanism.py()),
@@ -186,7 +176,7 @@ impl Study {
 
     /// The same study with other settings. Dictionaries by name change the names in them only.
     #[pyo3(signature = (**settings))]
-    fn replace(&self, py: Python<'_>, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    fn replace(&self, py: Python<'_>, settings: Option<&Settings<'_>>) -> PyResult<Self> {
         let own = self.settings.bind(py);
         let all = match settings {
             Some(others) => settings::merged(own, others)?,

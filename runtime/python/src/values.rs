@@ -150,13 +150,14 @@ impl List {
         if list.len() == values.len() {
             Ok(list)
         } else {
-            let (kind, found, expected) = (self.plural(), list.len(), values.len());
-            let error = Error::WrongLength {
-                kind,
-                found,
-                expected,
-            };
-            Err(raise(py, error))
+            Err(raise(
+                py,
+                Error::WrongLength {
+                    kind: self.plural(),
+                    found: list.len(),
+                    expected: values.len(),
+                },
+            ))
         }
     }
 
@@ -196,17 +197,9 @@ fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
     });
     let own = list.quantities(of);
     if let Some(other) = other {
-        let message = format!(
-            "`{}` has no {} `{name}`: that is {} {}",
-            of.name,
-            list.kind(),
-            if matches!(other, List::Inputs) {
-                "an"
-            } else {
-                "a"
-            },
-            other.kind(),
-        );
+        let (mechanism, kind, other) = (&of.name, list.kind(), other.kind());
+        let article = if other == "input" { "an" } else { "a" };
+        let message = format!("`{mechanism}` has no {kind} `{name}`: that is {article} {other}");
         return new(py, Kind::UnknownName, message);
     }
     let error = Error::UnknownName {

@@ -36,6 +36,12 @@ def test_every_object_pickles(results, name):
         assert again.operating_point == own.operating_point and again.mechanism == own.mechanism
 
 
+def test_notes_are_the_sentences_of_the_text(results, study):
+    for own in with_tables(results).values():
+        assert all(f"  {note}\n" in repr(own) for note in own.notes)
+    assert study.clusters().notes == ["tolerances bring no modes together"]
+
+
 def test_functions_pickle_too(results):
     response, motion = results["Response"], results["Motion"]
     again = pickle.loads(pickle.dumps(response))

@@ -19,13 +19,6 @@ attributes! {
     }
 }
 
-#[pymethods]
-impl Branches {
-    fn __len__(&self) -> usize {
-        self.0.branches.len()
-    }
-}
-
 result! {
     /// One branch of equilibria. `k` is the number of its points, `n` that of the unknowns.
     Branch(eigentol::branches::Branch)
@@ -47,8 +40,6 @@ attributes! {
         /// The equilibrium at each point.
         equilibria: Vec<Equilibrium> =
             self.0.points.iter().map(|own| Equilibrium(own.equilibrium.clone())).collect();
-        /// Name of the input.
-        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
         /// Derivatives of the unknowns by length along the branch, shape (k, n).
         tangents: PyResult<Array2<'py>> = {
             let all = self.0.points.iter().map(|own| own.tangent.to_vec());
@@ -74,12 +65,5 @@ attributes! {
             self.0.special.iter().map(|own| (own.kind.to_string(), own.value)).collect();
         /// How it ends at either side, in words.
         ends: Vec<String> = self.0.ends.iter().map(ToString::to_string).collect();
-    }
-}
-
-#[pymethods]
-impl Branch {
-    fn __len__(&self) -> usize {
-        self.0.points.len()
     }
 }

@@ -17,10 +17,6 @@ result! {
 
 attributes! {
     Equilibrium(self, py) {
-        /// Names of the unknowns.
-        names: Vec<&str> = names::coordinates(&self.0.description);
-        /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
-        coordinates: Array1<'py> = vector(py, self.0.coordinates.clone());
         /// The inputs it belongs to, SI, shape (inputs,).
         inputs: Array1<'py> = vector(py, self.0.inputs.clone());
         /// The design variables it belongs to, SI, shape (design,).
@@ -39,11 +35,6 @@ attributes! {
         stability: String = self.0.stability.to_string();
         /// Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable.
         stable: bool = self.0.stability.holds();
-        /// Iterations spent.
-        iterations: usize = self.0.iterations;
-        /// What to know about how it was found: that it is unstable and stays at the start, what holds it in a family of steady
-        /// motions.
-        notes: Vec<String> = self.0.sentences();
         /// The unknowns that hold it in a family of steady motions, with their values, SI.
         held: BTreeMap<String, f64> = {
             let held = self.0.free.held.iter();
@@ -61,13 +52,6 @@ attributes! {
         };
         /// Estimated effect of rounding on the residual, relative to the forces in its equation.
         rounding: f64 = self.0.rounding;
-        /// Number of coordinates that the constraints leave free.
-        freedom: usize = self.0.constraints.freedom;
-        /// Number of constraints that follow from others.
-        redundant: usize = self.0.constraints.redundant;
-        /// Names of the constraints that depend on each other.
-        dependent_constraints: Vec<String> =
-            self.0.dependent_constraints().map(|own| own.to_string()).collect();
         /// Whether it is a singular configuration of the constraints.
         singular: bool = self.0.constraints.singular;
         /// The joint of three turns that is closest to its singular pose, and how far: 1 at best, 0 there. None without
@@ -99,6 +83,9 @@ attributes! {
     }
 }
 
+/// In Python `Literal["positive", "negative"]`.
+type AssemblySide = str;
+
 result! {
     /// A state that closes the loops of a mechanism, SI. `n` is the number of unknowns.
     Assembly(eigentol::equilibrium::Assembly)
@@ -106,10 +93,6 @@ result! {
 
 attributes! {
     Assembly(self, py) {
-        /// Names of the unknowns.
-        names: Vec<&str> = names::coordinates(&self.0.description);
-        /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
-        coordinates: Array1<'py> = vector(py, self.0.coordinates.clone());
         /// Which unknowns were held at their start values.
         held: Vec<bool> = self.0.held.clone();
         /// How far each unknown moved from its start value, shape (n,).
@@ -119,7 +102,7 @@ attributes! {
         /// On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the
         /// other but through a dead centre. None unless as many coordinates are held as the mechanism has degrees of
         /// freedom.
-        mode: Option<&'static str> =
+        mode: Option<&'static AssemblySide> =
             self.0.mode.map(|mode| match mode {
                 AssemblyMode::Positive => "positive",
                 AssemblyMode::Negative => "negative",
@@ -128,6 +111,15 @@ attributes! {
         margin: f64 = self.0.margin;
         /// Whether it is a dead centre or a singular configuration.
         singular: bool = self.0.singular;
+    }
+}
+
+attributes! {
+    Equilibrium, Assembly(self, py) {
+        /// Names of the unknowns.
+        names: Vec<&str> = names::coordinates(&self.0.description);
+        /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
+        coordinates: Array1<'py> = vector(py, self.0.coordinates.clone());
         /// Iterations spent.
         iterations: usize = self.0.iterations;
         /// Number of coordinates that the constraints leave free.

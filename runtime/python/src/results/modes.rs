@@ -6,15 +6,15 @@ use pyo3::prelude::*;
 
 use super::{attributes, result};
 use crate::arrays::{Array1, Array2, optional, rows, vector};
-use crate::names;
+use crate::{hints, names};
 
 result! {
-    /// The modes about an equilibrium: undamped ones ascending in frequency, general ones in `|s|`. `m` is their
+    /// The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that do not oscillate first. `m` is their
     /// number, `n` that of the unknowns.
     Modes(eigentol::Modes)
 }
 
-pub(crate) fn family(own: Family) -> &'static str {
+pub(crate) fn family(own: Family) -> &'static hints::Family {
     match own {
         Family::Undamped => "undamped",
         Family::General => "general",
@@ -71,8 +71,6 @@ attributes! {
         behaviours: Vec<String> = self.each(|mode| mode.behaviour.to_string()).collect();
         /// Whether no small disturbance grows exponentially; nothing resists a neutral motion, which counts as stable.
         stable: bool = self.0.stable();
-        /// "undamped" or "general".
-        family: &'static str = family(self.0.family);
         /// Names of the unknowns: the columns of the shapes.
         names: Vec<&str> = names::coordinates(&self.0.description);
         /// What is left of each eigenproblem, relative to its terms, shape (m,).
@@ -83,12 +81,5 @@ attributes! {
         clusters: Vec<Vec<usize>> = (0..self.0.modes.len()).map(|r| self.0.cluster_of(r)).collect();
         /// Whether undamped modes were asked for of a mechanism that is damped.
         damping_ignored: bool = self.0.damping_ignored;
-    }
-}
-
-#[pymethods]
-impl Modes {
-    fn __len__(&self) -> usize {
-        self.0.modes.len()
     }
 }

@@ -5,9 +5,10 @@ use eigentol::sensitivity::{ModeSensitivity, Slopes};
 use eigentol::{Complex, Quantity};
 use pyo3::prelude::*;
 
-use super::{attributes, family, result};
+use super::{attributes, result};
 use crate::arrays::{Array1, Array2, matrix, optional_rows, vector};
 use crate::errors::{Kind, new};
+use crate::hints;
 use crate::values::word;
 
 /// Looks up a mode quantity by name.
@@ -58,8 +59,6 @@ impl Sensitivities {
 
 attributes! {
     Sensitivities(self, py) {
-        /// "undamped" or "general".
-        family: &'static str = family(self.0.family);
         /// How the derivatives were found, in words.
         method: String = self.0.method.to_string();
         /// Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
@@ -91,7 +90,11 @@ impl Sensitivities {
     /// Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
     /// by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
     /// none.
-    fn of<'py>(&self, py: Python<'py>, name: &str) -> PyResult<(Array2<'py>, Array2<'py>)> {
+    fn of<'py>(
+        &self,
+        py: Python<'py>,
+        name: &hints::Quantity,
+    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let wanted = quantity(py, name)?;
         let (inputs, design) = self.counts();
         let by_input = |own: &ModeSensitivity| Some(own.of(wanted)?.by_input.to_vec());
@@ -106,10 +109,7 @@ impl Sensitivities {
 result! {
     /// First and second total derivatives of one mode, per SI unit. Quantities are "frequency" (rad/s),
     /// "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2).
-    ModeCurvature(eigentol::second_order::ModeCurvature), |own| {
-        let (of, mode, s) = (&own.description.name, own.mode + 1, own.s);
-        format!("First and second derivatives of mode {mode} of {of}, s = {s} 1/s")
-    }
+    ModeCurvature(eigentol::second_order::ModeCurvature)
 }
 
 impl ModeCurvature {
@@ -143,14 +143,11 @@ attributes! {
         eigenvalue: Complex = self.0.s;
         /// Whether it is one of a cluster of nearly equal eigenvalues.
         clustered: bool = self.0.first.clustered;
-        /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
-        /// zero.
-        asymmetry: f64 = self.0.asymmetry;
     }
 }
 
 attributes! {
-    ModeCurvature(self, py, quantity) {
+    ModeCurvature(self, py, quantity: hints::QuantityOrLambda) {
         /// First derivatives of a quantity by design variables, shape (design,).
         gradient: Array1<'py> = Ok(vector(py, self.first(py, quantity)?.by_design));
         /// First derivatives of a quantity by inputs, shape (inputs,).
@@ -167,11 +164,7 @@ attributes! {
 
 result! {
     /// First and second total derivatives of an output, per SI unit.
-    OutputCurvature(eigentol::second_order::OutputCurvature), |own| {
-        let of = &own.description;
-        let name = &of.outputs[own.output.index()].name;
-        format!("First and second derivatives of output {name} of {}, {} SI", of.name, own.value)
-    }
+    OutputCurvature(eigentol::second_order::OutputCurvature)
 }
 
 attributes! {
@@ -190,42 +183,28 @@ attributes! {
         by_input: PyResult<Array2<'py>> = matrix(py, &self.0.second.by_input);
         /// Second derivatives by an input and a design variable, shape (inputs, design).
         by_input_and_design: PyResult<Array2<'py>> = matrix(py, &self.0.second.by_input_and_design);
-        /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
-        /// zero.
-        asymmetry: f64 = self.0.asymmetry;
     }
 }
 
 result! {
     /// First and second total derivatives, by design variables, of a value of an input at which something happens.
-    EventCurvature(eigentol::second_order::EventCurvature), |own| {
-        let of = &own.description;
-        let name = &of.inputs[own.input.index()].name;
-        format!("First and second derivatives of critical {name} of {}, {} SI", of.name, own.value)
-    }
+    EventCurvature(eigentol::second_order::EventCurvature)
 }
 
 attributes! {
     EventCurvature(self, py) {
-        /// Name of the input.
-        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
         /// Its value, SI.
         value: f64 = self.0.value;
         /// First derivatives, shape (design,).
         gradient: Array1<'py> = vector(py, self.0.first.clone());
         /// Second derivatives, shape (design, design).
         hessian: PyResult<Array2<'py>> = matrix(py, &self.0.second);
-        /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
-        /// zero.
-        asymmetry: f64 = self.0.asymmetry;
     }
 }
 
 result! {
     /// Derivatives of the shapes of one mode, per SI unit, complex. `n` is the number of unknowns.
-    ShapeSensitivity(eigentol::shapes::ShapeSensitivity), |own| {
-        format!("Derivatives of the shapes of a mode of {}", own.description.name)
-    }
+    ShapeSensitivity(eigentol::shapes::ShapeSensitivity)
 }
 
 attributes! {

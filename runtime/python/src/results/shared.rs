@@ -2,48 +2,40 @@
 //!
 //! # Python sees what Rust sees
 //!
-//! `runtime/python` wraps each result in one class (`results/shared.rs`): arrays by getters, text by its report, tables
-//! by `runtime/tables`. Every question releases the interpreter's lock. `eigentol.pyi` states the types by hand; a test
-//! compares it with the module. The crate, and so the workspace, builds without Python (stable interface, symbols left
-//! open).
+//! `runtime/python` wraps each result in one class (`results/shared.rs`): arrays by getters; text, sentences and tables
+//! by what the result says of itself (`Answer`). Every question releases the interpreter's lock. `eigentol.pyi` is
+//! generated from this source by a test, which `UPDATE_STUB=1` lets write it. The crate, and so the workspace, builds
+//! without Python (stable interface, symbols left open).
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use eigentol::Input;
-use eigentol_compiler::base::nearest::nearest;
+use eigentol_results::numbers::number;
 use eigentol_tables::{Column, Subject, Table, Values};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{optional, vector};
 use crate::errors::{Kind, new};
+use crate::hints;
+use crate::names::did_you_mean;
 
 /// Defines a class around a result, with the text, tables and document of that result; a document restores it.
 macro_rules! result {
     ($(#[$doc:meta])* $name:ident($inner:ty)) => {
-        $crate::results::result! { $(#[$doc])* $name($inner), ToString::to_string }
-    };
-    ($(#[$doc:meta])* $name:ident($inner:ty), $text:expr) => {
         $(#[$doc])*
         #[pyclass(frozen, module = "eigentol")]
         pub(crate) struct $name(pub(crate) $inner);
 
-        impl $name {
-            fn text(&self) -> String {
-                let text: fn(&$inner) -> String = $text;
-                text(&self.0)
-            }
-        }
-
         #[pymethods]
         impl $name {
             fn __repr__(&self) -> String {
-                self.text()
+                eigentol_tables::Answer::findings(&self.0).to_string()
             }
 
             fn _repr_html_(&self) -> String {
-                $crate::results::html(&self.text(), &eigentol_tables::tables(&self.0))
+                $crate::results::html(&self.__repr__(), &eigentol_tables::Answer::tables(&self.0))
             }
 
             fn __eq__(&self, other: &Self) -> bool {
@@ -65,8 +57,8 @@ macro_rules! result {
                 &self,
                 py: Python<'py>,
                 name: Option<&str>,
-            ) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
-                $crate::results::table(py, &eigentol_tables::tables(&self.0), name)
+            ) -> PyResult<$crate::hints::Table<'py>> {
+                $crate::results::table(py, &eigentol_tables::Answer::tables(&self.0), name)
             }
 
             /// The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is
@@ -86,8 +78,15 @@ macro_rules! result {
             /// Names of the tables.
             #[getter]
             fn tables(&self) -> Vec<String> {
-                let all = eigentol_tables::tables(&self.0);
+                let all = eigentol_tables::Answer::tables(&self.0);
                 all.into_iter().map(|own| own.name).collect()
+            }
+
+            /// The sentences of its text: what to know besides the tables.
+            #[getter]
+            fn notes(&self) -> Vec<String> {
+                let found = eigentol_tables::Answer::findings(&self.0);
+                found.notes().map(str::to_owned).collect()
             }
 
             /// Name of the mechanism; None where the result is an empty list.
@@ -107,8 +106,12 @@ macro_rules! result {
 }
 pub(crate) use result;
 
-/// Attributes of a class, each with its docstring, type and value; with `quantity`, methods of the name of a quantity.
+/// Attributes of classes, each with its docstring, type and value; with `quantity`, methods of the name of a quantity.
 macro_rules! attributes {
+    ($class:ident, $($other:ident),+ ($own:ident, $py:ident) $all:tt) => {
+        $crate::results::attributes! { $class($own, $py) $all }
+        $crate::results::attributes! { $($other),+ ($own, $py) $all }
+    };
     ($class:ident($own:ident, $py:ident) {
         $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)+
     }) => {
@@ -124,7 +127,7 @@ macro_rules! attributes {
             )+
         }
     };
-    ($class:ident($own:ident, $py:ident, $quantity:ident) {
+    ($class:ident($own:ident, $py:ident, $quantity:ident: $words:ty) {
         $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)+
     }) => {
         #[pymethods]
@@ -132,7 +135,7 @@ macro_rules! attributes {
             $(
                 $(#[$doc])*
                 #[pyo3(signature = ($quantity="frequency"))]
-                fn $name<'py>(&$own, $py: Python<'py>, $quantity: &str) -> PyResult<$type> {
+                fn $name<'py>(&$own, $py: Python<'py>, $quantity: &$words) -> PyResult<$type> {
                     $value
                 }
             )+
@@ -173,7 +176,7 @@ pub(crate) fn table<'py>(
     py: Python<'py>,
     all: &[Table],
     name: Option<&str>,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<hints::Table<'py>> {
     let found = match name {
         None => all.first(),
         Some(name) => all.iter().find(|own| own.name == name),
@@ -183,8 +186,7 @@ pub(crate) fn table<'py>(
     }
     let name = name.unwrap_or_default();
     let known: Vec<&str> = all.iter().map(|own| own.name.as_str()).collect();
-    let near = nearest(name, known.iter().copied());
-    let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    let near = did_you_mean(name, known.iter().copied());
     let message = format!(
         "there is no table `{name}`: there are {}{near}",
         known.join(", ")
@@ -240,27 +242,15 @@ pub(crate) fn html(report: &str, all: &[Table]) -> String {
     text
 }
 
-/// Formats one entry, numbers with six digits.
+/// One entry, numbers with six digits.
 fn cell(column: &Column, row: usize) -> String {
     let shown = match &column.values {
-        Values::Numbers(values) => values[row].map(six_digits),
+        Values::Numbers(values) => values[row].map(number),
         Values::Whole(values) => values[row].map(|value| value.to_string()),
         Values::Texts(values) => values[row].clone(),
         Values::Flags(values) => values[row].map(|yes| if yes { "yes" } else { "no" }.to_owned()),
     };
     shown.unwrap_or_default()
-}
-
-fn six_digits(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e6).contains(&size) {
-        let before = size.log10().floor() as i32;
-        format!("{value:.*}", usize::try_from(5 - before).unwrap_or(0))
-    } else {
-        format!("{value:.5e}")
-    }
 }
 
 fn escaped(text: &str) -> String {

@@ -6,7 +6,7 @@ use eigentol::tolerance::Spread;
 use eigentol::{Complex, Error, Mode};
 use pyo3::prelude::*;
 
-use super::{Equilibrium, Modes, attributes, family, result};
+use super::{Equilibrium, Modes, attributes, result};
 use crate::arrays::{Array1, Array2, optional_rows, or_nan, rows, vector};
 use crate::events::{Event, events};
 
@@ -53,14 +53,6 @@ fn message<T>(found: &Result<T, Error>) -> Option<String> {
 
 attributes! {
     Sweep(self, py) {
-        /// Values of the input, SI, shape (k,).
-        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
-        /// Unknowns of the equilibria, shape (k, n); NaN where there is none.
-        coordinates: PyResult<Array2<'py>> = {
-            let all = self.0.points.iter().map(|own| own.equilibrium.as_ref().ok());
-            let all = all.map(|own| own.map(|own| own.coordinates.to_vec()));
-            optional_rows(py, self.0.description.coordinates.len(), all)
-        };
         /// Eigenvalues, 1/s, complex, shape (k, motions); NaN where a motion was not found.
         eigenvalues: PyResult<Array2<'py, Complex>> = self.by_label(py, NONE, |mode| Some(mode.s));
         /// Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate.
@@ -74,31 +66,9 @@ attributes! {
             self.0.critical.iter().map(|own| own.kind.to_string()).collect();
         /// Values of the input at which an oscillation begins or ceases to grow, SI.
         flutter_onsets: Array1<'py> = vector(py, self.0.flutter_onsets.iter().map(|own| own.value));
-        /// The range that was searched for these values, SI: its ends, and how close two of them may be; or None.
-        searched: Option<(f64, f64, f64)> = searched(self.0.searched.as_ref());
-        /// Stretches of it, SI, in which something may have been missed.
-        unsearched: Vec<(f64, f64)> = unsearched(self.0.searched.as_ref());
-        /// Number of values that were not reached.
-        unreached: usize = self.0.unreached;
-        /// Name of the input.
-        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
-        /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
-        failures: Vec<Option<String>> =
-            self.0.points.iter()
-                .map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect();
-        /// The equilibrium at each value, or None.
-        equilibria: Vec<Option<Equilibrium>> =
-            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
         /// The modes at each value, or None.
         modes: Vec<Option<Modes>> =
             self.0.points.iter().map(|own| own.modes.clone().ok().map(Modes)).collect();
-    }
-}
-
-#[pymethods]
-impl Sweep {
-    fn __len__(&self) -> usize {
-        self.0.points.len()
     }
 }
 
@@ -149,10 +119,8 @@ fn searched(of: Option<&Searched>) -> Option<(f64, f64, f64)> {
 fn unsearched(of: Option<&Searched>) -> Vec<(f64, f64)> {
     let unresolved = of.iter().flat_map(|own| &own.unresolved);
     let gaps = of.iter().flat_map(|own| &own.gaps);
-    let unresolved = unresolved.map(|own| (own.from, own.to));
-    unresolved
-        .chain(gaps.map(|own| (own.from, own.to)))
-        .collect()
+    let ends = unresolved.map(|own| (own.from, own.to));
+    ends.chain(gaps.map(|own| (own.from, own.to))).collect()
 }
 
 fn sigma(spread: &Option<Spread>) -> Option<f64> {
@@ -161,8 +129,6 @@ fn sigma(spread: &Option<Spread>) -> Option<f64> {
 
 attributes! {
     Campbell(self, py) {
-        /// Values of the input, SI, shape (k,).
-        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
         /// Numbers of the motions, one for each column.
         labels: Vec<usize> = self.0.labels();
         /// Eigenvalues, 1/s, complex, shape (k, motions).
@@ -203,39 +169,33 @@ attributes! {
         /// Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions).
         clustered: PyResult<Array2<'py, bool>> =
             self.by_label(py, false, |mode| Some(mode.clustered));
+        /// The lines whose crossings were searched for: multiple of the input, and offset in rad/s.
+        orders: Vec<(f64, f64)> = self.0.orders.iter().map(|own| (own.ratio, own.offset)).collect();
+    }
+}
+
+attributes! {
+    Sweep, Campbell(self, py) {
+        /// Values of the input, SI, shape (k,).
+        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
         /// Unknowns of the equilibria, shape (k, n); NaN where there is none.
         coordinates: PyResult<Array2<'py>> = {
             let all = self.0.points.iter().map(|own| own.equilibrium.as_ref().ok());
             let all = all.map(|own| own.map(|own| own.coordinates.to_vec()));
             optional_rows(py, self.0.description.coordinates.len(), all)
         };
-        /// The equilibrium at each value, or None.
-        equilibria: Vec<Option<Equilibrium>> =
-            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
         /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
         failures: Vec<Option<String>> =
             self.0.points.iter()
                 .map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect();
-        /// The lines whose crossings were searched for: multiple of the input, and offset in rad/s.
-        orders: Vec<(f64, f64)> = self.0.orders.iter().map(|own| (own.ratio, own.offset)).collect();
+        /// The equilibrium at each value, or None.
+        equilibria: Vec<Option<Equilibrium>> =
+            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
         /// The range that was searched for events, SI: its ends, and how close two of them may be; or None.
         searched: Option<(f64, f64, f64)> = searched(self.0.searched.as_ref());
         /// Stretches of it, SI, in which something may have been missed.
         unsearched: Vec<(f64, f64)> = unsearched(self.0.searched.as_ref());
         /// Number of values that were not reached.
         unreached: usize = self.0.unreached;
-        /// Name of the input.
-        input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
-        /// Standard deviations that a tolerance stands for.
-        sigma_level: f64 = self.0.sigma_level;
-        /// "undamped" or "general".
-        family: &'static str = family(self.0.family);
-    }
-}
-
-#[pymethods]
-impl Campbell {
-    fn __len__(&self) -> usize {
-        self.0.points.len()
     }
 }

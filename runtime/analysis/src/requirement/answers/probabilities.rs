@@ -107,7 +107,7 @@ fn most_probable(said: &mut Findings, of: &Reliability) {
             continue;
         };
         said.note(format!(
-            "Requirement {}: {}, most probably fails {} standard deviations from the mean, at",
+            "Requirement {}: {}, most probably fails {} standard deviations from the mean.",
             own.limit.requirement + 1,
             own.limit.text(&of.description),
             rough(nearest.beta().abs())
