@@ -72,7 +72,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-solve",
             "eigentol-statistics",
         ],
-        7_400,
+        7_700,
     ),
     (
         "runtime/analysis",
@@ -84,7 +84,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        23_200,
+        24_700,
     ),
     (
         "runtime",
@@ -140,6 +140,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-compiler",
             "eigentol-interpreter",
             "eigentol-report",
+            "eigentol-results",
             "eigentol-tables",
             "eigentol-urdf",
         ],
