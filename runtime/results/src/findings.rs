@@ -22,9 +22,15 @@ pub trait Answer {
     /// What it says: a title, tables and sentences.
     fn findings(&self) -> Findings;
 
+    /// Tables as large as a run, such as its samples, which no text shows or counts.
+    fn details(&self) -> Vec<Table> {
+        Vec::new()
+    }
+
     /// Its tables, the answer first, then details. The operating point is in the last columns of each.
     fn tables(&self) -> Vec<Table> {
         let mut tables = self.findings().into_tables();
+        tables.extend(self.details());
         if let Some(of) = self.subject() {
             for table in &mut tables {
                 table.operating_point(of.description, of.inputs, of.varied);
@@ -43,6 +49,10 @@ impl<A: Answer + ?Sized> Answer for &A {
 
     fn findings(&self) -> Findings {
         (**self).findings()
+    }
+
+    fn details(&self) -> Vec<Table> {
+        (**self).details()
     }
 }
 

@@ -6,6 +6,8 @@ use eigentol::requirement::Requirement;
 use eigentol::response::Response;
 use eigentol::{Equilibrium, FirstOrder, InDeclaredUnit, Modes, Quantity, Study, mechanism};
 use eigentol_tables::{Answer, Error, Values, json};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::common::Disk;
@@ -125,7 +127,7 @@ fn other_documents_are_refused() {
 }
 
 /// Each list of the result in turn loses its last entry or has it doubled: refused before anything is built from it.
-fn lists_of_other_lengths_are_refused<A: Answer>(answer: &A) {
+fn lists_of_other_lengths_are_refused<A: Answer + Serialize + DeserializeOwned>(answer: &A) {
     let text = json::to_string(answer).expect("text");
     let whole: Value = serde_json::from_str(&text).expect("JSON");
     assert!(json::read::<A>(text.as_bytes()).is_ok(), "{}", A::KIND);

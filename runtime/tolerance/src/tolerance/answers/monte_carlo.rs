@@ -1,13 +1,13 @@
 use eigentol_results::numbers::{given, number, or_dash, rough, short};
 use eigentol_results::relevance::{NOTHING_VARIES, names, unless_rounding};
 use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Grid, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, Grid, Subject, Table, displayed};
 use eigentol_statistics::reliability::sampling::wilson;
 
 use super::samples::{origin, samples_columns};
 use super::statistics::{outcome_rows, statistics};
 use crate::modes::{Family, undamped};
-use crate::tolerance::{MonteCarlo, Statistics};
+use crate::tolerance::{MonteCarlo, Sample, Statistics};
 
 /// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`: a row for each sample, if they
 /// were kept. All include the seed and stream of the random numbers, if below 2^63.
@@ -27,7 +27,6 @@ impl Answer for MonteCarlo {
         ));
         self.modes_table(&mut said);
         self.outcomes_table(&mut said);
-        self.samples_table(&mut said);
         if !self.varies {
             said.note(NOTHING_VARIES);
         }
@@ -35,6 +34,10 @@ impl Answer for MonteCarlo {
         undamped(&mut said, self.family, &self.description);
         self.remarks(&mut said);
         said
+    }
+
+    fn details(&self) -> Vec<Table> {
+        self.all.iter().map(|all| self.samples_table(all)).collect()
     }
 }
 
@@ -128,12 +131,11 @@ impl MonteCarlo {
         said.columns(table);
     }
 
-    fn samples_table(&self, said: &mut Findings) {
-        let Some(all) = &self.all else { return };
+    fn samples_table(&self, all: &[Sample]) -> Table {
         let rows: Vec<_> = all.iter().enumerate().collect();
         let mut table = samples_columns(&self.description, self.modes.len(), &rows);
         origin(&mut table, self);
-        said.columns(table);
+        table.finish().0
     }
 
     /// What one has to know to read the numbers.
