@@ -224,9 +224,14 @@ fn modes_are_sorted_as_their_numbers_say() {
              force dy: damper(on: y, damping: {damping} N*s/m); }}"
         );
         let out = declared(&format!("damped_{damping}"), &text, &["modes"]);
-        let rows = out.lines().skip(2).map(|row| row.split_whitespace().nth(1));
-        rows.map(|cell| cell.and_then(|cell| cell.parse().ok()).unwrap_or(0.0))
-            .collect()
+        let cells = |row: &str| {
+            row.split_whitespace()
+                .map(str::to_owned)
+                .collect::<Vec<_>>()
+        };
+        let rows = out.lines().skip(2).map(cells);
+        let numbered = rows.take_while(|row| row.first().is_some_and(|cell| cell.len() == 1));
+        numbered.map(|row| row[1].parse().unwrap_or(0.0)).collect()
     };
     let damped = |damping: f64| (103_000.0 - 0.25 * damping * damping).sqrt();
     let close = |found: &[f64], expected: &[f64]| {

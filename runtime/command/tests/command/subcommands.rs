@@ -178,8 +178,8 @@ fn campbell() {
     let weave = ["whipple_bicycle.mechanism", "--sweep", "v=2..8m/s"];
     let text = answer(&[&["campbell"], &weave[..]].concat());
     for part in [
-        "end of flutter of mode 2 (forward)",
-        "forward, then backward  grows (flutter), then decays",
+        "end of flutter of mode 3 (forward)",
+        "forward, then backward  flutter, then damped",
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
