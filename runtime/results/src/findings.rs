@@ -225,3 +225,52 @@ macro_rules! displayed {
         )+
     };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Findings;
+    use crate::columns::Columns;
+    use crate::numbers::rough;
+
+    fn said() -> Findings {
+        let mut said = Findings::titled("Rod: modes".to_owned());
+        let mut table = Columns::new("modes", &[2.5, 7.0]);
+        table.number("square", "rad^2/s^2", &|omega| Some(omega * omega));
+        said.columns(table);
+        said.note("Damping is ignored.");
+        said
+    }
+
+    #[test]
+    fn a_table_without_columns_in_the_text_is_data_alone() {
+        assert_eq!(said().to_string(), "Rod: modes\n  Damping is ignored.\n");
+        let notes: Vec<String> = said().notes().map(str::to_owned).collect();
+        assert_eq!(notes, ["Damping is ignored."]);
+        assert_eq!(said().into_tables()[0].rows(), 2);
+    }
+
+    #[test]
+    fn a_quotation_has_no_data_and_what_is_joined_has() {
+        let (mut quoted, mut joined) = (Findings::default(), Findings::default());
+        quoted.quote(said());
+        joined.join(said());
+        assert_eq!(quoted.to_string(), joined.to_string());
+        assert!(quoted.into_tables().is_empty());
+        assert_eq!(joined.into_tables().len(), 1);
+    }
+
+    #[test]
+    fn only_the_rows_of_the_text_are_left_out() {
+        let mut table = Columns::new("modes", &[2.5, 7.0, 9.0]);
+        table.show_rows(vec![0, 2]);
+        table.whole("place", &|omega| Some(*omega as usize)).shown();
+        let omega = table.number("frequency", "rad/s", &|omega| Some(*omega));
+        omega.digits(rough).headed("omega");
+        let (data, text) = table.finish();
+        assert_eq!(data.rows(), 3);
+        assert_eq!(
+            text.to_string(),
+            "  place  omega\n  2      2.500\n  9      9.000\n"
+        );
+    }
+}

@@ -187,7 +187,7 @@ fn a_study_of_kernels_alone_answers() {
             }}"
         );
         let study = Study::new(Interpreted::from_text(&text).expect("kernels"));
-        let answer = format!("{:?}", study.modes());
+        let answer = format!("{:?} {:?}", study.equilibrium(), study.modes());
         assert!(answer.contains(expected), "{more}: {answer}");
     }
 }
