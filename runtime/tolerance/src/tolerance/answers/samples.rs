@@ -10,27 +10,6 @@ use crate::tolerance::{MonteCarlo, Sample};
 ///
 /// `first` is the number of the first sample, counted from 0, so that parts of a run can be written one after the
 /// other: all non-empty parts have the same columns.
-///
-/// ```
-/// # use eigentol::{Study, mechanism};
-/// # mechanism! {
-/// #     mechanism Pendulum {
-/// #         design l = 2 m +/- 1 %;
-/// #         gravity 9.81 m/s^2 along -z;
-/// #         body bar: rod(mass: 3 kg, length: l, along: -z);
-/// #         joint theta: revolute(y) from ground to bar;
-/// #     }
-/// # }
-/// use eigentol::tolerance::samples_table;
-///
-/// let study = Study::new(Pendulum).samples(5).keep_samples(true);
-/// let run = study.monte_carlo()?;
-/// let samples = run.all.expect("samples were kept");
-/// let table = samples_table(&run.description, 0, &samples);
-/// assert_eq!(table.rows(), 5);
-/// assert_eq!(table.column("l").expect("a design variable").unit, "m");
-/// # Ok::<(), eigentol::Error>(())
-/// ```
 #[must_use]
 pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table {
     let numbered = samples.iter().enumerate();
