@@ -19,7 +19,7 @@ pub enum Note {
         distance: f64,
     },
     /// It is one of a family of steady motions with this number of parameters;
-    /// [`FreeDirections::held`](field@FreeDirections::held) says what holds it, in derivatives too.
+    /// [`FreeDirections::held`](field@crate::free::FreeDirections::held) says what holds it, in derivatives too.
     Member {
         /// Number of parameters of the family.
         dimension: usize,
