@@ -39,13 +39,13 @@
 //!
 //! The feature `serde` writes results in SI, in the words of their types, and reads the same bits back;
 //! `runtime/tables` makes documents of them that add names, units, sentences and tables. A new result derives serde's
-//! traits, uses `serial::exact` for numbers that may be infinite, and implements [`Answer`]; `tests/tests/serial.rs` finds any type that
-//! cannot be written.
+//! traits, uses `serial::exact` for numbers that may be infinite, and implements [`Answer`]; `tests/tests/serial.rs`
+//! finds any type that cannot be written.
 //!
-//! # Documents agree with themselves
+//! # List lengths are hashed
 //!
-//! Reports index one list of a result by another. A document therefore carries a number made from the lengths of all
-//! its lists, and a document whose lists are divided differently is refused when it is read.
+//! A document stores a hash of its list lengths. Reading fails if the lists no longer match, because reports use one
+//! list to index another.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};

@@ -17,7 +17,7 @@ use crate::error::NotFound;
 use crate::modes::{Behaviour, Family, solve_modes};
 
 const MAX_ITERATIONS: usize = 30;
-/// A direction whose input component is smaller than this is the critical vector's.
+/// With an input component below this, a tangent counts as parallel to the critical vector.
 const STATIONARY: f64 = 1e-6;
 /// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7 of each
 /// other.

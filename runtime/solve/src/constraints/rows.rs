@@ -10,7 +10,7 @@ use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest};
 /// Relative remainder below which a row counts as explained by others. Rows of compiled constraints carry rounding of
 /// about 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this are of no use as two.
 const DEPENDENT: f64 = 1e-10;
-/// The counterpart of [`DEPENDENT`] for rows that may become dependent nearby.
+/// Rows closer to dependent than this may lose rank at a neighbouring configuration.
 const NEARLY: f64 = 1e-2;
 /// A row smaller than the largest one by this factor is zero up to rounding.
 const VANISHING: f64 = 1e-13;

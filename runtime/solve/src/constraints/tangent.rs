@@ -12,8 +12,8 @@
 //! Where constraint rows are dependent, the reactions along the dependency are free. Where `Khat` enters the runtime, a
 //! term for just these directions makes it regular and changes nothing else, because constraints that agree in a
 //! neighbourhood have no curvature along the dependency. Where they have curvature, the configuration is singular and
-//! is reported as such. The gauge yields as little to multipliers as the largest stiffness yields to forces: otherwise
-//! the rounding of its directions opens gaps under large reactions.
+//! is reported as such. The gauge is as stiff as the stiffest part of the mechanism: if it were softer, rounding
+//! errors in its directions would open constraint gaps when reactions are large.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"

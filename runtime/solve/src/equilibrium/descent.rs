@@ -11,9 +11,9 @@
 //! curvature and leaves saddles along the unstable mode, so it cannot end on an unstable equilibrium unnoticed. If it
 //! finds no stable one it returns the nearest, whose stability says what it is. A saddle that gyroscopic forces hold (a
 //! sleeping top) is kept when the search starts near it. Without a potential there is no descent, and the nearest
-//! equilibrium is the answer. Following the motion from a diverging one to where it comes to rest (pseudo-transient
-//! continuation) was tried: it finds the speeds at which drag holds carts that pull away, and lets a bicycle fall over
-//! that is to be studied upright.
+//! equilibrium is the answer. Following the diverging motion in time to where it comes to rest (pseudo-transient
+//! continuation) was tried: it finds the terminal speed of an accelerating cart, but it lets an upright bicycle fall over,
+//! and upright is the state people want to study.
 
 use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{
