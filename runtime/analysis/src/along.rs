@@ -1,8 +1,9 @@
 //! What the results along an input have in common: the varied input, the unknowns that move, critical vectors.
 
-use eigentol_results::numbers::{as_written, heading, in_unit, number, rough, with_unit};
+use eigentol_results::numbers::{as_written, counted, heading, in_unit, number, rough, with_unit};
 use eigentol_results::relevance::{largest, names, of_its_kind, unless_rounding};
-use eigentol_results::{Columns, Findings};
+use eigentol_results::title::{title, title_along};
+use eigentol_results::{Columns, Findings, Listed};
 
 use crate::{Description, Equilibrium, Input, Role};
 
@@ -56,6 +57,26 @@ pub(crate) fn not_reached(said: &mut Findings, unreached: usize) {
             "Not complete: {unreached} of the values were not reached."
         ));
     }
+}
+
+/// What several say together: their number and their table.
+pub(crate) fn together<T: Listed, R>(
+    all: &[T],
+    table: Option<Columns<'_, R>>,
+    one: &str,
+) -> Findings {
+    let of = all.first().and_then(Listed::subject);
+    let (Some(of), Some(table)) = (of, table) else {
+        return Findings::titled(format!("no {one}s"));
+    };
+    let title = match of.varied {
+        Some(input) => title_along(of.description, of.inputs, input),
+        None => title(of.description, of.inputs),
+    };
+    let count = counted(all.len(), one);
+    let mut said = Findings::titled(format!("{title}: {count}"));
+    said.columns(table);
+    said
 }
 
 /// The unknowns that are nonzero somewhere, which the text shows.

@@ -179,6 +179,25 @@ fn second_derivatives_of_outputs_and_critical_values() {
     close(number(table, "speed", 0), 0.75e-6 * speed);
 }
 
+/// Hanging, the bar swings at `omega^2 = 3 g / (2 l) - Omega^2`: it resonates with the shaft at `Omega^2 = 3 g / (4 l)`.
+#[test]
+fn lists_say_how_many_they_are_and_what_each_is() {
+    let [low, high] = [10.0, 30.0].map(InDeclaredUnit);
+    let crossings = study().crossings(RotatingBar::speed, low, high, 1.0);
+    let crossings = crossings.expect("a resonance");
+    let text = crossings.findings().to_string();
+    assert!(text.starts_with("RotatingBar: 1 crossing\n"), "{text}");
+    assert!(text.contains("frequency 1 is 1 times speed"), "{text}");
+    let speed = (0.75_f64 * 9.81).sqrt() * 60.0 / std::f64::consts::TAU;
+    assert!(text.contains(&format!("{speed:.4}")), "{text}");
+    let table = &crossings.tables()[0];
+    close(number(table, "speed", 0), speed);
+    assert!(table.column("what happens").is_none());
+    let none = crossings[..0].findings();
+    assert_eq!(none.to_string(), "no crossings\n");
+    assert!(none.into_tables().is_empty() && crossings[..0].tables().is_empty());
+}
+
 #[test]
 fn a_skewness_has_no_unit() {
     let study = study().samples(50);

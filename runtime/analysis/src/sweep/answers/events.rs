@@ -1,14 +1,12 @@
 use std::slice;
 
-use eigentol_results::numbers::{
-    counted, given, in_unit, number, per, percent, rough, rough_in, with_unit,
-};
+use eigentol_results::numbers::{given, in_unit, number, per, percent, rough, rough_in, with_unit};
 use eigentol_results::relevance::{BELOW, names, relevant};
 use eigentol_results::shares::mostly;
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 
-use crate::along::{name_of, place, varied};
+use crate::along::{name_of, place, together, varied};
 use crate::modes::undamped;
 use crate::sweep::{Change, Condition, Event, EventTolerance};
 use crate::tolerance::Spread;
@@ -44,14 +42,10 @@ impl Listed for EventTolerance {
 
     fn findings(all: &[Self]) -> Findings {
         let rows: Vec<&Self> = all.iter().collect();
-        let (Some(one), Some(table)) = (all.first(), event_columns("events", &rows)) else {
-            return Findings::titled("no events".to_owned());
-        };
-        let title = title_along(&one.description, &one.inputs, one.input);
-        let count = counted(all.len(), "event");
-        let mut said = Findings::titled(format!("{title}: {count}"));
-        said.columns(table);
-        undamped(&mut said, one.family, &one.description);
+        let mut said = together(all, event_columns("events", &rows), "event");
+        if let Some(one) = all.first() {
+            undamped(&mut said, one.family, &one.description);
+        }
         said
     }
 }

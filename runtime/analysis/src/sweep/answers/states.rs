@@ -1,11 +1,11 @@
 use std::slice;
 
-use eigentol_results::numbers::{counted, number};
+use eigentol_results::numbers::number;
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 
 use super::events::{meeting, meetings};
-use crate::along::{critical_vectors, name_of, place, varied};
+use crate::along::{critical_vectors, name_of, place, together, varied};
 use crate::sweep::{CriticalState, Crossing};
 
 /// `critical states`: one row.
@@ -40,15 +40,7 @@ impl Listed for CriticalState {
     }
 
     fn findings(all: &[Self]) -> Findings {
-        let (Some(one), Some(table)) = (all.first(), critical_columns(all)) else {
-            return Findings::titled("no critical states".to_owned());
-        };
-        let at = &one.equilibrium;
-        let title = title_along(&at.description, &at.inputs, one.input);
-        let count = counted(all.len(), "critical state");
-        let mut said = Findings::titled(format!("{title}: {count}"));
-        said.columns(table);
-        said
+        together(all, critical_columns(all), "critical state")
     }
 }
 
@@ -85,15 +77,7 @@ impl Listed for Crossing {
     }
 
     fn findings(all: &[Self]) -> Findings {
-        let (Some(one), Some(table)) = (all.first(), crossing_columns(all)) else {
-            return Findings::titled("no crossings".to_owned());
-        };
-        let at = &one.equilibrium;
-        let title = title_along(&at.description, &at.inputs, one.input);
-        let count = counted(all.len(), "crossing");
-        let mut said = Findings::titled(format!("{title}: {count}"));
-        said.columns(table);
-        said
+        together(all, crossing_columns(all), "crossing")
     }
 }
 
