@@ -213,40 +213,45 @@ fn ends_of_branches_have_the_names_of_their_values() {
     }
 }
 
-/// Modes are numbered as their frequencies say, whatever their damping; a motion without one comes first.
+/// Modes are numbered as their frequencies say, whatever their damping; motions without one come first. Equal frequencies
+/// are in the order of `|s|`.
 #[test]
 fn modes_are_sorted_as_their_numbers_say() {
-    let frequencies = |damping: f64| -> Vec<f64> {
+    // Frequency and growth of each mode of two oscillators, of which the second is damped.
+    let modes = |damping: f64, stiffness: f64| -> Vec<[f64; 2]> {
         let text = format!(
             "mechanism Damped {{ body p: point(mass: 1 kg); body q: point(mass: 1 kg);
              joint x: prismatic(x) from ground to p; joint y: prismatic(x) from ground to q;
-             force kx: spring(on: x, stiffness: 101633 N/m); force ky: spring(on: y, stiffness: 103000 N/m);
+             force kx: spring(on: x, stiffness: 101633 N/m); force ky: spring(on: y, stiffness: {stiffness} N/m);
              force dy: damper(on: y, damping: {damping} N*s/m); }}"
         );
-        let out = declared(&format!("damped_{damping}"), &text, &["modes"]);
-        let cells = |row: &str| {
-            row.split_whitespace()
-                .map(str::to_owned)
-                .collect::<Vec<_>>()
-        };
+        let out = declared(&format!("damped_{damping}_{stiffness}"), &text, &["modes"]);
+        let cells =
+            |row: &str| -> Vec<String> { row.split_whitespace().map(str::to_owned).collect() };
         let rows = out.lines().skip(2).map(cells);
         let numbered = rows.take_while(|row| row.first().is_some_and(|cell| cell.len() == 1));
-        numbered.map(|row| row[1].parse().unwrap_or(0.0)).collect()
+        let number = |cell: &String| cell.parse().unwrap_or(0.0);
+        numbered
+            .map(|row| [number(&row[1]), number(&row[3])])
+            .collect()
     };
-    let damped = |damping: f64| (103_000.0 - 0.25 * damping * damping).sqrt();
-    let close = |found: &[f64], expected: &[f64]| {
+    let close = |found: Vec<[f64; 2]>, expected: &[[f64; 2]]| {
         assert_eq!(found.len(), expected.len(), "{found:?}");
-        for (found, expected) in found.iter().zip(expected) {
-            assert!(
-                (found - expected).abs() < 1e-5 * 318.8,
-                "{found} {expected}"
-            );
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            let error = (found - expected).abs();
+            assert!(error <= 1e-3 * expected.abs(), "{found} {expected}");
         }
     };
-    let other = 101_633_f64.sqrt();
-    close(&frequencies(1.0), &[other, damped(1.0)]);
-    close(&frequencies(90.0), &[damped(90.0), other]);
-    close(&frequencies(700.0), &[0.0, 0.0, other]);
+    let undamped = [101_633_f64.sqrt(), 0.0];
+    let damped = |c: f64, k: f64| [(k - 0.25 * c * c).sqrt(), -0.5 * c];
+    close(modes(1.0, 103_000.0), &[undamped, damped(1.0, 103_000.0)]);
+    close(modes(90.0, 103_000.0), &[damped(90.0, 103_000.0), undamped]);
+    close(modes(90.0, 103_658.0), &[undamped, damped(90.0, 103_658.0)]);
+    let root = (350.0_f64.powi(2) - 103_000.0).sqrt();
+    close(
+        modes(700.0, 103_000.0),
+        &[[0.0, root - 350.0], [0.0, -root - 350.0], undamped],
+    );
 }
 
 /// The standard normal distribution, by Simpson's rule.
