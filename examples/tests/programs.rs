@@ -5,6 +5,9 @@
 use std::error::Error;
 use std::io::Write;
 
+#[path = "../first/main.rs"]
+#[allow(dead_code, unreachable_pub)]
+mod first;
 #[path = "programs/jeffcott.rs"]
 mod jeffcott;
 #[path = "../jeffcott_rotor.rs"]

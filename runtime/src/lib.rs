@@ -88,7 +88,7 @@ pub use eigentol_macros::mechanism;
 #[cfg(feature = "std")]
 mod study;
 
-#[cfg(feature = "std")]
+#[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
     allocation, branches, campbell, campbell::Campbell, clusters, judge, motion, picture,
@@ -126,6 +126,6 @@ pub use num_complex::Complex64 as Complex;
 pub use study::{InDeclaredUnit, Parameter, Study, Value};
 
 /// The example of the README, compiled and run.
-#[cfg(all(doctest, feature = "std"))]
+#[cfg(all(doctest, feature = "analysis"))]
 #[doc = include_str!("../../README.md")]
 struct Readme;

@@ -1,6 +1,6 @@
 //! The bars compared with the closed form of one, with samples, and with the paper.
 
-use super::{near, printed, shows};
+use super::{first, near, printed, shows};
 use super::{rotating_double_pendulum, rotating_pendulum};
 use rotating_double_pendulum::{IndependentBars, RotatingDoublePendulum};
 use rotating_pendulum::RotatingPendulum;
@@ -18,6 +18,17 @@ fn the_programs_print_the_speeds_and_ratios_of_the_paper_beside_their_own() {
         &double,
         &["IndependentBars", "share of m2", "one by one", "in vectors"],
     );
+}
+
+/// At 5 rad/s the frequency follows from the closed form, with its slope by the length.
+#[test]
+fn the_first_page_prints_frequency_and_spread() {
+    let page = printed(first::run);
+    let (square, cosine) = (25.0, W / 25.0);
+    let frequency = f64::sqrt(square - W * cosine);
+    let sigma = W * cosine / frequency * 0.01;
+    shows(&page, &[&format!("{frequency:.5}"), &format!("{sigma:.5}")]);
+    shows(&page, &["3000 stable", "1179 in the paper"]);
 }
 
 #[test]

@@ -4,19 +4,12 @@ use core::ops::Range;
 
 use super::Study;
 use super::deviating::{Table, Toleranced};
-use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Equilibria, Search};
-use crate::kernels::{
-    BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
-};
+use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{self, Whirls};
-use crate::picture::{self, ModePictures, Scene};
-use crate::second_order::{self, Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
-use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
-use crate::shapes::{self, ShapeSensitivity};
-use crate::summary::{self, BUDGET, Summary};
+use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities};
 use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling};
-use crate::{Coordinate, Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Output, Sensitivities};
+use crate::{Coordinate, Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
 impl<M: Kernels> Study<M> {
     /// Finds the dynamic equilibrium ([`equilibrium::equilibrium`]).
@@ -180,178 +173,8 @@ impl<M: Kernels> Study<M> {
     }
 
     /// The equilibrium and its modes.
-    fn solved(&self) -> Result<(&Equilibrium, &Modes), Error> {
+    pub(super) fn solved(&self) -> Result<(&Equilibrium, &Modes), Error> {
         self.settings.solved(&self.mechanism)
-    }
-}
-
-impl<M: PictureKernels> Study<M> {
-    /// The visible scene at the equilibrium: poses and shapes of the bodies ([`picture::scene`]).
-    #[doc = include_str!("example.txt")]
-    /// let scene = study.picture()?;
-    /// println!("{}: {:?}", scene.bodies[1].name, scene.bodies[1].pose);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::equilibrium`].
-    pub fn picture(&self) -> Result<Scene, Error> {
-        let Equilibrium {
-            coordinates,
-            inputs,
-            design,
-            ..
-        } = self.settings.equilibrium(&self.mechanism)?;
-        picture::scene(&self.mechanism, coordinates, inputs, design)
-    }
-
-    /// Poses of all bodies over one period of a mode (counted from 0), at `phases` evenly spaced phases.
-    ///
-    /// The largest displacement to either side is the fraction `amplitude` of the size of the mechanism
-    /// ([`picture::mode_pictures`]).
-    #[doc = include_str!("example.txt")]
-    /// let swing = study.mode_pictures(0, 24, 0.1)?;
-    /// println!("{:?}", swing.frames[6][1].position);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::modes`]; [`Error::NoSuchMode`], [`Error::Setting`].
-    pub fn mode_pictures(
-        &self,
-        mode: usize,
-        phases: usize,
-        amplitude: f64,
-    ) -> Result<ModePictures, Error> {
-        let (state, modes) = self.solved()?;
-        picture::mode_pictures(&self.mechanism, state, modes, mode, phases, amplitude)
-    }
-}
-
-impl<M: DirectionalKernels> Study<M> {
-    /// Derivatives of the eigenvalue of one mode (counted from 0), and of all eigenvalues equal to it, along a
-    /// direction in the space of inputs and design variables
-    /// ([`directional_derivatives`](crate::clusters::directional_derivatives)).
-    #[doc = include_str!("example.txt")]
-    /// let (inputs, design) = ([1.0], [0.0, 0.0]);
-    /// let slopes = study.directional_derivatives(0, (&inputs, &design))?;
-    /// println!("{:?} rad/s per rad/s", slopes.frequencies);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::sensitivities`]; [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`].
-    pub fn directional_derivatives(
-        &self,
-        mode: usize,
-        direction: (&[f64], &[f64]),
-    ) -> Result<DirectionalDerivatives, Error> {
-        let (state, modes) = self.solved()?;
-        clusters::directional_derivatives(&self.mechanism, state, modes, mode, direction)
-    }
-
-    /// Derivatives of the mode shapes of one mode, counted from 0
-    /// ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
-    #[doc = include_str!("example.txt")]
-    /// let slopes = study.shape_sensitivity(0)?;
-    /// println!("{}", slopes.right_by_design[Pendulum::l.index()][Pendulum::theta.index()]);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
-    pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
-        let (state, modes) = self.solved()?;
-        shapes::shape_sensitivity(&self.mechanism, state, modes, mode)
-    }
-
-    /// Finds the clusters of modes that mix within the tolerances, and their spread
-    /// ([`clusters`](crate::clusters::clusters)).
-    #[doc = include_str!("example.txt")]
-    /// // One mode has no other to mix with.
-    /// assert!(study.clusters()?.is_empty());
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::sensitivities`] and [`Study::tolerances`].
-    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        let own = Toleranced::<dyn DirectionalKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        clusters::clusters(own.kernels(), state, modes, own.tolerances)
-    }
-}
-
-impl<M: CurvatureKernels> Study<M> {
-    /// First and second derivatives of one mode, counted from 0
-    /// ([`mode_curvature`](crate::second_order::mode_curvature)).
-    #[doc = include_str!("example.txt")]
-    /// let second = study.mode_curvature(0)?.lambda.by_design;
-    /// let l = Pendulum::l.index();
-    /// println!("{} 1/s^2 per square metre", second[l][l]);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
-    pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
-        let (state, modes) = self.solved()?;
-        second_order::mode_curvature(&self.mechanism, state, modes, mode)
-    }
-
-    /// First and second derivatives of one output ([`output_curvature`](crate::second_order::output_curvature)).
-    #[doc = include_str!("example.txt")]
-    /// let angle = study.output_curvature(Pendulum::angle)?;
-    /// // cos(angle) = 3 g / (2 omega^2 l) whatever the mass.
-    /// let m = Pendulum::m.index();
-    /// assert!(angle.second.by_design[m][m].abs() < 1e-12);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::outputs`]; [`Error::NoSensitivity`](crate::Error::NoSensitivity) where the output is not smooth.
-    pub fn output_curvature(&self, output: Output<M>) -> Result<OutputCurvature, Error> {
-        let state = self.settings.regular(&self.mechanism)?;
-        second_order::output_curvature(&self.mechanism, state, output.any())
-    }
-
-    /// Second-order spread of every mode ([`second_order`](crate::second_order::second_order)).
-    #[doc = include_str!("example.txt")]
-    /// println!("{}", study.second_order()?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
-    pub fn second_order(&self) -> Result<SecondOrder, Error> {
-        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        let (kernels, tolerances) = (own.kernels(), own.tolerances);
-        Ok(second_order::second_order(
-            kernels, state, modes, tolerances,
-        ))
-    }
-
-    /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
-    /// ([`mode_margin`](crate::second_order::mode_margin)).
-    #[doc = include_str!("example.txt")]
-    /// use eigentol::second_order::Band;
-    ///
-    /// let band = Band::Between { low: 4.1, high: 4.2 };
-    /// println!("{}", study.margin(0, band)?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for an
-    /// invalid band.
-    pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
-        self.margin_of(mode, Quantity::Frequency, band)
-    }
-
-    /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is
-    /// the probability that the mode is unstable.
-    #[doc = include_str!("example.txt")]
-    /// use eigentol::Quantity;
-    /// use eigentol::second_order::Band;
-    ///
-    /// let band = Band::around(Pendulum::omega.any(), 0.1);
-    /// println!("{}", study.margin_of(0, Quantity::NaturalFrequency, band)?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::margin`].
-    pub fn margin_of(
-        &self,
-        mode: usize,
-        quantity: Quantity,
-        band: Band,
-    ) -> Result<ModeMargin, Error> {
-        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        let what = (mode, quantity);
-        second_order::mode_margin(own.kernels(), state, modes, what, own.tolerances, band)
     }
 }
 
@@ -448,33 +271,5 @@ impl<M: BatchKernels> Study<M> {
             done.merge(part(range)?)?;
         }
         Ok(())
-    }
-}
-
-impl<M: SummaryKernels> Study<M> {
-    /// First-order spread, second-order spread and clusters, and for each mode whether its standard deviation can be
-    /// trusted ([`summary`](crate::summary::summary)). The samples that judge are always the same, whatever
-    /// [`Study::samples`] and [`Study::seed`].
-    #[doc = include_str!("example.txt")]
-    /// assert!(study.summary()?.trusted());
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::sensitivities`] and [`Study::tolerances`].
-    pub fn summary(&self) -> Result<Summary, Error> {
-        self.summary_within(BUDGET)
-    }
-
-    /// Like [`Study::summary`], with a limit on the number of operations spent on samples
-    /// ([`summary_within`](crate::summary::summary_within)).
-    #[doc = include_str!("example.txt")]
-    /// // No samples: distances and the second-order model.
-    /// assert!(study.summary_within(0.0)?.sampled().is_none());
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::summary`].
-    pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
-        let own = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
-        let (kernels, watch) = (own.kernels(), self.settings.watch());
-        summary::summary_watched(kernels, own.solved(), own.tolerances, operations, watch)
     }
 }

@@ -9,12 +9,10 @@
 use std::borrow::Cow;
 
 use super::settings::Settings;
-use crate::equilibrium::Policy;
 use crate::kernels::{
     BatchKernels, CurvatureKernels, DeviatingInputs, DirectionalKernels, Kernels, SummaryKernels,
 };
-use crate::sweep::Following;
-use crate::{Equilibrium, Error, Input, Modes, Tolerances};
+use crate::{Equilibrium, Error, Modes, Tolerances};
 
 /// A table of kernels with the settings to study it with, and the same with deviating inputs if any are wanted.
 pub(super) struct Table<'a, K: ?Sized> {
@@ -41,25 +39,6 @@ impl<K: Kernels + ?Sized> Table<'_, K> {
             Some(of) => Cow::Owned(plain.with_deviations(of)),
             None => Cow::Borrowed(plain),
         }
-    }
-
-    /// The start of a way along an input from a value, and what to follow: the equilibrium to be kept, if there is one.
-    pub(super) fn way(
-        &self,
-        plain: &dyn Kernels,
-        from: (Input, f64),
-    ) -> Result<(Cow<'_, [f64]>, Following), Error> {
-        let settings = self.settings;
-        let start = settings.assembled_start(plain)?;
-        let mut following = Following::from(settings.policy)
-            .family(settings.family)
-            .vectors(settings.vectors);
-        let Some(state) = settings.kept(plain, from) else {
-            return Ok((start, following));
-        };
-        following = following.policy(Policy::about(&state));
-        following.held = self.state(&state).free.held.clone();
-        Ok((Cow::Owned(state.coordinates.into()), following))
     }
 }
 

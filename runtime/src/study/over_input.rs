@@ -1,15 +1,17 @@
 //! Methods of a study along one input: sweeps, diagrams and branches.
 
 use core::ops::ControlFlow;
+use std::borrow::Cow;
 
 use super::deviating::Table;
+use super::settings::Settings;
 use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
-use crate::equilibrium::Search;
-use crate::kernels::{BatchKernels, DirectionalKernels};
+use crate::equilibrium::{Policy, Search};
+use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::sensitivity::Sensitivities;
-use crate::sweep::{self, Line, Sweep, SweepPoint};
+use crate::sweep::{self, Following, Line, Range, Sweep, SweepPoint};
 use crate::tolerance;
 use crate::tolerance::{FirstOrder, Tolerances};
 use crate::{Error, Input, Watch};
@@ -228,6 +230,27 @@ impl<M: DirectionalKernels> Study<M> {
 /// The mechanism of a sweep.
 type Swept<'a> = Table<'a, dyn BatchKernels + 'a>;
 /// The mechanism of any other question along an input.
+impl<K: Kernels + ?Sized> Table<'_, K> {
+    /// The start of a way along an input from a value, and what to follow: the equilibrium to be kept, if there is one.
+    pub(super) fn way(
+        &self,
+        plain: &dyn Kernels,
+        from: (Input, f64),
+    ) -> Result<(Cow<'_, [f64]>, Following), Error> {
+        let settings = self.settings;
+        let start = settings.assembled_start(plain)?;
+        let mut following = Following::from(settings.policy)
+            .family(settings.family)
+            .vectors(settings.vectors);
+        let Some(state) = settings.kept(plain, from) else {
+            return Ok((start, following));
+        };
+        following = following.policy(Policy::about(&state));
+        following.held = self.state(&state).free.held.clone();
+        Ok((Cow::Owned(state.coordinates.into()), following))
+    }
+}
+
 pub(super) type Along<'a> = Table<'a, dyn DirectionalKernels + 'a>;
 
 impl Swept<'_> {
@@ -327,5 +350,22 @@ fn spread(
     match (&point.modes, slopes) {
         (Ok(modes), Ok(slopes)) => tolerance::first_order(modes, slopes, tolerances),
         (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+    }
+}
+
+impl Settings {
+    pub(super) fn range(&self, input: Input, low: Value, high: Value) -> Result<Range, Error> {
+        let (low, high) = (self.si(input.into(), low)?, self.si(input.into(), high)?);
+        Ok(Range::new(input, low, high).steps(self.steps))
+    }
+
+    /// Converts values of an input to SI.
+    pub(super) fn values_si(
+        &self,
+        input: Input,
+        values: &[impl Into<Value> + Copy],
+    ) -> Result<Vec<f64>, Error> {
+        let si = |&value: &_| self.si(input.into(), Into::into(value));
+        values.iter().map(si).collect()
     }
 }

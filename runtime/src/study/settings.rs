@@ -13,7 +13,6 @@ use crate::equilibrium::{Assembly, OperatingPoint, Policy, Search};
 use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
-use crate::sweep::Range;
 use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{Coordinate, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch};
 use crate::{Matrix, Vector};
@@ -302,21 +301,6 @@ impl Settings {
         }
         let (state, _) = there.solve(plain).ok()?;
         (!state.stability.holds() || !state.free.held.is_empty()).then_some(*state)
-    }
-
-    pub(super) fn range(&self, input: Input, low: Value, high: Value) -> Result<Range, Error> {
-        let (low, high) = (self.si(input.into(), low)?, self.si(input.into(), high)?);
-        Ok(Range::new(input, low, high).steps(self.steps))
-    }
-
-    /// Converts values of an input to SI.
-    pub(super) fn values_si(
-        &self,
-        input: Input,
-        values: &[impl Into<Value> + Copy],
-    ) -> Result<Vec<f64>, Error> {
-        let si = |&value: &_| self.si(input.into(), Into::into(value));
-        values.iter().map(si).collect()
     }
 
     /// The progress callback and stop flag.
