@@ -50,7 +50,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
     (
         "runtime/numerics",
         &["eigentol-contract", "eigentol-statistics"],
-        7_400,
+        7_450,
     ),
     ("runtime/results", &["eigentol-contract"], 1_150),
     (

@@ -4,12 +4,13 @@ use std::array::from_fn;
 use std::slice::from_ref;
 
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
-    CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear, MotionKernels,
-    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Second, Sizes,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature,
+    CurvatureKernels, Directional, DirectionalKernels, Gradient, Interval, Kernel, Kernels, Linear,
+    MotionKernel, MotionKernels, PartialMatrices, PictureKernels, Second, Sizes, gradient_results,
+    linear_results,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
-use eigentol::{Description, Dual, Matrix, PictureInfo, PoseMargin, Shared, Violation};
+use eigentol::{Description, Dual, PictureInfo, PoseMargin, Shared, Violation};
 
 use crate::mechanism::Interpreted;
 use crate::registers::{along_each, batch, once, scalar};
@@ -28,30 +29,6 @@ fn copy_slopes(registers: &[Dual<f64>], places: &[u32], to: &mut [f64]) {
     for (to, place) in to.iter_mut().zip(places) {
         *to = registers[*place as usize].slope;
     }
-}
-
-fn linear_buffers<T>(linear: &mut Linear<T>) -> [&mut [T]; 3] {
-    [
-        linear.mass.as_flattened_mut(),
-        linear.damping.as_flattened_mut(),
-        linear.stiffness.as_flattened_mut(),
-    ]
-}
-
-fn gradient_buffers<T>(gradient: &mut Gradient<T>) -> [&mut [T]; 3] {
-    [
-        &mut gradient.coordinates,
-        &mut gradient.inputs,
-        &mut gradient.design,
-    ]
-}
-
-fn parts_buffers<T>(parts: &mut RestParts<T>) -> [&mut [T]; 2] {
-    [&mut parts.inertia, &mut parts.applied]
-}
-
-fn partials_buffers<T>(partials: &mut ResidualPartials<T>) -> [&mut [T]; 2] {
-    [partials.0.as_flattened_mut(), partials.1.as_flattened_mut()]
 }
 
 /// Copies lists of three matrices, one after the other in the results, each for a number of variables.
@@ -125,7 +102,7 @@ fn run_along_each<const N: usize>(
     for (directions, gradients) in each {
         let (Some(tape), [_, _, ..]) = (tape, directions) else {
             for (direction, gradient) in directions.iter().zip(gradients) {
-                run_along(tape, arguments, direction, &mut gradient_buffers(gradient));
+                run_along(tape, arguments, direction, &mut gradient_results(gradient));
             }
             continue;
         };
@@ -139,7 +116,7 @@ fn run_along_each<const N: usize>(
         });
         along_each(tape, &moved.each_ref().map(Vec::as_slice), |registers| {
             for (lane, gradient) in gradients.iter_mut().enumerate() {
-                for (to, places) in gradient_buffers(gradient).into_iter().zip(&tape.results) {
+                for (to, places) in gradient_results(gradient).into_iter().zip(&tape.results) {
                     for (to, place) in to.iter_mut().zip(places) {
                         *to = registers[*place as usize].slope.0[lane];
                     }
@@ -179,41 +156,8 @@ impl Kernels for Interpreted {
         }
     }
 
-    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
-        run(&self.shared.tapes.residual, &[q, u, b], &mut [residual]);
-    }
-
-    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
-        let tape = &self.shared.tapes.residual_parts;
-        run(tape, &[q, u, b], &mut parts_buffers(parts));
-    }
-
-    fn residual_and_stiffness_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        residual: &mut [f64],
-        stiffness: &mut [f64],
-    ) {
-        let tape = &self.shared.tapes.residual_and_stiffness;
-        run(tape, &[q, u, b], &mut [residual, stiffness]);
-    }
-
-    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
-        let tape = &self.shared.tapes.linear;
-        run(tape, &[q, u, b], &mut linear_buffers(linear));
-    }
-
-    fn residual_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut ResidualPartials,
-    ) {
-        let tape = &self.shared.tapes.residual_partials;
-        run(tape, &[q, u, b], &mut partials_buffers(partials));
+    fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
+        run(self.tape(kernel), arguments, results);
     }
 
     fn linear_partials_into(
@@ -242,61 +186,11 @@ impl Kernels for Interpreted {
                 let [dq, du, db] = &direction;
                 self.linear_along_into(q, u, b, [dq, du, db], &mut linear);
                 direction[list][k] = 0.0;
-                for (to, from) in buffers.into_iter().zip(linear_buffers(&mut linear)) {
+                for (to, from) in buffers.into_iter().zip(linear_results(&mut linear)) {
                     to.copy_from_slice(from);
                 }
             }
         }
-    }
-
-    fn mode_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        gradient: &mut Gradient,
-    ) {
-        let tape = &self.shared.tapes.mode_gradient;
-        run(
-            tape,
-            &[q, u, b, phi, &[lambda]],
-            &mut gradient_buffers(gradient),
-        );
-    }
-
-    fn pencil_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let [left, acceleration, velocity, position] = vectors;
-        let arguments = [q, u, b, left, acceleration, velocity, position];
-        let tape = &self.shared.tapes.pencil_gradient;
-        run(tape, &arguments, &mut gradient_buffers(gradient));
-    }
-
-    fn residual_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        gradient: &mut Gradient,
-    ) {
-        let tape = &self.shared.tapes.residual_gradient;
-        run(tape, &[q, u, b, w], &mut gradient_buffers(gradient));
-    }
-
-    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
-        let mut whirl = [0.0; 2];
-        let tape = &self.shared.tapes.whirl;
-        run(tape, &[q, u, b, real, imaginary], &mut [&mut whirl]);
-        whirl
     }
 
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
@@ -351,49 +245,17 @@ impl Kernels for Interpreted {
             copy(&once(tape, &[u, b]), &tape.results[0], values);
         }
     }
-
-    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
-        run(&self.shared.tapes.outputs, &[q, u, b], &mut [outputs]);
-    }
-
-    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
-        let tape = &self.shared.tapes.output_partials;
-        run(
-            tape,
-            &[q, u, b],
-            &mut partials.map(Matrix::as_flattened_mut),
-        );
-    }
 }
 
 impl DirectionalKernels for Interpreted {
-    fn linear_along_into(
+    fn evaluate_along(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        linear: &mut Linear,
+        kernel: Directional,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let tape = &self.shared.tapes.linear;
-        run_along(tape, &[q, u, b], &direction, &mut linear_buffers(linear));
-    }
-
-    fn residual_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        direction: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        run_along(
-            &self.shared.tapes.residual_gradient,
-            &[q, u, b, w],
-            &direction,
-            &mut gradient_buffers(gradient),
-        );
+        run_along(self.tape(kernel.into()), arguments, direction, results);
     }
 
     fn residual_gradients_along_into(
@@ -405,30 +267,20 @@ impl DirectionalKernels for Interpreted {
         directions: &[[&[f64]; 4]],
         gradients: &mut [Gradient],
     ) {
-        let tape = &self.shared.tapes.residual_gradient;
+        let tape = self.tape(Kernel::ResidualGradient);
         run_along_each(tape, &[q, u, b, w], directions, gradients);
     }
 }
 
 impl CurvatureKernels for Interpreted {
-    fn mode_gradient_along_into(
+    fn evaluate_curvature(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        direction: [&[f64]; 4],
-        dlambda: f64,
-        gradient: &mut Gradient,
+        kernel: Curvature,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let [dq, du, db, dphi] = direction;
-        run_along(
-            &self.shared.tapes.mode_gradient,
-            &[q, u, b, phi, &[lambda]],
-            &[dq, du, db, dphi, &[dlambda]],
-            &mut gradient_buffers(gradient),
-        );
+        run_along(self.tape(kernel.into()), arguments, direction, results);
     }
 
     fn mode_gradients_along_into(
@@ -444,112 +296,49 @@ impl CurvatureKernels for Interpreted {
         let each = directions.iter();
         let along = each.map(|([dq, du, db, dphi], rate)| [*dq, du, db, dphi, from_ref(rate)]);
         let along: Vec<[&[f64]; 5]> = along.collect();
-        let tape = &self.shared.tapes.mode_gradient;
+        let tape = self.tape(Kernel::ModeGradient);
         run_along_each(tape, &[q, u, b, phi, &[lambda]], &along, gradients);
-    }
-
-    fn pencil_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        direction: [&[f64]; 3],
-        changes: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let [left, acceleration, velocity, position] = vectors;
-        let [dq, du, db] = direction;
-        let [dleft, dacceleration, dvelocity, dposition] = changes;
-        run_along(
-            &self.shared.tapes.pencil_gradient,
-            &[q, u, b, left, acceleration, velocity, position],
-            &[dq, du, db, dleft, dacceleration, dvelocity, dposition],
-            &mut gradient_buffers(gradient),
-        );
-    }
-
-    fn output_partials_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        partials: [&mut Matrix; 3],
-    ) {
-        run_along(
-            &self.shared.tapes.output_partials,
-            &[q, u, b],
-            &direction,
-            &mut partials.map(Matrix::as_flattened_mut),
-        );
     }
 }
 
 impl MotionKernels for Interpreted {
-    fn motion_residual_into(
+    fn evaluate_motion(
         &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        residual: &mut [f64],
+        kernel: MotionKernel,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let tape = &self.shared.tapes.motion_residual;
-        run(tape, &[acceleration, velocity, q, u, b], &mut [residual]);
-    }
-
-    fn motion_into(
-        &self,
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        mass: &mut Matrix,
-        right: &mut [f64],
-    ) {
-        let tape = &self.shared.tapes.motion;
-        run(
-            tape,
-            &[velocity, q, u, b],
-            &mut [mass.as_flattened_mut(), right],
-        );
-    }
-
-    fn motion_linear_into(
-        &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        linear: &mut Linear,
-    ) {
-        let tapes = &self.shared.tapes;
-        let arguments = [acceleration, velocity, q, u, b];
-        if tapes.motion_linear.is_some() {
-            let mut buffers = linear_buffers(linear);
-            run(&tapes.motion_linear, &arguments, &mut buffers);
-            return;
+        let tapes = &self.shared.tapes.in_motion;
+        match (kernel, &tapes[kernel as usize]) {
+            (MotionKernel::Linear, None) => self.linear_by_columns(arguments, results),
+            (_, tape) => run(tape, arguments, results),
         }
-        // Column by column, as in compiled code for large mechanisms.
-        let n = q.len();
-        let mut right = vec![0.0; n];
-        self.motion_into(velocity, q, u, b, &mut linear.mass, &mut right);
-        let mut direction = arguments.map(|list| vec![0.0; list.len()]);
-        for (list, matrix) in [(1, &mut linear.damping), (2, &mut linear.stiffness)] {
+    }
+}
+
+impl Interpreted {
+    /// [`MotionKernel::Linear`] column by column, as in compiled code for large mechanisms.
+    fn linear_by_columns(&self, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
+        let [mass, damping, stiffness] = results else {
+            return;
+        };
+        let n = arguments[0].len();
+        let mut column = vec![0.0; n];
+        self.evaluate_motion(
+            MotionKernel::Motion,
+            &arguments[1..],
+            &mut [mass, &mut column],
+        );
+        let tape = &self.shared.tapes.in_motion[MotionKernel::Residual as usize];
+        let zeros = arguments.iter().map(|list| vec![0.0; list.len()]);
+        let mut direction: Vec<_> = zeros.collect();
+        for (list, matrix) in [(1, damping), (2, stiffness)] {
             for k in 0..n {
                 direction[list][k] = 1.0;
                 let along: Vec<&[f64]> = direction.iter().map(Vec::as_slice).collect();
-                run_along(
-                    &tapes.motion_residual,
-                    &arguments,
-                    &along,
-                    &mut [&mut right],
-                );
-                for (i, slope) in right.iter().enumerate() {
-                    matrix[i][k] = *slope;
+                run_along(tape, arguments, &along, &mut [&mut column]);
+                for (i, slope) in column.iter().enumerate() {
+                    matrix[i * n + k] = *slope;
                 }
                 direction[list][k] = 0.0;
             }
@@ -576,7 +365,7 @@ impl BatchKernels for Interpreted {
         stiffness: &mut [Batch],
     ) {
         let mut to = [residual, stiffness];
-        let tape = &self.shared.tapes.residual_and_stiffness;
+        let tape = self.tape(Kernel::ResidualAndStiffness);
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
 
@@ -591,7 +380,7 @@ impl BatchKernels for Interpreted {
             &mut *linear.damping,
             &mut *linear.stiffness,
         ];
-        let tape = &self.shared.tapes.linear;
+        let tape = self.tape(Kernel::Linear);
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
 
@@ -603,7 +392,7 @@ impl BatchKernels for Interpreted {
         linear: &mut BatchLinear<'_>,
     ) {
         let mut to = [&mut *parts.inertia, &mut *parts.applied];
-        let tape = &self.shared.tapes.residual_parts;
+        let tape = self.tape(Kernel::ResidualParts);
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
         self.linear_batch(instructions, at, linear);
     }
@@ -631,7 +420,7 @@ impl BatchKernels for Interpreted {
                 copy_partials(registers, tape, counts, changes);
             });
         }
-        let tape = &self.shared.tapes.residual_partials;
+        let tape = self.tape(Kernel::ResidualPartials);
         run_batch(tape, instructions, &arguments, &mut residual);
     }
 
@@ -644,7 +433,7 @@ impl BatchKernels for Interpreted {
         gradient: &mut BatchGradient<'_>,
     ) {
         let arguments = [at.q, at.u, at.b, phi, std::slice::from_ref(lambda)];
-        let tape = &self.shared.tapes.mode_gradient;
+        let tape = self.tape(Kernel::ModeGradient);
         run_batch(
             tape,
             instructions,
@@ -664,7 +453,7 @@ impl BatchKernels for Interpreted {
         w: &[Batch],
         gradient: &mut BatchGradient<'_>,
     ) {
-        let tape = &self.shared.tapes.residual_gradient;
+        let tape = self.tape(Kernel::ResidualGradient);
         run_batch(
             tape,
             instructions,

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use eigentol::kernels::{Kernel, MotionKernel};
 use eigentol::{Description, PictureInfo, Shared, Text};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
@@ -37,55 +38,39 @@ pub(crate) struct Tables {
 
 /// The kernels; `None` if the compiler generated none.
 pub(crate) struct Tapes {
-    pub(crate) residual: Option<Tape>,
-    pub(crate) residual_parts: Option<Tape>,
-    pub(crate) motion_residual: Option<Tape>,
-    pub(crate) motion: Option<Tape>,
-    pub(crate) motion_linear: Option<Tape>,
-    pub(crate) residual_and_stiffness: Option<Tape>,
-    pub(crate) linear: Option<Tape>,
-    pub(crate) residual_partials: Option<Tape>,
+    /// In the order of [`Kernel::ALL`].
+    pub(crate) at_rest: Vec<Option<Tape>>,
+    /// In the order of [`MotionKernel::ALL`].
+    pub(crate) in_motion: Vec<Option<Tape>>,
     pub(crate) linear_partials: Option<Tape>,
-    pub(crate) mode_gradient: Option<Tape>,
-    pub(crate) pencil_gradient: Option<Tape>,
-    pub(crate) residual_gradient: Option<Tape>,
-    pub(crate) whirl: Option<Tape>,
     pub(crate) picture: Option<Tape>,
     pub(crate) violation: Option<Tape>,
     pub(crate) pose_margin: Option<Tape>,
     pub(crate) held_values: Option<Tape>,
-    pub(crate) outputs: Option<Tape>,
-    pub(crate) output_partials: Option<Tape>,
 }
 
 impl Tapes {
     fn new(program: &Program) -> Self {
         let tape = |name: &str| program.kernel(name).map(Tape::new);
+        let at_rest = Kernel::ALL.iter().map(|kernel| tape(kernel.name()));
+        let in_motion = MotionKernel::ALL.iter().map(|kernel| tape(kernel.name()));
         Self {
-            residual: tape("residual"),
-            residual_parts: tape("residual_parts"),
-            motion_residual: tape("motion_residual"),
-            motion: tape("motion"),
-            motion_linear: tape("motion_linear"),
-            residual_and_stiffness: tape("residual_and_stiffness"),
-            linear: tape("linear"),
-            residual_partials: tape("residual_partials"),
+            at_rest: at_rest.collect(),
+            in_motion: in_motion.collect(),
             linear_partials: tape("linear_partials"),
-            mode_gradient: tape("mode_gradient"),
-            pencil_gradient: tape("pencil_gradient"),
-            residual_gradient: tape("residual_gradient"),
-            whirl: tape("whirl"),
             picture: tape("picture"),
             violation: tape("violation"),
             pose_margin: tape("pose_margin"),
             held_values: tape("held_values"),
-            outputs: tape("outputs"),
-            output_partials: tape("output_partials"),
         }
     }
 }
 
 impl Interpreted {
+    pub(crate) fn tape(&self, kernel: Kernel) -> &Option<Tape> {
+        &self.shared.tapes.at_rest[kernel as usize]
+    }
+
     /// Reads the mechanism declared by a text: the contents of the braces of `mechanism! { .. }`.
     ///
     /// # Errors

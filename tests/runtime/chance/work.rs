@@ -4,18 +4,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use eigentol::clusters::clusters;
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
-    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, PartialMatrices,
-    ResidualPartials, RestParts, Second, Sizes, SummaryKernels,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature,
+    CurvatureKernels, Directional, DirectionalKernels, Kernel, Kernels, PartialMatrices, Second,
+    Sizes, SummaryKernels,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::second_order::second_order;
 use eigentol::sensitivity::sensitivities;
 use eigentol::summary::summary_within;
 use eigentol::tolerance::first_order;
-use eigentol::{
-    Description, Input, Matrix, Mechanism, PoseMargin, Shared, Study, Violation, mechanism,
-};
+use eigentol::{Description, Input, Mechanism, PoseMargin, Shared, Study, Violation, mechanism};
 
 /// Kinds of kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,43 +63,11 @@ impl Kernels for Counting<'_> {
         self.inner.sizes()
     }
 
-    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
-        self.count(Kind::Plain);
-        self.inner.residual_into(q, u, b, residual);
-    }
-
-    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
-        self.count(Kind::Plain);
-        self.inner.residual_parts_into(q, u, b, parts);
-    }
-
-    fn residual_and_stiffness_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        residual: &mut [f64],
-        stiffness: &mut [f64],
-    ) {
-        self.count(Kind::Plain);
-        self.inner
-            .residual_and_stiffness_into(q, u, b, residual, stiffness);
-    }
-
-    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
-        self.count(Kind::Plain);
-        self.inner.linear_into(q, u, b, linear);
-    }
-
-    fn residual_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut ResidualPartials,
-    ) {
-        self.count(Kind::Plain);
-        self.inner.residual_partials_into(q, u, b, partials);
+    fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
+        if kernel != Kernel::Whirl {
+            self.count(Kind::Plain);
+        }
+        self.inner.evaluate(kernel, arguments, results);
     }
 
     fn linear_partials_into(
@@ -113,48 +79,6 @@ impl Kernels for Counting<'_> {
     ) {
         self.count(Kind::Plain);
         self.inner.linear_partials_into(q, u, b, partials);
-    }
-
-    fn mode_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        gradient: &mut Gradient,
-    ) {
-        self.count(Kind::Plain);
-        self.inner
-            .mode_gradient_into(q, u, b, phi, lambda, gradient);
-    }
-
-    fn pencil_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        self.count(Kind::Plain);
-        self.inner.pencil_gradient_into(q, u, b, vectors, gradient);
-    }
-
-    fn residual_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        gradient: &mut Gradient,
-    ) {
-        self.count(Kind::Plain);
-        self.inner.residual_gradient_into(q, u, b, w, gradient);
-    }
-
-    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], re: &[f64], im: &[f64]) -> [f64; 2] {
-        self.inner.whirl(q, u, b, re, im)
     }
 
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
@@ -172,89 +96,36 @@ impl Kernels for Counting<'_> {
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
         self.inner.held_values_into(u, b, values);
     }
-
-    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
-        self.count(Kind::Plain);
-        self.inner.outputs_into(q, u, b, outputs);
-    }
-
-    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
-        self.count(Kind::Plain);
-        self.inner.output_partials_into(q, u, b, partials);
-    }
 }
 
 impl DirectionalKernels for Counting<'_> {
-    fn linear_along_into(
+    fn evaluate_along(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        linear: &mut Linear,
+        kernel: Directional,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        self.count(Kind::LinearAlong);
-        self.inner.linear_along_into(q, u, b, direction, linear);
-    }
-
-    fn residual_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        direction: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        self.count(Kind::GradientAlong);
+        self.count(match kernel {
+            Directional::Linear => Kind::LinearAlong,
+            Directional::ResidualGradient => Kind::GradientAlong,
+        });
         self.inner
-            .residual_gradient_along_into(q, u, b, w, direction, gradient);
+            .evaluate_along(kernel, arguments, direction, results);
     }
 }
 
 impl CurvatureKernels for Counting<'_> {
-    fn mode_gradient_along_into(
+    fn evaluate_curvature(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        direction: [&[f64]; 4],
-        dlambda: f64,
-        gradient: &mut Gradient,
+        kernel: Curvature,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
         self.count(Kind::GradientAlong);
         self.inner
-            .mode_gradient_along_into(q, u, b, phi, lambda, direction, dlambda, gradient);
-    }
-
-    fn pencil_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        direction: [&[f64]; 3],
-        changes: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        self.count(Kind::GradientAlong);
-        self.inner
-            .pencil_gradient_along_into(q, u, b, vectors, direction, changes, gradient);
-    }
-
-    fn output_partials_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        partials: [&mut Matrix; 3],
-    ) {
-        self.count(Kind::GradientAlong);
-        self.inner
-            .output_partials_along_into(q, u, b, direction, partials);
+            .evaluate_curvature(kernel, arguments, direction, results);
     }
 }
 

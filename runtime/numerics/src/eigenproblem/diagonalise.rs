@@ -5,7 +5,7 @@
     reason = "index loops read as the formulas they are"
 )]
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use super::tridiagonal::decompose;
 
 /// Size from which the tridiagonal form is faster.
 const LARGE: usize = 8;
@@ -23,22 +23,22 @@ pub fn diagonalise(matrix: &mut [f64], n: usize, vector: &mut [f64]) {
     }
 }
 
-/// By QR on the tridiagonal form; `false` if that does not converge.
+/// From the tridiagonal form; `false` if that does not converge, and nothing is changed.
 fn tridiagonal(matrix: &mut [f64], n: usize, vector: &mut [f64]) -> bool {
-    let whole = DMatrix::from_row_slice(n, n, matrix);
-    let Some(found) = SymmetricEigen::try_new(whole, f64::EPSILON, 60 * n) else {
-        return false;
-    };
-    for (i, &value) in found.eigenvalues.iter().enumerate() {
-        matrix[i * (n + 1)] = value;
+    let mut room = vec![0.0; 3 * n];
+    let (values, rest) = room.split_at_mut(n);
+    let (beside, product) = rest.split_at_mut(n);
+    let (whole, turned) = (&mut matrix.to_vec(), &mut vector.to_vec());
+    let found = decompose(whole, turned, [&mut *values, beside, product]);
+    if found {
+        matrix
+            .iter_mut()
+            .step_by(n + 1)
+            .zip(values)
+            .for_each(|(to, value)| *to = *value);
+        vector.copy_from_slice(turned);
     }
-    if !vector.is_empty() {
-        let turned = found
-            .eigenvectors
-            .tr_mul(&DVector::from_column_slice(vector));
-        vector.copy_from_slice(turned.as_slice());
-    }
-    true
+    found
 }
 
 /// By cyclic rotations (Golub and Van Loan, Matrix Computations, section 8.5).

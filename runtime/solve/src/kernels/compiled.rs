@@ -10,10 +10,11 @@
 
 use super::interval::Interval;
 use super::{
-    Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
-    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Second, Sizes, entries_of,
+    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Gradient, Kernel, Kernels,
+    Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, ResidualPartials,
+    RestParts, Second, Sizes, entries_of, gradient_results, linear_results,
 };
-use crate::algebra::{Matrix, Vector};
+use crate::algebra::Vector;
 use crate::mechanism::{
     Array, Description, GradientOf, Mechanism, PartialsOf, PictureInfo, PoseMargin, Shared, Square,
     Violation, few_partials,
@@ -28,15 +29,10 @@ const FEW_COORDINATES: usize = 4;
 const ON_STACK: usize = 1 << 16;
 
 #[inline(always)]
-fn copy_matrix<A: Array<R>, R: Array<f64>>(from: &A, to: &mut Matrix) {
-    copy_rows(from, to.as_flattened_mut());
-}
-
-#[inline(always)]
-fn copy_linear<M: Mechanism>(from: &mechanism::Linear<Square<M, f64>>, to: &mut Linear) {
-    copy_matrix(&from.mass, &mut to.mass);
-    copy_matrix(&from.damping, &mut to.damping);
-    copy_matrix(&from.stiffness, &mut to.stiffness);
+fn copy_linear<M: Mechanism>(from: &mechanism::Linear<Square<M, f64>>, to: &mut [&mut [f64]]) {
+    copy_rows(&from.mass, to[0]);
+    copy_rows(&from.damping, to[1]);
+    copy_rows(&from.stiffness, to[2]);
 }
 
 #[inline(always)]
@@ -76,10 +72,23 @@ fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut PartialMatric
     copy_changes::<M>(from.by_design.as_ref(), by_design);
 }
 
-fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
-    to.coordinates.copy_from_slice(from.coordinates.as_ref());
-    to.inputs.copy_from_slice(from.inputs.as_ref());
-    to.design.copy_from_slice(from.design.as_ref());
+fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut [&mut [f64]]) {
+    to[0].copy_from_slice(from.coordinates.as_ref());
+    to[1].copy_from_slice(from.inputs.as_ref());
+    to[2].copy_from_slice(from.design.as_ref());
+}
+
+/// Derivatives of the outputs by unknowns, inputs and design variables.
+type OutputPartials<M> = (
+    <M as Mechanism>::Outputs<<M as Mechanism>::Coordinates<f64>>,
+    <M as Mechanism>::Outputs<<M as Mechanism>::Inputs<f64>>,
+    <M as Mechanism>::Outputs<<M as Mechanism>::Design<f64>>,
+);
+
+fn copy_output_partials<M: Mechanism>(from: &OutputPartials<M>, to: &mut [&mut [f64]]) {
+    copy_rows(&from.0, to[0]);
+    copy_rows(&from.1, to[1]);
+    copy_rows(&from.2, to[2]);
 }
 
 /// Unknowns, inputs and design variables as the mechanism takes them.
@@ -141,16 +150,63 @@ impl<M: Mechanism> Kernels for M {
         }
     }
 
-    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
-        let (q, u, b) = point::<M>(q, u, b);
-        residual.copy_from_slice(Mechanism::residual(self, q, u, b).as_ref());
-    }
-
-    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::residual_parts(self, q, u, b);
-        copy_array(&found.inertia, &mut parts.inertia);
-        copy_array(&found.applied, &mut parts.applied);
+    fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
+        let (q, u, b) = point::<M>(arguments[0], arguments[1], arguments[2]);
+        let vector = |k: usize| Array::view(arguments[k]);
+        match kernel {
+            Kernel::Residual => {
+                copy_array(&Mechanism::residual(self, q, u, b), results[0]);
+            }
+            Kernel::ResidualParts => {
+                let parts = Mechanism::residual_parts(self, q, u, b);
+                copy_array(&parts.inertia, results[0]);
+                copy_array(&parts.applied, results[1]);
+            }
+            Kernel::ResidualAndStiffness => {
+                let (residual, stiffness) = Mechanism::residual_and_stiffness(self, q, u, b);
+                copy_array(&residual, results[0]);
+                copy_rows(&stiffness, results[1]);
+            }
+            Kernel::Linear => copy_linear::<M>(&Mechanism::linear(self, q, u, b), results),
+            Kernel::ResidualPartials => {
+                let (by_input, by_design) = Mechanism::residual_partials(self, q, u, b);
+                copy_rows(&by_input, results[0]);
+                copy_rows(&by_design, results[1]);
+            }
+            Kernel::ModeGradient => {
+                let (phi, lambda) = (vector(3), arguments[4][0]);
+                copy_gradient::<M>(
+                    &Mechanism::mode_gradient(self, q, u, b, phi, lambda),
+                    results,
+                );
+            }
+            Kernel::PencilGradient => {
+                let [left, acceleration, velocity, position] = [3, 4, 5, 6].map(vector);
+                let gradient = Mechanism::pencil_gradient(
+                    self,
+                    q,
+                    u,
+                    b,
+                    left,
+                    acceleration,
+                    velocity,
+                    position,
+                );
+                copy_gradient::<M>(&gradient, results);
+            }
+            Kernel::ResidualGradient => {
+                let gradient = Mechanism::residual_gradient(self, q, u, b, vector(3));
+                copy_gradient::<M>(&gradient, results);
+            }
+            Kernel::Whirl => {
+                let whirl = Mechanism::whirl(self, q, u, b, vector(3), vector(4));
+                results[0].copy_from_slice(&whirl);
+            }
+            Kernel::Outputs => copy_array(&Mechanism::outputs(self, q, u, b), results[0]),
+            Kernel::OutputPartials => {
+                copy_output_partials::<M>(&Mechanism::output_partials(self, q, u, b), results);
+            }
+        }
     }
 
     fn residual_and_stiffness_into(
@@ -174,11 +230,6 @@ impl<M: Mechanism> Kernels for M {
         copy_rows(&found.1, stiffness);
     }
 
-    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
-        let (q, u, b) = point::<M>(q, u, b);
-        copy_linear::<M>(&Mechanism::linear(self, q, u, b), linear);
-    }
-
     fn parts_and_linear_into(
         &self,
         q: &[f64],
@@ -196,20 +247,7 @@ impl<M: Mechanism> Kernels for M {
         let found = self.residual_parts_inlined(q, u, b);
         copy_array(&found.inertia, &mut parts.inertia);
         copy_array(&found.applied, &mut parts.applied);
-        copy_linear::<M>(&self.linear_inlined(q, u, b), linear);
-    }
-
-    fn residual_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut ResidualPartials,
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::residual_partials(self, q, u, b);
-        copy_matrix(&found.0, &mut partials.0);
-        copy_matrix(&found.1, &mut partials.1);
+        copy_linear::<M>(&self.linear_inlined(q, u, b), &mut linear_results(linear));
     }
 
     fn linear_partials_into(
@@ -244,8 +282,8 @@ impl<M: Mechanism> Kernels for M {
         if const { !few_partials::<M>() } {
             copy_partials::<M>(&Mechanism::linear_partials(self, q, u, b), matrices);
             let found = Mechanism::residual_partials(self, q, u, b);
-            copy_matrix(&found.0, &mut residual.0);
-            copy_matrix(&found.1, &mut residual.1);
+            copy_rows(&found.0, residual.0.as_flattened_mut());
+            copy_rows(&found.1, residual.1.as_flattened_mut());
             return;
         }
         <f64 as Real>::run(
@@ -253,8 +291,8 @@ impl<M: Mechanism> Kernels for M {
             || {
                 copy_partials::<M>(&self.linear_partials_inlined(q, u, b), matrices);
                 let found = self.residual_partials_inlined(q, u, b);
-                copy_matrix(&found.0, &mut residual.0);
-                copy_matrix(&found.1, &mut residual.1);
+                copy_rows(&found.0, residual.0.as_flattened_mut());
+                copy_rows(&found.1, residual.1.as_flattened_mut());
             },
         );
     }
@@ -270,40 +308,7 @@ impl<M: Mechanism> Kernels for M {
     ) {
         let (q, u, b) = point::<M>(q, u, b);
         let found = Mechanism::mode_gradient(self, q, u, b, Array::view(phi), lambda);
-        copy_gradient::<M>(&found, gradient);
-    }
-
-    fn pencil_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [left, acceleration, velocity, position] = vectors.map(Array::view);
-        let found =
-            Mechanism::pencil_gradient(self, q, u, b, left, acceleration, velocity, position);
-        copy_gradient::<M>(&found, gradient);
-    }
-
-    fn residual_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        gradient: &mut Gradient,
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::residual_gradient(self, q, u, b, Array::view(w));
-        copy_gradient::<M>(&found, gradient);
-    }
-
-    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
-        let (q, u, b) = point::<M>(q, u, b);
-        Mechanism::whirl(self, q, u, b, Array::view(real), Array::view(imaginary))
+        copy_gradient::<M>(&found, &mut gradient_results(gradient));
     }
 
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
@@ -324,174 +329,114 @@ impl<M: Mechanism> Kernels for M {
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
         Mechanism::held_values(self, Array::view(u), Array::view(b), values);
     }
-
-    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
-        let (q, u, b) = point::<M>(q, u, b);
-        outputs.copy_from_slice(Mechanism::outputs(self, q, u, b).as_ref());
-    }
-
-    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [by_coordinate, by_input, by_design] = partials;
-        let found = Mechanism::output_partials(self, q, u, b);
-        copy_matrix(&found.0, by_coordinate);
-        copy_matrix(&found.1, by_input);
-        copy_matrix(&found.2, by_design);
-    }
 }
 
 impl<M: Mechanism> DirectionalKernels for M {
-    fn linear_along_into(
+    fn evaluate_along(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        linear: &mut Linear,
+        kernel: Directional,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [dq, du, db] = direction;
-        let (dq, du, db) = point::<M>(dq, du, db);
-        copy_linear::<M>(&Mechanism::linear_along(self, q, u, b, dq, du, db), linear);
-    }
-
-    fn residual_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        direction: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [dq, du, db, dw] = direction;
-        let (dq, du, db) = point::<M>(dq, du, db);
-        let (w, dw) = (Array::view(w), Array::view(dw));
-        let found = Mechanism::residual_gradient_along(self, q, u, b, w, dq, du, db, dw);
-        copy_gradient::<M>(&found, gradient);
+        let (q, u, b) = point::<M>(arguments[0], arguments[1], arguments[2]);
+        let (dq, du, db) = point::<M>(direction[0], direction[1], direction[2]);
+        match kernel {
+            Directional::Linear => {
+                let change = Mechanism::linear_along(self, q, u, b, dq, du, db);
+                copy_linear::<M>(&change, results);
+            }
+            Directional::ResidualGradient => {
+                let (w, dw) = (Array::view(arguments[3]), Array::view(direction[3]));
+                let change = Mechanism::residual_gradient_along(self, q, u, b, w, dq, du, db, dw);
+                copy_gradient::<M>(&change, results);
+            }
+        }
     }
 }
 
 impl<M: Mechanism> CurvatureKernels for M {
-    fn mode_gradient_along_into(
+    fn evaluate_curvature(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        direction: [&[f64]; 4],
-        dlambda: f64,
-        gradient: &mut Gradient,
+        kernel: Curvature,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [dq, du, db, dphi] = direction;
-        let (dq, du, db) = point::<M>(dq, du, db);
-        let (phi, dphi) = (Array::view(phi), Array::view(dphi));
-        let found =
-            Mechanism::mode_gradient_along(self, q, u, b, phi, lambda, dq, du, db, dphi, dlambda);
-        copy_gradient::<M>(&found, gradient);
-    }
-
-    fn pencil_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        direction: [&[f64]; 3],
-        changes: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [dq, du, db] = direction;
-        let (dq, du, db) = point::<M>(dq, du, db);
-        let [left, acceleration, velocity, position] = vectors.map(Array::view);
-        let [dleft, dacceleration, dvelocity, dposition] = changes.map(Array::view);
-        let found = Mechanism::pencil_gradient_along(
-            self,
-            q,
-            u,
-            b,
-            left,
-            acceleration,
-            velocity,
-            position,
-            dq,
-            du,
-            db,
-            dleft,
-            dacceleration,
-            dvelocity,
-            dposition,
-        );
-        copy_gradient::<M>(&found, gradient);
-    }
-
-    fn output_partials_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        partials: [&mut Matrix; 3],
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [dq, du, db] = direction;
-        let (dq, du, db) = point::<M>(dq, du, db);
-        let [by_coordinate, by_input, by_design] = partials;
-        let found = Mechanism::output_partials_along(self, q, u, b, dq, du, db);
-        copy_matrix(&found.0, by_coordinate);
-        copy_matrix(&found.1, by_input);
-        copy_matrix(&found.2, by_design);
+        let (q, u, b) = point::<M>(arguments[0], arguments[1], arguments[2]);
+        let (dq, du, db) = point::<M>(direction[0], direction[1], direction[2]);
+        let vector = |k: usize| Array::view(arguments[k]);
+        let change = |k: usize| Array::view(direction[k]);
+        match kernel {
+            Curvature::ModeGradient => {
+                let gradient = Mechanism::mode_gradient_along(
+                    self,
+                    q,
+                    u,
+                    b,
+                    vector(3),
+                    arguments[4][0],
+                    dq,
+                    du,
+                    db,
+                    change(3),
+                    direction[4][0],
+                );
+                copy_gradient::<M>(&gradient, results);
+            }
+            Curvature::PencilGradient => {
+                let gradient = Mechanism::pencil_gradient_along(
+                    self,
+                    q,
+                    u,
+                    b,
+                    vector(3),
+                    vector(4),
+                    vector(5),
+                    vector(6),
+                    dq,
+                    du,
+                    db,
+                    change(3),
+                    change(4),
+                    change(5),
+                    change(6),
+                );
+                copy_gradient::<M>(&gradient, results);
+            }
+            Curvature::OutputPartials => {
+                let partials = Mechanism::output_partials_along(self, q, u, b, dq, du, db);
+                copy_output_partials::<M>(&partials, results);
+            }
+        }
     }
 }
 
 impl<M: Mechanism> MotionKernels for M {
-    fn motion_residual_into(
+    fn evaluate_motion(
         &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        residual: &mut [f64],
+        kernel: MotionKernel,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let (acceleration, velocity) = (Array::view(acceleration), Array::view(velocity));
-        let found = Mechanism::motion_residual(self, acceleration, velocity, q, u, b);
-        residual.copy_from_slice(found.as_ref());
-    }
-
-    fn motion_into(
-        &self,
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        mass: &mut Matrix,
-        right: &mut [f64],
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::motion(self, Array::view(velocity), q, u, b);
-        copy_matrix(&found.0, mass);
-        right.copy_from_slice(found.1.as_ref());
-    }
-
-    fn motion_linear_into(
-        &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        linear: &mut Linear,
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let (acceleration, velocity) = (Array::view(acceleration), Array::view(velocity));
-        let found = Mechanism::motion_linear(self, acceleration, velocity, q, u, b);
-        copy_linear::<M>(&found, linear);
+        let (before, at) = arguments.split_at(arguments.len() - 3);
+        let (q, u, b) = point::<M>(at[0], at[1], at[2]);
+        let vector = |k: usize| Array::view(before[k]);
+        match kernel {
+            MotionKernel::Residual => {
+                let residual = Mechanism::motion_residual(self, vector(0), vector(1), q, u, b);
+                copy_array(&residual, results[0]);
+            }
+            MotionKernel::Motion => {
+                let (mass, right) = Mechanism::motion(self, vector(0), q, u, b);
+                copy_rows(&mass, results[0]);
+                copy_array(&right, results[1]);
+            }
+            MotionKernel::Linear => {
+                let linear = Mechanism::motion_linear(self, vector(0), vector(1), q, u, b);
+                copy_linear::<M>(&linear, results);
+            }
+        }
     }
 }
 

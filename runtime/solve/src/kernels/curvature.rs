@@ -1,14 +1,25 @@
 //! Derivatives of the gradients of modes and outputs along a direction, as needed for second derivatives. They are
 //! long, and few callers need them: only those that do compile them.
 
-use super::{DirectionalKernels, Gradient, output_partials_zeros};
+use super::{
+    Curvature, DirectionalKernels, Gradient, gradient_results, matrix_results,
+    output_partials_zeros,
+};
 use crate::algebra::Matrix;
 
 /// Gradients of modes and outputs in dual numbers.
 pub trait CurvatureKernels: DirectionalKernels {
+    /// Derivative of the results of a kernel along a direction, which has a list for each argument.
+    fn evaluate_curvature(
+        &self,
+        kernel: Curvature,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
+    );
+
     /// [`Mechanism::mode_gradient_along`](eigentol_contract::Mechanism::mode_gradient_along); `direction` is `dq`,
-    /// `du`, `db`,
-    /// `dphi`.
+    /// `du`, `db`, `dphi`.
     #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along_into(
         &self,
@@ -17,10 +28,17 @@ pub trait CurvatureKernels: DirectionalKernels {
         b: &[f64],
         phi: &[f64],
         lambda: f64,
-        direction: [&[f64]; 4],
+        [dq, du, db, dphi]: [&[f64]; 4],
         dlambda: f64,
         gradient: &mut Gradient,
-    );
+    ) {
+        self.evaluate_curvature(
+            Curvature::ModeGradient,
+            &[q, u, b, phi, &[lambda]],
+            &[dq, du, db, dphi, &[dlambda]],
+            &mut gradient_results(gradient),
+        );
+    }
 
     /// [`Self::mode_gradient_along_into`] along several directions, each with its own change of `lambda`, with the same
     /// results as one by one.
@@ -40,7 +58,7 @@ pub trait CurvatureKernels: DirectionalKernels {
         }
     }
 
-    /// [`Mechanism::pencil_gradient_along`](eigentol_contract::Mechanism::pencil_gradient_along); `direction` is `dq`,
+    /// [`Mechanism::pencil_gradient_along`](eigentol_contract::Mechanism::pencil_gradient_along); the direction is `dq`,
     /// `du`, `db`, and `changes` is the change of `vectors`.
     #[allow(clippy::too_many_arguments)]
     fn pencil_gradient_along_into(
@@ -49,10 +67,19 @@ pub trait CurvatureKernels: DirectionalKernels {
         u: &[f64],
         b: &[f64],
         vectors: [&[f64]; 4],
-        direction: [&[f64]; 3],
+        [dq, du, db]: [&[f64]; 3],
         changes: [&[f64]; 4],
         gradient: &mut Gradient,
-    );
+    ) {
+        let lists =
+            |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
+        self.evaluate_curvature(
+            Curvature::PencilGradient,
+            &lists([q, u, b], vectors),
+            &lists([dq, du, db], changes),
+            &mut gradient_results(gradient),
+        );
+    }
 
     /// [`Mechanism::output_partials_along`](eigentol_contract::Mechanism::output_partials_along); `direction` is `dq`,
     /// `du`, `db`.
@@ -63,7 +90,10 @@ pub trait CurvatureKernels: DirectionalKernels {
         b: &[f64],
         direction: [&[f64]; 3],
         partials: [&mut Matrix; 3],
-    );
+    ) {
+        let results = &mut matrix_results(partials);
+        self.evaluate_curvature(Curvature::OutputPartials, &[q, u, b], &direction, results);
+    }
 }
 
 impl dyn CurvatureKernels + '_ {

@@ -1,9 +1,18 @@
 //! Derivatives of kernels along a direction, for second derivatives: the kernels in dual numbers.
 
-use super::{Gradient, Kernels, Linear};
+use super::{Directional, Gradient, Kernels, Linear, gradient_results, linear_results};
 
 /// The kernels with a derivative along a direction.
 pub trait DirectionalKernels: Kernels {
+    /// Derivative of the results of a kernel along a direction, which has a list for each argument.
+    fn evaluate_along(
+        &self,
+        kernel: Directional,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
+    );
+
     /// [`Mechanism::linear_along`](eigentol_contract::Mechanism::linear_along); `direction` is `dq`, `du`, `db`.
     fn linear_along_into(
         &self,
@@ -12,7 +21,10 @@ pub trait DirectionalKernels: Kernels {
         b: &[f64],
         direction: [&[f64]; 3],
         linear: &mut Linear,
-    );
+    ) {
+        let results = &mut linear_results(linear);
+        self.evaluate_along(Directional::Linear, &[q, u, b], &direction, results);
+    }
 
     /// [`Mechanism::residual_gradient_along`](eigentol_contract::Mechanism::residual_gradient_along); `direction` is
     /// `dq`, `du`,
@@ -25,7 +37,11 @@ pub trait DirectionalKernels: Kernels {
         w: &[f64],
         direction: [&[f64]; 4],
         gradient: &mut Gradient,
-    );
+    ) {
+        let results = &mut gradient_results(gradient);
+        let kernel = Directional::ResidualGradient;
+        self.evaluate_along(kernel, &[q, u, b, w], &direction, results);
+    }
 
     /// [`Self::residual_gradient_along_into`] along several directions, with the same results as one by one.
     fn residual_gradients_along_into(

@@ -17,6 +17,8 @@
 //! (`kernels/compiled.rs`) and an interpreted mechanism by interpretation. Five tables let a program compile only the
 //! kernels its questions need: `Kernels` for one state, `DirectionalKernels` in dual numbers for second derivatives,
 //! `BatchKernels` at eight states at once, `MotionKernels` for the nonlinear motion, `PictureKernels` for pictures.
+//! What a kernel takes and returns is a row of `kernels/table.rs`; each table evaluates its rows by one method, from which
+//! the typed ones follow.
 //! `Study<M>` and the typed handles are a thin generic shell; everything behind it is compiled once, in the library.
 
 mod batch;
@@ -30,6 +32,7 @@ mod motion;
 mod partial_matrices;
 mod picture;
 mod summary;
+mod table;
 
 pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use costs::Costs;
@@ -42,6 +45,7 @@ pub use partial_matrices::PartialMatrices;
 pub(crate) use partial_matrices::{entries_of, parts};
 pub use picture::PictureKernels;
 pub use summary::SummaryKernels;
+pub use table::{Curvature, Directional, Extent, Kernel, MotionKernel, Shape};
 
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{self, Description, PoseMargin, Shared, Violation};
@@ -75,6 +79,32 @@ fn output_partials_zeros(sizes: Sizes) -> [Matrix; 3] {
         .map(|columns| Matrix::zeros(sizes.outputs, columns))
 }
 
+/// The three matrices as results.
+#[inline]
+pub fn linear_results<T>(linear: &mut Linear<T>) -> [&mut [T]; 3] {
+    [
+        linear.mass.as_flattened_mut(),
+        linear.damping.as_flattened_mut(),
+        linear.stiffness.as_flattened_mut(),
+    ]
+}
+
+/// A gradient as results.
+#[inline]
+pub fn gradient_results<T>(gradient: &mut Gradient<T>) -> [&mut [T]; 3] {
+    [
+        &mut gradient.coordinates,
+        &mut gradient.inputs,
+        &mut gradient.design,
+    ]
+}
+
+/// Matrices as results.
+#[inline]
+fn matrix_results<const N: usize>(matrices: [&mut Matrix; N]) -> [&mut [f64]; N] {
+    matrices.map(Matrix::as_flattened_mut)
+}
+
 /// A number with two first derivatives and the mixed second one.
 pub type Second = Dual<Dual<f64>>;
 
@@ -98,11 +128,20 @@ pub trait Kernels: Sync {
         Costs::of(&self.description())
     }
 
+    /// Evaluates a kernel: arguments and results are those of [`Kernel::arguments`] and [`Kernel::results`], and every
+    /// entry of the results is overwritten.
+    fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]);
+
     /// [`Mechanism::residual`](eigentol_contract::Mechanism::residual).
-    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]);
+    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
+        self.evaluate(Kernel::Residual, &[q, u, b], &mut [residual]);
+    }
 
     /// [`Mechanism::residual_parts`](eigentol_contract::Mechanism::residual_parts).
-    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts);
+    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
+        let results = &mut [&mut parts.inertia[..], &mut parts.applied];
+        self.evaluate(Kernel::ResidualParts, &[q, u, b], results);
+    }
 
     /// [`Mechanism::residual_and_stiffness`](eigentol_contract::Mechanism::residual_and_stiffness), with the matrix row
     /// by row.
@@ -113,10 +152,15 @@ pub trait Kernels: Sync {
         b: &[f64],
         residual: &mut [f64],
         stiffness: &mut [f64],
-    );
+    ) {
+        let results = &mut [residual, stiffness];
+        self.evaluate(Kernel::ResidualAndStiffness, &[q, u, b], results);
+    }
 
     /// [`Mechanism::linear`](eigentol_contract::Mechanism::linear).
-    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear);
+    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
+        self.evaluate(Kernel::Linear, &[q, u, b], &mut linear_results(linear));
+    }
 
     /// [`Kernels::residual_parts_into`] and [`Kernels::linear_into`]; common terms are computed once where that pays.
     fn parts_and_linear_into(
@@ -138,7 +182,10 @@ pub trait Kernels: Sync {
         u: &[f64],
         b: &[f64],
         partials: &mut ResidualPartials,
-    );
+    ) {
+        let results = &mut matrix_results([&mut partials.0, &mut partials.1]);
+        self.evaluate(Kernel::ResidualPartials, &[q, u, b], results);
+    }
 
     /// [`Mechanism::linear_partials`](eigentol_contract::Mechanism::linear_partials).
     fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices);
@@ -165,19 +212,28 @@ pub trait Kernels: Sync {
         phi: &[f64],
         lambda: f64,
         gradient: &mut Gradient,
-    );
+    ) {
+        let arguments = &[q, u, b, phi, &[lambda]];
+        self.evaluate(
+            Kernel::ModeGradient,
+            arguments,
+            &mut gradient_results(gradient),
+        );
+    }
 
-    /// [`Mechanism::pencil_gradient`](eigentol_contract::Mechanism::pencil_gradient); `vectors` are `left`,
-    /// `acceleration`,
-    /// `velocity` and `position`.
+    /// [`Mechanism::pencil_gradient`](eigentol_contract::Mechanism::pencil_gradient).
     fn pencil_gradient_into(
         &self,
         q: &[f64],
         u: &[f64],
         b: &[f64],
-        vectors: [&[f64]; 4],
+        [left, acceleration, velocity, position]: [&[f64]; 4],
         gradient: &mut Gradient,
-    );
+    ) {
+        let arguments = &[q, u, b, left, acceleration, velocity, position];
+        let results = &mut gradient_results(gradient);
+        self.evaluate(Kernel::PencilGradient, arguments, results);
+    }
 
     /// [`Mechanism::residual_gradient`](eigentol_contract::Mechanism::residual_gradient).
     fn residual_gradient_into(
@@ -187,10 +243,18 @@ pub trait Kernels: Sync {
         b: &[f64],
         w: &[f64],
         gradient: &mut Gradient,
-    );
+    ) {
+        let results = &mut gradient_results(gradient);
+        self.evaluate(Kernel::ResidualGradient, &[q, u, b, w], results);
+    }
 
     /// [`Mechanism::whirl`](eigentol_contract::Mechanism::whirl).
-    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2];
+    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
+        let mut whirl = [0.0; 2];
+        let arguments = &[q, u, b, real, imaginary];
+        self.evaluate(Kernel::Whirl, arguments, &mut [&mut whirl]);
+        whirl
+    }
 
     /// [`Mechanism::violation`](eigentol_contract::Mechanism::violation).
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>>;
@@ -206,11 +270,16 @@ pub trait Kernels: Sync {
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]);
 
     /// [`Mechanism::outputs`](eigentol_contract::Mechanism::outputs).
-    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]);
+    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
+        self.evaluate(Kernel::Outputs, &[q, u, b], &mut [outputs]);
+    }
 
     /// [`Mechanism::output_partials`](eigentol_contract::Mechanism::output_partials), with respect to unknowns, inputs
     /// and design variables, one row per output.
-    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]);
+    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
+        let results = &mut matrix_results(partials);
+        self.evaluate(Kernel::OutputPartials, &[q, u, b], results);
+    }
 }
 
 impl dyn Kernels + '_ {

@@ -1,10 +1,18 @@
 //! The kernels of nonlinear motion.
 
-use super::{DirectionalKernels, Linear};
+use super::{DirectionalKernels, Linear, MotionKernel, linear_results};
 use crate::algebra::{Matrix, Vector};
 
 /// The equations of motion and their linearisation along any motion.
 pub trait MotionKernels: DirectionalKernels {
+    /// Evaluates a kernel, as [`Kernels::evaluate`](super::Kernels::evaluate).
+    fn evaluate_motion(
+        &self,
+        kernel: MotionKernel,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
+    );
+
     /// [`Mechanism::motion_residual`](eigentol_contract::Mechanism::motion_residual).
     fn motion_residual_into(
         &self,
@@ -14,7 +22,10 @@ pub trait MotionKernels: DirectionalKernels {
         u: &[f64],
         b: &[f64],
         residual: &mut [f64],
-    );
+    ) {
+        let arguments = &[acceleration, velocity, q, u, b];
+        self.evaluate_motion(MotionKernel::Residual, arguments, &mut [residual]);
+    }
 
     /// [`Mechanism::motion`](eigentol_contract::Mechanism::motion).
     fn motion_into(
@@ -25,7 +36,10 @@ pub trait MotionKernels: DirectionalKernels {
         b: &[f64],
         mass: &mut Matrix,
         right: &mut [f64],
-    );
+    ) {
+        let results = &mut [mass.as_flattened_mut(), right];
+        self.evaluate_motion(MotionKernel::Motion, &[velocity, q, u, b], results);
+    }
 
     /// [`Mechanism::motion_linear`](eigentol_contract::Mechanism::motion_linear).
     fn motion_linear_into(
@@ -36,7 +50,10 @@ pub trait MotionKernels: DirectionalKernels {
         u: &[f64],
         b: &[f64],
         linear: &mut Linear,
-    );
+    ) {
+        let arguments = &[acceleration, velocity, q, u, b];
+        self.evaluate_motion(MotionKernel::Linear, arguments, &mut linear_results(linear));
+    }
 }
 
 impl dyn MotionKernels + '_ {

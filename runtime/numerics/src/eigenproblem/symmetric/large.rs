@@ -1,12 +1,11 @@
 //! Sizes that are not small: products are those of whole matrices, and inaccurate shapes are corrected by all others.
 
-use nalgebra::{DMatrix, SymmetricEigen};
-
 use super::refine::refine;
 use super::residual::{Matrices, Rest, second_order};
-use super::{INACCURATE, SMALL, Trouble, accepted, fix_sign, not_found, sort};
+use super::{INACCURATE, SMALL, Trouble, accepted, fix_sign, not_found, sort, symmetrise};
 use crate::algebra::largest;
 use crate::eigenproblem::dense::{self, add, dot, dot_sizes};
+use crate::eigenproblem::tridiagonal;
 
 /// Corrections of an inaccurate shape.
 const CORRECTIONS: usize = 6;
@@ -62,20 +61,24 @@ fn decompose(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]) -> Res
         dense::solve_lower(n, &lower, n, &mut reduced);
         dense::transpose(n, &mut reduced);
     }
-    let mean = |i: usize, j: usize| 0.5 * (reduced[i * n + j] + reduced[j * n + i]);
-    let eigen = DMatrix::from_fn(n, n, mean);
-    let eigen = SymmetricEigen::try_new(eigen, f64::EPSILON, 60 * n).ok_or_else(not_found)?;
-    let values = eigen.eigenvalues.as_slice();
-    let mut places: Vec<usize> = (0..n).collect();
-    places.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    for (r, &place) in places.iter().enumerate() {
-        lambda[r] = values[place];
-        for (i, &x) in eigen.eigenvectors.column(place).iter().enumerate() {
-            shapes[i * n + r] = x;
-        }
+    symmetrise(n, &mut reduced);
+    // Q^T L^-1: its rows are the shapes.
+    let mut rows = vec![0.0; n * n];
+    rows.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
+    dense::solve_lower(n, &lower, n, &mut rows);
+    let (mut values, mut beside, mut product) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    let room = [&mut values[..], &mut beside, &mut product];
+    if !tridiagonal::decompose(&mut reduced, &mut rows, room) {
+        return Err(not_found());
     }
-    dense::solve_lower_transposed(n, &lower, n, shapes);
-    dense::transpose(n, shapes);
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    for (r, shape) in order.iter().zip(shapes.chunks_exact_mut(n)) {
+        shape.copy_from_slice(&rows[r * n..(r + 1) * n]);
+    }
+    for (r, lambda) in order.iter().zip(lambda) {
+        *lambda = values[*r];
+    }
     Ok(())
 }
 

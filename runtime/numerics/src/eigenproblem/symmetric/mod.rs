@@ -1,11 +1,10 @@
-//! The symmetric generalised eigenproblem `K phi = lambda M phi`, with separate code for each small size.
+//! The symmetric generalised eigenproblem `K phi = lambda M phi`, with separate code for small sizes.
 
 mod large;
 mod refine;
 mod residual;
 
-use nalgebra::{SMatrix, SymmetricEigen};
-
+use super::tridiagonal;
 use crate::algebra::{Matrix, Vector, for_size, largest};
 use refine::refine;
 use residual::Matrices;
@@ -68,12 +67,19 @@ pub fn solve_into(stiffness: &Matrix, mass: &Matrix, pairs: &mut Pairs) -> Resul
         0 => {}
         1 => one(k, m, lambda, shapes)?,
         2 => two(k, m, lambda, shapes)?,
-        3 => small_3(k, m, lambda, shapes)?,
-        4 => small_4(k, m, lambda, shapes)?,
-        5 => small_5(k, m, lambda, shapes)?,
-        6 => small_6(k, m, lambda, shapes)?,
-        7 => small_7(k, m, lambda, shapes)?,
-        8 => small_8(k, m, lambda, shapes)?,
+        3..=SMALL_SIZE => for_size(
+            n,
+            #[inline(always)]
+            |n| {
+                small(
+                    n,
+                    &k[..n * n],
+                    &m[..n * n],
+                    &mut lambda[..n],
+                    &mut shapes[..n * n],
+                )
+            },
+        )?,
         _ => {}
     }
     let (residuals, errors) = (pairs.residuals.make_room(n), pairs.errors.make_room(n));
@@ -143,33 +149,63 @@ fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
     Ok(())
 }
 
-/// Defines one function per size.
-macro_rules! small {
-    ($($name:ident $size:literal)*) => {$(
-        fn $name(
-            k: &[f64],
-            m: &[f64],
-            lambda: &mut [f64],
-            vectors: &mut [f64],
-        ) -> Result<(), Trouble> {
-            let lower = factor($size, m)?;
-            let lower = SMatrix::<f64, $size, $size>::from_row_slice(&lower[..$size * $size]);
-            let mut reduced = SMatrix::<f64, $size, $size>::from_row_slice(k);
-            lower.solve_lower_triangular_mut(&mut reduced);
-            let mut reduced = reduced.transpose();
-            lower.solve_lower_triangular_mut(&mut reduced);
-            let reduced = (reduced + reduced.transpose()) * 0.5;
-            let found = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * $size);
-            let eigen = found.ok_or_else(not_found)?;
-            let mut shapes = eigen.eigenvectors;
-            lower.tr_solve_lower_triangular_mut(&mut shapes);
-            lambda.copy_from_slice(eigen.eigenvalues.as_slice());
-            vectors.copy_from_slice(shapes.as_slice());
-            Ok(())
-        }
-    )*};
+/// Sizes from three to eight: from the tridiagonal form of `L^-1 K L^-T`, `M = L L^T`.
+fn small(
+    n: usize,
+    k: &[f64],
+    m: &[f64],
+    lambda: &mut [f64],
+    vectors: &mut [f64],
+) -> Result<(), Trouble> {
+    let lower = factor(n, m)?;
+    let mut reduced = [0.0; SMALL_SIZE * SMALL_SIZE];
+    let reduced = &mut reduced[..n * n];
+    reduced.copy_from_slice(k);
+    for _ in 0..2 {
+        solve_lower(n, &lower, reduced);
+        transpose(n, reduced);
+    }
+    symmetrise(n, reduced);
+    // Q^T L^-1: its rows are the shapes.
+    vectors.fill(0.0);
+    vectors.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
+    solve_lower(n, &lower, vectors);
+    let (mut beside, mut product) = ([0.0; SMALL_SIZE], [0.0; SMALL_SIZE]);
+    let room = [lambda, &mut beside[..n], &mut product[..n]];
+    let found = tridiagonal::decompose(reduced, vectors, room);
+    found.then_some(()).ok_or_else(not_found)
 }
-small! { small_3 3 small_4 4 small_5 5 small_6 6 small_7 7 small_8 8 }
+
+/// `L^-1 X` in place, for square `X`.
+fn solve_lower(n: usize, lower: &[f64], x: &mut [f64]) {
+    for i in 0..n {
+        let (done, rest) = x.split_at_mut(i * n);
+        let row = &mut rest[..n];
+        for (done, factor) in done.chunks_exact(n).zip(&lower[i * n..]) {
+            for (x, done) in row.iter_mut().zip(done) {
+                *x -= factor * done;
+            }
+        }
+        row.iter_mut().for_each(|x| *x /= lower[i * (n + 1)]);
+    }
+}
+
+fn transpose(n: usize, matrix: &mut [f64]) {
+    for i in 0..n {
+        for j in 0..i {
+            matrix.swap(i * n + j, j * n + i);
+        }
+    }
+}
+
+/// The lower triangle becomes the mean of both.
+fn symmetrise(n: usize, matrix: &mut [f64]) {
+    for i in 0..n {
+        for j in 0..i {
+            matrix[i * n + j] = 0.5 * (matrix[i * n + j] + matrix[j * n + i]);
+        }
+    }
+}
 
 /// Lower Cholesky factor of a mass matrix of size up to 8, row by row.
 fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], Trouble> {

@@ -77,14 +77,13 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
     ) {
         let n = at.q.len();
         let at = self.applied_batch(at);
-        let mut residual = vec![Batch::default(); n * self.deviations.design()];
+        let mut residual: Vec<Batch> = self.deviations.narrow(by_design.len());
         self.deviations.batch_partials(n * n, matrices, |matrices| {
             let residual = [&mut *by_input, &mut residual[..]];
             self.kernels
                 .partials_batch(instructions, at.point(), matrices, residual);
         });
-        self.deviations
-            .batch_rows(n, by_design, by_input, &residual);
+        self.deviations.join_rows(by_design, by_input, &residual);
     }
 
     fn mode_gradient_batch(
@@ -173,19 +172,6 @@ impl Deviations {
         ] {
             for (to, &input) in to.chunks_exact_mut(entries.max(1)).zip(self.inputs()) {
                 to.copy_from_slice(&from[input * entries..][..entries]);
-            }
-        }
-    }
-
-    /// Derivatives of the residual with respect to design variables and deviations, row by row, from those with respect
-    /// to inputs and design variables.
-    fn batch_rows(&self, rows: usize, to: &mut [Batch], by_input: &[Batch], by_design: &[Batch]) {
-        let (inputs, design) = (by_input.len() / rows.max(1), self.design());
-        let width = design + self.inputs().len();
-        for (i, to) in to.chunks_exact_mut(width.max(1)).enumerate() {
-            to[..design].copy_from_slice(&by_design[i * design..][..design]);
-            for (to, &input) in to[design..].iter_mut().zip(self.inputs()) {
-                *to = by_input[i * inputs + input];
             }
         }
     }

@@ -1,9 +1,7 @@
 //! The position of deviations among the design variables, and the resulting conversion of arguments and results.
 
-use core::mem::replace;
-
-use crate::algebra::{Matrix, Vector};
-use crate::kernels::{Gradient, PartialMatrices, ResidualPartials};
+use crate::algebra::Vector;
+use crate::kernels::PartialMatrices;
 
 /// Deviations of inputs, which follow the mechanism's own design variables.
 #[derive(Debug)]
@@ -48,42 +46,6 @@ impl Deviations {
         (applied, own)
     }
 
-    /// Converts a gradient of the mechanism.
-    pub(super) fn gradient<T: Copy + Default>(
-        &self,
-        gradient: &mut Gradient<T>,
-        kernel: impl FnOnce(&mut Gradient<T>),
-    ) {
-        let mut design = replace(&mut gradient.design, Vector::zeros(self.design));
-        kernel(gradient);
-        self.join(&mut design, &gradient.inputs, &gradient.design);
-        gradient.design = design;
-    }
-
-    /// Converts derivatives of the residual.
-    pub(super) fn residual_partials<T: Copy + Default>(
-        &self,
-        partials: &mut ResidualPartials<T>,
-        kernel: impl FnOnce(&mut ResidualPartials<T>),
-    ) {
-        let own = Matrix::zeros(partials.1.row_count(), self.design);
-        let mut by_design = replace(&mut partials.1, own);
-        kernel(partials);
-        self.join_rows(&mut by_design, &partials.0, &partials.1);
-        partials.1 = by_design;
-    }
-
-    /// Converts derivatives of the outputs with respect to unknowns, inputs and design variables.
-    pub(super) fn output_partials(
-        &self,
-        [by_coordinate, by_input, by_design]: [&mut Matrix; 3],
-        kernel: impl FnOnce([&mut Matrix; 3]),
-    ) {
-        let mut own = Matrix::zeros(by_design.row_count(), self.design);
-        kernel([by_coordinate, &mut *by_input, &mut own]);
-        self.join_rows(by_design, by_input, &own);
-    }
-
     /// Converts derivatives of the matrices.
     pub(super) fn partial_matrices(&self, own: &PartialMatrices, joined: &mut PartialMatrices) {
         let [by_coordinate, by_input, by_design] = joined.lists_mut();
@@ -97,24 +59,26 @@ impl Deviations {
         }
     }
 
-    /// Derivatives with respect to design variables and deviations, from those with respect to inputs and design
-    /// variables.
-    fn join<T: Copy>(&self, joined: &mut [T], by_input: &[T], by_design: &[T]) {
-        let (own, deviations) = joined.split_at_mut(self.design);
-        own.copy_from_slice(by_design);
-        for (to, &input) in deviations.iter_mut().zip(&self.inputs) {
-            *to = by_input[input];
+    /// Zeros in place of the rows of derivatives by design variables and deviations: those by design variables alone.
+    pub(super) fn narrow<T: Copy + Default>(&self, entries: usize) -> Vec<T> {
+        vec![T::default(); entries / self.width() * self.design]
+    }
+
+    /// Derivatives by design variables and deviations, row by row, from those by inputs and by design variables.
+    pub(super) fn join_rows<T: Copy>(&self, joined: &mut [T], by_input: &[T], by_design: &[T]) {
+        let width = self.width();
+        let inputs = by_input.len() / (joined.len() / width).max(1);
+        for (i, row) in joined.chunks_exact_mut(width).enumerate() {
+            let (own, deviations) = row.split_at_mut(self.design);
+            own.copy_from_slice(&by_design[i * self.design..][..self.design]);
+            for (to, &input) in deviations.iter_mut().zip(&self.inputs) {
+                *to = by_input[i * inputs + input];
+            }
         }
     }
 
-    fn join_rows<T: Copy>(
-        &self,
-        joined: &mut Matrix<T>,
-        by_input: &Matrix<T>,
-        by_design: &Matrix<T>,
-    ) {
-        for i in 0..joined.row_count() {
-            self.join(&mut joined[i], &by_input[i], &by_design[i]);
-        }
+    /// Number of design variables and deviations, at least one.
+    fn width(&self) -> usize {
+        (self.design + self.inputs.len()).max(1)
     }
 }

@@ -3,16 +3,48 @@
 use core::ops::Add;
 
 use super::DeviatingInputs;
-use crate::algebra::{Matrix, Vector};
+use crate::algebra::Vector;
 use crate::kernels::{
-    Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
-    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Second, Sizes,
+    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Extent, Kernel, Kernels,
+    Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, RestParts, Second, Shape,
+    Sizes,
 };
 use crate::mechanism::{Description, PictureInfo, PoseMargin, Shared, Violation};
 
 impl<K: ?Sized> DeviatingInputs<'_, K> {
     fn applied<'b>(&self, u: &[f64], b: &'b [f64]) -> (Vector, &'b [f64]) {
         self.deviations.applied(u, b, f64::add)
+    }
+
+    /// Calls the mechanism's kernel with lists of arguments, or of their changes, of which the first two are `u` and `b`
+    /// after `at` others, and returns results with the derivatives by the deviations.
+    fn evaluated<const N: usize>(
+        &self,
+        lists: [&[&[f64]]; N],
+        (arguments, shapes): (&[Extent], &[Shape]),
+        results: &mut [&mut [f64]],
+        kernel: impl FnOnce([&[&[f64]]; N], &mut [&mut [f64]]),
+    ) {
+        let inputs = arguments.iter().take_while(|list| **list != Extent::Inputs);
+        let at = inputs.count();
+        let applied = lists.map(|list| self.applied(list[at], list[at + 1]));
+        let mut own = lists.map(<[_]>::to_vec);
+        for (own, (u, b)) in own.iter_mut().zip(&applied) {
+            own[at] = u;
+            own[at + 1] = b;
+        }
+        let own = own.each_ref().map(Vec::as_slice);
+        match (shapes, results) {
+            ([.., [_, Extent::Design]], [before @ .., by_input, by_design]) => {
+                let mut narrow = self.deviations.narrow(by_design.len());
+                let mut narrowed: Vec<&mut [f64]> =
+                    before.iter_mut().map(|own| &mut **own).collect();
+                narrowed.extend([&mut **by_input, &mut narrow[..]]);
+                kernel(own, &mut narrowed);
+                self.deviations.join_rows(by_design, by_input, &narrow);
+            }
+            (_, results) => kernel(own, results),
+        }
     }
 }
 
@@ -39,14 +71,11 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         }
     }
 
-    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
-        let (u, b) = self.applied(u, b);
-        self.kernels.residual_into(q, &u, b, residual);
-    }
-
-    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
-        let (u, b) = self.applied(u, b);
-        self.kernels.residual_parts_into(q, &u, b, parts);
+    fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
+        let shape = (kernel.arguments(), kernel.results());
+        self.evaluated([arguments], shape, results, |[arguments], results| {
+            self.kernels.evaluate(kernel, arguments, results);
+        });
     }
 
     fn residual_and_stiffness_into(
@@ -62,11 +91,6 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
             .residual_and_stiffness_into(q, &u, b, residual, stiffness);
     }
 
-    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
-        let (u, b) = self.applied(u, b);
-        self.kernels.linear_into(q, &u, b, linear);
-    }
-
     fn parts_and_linear_into(
         &self,
         q: &[f64],
@@ -77,19 +101,6 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
     ) {
         let (u, b) = self.applied(u, b);
         self.kernels.parts_and_linear_into(q, &u, b, parts, linear);
-    }
-
-    fn residual_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut ResidualPartials,
-    ) {
-        let (u, b) = self.applied(u, b);
-        self.deviations.residual_partials(partials, |partials| {
-            self.kernels.residual_partials_into(q, &u, b, partials);
-        });
     }
 
     fn linear_partials_into(
@@ -103,72 +114,6 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         let mut own = PartialMatrices::zeros(self.kernels.sizes());
         self.kernels.linear_partials_into(q, &u, b, &mut own);
         self.deviations.partial_matrices(&own, partials);
-    }
-
-    fn partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        matrices: &mut PartialMatrices,
-        residual: &mut ResidualPartials,
-    ) {
-        let (u, b) = self.applied(u, b);
-        let mut own = PartialMatrices::zeros(self.kernels.sizes());
-        self.deviations.residual_partials(residual, |residual| {
-            self.kernels.partials_into(q, &u, b, &mut own, residual);
-        });
-        self.deviations.partial_matrices(&own, matrices);
-    }
-
-    fn mode_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        gradient: &mut Gradient,
-    ) {
-        let (u, b) = self.applied(u, b);
-        self.deviations.gradient(gradient, |gradient| {
-            self.kernels
-                .mode_gradient_into(q, &u, b, phi, lambda, gradient);
-        });
-    }
-
-    fn pencil_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let (u, b) = self.applied(u, b);
-        self.deviations.gradient(gradient, |gradient| {
-            self.kernels
-                .pencil_gradient_into(q, &u, b, vectors, gradient);
-        });
-    }
-
-    fn residual_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        gradient: &mut Gradient,
-    ) {
-        let (u, b) = self.applied(u, b);
-        self.deviations.gradient(gradient, |gradient| {
-            self.kernels.residual_gradient_into(q, &u, b, w, gradient);
-        });
-    }
-
-    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
-        let (u, b) = self.applied(u, b);
-        self.kernels.whirl(q, &u, b, real, imaginary)
     }
 
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
@@ -192,156 +137,51 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         let (u, b) = self.deviations.applied(u, b, Second::add);
         self.kernels.held_values_into(&u, b, values);
     }
-
-    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
-        let (u, b) = self.applied(u, b);
-        self.kernels.outputs_into(q, &u, b, outputs);
-    }
-
-    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
-        let (u, b) = self.applied(u, b);
-        self.deviations.output_partials(partials, |partials| {
-            self.kernels.output_partials_into(q, &u, b, partials);
-        });
-    }
 }
 
 impl<K: DirectionalKernels + ?Sized> DirectionalKernels for DeviatingInputs<'_, K> {
-    fn linear_along_into(
+    fn evaluate_along(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        linear: &mut Linear,
+        kernel: Directional,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let (u, b) = self.applied(u, b);
-        let [dq, du, db] = direction;
-        let (du, db) = self.applied(du, db);
-        self.kernels
-            .linear_along_into(q, &u, b, [dq, &du, db], linear);
-    }
-
-    fn residual_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        direction: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let (u, b) = self.applied(u, b);
-        let [dq, du, db, dw] = direction;
-        let (du, db) = self.applied(du, db);
-        self.deviations.gradient(gradient, |gradient| {
-            let direction = [dq, &du, db, dw];
-            self.kernels
-                .residual_gradient_along_into(q, &u, b, w, direction, gradient);
+        let row = Kernel::from(kernel);
+        let shape = (row.arguments(), row.results());
+        self.evaluated([arguments, direction], shape, results, |[at, along], to| {
+            self.kernels.evaluate_along(kernel, at, along, to);
         });
     }
 }
 
 impl<K: CurvatureKernels + ?Sized> CurvatureKernels for DeviatingInputs<'_, K> {
-    fn mode_gradient_along_into(
+    fn evaluate_curvature(
         &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        direction: [&[f64]; 4],
-        dlambda: f64,
-        gradient: &mut Gradient,
+        kernel: Curvature,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let (u, b) = self.applied(u, b);
-        let [dq, du, db, dphi] = direction;
-        let (du, db) = self.applied(du, db);
-        self.deviations.gradient(gradient, |gradient| {
-            let direction = [dq, &du, db, dphi];
-            self.kernels
-                .mode_gradient_along_into(q, &u, b, phi, lambda, direction, dlambda, gradient);
-        });
-    }
-
-    fn pencil_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        direction: [&[f64]; 3],
-        changes: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let (u, b) = self.applied(u, b);
-        let [dq, du, db] = direction;
-        let (du, db) = self.applied(du, db);
-        self.deviations.gradient(gradient, |gradient| {
-            let direction = [dq, &du, db];
-            self.kernels
-                .pencil_gradient_along_into(q, &u, b, vectors, direction, changes, gradient);
-        });
-    }
-
-    fn output_partials_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        partials: [&mut Matrix; 3],
-    ) {
-        let (u, b) = self.applied(u, b);
-        let [dq, du, db] = direction;
-        let (du, db) = self.applied(du, db);
-        self.deviations.output_partials(partials, |partials| {
-            self.kernels
-                .output_partials_along_into(q, &u, b, [dq, &du, db], partials);
+        let row = Kernel::from(kernel);
+        let shape = (row.arguments(), row.results());
+        self.evaluated([arguments, direction], shape, results, |[at, along], to| {
+            self.kernels.evaluate_curvature(kernel, at, along, to);
         });
     }
 }
 
 impl<K: MotionKernels + ?Sized> MotionKernels for DeviatingInputs<'_, K> {
-    fn motion_residual_into(
+    fn evaluate_motion(
         &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        residual: &mut [f64],
+        kernel: MotionKernel,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) {
-        let (u, b) = self.applied(u, b);
-        self.kernels
-            .motion_residual_into(acceleration, velocity, q, &u, b, residual);
-    }
-
-    fn motion_into(
-        &self,
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        mass: &mut Matrix,
-        right: &mut [f64],
-    ) {
-        let (u, b) = self.applied(u, b);
-        self.kernels.motion_into(velocity, q, &u, b, mass, right);
-    }
-
-    fn motion_linear_into(
-        &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        linear: &mut Linear,
-    ) {
-        let (u, b) = self.applied(u, b);
-        self.kernels
-            .motion_linear_into(acceleration, velocity, q, &u, b, linear);
+        let shape = (kernel.arguments(), kernel.results());
+        self.evaluated([arguments], shape, results, |[arguments], results| {
+            self.kernels.evaluate_motion(kernel, arguments, results);
+        });
     }
 }
 
