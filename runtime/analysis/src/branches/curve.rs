@@ -6,7 +6,7 @@ use super::settings::Continuation;
 use crate::algebra::{Matrix, Vector, add_to, all_finite};
 use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
-    ACCEPTED, Failure, Judged, OperatingPoint, Policy, Verdict, constraint_state, judge,
+    ACCEPTED, Failure, OperatingPoint, Policy, SolvedState, Verdict, constraint_state, judge,
     relative_residual, solve,
 };
 use crate::error::NotFound;
@@ -149,7 +149,7 @@ impl<'a> Curve<'a> {
     }
 
     /// The equilibrium beside a state at one end of the range, at a share of the way to the other end.
-    pub(crate) fn beside(&self, state: &Equilibrium, share: f64) -> Result<Judged, Failure> {
+    pub(crate) fn beside(&self, state: &Equilibrium, share: f64) -> Result<SolvedState, Failure> {
         let (low, high) = (self.settings.low, self.settings.high);
         let value = state.inputs[self.settings.input.index()];
         let target = if value == low { high } else { low };
@@ -247,7 +247,7 @@ impl<'a> Curve<'a> {
         system: &System,
         iterations: usize,
         also: Option<f64>,
-    ) -> Result<Judged, Trouble> {
+    ) -> Result<SolvedState, Trouble> {
         let inputs = self.inputs_at(at.p);
         if let Some(violation) = self.mechanism.violation(&inputs, self.design) {
             return Err(Trouble::Unphysical(Error::Unphysical {
@@ -302,7 +302,7 @@ impl<'a> Curve<'a> {
         state.relative_residual = relative;
         state.iterations = iterations;
         let modes = verdict.modes;
-        Ok(Judged { state, modes })
+        Ok(SolvedState { state, modes })
     }
 
     /// The free directions at a point of the branch, and what holds it.

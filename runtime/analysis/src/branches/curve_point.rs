@@ -4,7 +4,7 @@ use super::curve::{Curve, Trouble, plane};
 use super::local_scaling::{CurvePosition, Frame, System};
 use crate::algebra::{Cholesky, Vector, asymmetry};
 use crate::constraints::Structure;
-use crate::equilibrium::{Equilibrium, Judged};
+use crate::equilibrium::{Equilibrium, SolvedState};
 use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::modes::free_pairs;
@@ -45,7 +45,7 @@ impl Curve<'_> {
         &self,
         place: &CurvePosition,
         system: &System,
-        judged: Judged,
+        judged: SolvedState,
         towards: &CurvePosition,
         before: Option<&Signs>,
     ) -> Result<CurvePoint, Trouble> {
@@ -91,7 +91,7 @@ impl Curve<'_> {
     }
 
     /// The first station of a branch, with its tangent towards the high end of the range.
-    pub(crate) fn first_station(&self, judged: Judged) -> Result<CurvePoint, Trouble> {
+    pub(crate) fn first_station(&self, judged: SolvedState) -> Result<CurvePoint, Trouble> {
         let equilibrium = &judged.state;
         let place = CurvePosition {
             q: equilibrium.coordinates.clone(),

@@ -10,7 +10,7 @@ use super::special::{Junction, SpecialKind};
 use super::walk::{Pass, SAME, Walk};
 use super::{Branch, BranchEnd, BranchPoint, Branches};
 use crate::algebra::Vector;
-use crate::equilibrium::{Judged, Policy, Search, equilibrium, find_equilibria};
+use crate::equilibrium::{Policy, Search, SolvedState, equilibrium, find_equilibria};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error, Stability, Watch};
 
@@ -18,8 +18,8 @@ use crate::{Equilibrium, Error, Stability, Watch};
 const NUDGE: f64 = 1e-6;
 
 /// A state without the modes that its judgement may have needed.
-fn unjudged(state: Equilibrium) -> Judged {
-    Judged {
+fn unjudged(state: Equilibrium) -> SolvedState {
+    SolvedState {
         state,
         modes: Vec::new(),
     }

@@ -11,7 +11,7 @@ use crate::kernels::{CurvatureKernels, Gradient, Kernels, Linear};
 use crate::modes::{Family, pencil_slope_times};
 use crate::scalar::Real as _;
 use crate::sensitivity::{
-    ComplexGradient, Direction, Form, ModeSensitivity, Quantity, Slopes, directions,
+    BilinearForm, ComplexGradient, Direction, ModeSensitivity, Quantity, Slopes, directions,
     eigenvalue_curvature, eigenvalue_slope, form_gradient, form_gradient_along, normaliser,
     outside_domain,
 };
@@ -353,7 +353,7 @@ impl<'a> AdjointGradient<'a> {
         let rate = shapes.rate.along(change);
         let (dphi, dpsi) = shapes.along(change, rate);
         let (mut total, mut room) = gradients(mechanism);
-        let moved = Form::along(mode, &dpsi, rate, &dphi);
+        let moved = BilinearForm::along(mode, &dpsi, rate, &dphi);
         let forms = (&form(mode), &moved);
         form_gradient_along(mechanism, at, forms, direction, &mut room, &mut total);
         for (part, w) in total.iter_mut().zip(&self.w) {
@@ -387,8 +387,8 @@ impl<'a> AdjointGradient<'a> {
     }
 }
 
-fn form(mode: &Mode) -> Form {
-    Form::of(mode.left(), mode.s, &mode.shape)
+fn form(mode: &Mode) -> BilinearForm {
+    BilinearForm::of(mode.left(), mode.s, &mode.shape)
 }
 
 /// Buffers for the gradient of a complex number and one real gradient.

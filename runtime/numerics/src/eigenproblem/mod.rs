@@ -9,6 +9,8 @@ mod tridiagonal;
 
 pub use complex::eigenvalues;
 pub use diagonalise::diagonalise;
-pub use general::{Eigenproblem, Near, Reference, ReferencePair, Root, roots_near, roots_of};
-pub use symmetric::{INACCURATE, Pairs, Trouble};
+pub use general::{
+    ApproximatePair, Eigenproblem, Reference, ReferencePair, Root, roots_near, roots_of,
+};
+pub use symmetric::{EigenproblemError, INACCURATE, Pairs};
 pub use tridiagonal::Tridiagonal;

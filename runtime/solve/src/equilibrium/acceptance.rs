@@ -6,7 +6,7 @@ use crate::algebra::{Matrix, Vector, add_scaled, all_finite, largest};
 use crate::kernels::Linear;
 
 /// The result of a solver, before its stability is judged.
-pub(crate) struct Found {
+pub(crate) struct UnjudgedResult {
     pub(crate) coordinates: Vector,
     pub(crate) residual: Vector,
     /// The measurement, if already made.
@@ -15,7 +15,7 @@ pub(crate) struct Found {
     pub(crate) left_unstable_region: bool,
 }
 
-impl Found {
+impl UnjudgedResult {
     /// A result reached without passing through an unstable region.
     pub(crate) fn new(end: Candidate, iterations: usize) -> Self {
         Self {

@@ -35,7 +35,7 @@ pub struct Branch<'a> {
 
 /// A design and an equilibrium of it.
 #[derive(Clone, Copy)]
-struct Place<'a> {
+struct DesignEquilibrium<'a> {
     design: &'a [f64],
     q: &'a [f64],
     /// Whether its stiffness is regular.
@@ -52,16 +52,21 @@ impl<'a> Branch<'a> {
     #[doc(hidden)]
     pub fn holds(&self, design: &[f64], q: &[f64]) -> bool {
         let free = self.nominal.free.count();
-        let nominal = Place {
+        let nominal = DesignEquilibrium {
             design: &self.nominal.design,
             q: &self.nominal.coordinates,
             regular: !matches!(self.nominal.stability, Stability::Neutral { zero } if zero > free),
         };
         let regular = true;
-        self.connected(nominal, Place { design, q, regular }, HALVINGS)
+        self.connected(nominal, DesignEquilibrium { design, q, regular }, HALVINGS)
     }
 
-    fn connected(&self, a: Place<'_>, b: Place<'_>, halvings: usize) -> bool {
+    fn connected(
+        &self,
+        a: DesignEquilibrium<'_>,
+        b: DesignEquilibrium<'_>,
+        halvings: usize,
+    ) -> bool {
         if self.leads(a, b.q) && self.leads(b, a.q) {
             return true;
         }
@@ -73,7 +78,7 @@ impl<'a> Branch<'a> {
         let point = OperatingPoint::unchecked(self.mechanism, &self.nominal.inputs, &design);
         let point = point.held_like(&self.nominal.free);
         solve(&point, a.q, Policy::about(self.nominal)).is_ok_and(|middle| {
-            let middle = Place {
+            let middle = DesignEquilibrium {
                 design: &design,
                 q: &middle.state.coordinates,
                 regular: true,
@@ -84,7 +89,11 @@ impl<'a> Branch<'a> {
 
     /// Whether a Newton step from `start` leads to the equilibrium of a design, over regular stiffness of one sign; or the
     /// equilibrium has no basin.
-    fn leads(&self, Place { design, q, regular }: Place<'_>, start: &[f64]) -> bool {
+    fn leads(
+        &self,
+        DesignEquilibrium { design, q, regular }: DesignEquilibrium<'_>,
+        start: &[f64],
+    ) -> bool {
         if !regular {
             return true;
         }

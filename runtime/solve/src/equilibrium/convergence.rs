@@ -43,7 +43,7 @@ pub(crate) enum Progress {
 }
 
 /// Monitors a falling residual and detects when it has reached rounding.
-pub(crate) struct Watch {
+pub(crate) struct ResidualMonitor {
     previous: f64,
     /// The state at which the residual last fell.
     fell_at: Vector,
@@ -51,7 +51,7 @@ pub(crate) struct Watch {
     parts: RestParts,
 }
 
-impl Watch {
+impl ResidualMonitor {
     pub(crate) fn new(start: &[f64]) -> Self {
         Self {
             previous: f64::INFINITY,

@@ -15,9 +15,9 @@
 //! continuation) was tried: it finds the terminal speed of an accelerating cart, but it lets an upright bicycle fall over,
 //! and upright is the state people want to study.
 
-use super::acceptance::{Candidate, Found, last_step};
+use super::acceptance::{Candidate, UnjudgedResult, last_step};
 use super::convergence::{
-    Progress, SMALL_MOTION, TOLERANCE, Watch, horizon, largest_of, relative_residual,
+    Progress, ResidualMonitor, SMALL_MOTION, TOLERANCE, horizon, largest_of, relative_residual,
 };
 use super::operating_point::{Failure, OperatingPoint};
 use super::search_space::{Base, SearchSpace, Trial};
@@ -67,12 +67,12 @@ impl SearchState {
 ///
 /// Once the search leaves a region where the potential is not convex, it calls `straight`, which finds the minimum
 /// faster if the remaining way is easy.
-pub(super) fn stable<S>(
+pub(super) fn minimise_potential<S>(
     point: &OperatingPoint<'_>,
     start: &[f64],
     from: &SearchState,
-    straight: impl Fn(SearchState) -> Option<Found>,
-) -> Result<Found, Failure>
+    straight: impl Fn(SearchState) -> Option<UnjudgedResult>,
+) -> Result<UnjudgedResult, Failure>
 where
     S: SearchSpace,
 {
@@ -85,7 +85,7 @@ where
     let mut departures = 0;
     let mut left_unstable_region = false;
     let mut was_curved = false;
-    let mut watch = Watch::new(&base.q);
+    let mut watch = ResidualMonitor::new(&base.q);
     let escaped = horizon(&start[..motions]);
     for iterations in from.iterations..MAX_ITERATIONS {
         let at = (&base.residual[..], &base.stiffness);
@@ -99,7 +99,7 @@ where
                 iterations,
             };
             if let Some(found) = straight(place) {
-                return Ok(Found {
+                return Ok(UnjudgedResult {
                     left_unstable_region,
                     ..found
                 });
@@ -114,9 +114,9 @@ where
             left_unstable_region |= curved.unstable;
             curved.step(&slopes)
         };
-        let found = |end: Candidate, iterations| Found {
+        let found = |end: Candidate, iterations| UnjudgedResult {
             left_unstable_region,
-            ..Found::new(end, iterations)
+            ..UnjudgedResult::new(end, iterations)
         };
         let here = |base: Base<S>| Candidate {
             coordinates: base.q,
@@ -144,7 +144,7 @@ where
                 return Err(outside(&base.q));
             }
             S::arrive(point, &mut trial, &mut base)?;
-            watch = Watch::new(&base.q);
+            watch = ResidualMonitor::new(&base.q);
             continue;
         }
         if progress == Progress::LastStep

@@ -1,6 +1,6 @@
 //! From a solution to a finished state: reactions determined, measured, stability judged.
 
-use super::acceptance::{Candidate, Found, Measured};
+use super::acceptance::{Candidate, Measured, UnjudgedResult};
 use super::convergence::{ACCEPTED, relative_residual};
 use super::operating_point::{Failure, OperatingPoint};
 use super::regularity::constraint_state;
@@ -15,7 +15,7 @@ use crate::{DampingKind, Equilibrium, Mode, Stability};
 
 /// A finished state.
 #[doc(hidden)]
-pub struct Judged {
+pub struct SolvedState {
     #[doc(hidden)]
     pub state: Equilibrium,
     /// Its general modes if they were needed to judge its stability; empty otherwise.
@@ -24,11 +24,14 @@ pub struct Judged {
 }
 
 /// The finished state at these coordinates and reactions.
-pub(super) fn finished(point: &OperatingPoint<'_>, q: Vector) -> Result<Judged, Failure> {
-    finish(point, Found::new(Candidate::at(point, q), 0))
+pub(super) fn finished(point: &OperatingPoint<'_>, q: Vector) -> Result<SolvedState, Failure> {
+    finish(point, UnjudgedResult::new(Candidate::at(point, q), 0))
 }
 
-pub(super) fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failure> {
+pub(super) fn finish(
+    point: &OperatingPoint<'_>,
+    mut found: UnjudgedResult,
+) -> Result<SolvedState, Failure> {
     let Measured {
         linear,
         relative_residual: relative,
@@ -64,10 +67,10 @@ pub(super) fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Jud
         description: point.description.clone(),
     };
     let modes = judge(point, &mut state)?;
-    Ok(Judged { state, modes })
+    Ok(SolvedState { state, modes })
 }
 
-/// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
+/// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`SolvedState::modes`].
 pub(crate) fn judge(
     point: &OperatingPoint<'_>,
     state: &mut Equilibrium,
@@ -94,7 +97,7 @@ pub(crate) fn judge(
 }
 
 /// Determines the reactions of a state, and measures the state.
-fn measure(point: &OperatingPoint<'_>, found: &mut Found) -> Result<Measured, Failure> {
+fn measure(point: &OperatingPoint<'_>, found: &mut UnjudgedResult) -> Result<Measured, Failure> {
     let mut linear = point.linear(&found.coordinates)?;
     if point.structure.constraints() > 1 {
         if let Some(least) = least_reactions(&found.coordinates, &linear, point.structure) {

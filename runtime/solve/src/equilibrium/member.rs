@@ -18,7 +18,7 @@
 //! stiffness alone cannot tell the critical direction from the others.
 
 use super::convergence::{StepsLeft, TOLERANCE, last, relative_residual};
-use super::finish::{Judged, finished};
+use super::finish::{SolvedState, finished};
 use super::operating_point::{Failure, OperatingPoint};
 use super::scaling::units;
 
@@ -39,11 +39,11 @@ const DIFFERENT: f64 = 1e-9;
 
 /// Moves a steady motion found from `start` to the member of its family that is meant, and notes what holds it there.
 /// Leaves a steady motion that belongs to no family as it is.
-pub(super) fn settled(
+pub(super) fn select_member(
     point: &OperatingPoint<'_>,
     start: &[f64],
-    found: Judged,
-) -> Result<Judged, Failure> {
+    found: SolvedState,
+) -> Result<SolvedState, Failure> {
     let q = &found.state.coordinates;
     let choice = choice(point, start, q)?;
     let unit = units_of(point, q)?;
@@ -56,7 +56,7 @@ pub(super) fn settled(
     };
     let moves = |held: &Held| differs(held.unknown, q[held.unknown], held.value);
     let mut settled = match held.iter().any(moves) {
-        true => finished(point, led(point, start, q, &held)?)?,
+        true => finished(point, continued_to(point, start, q, &held)?)?,
         false => found,
     };
     let state = &mut settled.state;
@@ -188,7 +188,7 @@ fn beside(held: &[Held], q: &[f64], unit: &[f64]) -> Vec<Held> {
 }
 
 /// The member with these held values: from the start, from the motion found there, or from the latter by stages.
-fn led(
+fn continued_to(
     point: &OperatingPoint<'_>,
     start: &[f64],
     found: &[f64],

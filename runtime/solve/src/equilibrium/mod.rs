@@ -32,7 +32,7 @@ pub use convergence::{
     ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,
 };
 #[doc(hidden)]
-pub use finish::Judged;
+pub use finish::SolvedState;
 #[doc(hidden)]
 pub use operating_point::{Failure, OperatingPoint};
 #[doc(hidden)]
@@ -112,7 +112,7 @@ pub fn equilibrium(
 }
 
 /// Like [`equilibrium`], but overwrites a blank state of this point, whose values are checked here, and returns
-/// [`Judged::modes`].
+/// [`SolvedState::modes`].
 pub fn equilibrium_into(
     point: &OperatingPoint<'_>,
     start: &[f64],

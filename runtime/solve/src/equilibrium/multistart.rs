@@ -5,7 +5,7 @@ use std::ops::Deref;
 use eigentol_statistics::random::RandomNumbers;
 
 use super::turns::{coincide, turned_towards, turns_do_not_count};
-use super::{Judged, OperatingPoint, Policy, solve};
+use super::{OperatingPoint, Policy, SolvedState, solve};
 use crate::algebra::Vector;
 use crate::constraints::Structure;
 use crate::free::Held;
@@ -172,7 +172,7 @@ pub fn find_equilibria(
             break;
         }
         for policy in [Policy::Stable, Policy::Nearest] {
-            let Ok(Judged { state, .. }) = solve(&point, &from, policy) else {
+            let Ok(SolvedState { state, .. }) = solve(&point, &from, policy) else {
                 continue;
             };
             met += 1;

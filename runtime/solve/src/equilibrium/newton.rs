@@ -1,8 +1,10 @@
 //! The equilibrium nearest to a start value, regardless of its stability: Newton's method with a line search on the
 //! residual.
 
-use super::acceptance::{Candidate, Found, last_step};
-use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
+use super::acceptance::{Candidate, UnjudgedResult, last_step};
+use super::convergence::{
+    Progress, ResidualMonitor, TOLERANCE, horizon, largest_of, relative_residual,
+};
 use super::descent::DEPARTURE;
 use super::operating_point::{Failure, OperatingPoint};
 use super::scaling::units;
@@ -19,7 +21,10 @@ const DAMPING: f64 = 1e-8;
 const INVERSE_ITERATIONS: usize = 4;
 
 /// Solves `g = 0` from `start`, which lies in the space.
-pub(super) fn nearest<S>(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure>
+pub(super) fn damped_newton<S>(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+) -> Result<UnjudgedResult, Failure>
 where
     S: SearchSpace,
 {
@@ -28,7 +33,7 @@ where
     let weight = S::weights(point, &base.q)?;
     let units = &units(point, &base.q)?;
     let mut radius = FIRST_RADIUS;
-    let mut watch = Watch::new(&base.q);
+    let mut watch = ResidualMonitor::new(&base.q);
     let escaped = horizon(&start[..motions]);
     let mut trial = Trial::blank(point.size());
     for iterations in 0..MAX_ITERATIONS {
@@ -52,7 +57,7 @@ where
                 displacement(lu, &base.space.slopes(rest))
             })
         {
-            return Ok(Found::new(end, iterations + 1));
+            return Ok(UnjudgedResult::new(end, iterations + 1));
         }
         let mut share = limit(&mut step, units, radius);
         let mut length = search(point, &base, &slopes, (&step, share), &weight, &mut trial);
@@ -109,7 +114,10 @@ fn limit(step: &mut Vector, units: &[f64], radius: f64) -> f64 {
 /// The states on either side of `q` along the direction with the least stiffness, as far as the residual is smaller
 /// there: where a stiffness is singular, what looks like a minimum of the residual may not be one.
 #[cold]
-pub(super) fn beside<S>(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Vec<Vector>>
+pub(super) fn along_softest_direction<S>(
+    point: &OperatingPoint<'_>,
+    q: &[f64],
+) -> Option<Vec<Vector>>
 where
     S: SearchSpace,
 {
@@ -142,13 +150,13 @@ where
 }
 
 /// Converts a base to the result.
-fn found<S>(base: Base<S>, iterations: usize) -> Found {
+fn found<S>(base: Base<S>, iterations: usize) -> UnjudgedResult {
     let end = Candidate {
         coordinates: base.q,
         residual: base.residual,
         measured: None,
     };
-    Found::new(end, iterations)
+    UnjudgedResult::new(end, iterations)
 }
 
 fn failure(reason: NotFound, q: &[f64], iterations: usize, relative: f64) -> Failure {

@@ -164,8 +164,8 @@ mod tests {
 
     use super::*;
     use crate::algebra::add_scaled;
-    use crate::equilibrium::acceptance::{Candidate, Found};
-    use crate::equilibrium::descent::stable;
+    use crate::equilibrium::acceptance::{Candidate, UnjudgedResult};
+    use crate::equilibrium::descent::minimise_potential;
     use crate::equilibrium::search_space::Unconstrained;
     use eigentol_macros::mechanism;
 
@@ -203,13 +203,16 @@ mod tests {
                     residual: found.residual,
                     measured: None,
                 };
-                Some(Found::new(end, found.iterations))
+                Some(UnjudgedResult::new(end, found.iterations))
             };
             for k in 0..400_i32 {
                 let start = [0.47 * f64::from(k % 20 - 10), 0.41 * f64::from(k / 20 - 10)];
-                let Ok(expected) =
-                    stable::<Unconstrained>(&point, &start, &SearchState::first(&start), |_| None)
-                else {
+                let Ok(expected) = minimise_potential::<Unconstrained>(
+                    &point,
+                    &start,
+                    &SearchState::first(&start),
+                    |_| None,
+                ) else {
                     panic!("no state from {start:?}")
                 };
                 let left = expected.left_unstable_region;
@@ -220,7 +223,8 @@ mod tests {
                     }
                     Err(place) => {
                         let before = alone.get();
-                        let found = stable::<Unconstrained>(&point, &start, &place, straight);
+                        let found =
+                            minimise_potential::<Unconstrained>(&point, &start, &place, straight);
                         let Ok(found) = found else {
                             panic!("nothing from {start:?}")
                         };

@@ -3,7 +3,7 @@
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix, for_size, greater};
 use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
-use crate::eigenproblem::Trouble;
+use crate::eigenproblem::EigenproblemError;
 use crate::error::{NotClosed, NotFound};
 use crate::free::{FreeDirections, Held, declared, fix_place};
 use crate::kernels::{Kernels, Linear, RestParts};
@@ -396,11 +396,11 @@ pub enum Failure {
     },
 }
 
-impl From<Trouble> for Failure {
-    fn from(trouble: Trouble) -> Self {
+impl From<EigenproblemError> for Failure {
+    fn from(trouble: EigenproblemError) -> Self {
         match trouble {
-            Trouble::SingularMass(row) => Self::SingularMass(row),
-            Trouble::Inaccurate { mode, residual } => Self::Mode { mode, residual },
+            EigenproblemError::SingularMass(row) => Self::SingularMass(row),
+            EigenproblemError::Inaccurate { mode, residual } => Self::Mode { mode, residual },
         }
     }
 }

@@ -8,10 +8,10 @@
 //! Designs beside an unstable nominal state are solved from where that state moves, by Newton's method and without
 //! descent. Conservative, rolling and coasting mechanisms are treated alike.
 
-use super::acceptance::{Found, Measured};
+use super::acceptance::{Measured, UnjudgedResult};
 use super::convergence::{SMALL_MOTION, relative_residual};
 use super::descent;
-use super::finish::{Judged, finish, judge};
+use super::finish::{SolvedState, finish, judge};
 use super::operating_point::{Failure, OperatingPoint};
 use super::prediction::confirmed;
 use super::regularity::unbalanced;
@@ -23,14 +23,18 @@ use crate::state::Note;
 use crate::{DampingKind, Mode, Stability};
 
 /// Like [`equilibrium`](super::equilibrium), for validated values.
-pub fn solve(point: &OperatingPoint<'_>, start: &[f64], policy: Policy) -> Result<Judged, Failure> {
+pub fn solve(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    policy: Policy,
+) -> Result<SolvedState, Failure> {
     let mut state = point.blank_state();
     let modes = solve_into(point, start, policy, &mut state)?;
-    Ok(Judged { state, modes })
+    Ok(SolvedState { state, modes })
 }
 
 /// Like [`solve`], but overwrites a state of the same mechanism at these inputs and design variables, and returns
-/// [`Judged::modes`].
+/// [`SolvedState::modes`].
 pub fn solve_into(
     point: &OperatingPoint<'_>,
     start: &[f64],
@@ -44,7 +48,7 @@ pub fn solve_into(
         let place = descent::SearchState::first(start);
         match newton_fast_path::newton_fast_path(point, place, state) {
             Ok(()) => return judge(point, state),
-            Err(place) => from_afar(point, start, &place)?,
+            Err(place) => solve_by_descent(point, start, &place)?,
         }
     } else {
         solve_slowly(point, start, policy)?
@@ -63,7 +67,7 @@ fn solve_slowly(
     point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
-) -> Result<Judged, Failure> {
+) -> Result<SolvedState, Failure> {
     let structure = point.structure;
     let closed;
     let start = if structure.open() {
@@ -76,7 +80,7 @@ fn solve_slowly(
     if policy == Policy::Nearest || !potential {
         let mut found = nearest_beside(point, start)?;
         if !structure.holonomic() {
-            found = member::settled(point, start, found)?;
+            found = member::select_member(point, start, found)?;
         }
         if policy == Policy::Nearest {
             found
@@ -86,7 +90,7 @@ fn solve_slowly(
         }
         return Ok(found);
     }
-    let mut found = from_afar(point, start, &descent::SearchState::first(start));
+    let mut found = solve_by_descent(point, start, &descent::SearchState::first(start));
     for _ in 0..descent::MAX_DEPARTURES {
         let Err(Failure::Unbalanced {
             coordinates,
@@ -97,7 +101,7 @@ fn solve_slowly(
             return found;
         };
         let start = departed(point, &coordinates, &downhill)?;
-        found = from_afar(point, &start, &descent::SearchState::first(&start));
+        found = solve_by_descent(point, &start, &descent::SearchState::first(&start));
         if let Ok(found) = &mut found {
             found.state.left_unstable_region = true;
         }
@@ -149,11 +153,11 @@ pub fn solve_from_prediction(
 
 /// Like [`solve`], for a stable equilibrium that the fast path does not reach; the search continues at `place`.
 #[cold]
-fn from_afar(
+fn solve_by_descent(
     point: &OperatingPoint<'_>,
     start: &[f64],
     place: &descent::SearchState,
-) -> Result<Judged, Failure> {
+) -> Result<SolvedState, Failure> {
     let structure = point.structure;
     if let Some(named) = stays(point, start) {
         return Ok(named);
@@ -162,12 +166,14 @@ fn from_afar(
         return Ok(held);
     }
     let found = if structure.open() {
-        descent::stable::<search_space::Unconstrained>(point, start, place, |place| {
+        descent::minimise_potential::<search_space::Unconstrained>(point, start, place, |place| {
             straight(point, place)
         })
     } else {
-        descent::stable::<search_space::ConstraintManifold>(point, start, place, |_| None)
-            .and_then(|found| polished(point, found))
+        descent::minimise_potential::<search_space::ConstraintManifold>(point, start, place, |_| {
+            None
+        })
+        .and_then(|found| polished(point, found))
     };
     found
         .or_else(|failure| match failure {
@@ -185,7 +191,7 @@ fn from_afar(
 }
 
 /// Refuses a state next to a pole of the forces.
-fn bounded(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> {
+fn bounded(point: &OperatingPoint<'_>, found: UnjudgedResult) -> Result<UnjudgedResult, Failure> {
     let q = &found.coordinates;
     if !descent::grows_without_bound(point, q) {
         return Ok(found);
@@ -206,7 +212,7 @@ fn bounded(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> {
 /// The equilibrium whose coordinates are the start values that were given, if these are those of one: it is the answer
 /// whatever its stability. Coordinates without a given value are free to adapt.
 #[cold]
-fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
+fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
     let count = point.named().count();
     if count == 0 {
         return None;
@@ -237,10 +243,10 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
 const NAMED: f64 = 1e-8;
 
 /// The minimum that the fast path finds from `place`.
-fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<Found> {
+fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<UnjudgedResult> {
     let mut state = point.blank_state();
     newton_fast_path::newton_fast_path(point, place, &mut state).ok()?;
-    Some(Found {
+    Some(UnjudgedResult {
         coordinates: state.coordinates,
         residual: state.residual,
         measured: Some(Measured {
@@ -254,7 +260,7 @@ fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<F
 
 /// Like [`nearest`], also where the search comes to rest at a state whose stiffness is singular, as from a critical state:
 /// it goes on from either side of it. Of two results, one that is stable is preferred.
-fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Judged, Failure> {
+fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<SolvedState, Failure> {
     let search = |start: &[f64]| nearest(point, start).and_then(|found| finish(point, found));
     search(start).or_else(|failure| {
         let Failure::NotFound {
@@ -268,9 +274,12 @@ fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Judged, F
         let structure = point.structure;
         let sides = if structure.open() || !structure.holonomic() {
             let independent = point.without_redundant(coordinates);
-            newton::beside::<search_space::Unconstrained>(&independent, coordinates)
+            newton::along_softest_direction::<search_space::Unconstrained>(
+                &independent,
+                coordinates,
+            )
         } else {
-            newton::beside::<search_space::ConstraintManifold>(point, coordinates)
+            newton::along_softest_direction::<search_space::ConstraintManifold>(point, coordinates)
         };
         let sides = sides.unwrap_or_default().into_iter();
         let found = sides.filter_map(|side| search(&side).ok());
@@ -287,25 +296,26 @@ fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Judged, F
 
 /// The equilibrium nearest to `start`, a state that meets the constraints. Searches along the positions that meet them
 /// if there are only constraints on positions, otherwise over all unknowns together.
-fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure> {
+fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<UnjudgedResult, Failure> {
     let structure = point.structure;
     let whole = || {
         let independent = point.without_redundant(start);
-        newton::nearest::<search_space::Unconstrained>(&independent, start)
+        newton::damped_newton::<search_space::Unconstrained>(&independent, start)
     };
     if structure.open() || !structure.holonomic() {
         return whole();
     }
-    newton::nearest::<search_space::ConstraintManifold>(point, start)
+    newton::damped_newton::<search_space::ConstraintManifold>(point, start)
         .and_then(|found| polished(point, found))
         .or_else(|failure| whole().map_err(|_| failure))
 }
 
 /// Takes the last steps in coordinates and reactions together.
-fn polished(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> {
+fn polished(point: &OperatingPoint<'_>, found: UnjudgedResult) -> Result<UnjudgedResult, Failure> {
     let independent = point.without_redundant(&found.coordinates);
-    let last = newton::nearest::<search_space::Unconstrained>(&independent, &found.coordinates)?;
-    Ok(Found {
+    let last =
+        newton::damped_newton::<search_space::Unconstrained>(&independent, &found.coordinates)?;
+    Ok(UnjudgedResult {
         iterations: found.iterations + last.iterations,
         left_unstable_region: found.left_unstable_region,
         ..last
@@ -313,7 +323,7 @@ fn polished(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> 
 }
 
 /// The equilibrium nearest to `start` if it is a saddle held by gyroscopic forces; descent would leave it.
-fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
+fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
     if point.description.damping == DampingKind::Zero {
         return None;
     }

@@ -28,7 +28,7 @@
 use num_complex::Complex64;
 
 use crate::algebra::{Lu, Matrix, Vector, add_to, dot, is_symmetric, times};
-use crate::eigenproblem::{Pairs, Root, Trouble, symmetric};
+use crate::eigenproblem::{EigenproblemError, Pairs, Root, symmetric};
 use crate::free::{FreeDirections, NullSpace};
 use crate::kernels::Linear;
 
@@ -175,8 +175,8 @@ pub(crate) fn deflated(linear: &Linear, count: usize) -> Option<Linear> {
 pub(crate) fn roots(
     linear: &Linear,
     count: usize,
-    solve: impl FnOnce(&Linear) -> Result<Vec<Root>, Trouble>,
-) -> Result<Vec<Root>, Trouble> {
+    solve: impl FnOnce(&Linear) -> Result<Vec<Root>, EigenproblemError>,
+) -> Result<Vec<Root>, EigenproblemError> {
     let Some(split) = Split::new(linear, count) else {
         return solve(linear);
     };
@@ -215,7 +215,7 @@ pub(crate) fn pairs(
     mass: &Matrix,
     count: usize,
     pairs: &mut Pairs,
-) -> Result<(), Trouble> {
+) -> Result<(), EigenproblemError> {
     let n = mass.row_count();
     let linear = || Linear {
         mass: mass.clone(),
@@ -268,8 +268,8 @@ pub(crate) fn pairs(
 pub(crate) fn first_order_roots(
     matrix: &Matrix,
     count: usize,
-    solve: impl FnOnce(&Matrix) -> Result<Vec<Root>, Trouble>,
-) -> Result<Vec<Root>, Trouble> {
+    solve: impl FnOnce(&Matrix) -> Result<Vec<Root>, EigenproblemError>,
+) -> Result<Vec<Root>, EigenproblemError> {
     let space = NullSpace::of(matrix, count);
     if count == 0 || space.remainder > REMAINDER {
         return solve(matrix);

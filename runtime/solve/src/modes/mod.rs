@@ -37,7 +37,7 @@ pub use whirl::{Sense, Whirl, Whirls, whirls};
 
 use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
 use crate::constraints::Structure;
-use crate::eigenproblem::{Eigenproblem, Pairs, Root, Trouble, roots_near};
+use crate::eigenproblem::{Eigenproblem, EigenproblemError, Pairs, Root, roots_near};
 use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::rounding::{Sign, sign};
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
@@ -244,7 +244,7 @@ pub enum ModesFailure {
     Asymmetric(f64),
     /// Undamped modes were requested, but speeds or constraints on velocities rule them out.
     NotHolonomic,
-    Pencil(Trouble),
+    Pencil(EigenproblemError),
     /// The square of this eigenvalue exceeds the range of a double.
     Range {
         mode: usize,
@@ -259,10 +259,10 @@ impl ModesFailure {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
             Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
-            Self::Pencil(Trouble::SingularMass(row)) => Error::SingularMass {
+            Self::Pencil(EigenproblemError::SingularMass(row)) => Error::SingularMass {
                 coordinate: description.unknown_name(row),
             },
-            Self::Pencil(Trouble::Inaccurate { mode, residual }) => {
+            Self::Pencil(EigenproblemError::Inaccurate { mode, residual }) => {
                 Error::ModesNotFound { mode, residual }
             }
         }

@@ -15,7 +15,7 @@ use eigentol_results::numbers::rough;
 
 use crate::Complex;
 use crate::algebra::Vector;
-use crate::eigenproblem::Near;
+use crate::eigenproblem::ApproximatePair;
 use crate::rounding::{Sign, sign};
 
 /// How a disturbance along a mode develops.
@@ -124,8 +124,8 @@ pub struct Mode {
 impl Mode {
     /// This mode as a predictor for the modes of a nearby problem.
     #[doc(hidden)]
-    pub fn near(&self) -> Near<'_> {
-        Near {
+    pub fn near(&self) -> ApproximatePair<'_> {
+        ApproximatePair {
             s: self.s,
             right: &self.shape,
             left: self.left(),

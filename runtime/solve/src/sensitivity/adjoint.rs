@@ -5,7 +5,7 @@
 //! `Khat^T w = da/dq`.
 
 use super::gradients::{Source, changes, of_general, rate};
-use super::pencil::{ComplexGradient, Form, form_gradient};
+use super::pencil::{BilinearForm, ComplexGradient, form_gradient};
 use super::{
     Method, ModeSensitivity, Sensitivities, assemble_into, check_state, place, redundancy,
 };
@@ -88,7 +88,7 @@ impl<'a> Adjoint<'a> {
             Source::Reverse => (None, None),
         };
         let sizes = mechanism.sizes();
-        let shared = Shared {
+        let shared = AdjointContext {
             mechanism: *mechanism,
             at,
             factors: &factors,
@@ -118,7 +118,7 @@ impl<'a> Adjoint<'a> {
 }
 
 /// Data shared by all modes.
-struct Shared<'a> {
+struct AdjointContext<'a> {
     mechanism: &'a dyn Kernels,
     at: &'a Equilibrium,
     factors: &'a Factors,
@@ -126,7 +126,7 @@ struct Shared<'a> {
     residual: Option<&'a ResidualPartials>,
 }
 
-impl Shared<'_> {
+impl AdjointContext<'_> {
     /// The derivatives of an undamped mode from explicit partials alone.
     fn undamped_from_partials(
         &self,
@@ -186,7 +186,7 @@ impl Shared<'_> {
         match matrices {
             Some(matrices) => of_general(matrices, mode, gradient),
             None => {
-                let form = Form::of(mode.left(), mode.s, &mode.shape);
+                let form = BilinearForm::of(mode.left(), mode.s, &mode.shape);
                 form_gradient(self.mechanism, self.at, &form, room, gradient);
             }
         }

@@ -12,17 +12,17 @@ use crate::{Complex, Equilibrium, Mode};
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of its four
 /// vectors, in this order.
 #[doc(hidden)]
-pub struct Form {
+pub struct BilinearForm {
     re: [Vector; 4],
     im: [Vector; 4],
 }
 
 /// Selects the real or the imaginary part of a form.
-type Part = fn(&Form) -> &[Vector; 4];
+type Part = fn(&BilinearForm) -> &[Vector; 4];
 const RE: Part = |form| &form.re;
 const IM: Part = |form| &form.im;
 
-impl Form {
+impl BilinearForm {
     /// `psi^T (s^2 Mhat + s Chat + Khat) phi`.
     #[doc(hidden)]
     pub fn of(left: &[Complex], s: Complex, right: &[Complex]) -> Self {
@@ -128,7 +128,7 @@ fn each(to: &mut Gradient, from: &Gradient, f: impl Fn(&mut f64, f64)) {
 pub fn form_gradient(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
-    form: &Form,
+    form: &BilinearForm,
     room: &mut Gradient,
     gradient: &mut ComplexGradient,
 ) {
@@ -142,7 +142,7 @@ pub fn form_gradient(
 pub fn form_gradient_along(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
-    (form, change): (&Form, &Form),
+    (form, change): (&BilinearForm, &BilinearForm),
     along: &Direction,
     room: &mut Gradient,
     gradient: &mut ComplexGradient,

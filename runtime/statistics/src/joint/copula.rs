@@ -31,7 +31,7 @@ pub(super) fn normal_correlation(
             };
             let scale = a.sigma() * b.sigma();
             let of = |r: f64| first.covariance(second, r) / scale;
-            let r = solve(of, wanted).map_err(|(least, most)| Error::Setting {
+            let r = bracketed_root(of, wanted).map_err(|(least, most)| Error::Setting {
                 setting: "correlation matrix",
                 reason: format!(
                     "variables {j} and {i} with these distributions can have correlations from {least:.4} to {most:.4}, not {wanted}"
@@ -45,7 +45,7 @@ pub(super) fn normal_correlation(
 }
 
 /// The argument in [-1, 1] at which an increasing function takes a value; otherwise the values at both ends.
-fn solve(of: impl Fn(f64) -> f64, wanted: f64) -> Result<f64, (f64, f64)> {
+fn bracketed_root(of: impl Fn(f64) -> f64, wanted: f64) -> Result<f64, (f64, f64)> {
     const ROUNDING: f64 = 1e-9;
     let ends = (of(-1.0), of(1.0));
     if wanted < ends.0 - ROUNDING || wanted > ends.1 + ROUNDING {

@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 
 use super::resolver::Resolver;
 use super::scope::Meaning;
-use super::typed::{Place, Quantity, Typed};
+use super::typed::{Quantity, Typed, ValueContext};
 use crate::base::ids::ConstantId;
 use crate::model::expression::Expr;
 use crate::model::mechanism::Constant;
@@ -107,7 +107,7 @@ impl Resolver<'_> {
     fn constant(&mut self, named: &Named) -> Option<Typed> {
         let Named { name, value } = named;
         let what = format!("`{name}`");
-        match self.value(value, Place::Parameter)? {
+        match self.value(value, ValueContext::Parameter)? {
             Typed::Scalar(expr, quantity) => {
                 self.require_finite(std::slice::from_ref(&expr), &what, value.extent);
                 Some(Typed::Scalar(

@@ -9,7 +9,7 @@ use super::arguments::{Arguments, Signature};
 use super::exerted::Exerted;
 use super::joints::kinds::{self, Kind};
 use super::resolver::Resolver;
-use super::typed::Place;
+use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Constraint, ConstraintLaw};
@@ -184,6 +184,6 @@ impl Resolver<'_> {
     /// An optional argument that is a direction; the inner option is `None` if it is wrong.
     fn optional_direction(&mut self, arguments: &Arguments, name: &str) -> Option<Option<Vector>> {
         let value = arguments.get(name)?;
-        Some(self.direction(value, Place::Parameter))
+        Some(self.direction(value, ValueContext::Parameter))
     }
 }

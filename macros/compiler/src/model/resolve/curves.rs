@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use super::functions::{count, is_function};
 use super::lists::Listed;
 use super::resolver::Resolver;
-use super::typed::{Place, Quantity, Typed};
+use super::typed::{Quantity, Typed, ValueContext};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::spline::Spline;
 use crate::model::expression::{Expr, Function};
@@ -36,8 +36,8 @@ impl Resolver<'_> {
             self.diagnostics.error(name, message);
         }
         let (x, y) = (
-            self.listed(arguments, Place::Points),
-            self.listed(values, Place::Points),
+            self.listed(arguments, ValueContext::Points),
+            self.listed(values, ValueContext::Points),
         );
         let (
             Listed {
@@ -94,7 +94,7 @@ impl Resolver<'_> {
         index: usize,
         name: &Ident,
         arguments: &[Value],
-        place: Place,
+        place: ValueContext,
     ) -> Option<Typed> {
         let curve = self.curves.get(index)?.clone()?;
         let [given] = arguments else {

@@ -1,7 +1,7 @@
 //! Directions: axis names, or arbitrary vectors that are normalised.
 
 use super::resolver::Resolver;
-use super::typed::Place;
+use super::typed::ValueContext;
 use crate::model::expression::{Expr, Vector};
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
@@ -9,7 +9,7 @@ use crate::syntax::ast::{Value, ValueKind};
 
 impl Resolver<'_> {
     /// A unit vector. `x`, `y` and `z` always mean the axes here, whatever else is declared.
-    pub(super) fn direction(&mut self, value: &Value, place: Place) -> Option<Vector> {
+    pub(super) fn direction(&mut self, value: &Value, place: ValueContext) -> Option<Vector> {
         if let Some(axis) = axis(value) {
             return Some(axis);
         }

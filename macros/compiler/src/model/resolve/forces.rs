@@ -15,7 +15,7 @@ use super::arguments::{Arguments, Signature};
 use super::expected::Expected;
 use super::placements::zero;
 use super::resolver::Resolver;
-use super::typed::Place;
+use super::typed::ValueContext;
 use crate::model::expression::{Expr, Matrix, Vector};
 use crate::model::mechanism::{Force, ForceLaw};
 use crate::syntax::ast::{self, ItemKind};
@@ -170,7 +170,7 @@ impl Resolver<'_> {
     ) -> Option<Expr> {
         let value = arguments.get(name)?;
         let Some(expected) = expected else {
-            self.scalar(value, Place::Parameter);
+            self.scalar(value, ValueContext::Parameter);
             return None;
         };
         let what = format!("`{name}`");

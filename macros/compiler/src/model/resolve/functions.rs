@@ -7,7 +7,7 @@ use proc_macro2::Ident;
 
 use super::resolver::Resolver;
 use super::scope::Meaning;
-use super::typed::{Place, Quantity, Typed};
+use super::typed::{Quantity, Typed, ValueContext};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::dimension::Dimension;
 use crate::base::nearest::suggestion;
@@ -102,7 +102,7 @@ impl Resolver<'_> {
         &mut self,
         function: &Ident,
         arguments: &[Value],
-        place: Place,
+        place: ValueContext,
     ) -> Option<Typed> {
         let name = function.to_string();
         if let Some(Meaning::Curve(index)) = self.scope.find(&name) {
@@ -150,7 +150,7 @@ impl Resolver<'_> {
         name: &str,
         function: &Ident,
         arguments: &[Value],
-        place: Place,
+        place: ValueContext,
     ) -> Option<Typed> {
         match (name, arguments) {
             ("norm", [a]) => {
@@ -191,7 +191,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn elementary(&mut self, name: &str, argument: &Value, place: Place) -> Option<Typed> {
+    fn elementary(&mut self, name: &str, argument: &Value, place: ValueContext) -> Option<Typed> {
         let (expr, quantity) = self.scalar(argument, place)?;
         if name == "sqrt" {
             let half = self.in_range(quantity.dimension().power(1, 2), argument.extent)?;
@@ -209,27 +209,27 @@ impl Resolver<'_> {
 }
 
 /// Why a function cannot be used at this place.
-fn refusal(name: &str, needs: Needs, place: Place) -> Option<(String, Option<String>)> {
+fn refusal(name: &str, needs: Needs, place: ValueContext) -> Option<(String, Option<String>)> {
     let message = match (needs, place) {
         // Whether a rate can be an output depends on the coordinate.
         (Arguments, _)
-        | (Rates, Place::GeneralizedForce | Place::Output)
-        | (Solution, Place::Output) => return None,
+        | (Rates, ValueContext::GeneralizedForce | ValueContext::Output)
+        | (Solution, ValueContext::Output) => return None,
         (Places, place) if place.knows_places() => return None,
-        (Rates, Place::Tension) => {
+        (Rates, ValueContext::Tension) => {
             let message = "in a tension, `rate` is the rate of the distance of its two ends";
             let help = "write `rate` without parentheses".to_string();
             return Some((message.to_string(), Some(help)));
         }
-        (_, Place::Tension) => {
+        (_, ValueContext::Tension) => {
             format!("`{name}` cannot be used here: a tension depends on `length` and `rate` only")
         }
-        (Rates, Place::Energy) => {
+        (Rates, ValueContext::Energy) => {
             let message = "a potential energy depends on places, not on rates".to_string();
             let help = "a force that depends on rates is `generalized`".to_string();
             return Some((message, Some(help)));
         }
-        (Rates, Place::Equation) => {
+        (Rates, ValueContext::Equation) => {
             let message = "an equation ties places, not rates".to_string();
             let help = "the rates of coasting coordinates are tied by `coupling`".to_string();
             return Some((message, Some(help)));

@@ -1,7 +1,7 @@
 //! Gravity: one acceleration, the same everywhere.
 
 use super::resolver::Resolver;
-use super::typed::{Place, Typed};
+use super::typed::{Typed, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
@@ -33,8 +33,8 @@ impl Resolver<'_> {
         let direction = gravity
             .along
             .as_ref()
-            .map(|along| self.direction(along, Place::Parameter));
-        let vector = match (self.value(value, Place::Parameter)?, direction) {
+            .map(|along| self.direction(along, ValueContext::Parameter));
+        let vector = match (self.value(value, ValueContext::Parameter)?, direction) {
             (Typed::Scalar(magnitude, quantity), Some(direction)) => {
                 self.expect(quantity, Dimension::ACCELERATION, what, value)?;
                 direction?.map(|component| simplify::multiply(magnitude.clone(), component))

@@ -1,7 +1,7 @@
 //! Lists of numbers with their unit: the points of a curve, or the possible values of a design variable.
 
 use super::resolver::Resolver;
-use super::typed::{Place, Quantity};
+use super::typed::{Quantity, ValueContext};
 use crate::model::expression::Expr;
 use crate::model::mechanism::Unit;
 use crate::syntax::ast::{Value, ValueKind};
@@ -17,9 +17,9 @@ pub(super) struct Listed {
 }
 
 /// The content of a list and its spelling, for messages.
-fn words(place: Place) -> (&'static str, &'static str) {
+fn words(place: ValueContext) -> (&'static str, &'static str) {
     match place {
-        Place::Points => (
+        ValueContext::Points => (
             "points of a curve",
             "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`",
         ),
@@ -32,7 +32,7 @@ fn words(place: Place) -> (&'static str, &'static str) {
 
 impl Resolver<'_> {
     /// Numbers in brackets, without names.
-    pub(super) fn listed(&mut self, list: &Value, place: Place) -> Option<Listed> {
+    pub(super) fn listed(&mut self, list: &Value, place: ValueContext) -> Option<Listed> {
         let (what, help) = words(place);
         let ValueKind::Vector(elements, unit) = &list.bare().kind else {
             let message = format!("the {what} are listed in brackets");
@@ -69,7 +69,7 @@ impl Resolver<'_> {
         })
     }
 
-    fn listed_number(&mut self, element: &Value, place: Place) -> Option<(f64, Quantity)> {
+    fn listed_number(&mut self, element: &Value, place: ValueContext) -> Option<(f64, Quantity)> {
         match self.scalar(element, place)? {
             (Expr::Number(number), quantity) => Some((number, quantity)),
             // Names are refused, and numbers are combined immediately.

@@ -2,7 +2,7 @@
 
 use super::expected::Expected;
 use super::resolver::Resolver;
-use super::typed::{Place, Quantity, Typed};
+use super::typed::{Quantity, Typed, ValueContext};
 use crate::base::span::Extent;
 use crate::model::expression::{Matrix, Vector};
 use crate::model::simplify;
@@ -14,7 +14,7 @@ impl Resolver<'_> {
         rows: &[Value],
         unit: Option<&Unit>,
         extent: Extent,
-        place: Place,
+        place: ValueContext,
     ) -> Option<Typed> {
         let unit = self.optional_unit(unit);
         if rows.len() != 3 {
@@ -35,7 +35,7 @@ impl Resolver<'_> {
         self.in_unit(Typed::Matrix(matrix, common), unit?, extent)
     }
 
-    fn row(&mut self, row: &Value, place: Place) -> Option<(Vector, Quantity)> {
+    fn row(&mut self, row: &Value, place: ValueContext) -> Option<(Vector, Quantity)> {
         if let ValueKind::Vector(entries, _) = &row.bare().kind
             && entries.len() != 3
         {
@@ -56,7 +56,7 @@ impl Resolver<'_> {
         expected: impl Into<Expected>,
         what: &str,
     ) -> Option<Matrix> {
-        let (matrix, quantity) = match self.value(value, Place::Parameter)? {
+        let (matrix, quantity) = match self.value(value, ValueContext::Parameter)? {
             Typed::Matrix(matrix, quantity) => (matrix, quantity),
             Typed::Vector(diagonal, quantity) => (simplify::diagonal(diagonal), quantity),
             Typed::Scalar(..) => {

@@ -2,7 +2,7 @@
 
 use super::bare::bare_number;
 use super::resolver::Resolver;
-use super::typed::{Place, Quantity, Typed};
+use super::typed::{Quantity, Typed, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::expression::Expr;
@@ -10,7 +10,7 @@ use crate::model::simplify;
 use crate::syntax::ast::{Binary, Operator, Value};
 
 impl Resolver<'_> {
-    pub(super) fn binary(&mut self, binary: &Binary, place: Place) -> Option<Typed> {
+    pub(super) fn binary(&mut self, binary: &Binary, place: ValueContext) -> Option<Typed> {
         let left = self.value(&binary.left, place);
         let right = self.value(&binary.right, place);
         let (left, right) = (left?, right?);

@@ -1,7 +1,7 @@
 //! Points fixed in bodies, and the outputs.
 
 use super::resolver::Resolver;
-use super::typed::Place;
+use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::{CoordinateQuantity, Output, Point, Unit};
@@ -33,7 +33,7 @@ impl Resolver<'_> {
             let ItemKind::Output(output) = &item.kind else {
                 continue;
             };
-            if let Some((value, quantity)) = self.scalar(&output.value, Place::Output) {
+            if let Some((value, quantity)) = self.scalar(&output.value, ValueContext::Output) {
                 let unit = self.unit_of(&value, quantity.dimension());
                 outputs.push(Output {
                     name: output.name.clone(),

@@ -3,7 +3,7 @@
 use super::expected::Expected;
 use super::nominal::Nominal;
 use super::resolver::Resolver;
-use super::typed::{Place, Quantity};
+use super::typed::{Quantity, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{DesignVariable, Input, Tolerance, Unit};
@@ -110,7 +110,7 @@ impl Resolver<'_> {
 
     /// A value made of numbers only.
     pub(super) fn plain_number(&mut self, value: &Value) -> Option<(f64, Quantity)> {
-        let (expr, quantity) = self.scalar(value, Place::Nominal)?;
+        let (expr, quantity) = self.scalar(value, ValueContext::Nominal)?;
         match expr {
             Expr::Number(number) => Some((number, quantity)),
             // No name except `pi` is allowed, and numbers are combined immediately.

@@ -3,7 +3,7 @@
 use super::directions::axis;
 use super::expected::Expected;
 use super::resolver::Resolver;
-use super::typed::Place;
+use super::typed::ValueContext;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Placement;
 use crate::syntax::ast::{self, ValueKind};
@@ -49,7 +49,7 @@ impl Resolver<'_> {
                     );
                     return None;
                 }
-                let direction = self.direction(axis, Place::Parameter);
+                let direction = self.direction(axis, ValueContext::Parameter);
                 let turn = self.scalar_of(angle, Expected::angle(), "this");
                 if let Some(turn) = &turn {
                     self.require_finite(std::slice::from_ref(turn), "this angle", angle.extent);

@@ -5,7 +5,7 @@ use super::exerted::Exerted;
 use super::joints::kinds::Kind;
 use super::nominal::Nominal;
 use super::scope::Scope;
-use super::typed::{Place, Typed};
+use super::typed::{Typed, ValueContext};
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
@@ -37,7 +37,7 @@ pub(super) struct Resolver<'a> {
     /// The shortest and the longest length that is written, m; the first is the greater one if there is none.
     pub(super) lengths: [f64; 2],
     /// Units after numbers and vectors, in which declared names could have been meant.
-    pub(super) units: Vec<(Option<f64>, Unit, Place)>,
+    pub(super) units: Vec<(Option<f64>, Unit, ValueContext)>,
 }
 
 impl<'a> Resolver<'a> {

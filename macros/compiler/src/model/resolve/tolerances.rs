@@ -4,7 +4,7 @@ use super::bare::bare_number;
 use super::expected::Expected;
 use super::lists::Listed;
 use super::resolver::Resolver;
-use super::typed::{Place, Quantity};
+use super::typed::{Quantity, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::mechanism::{Law, Tolerance};
@@ -137,7 +137,7 @@ impl Resolver<'_> {
     ) -> Option<Tolerance> {
         let Listed {
             numbers, quantity, ..
-        } = self.listed(&of.values, Place::Values)?;
+        } = self.listed(&of.values, ValueContext::Values)?;
         self.expect(quantity, expected, "a value that it may have", &of.values)?;
         if numbers.is_empty() {
             let message = "no value is listed";
@@ -169,7 +169,7 @@ impl Resolver<'_> {
     fn weights(&mut self, list: &Value, count: usize) -> Option<Vec<f64>> {
         let Listed {
             numbers, quantity, ..
-        } = self.listed(list, Place::Values)?;
+        } = self.listed(list, ValueContext::Values)?;
         self.expect(quantity, Dimension::NONE, "a weight", list)?;
         let message = if numbers.len() != count {
             format!("{} weights for {count} values: each has one", numbers.len())

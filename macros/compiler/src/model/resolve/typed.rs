@@ -102,7 +102,7 @@ impl Typed {
 
 /// The place of a value, which determines the names that it may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum ValueContext {
     /// A nominal value or a tolerance: numbers only.
     Nominal,
     /// The points of a curve: numbers only.
@@ -123,17 +123,23 @@ pub(super) enum Place {
     Output,
 }
 
-impl Place {
+impl ValueContext {
     /// Whether names of values may be used here.
     pub(super) fn knows_names(self) -> bool {
-        !matches!(self, Place::Nominal | Place::Points | Place::Values)
+        !matches!(
+            self,
+            ValueContext::Nominal | ValueContext::Points | ValueContext::Values
+        )
     }
 
     /// Whether coordinates and points may be used here.
     pub(super) fn knows_places(self) -> bool {
         matches!(
             self,
-            Place::GeneralizedForce | Place::Energy | Place::Equation | Place::Output
+            ValueContext::GeneralizedForce
+                | ValueContext::Energy
+                | ValueContext::Equation
+                | ValueContext::Output
         )
     }
 }

@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use super::coordinates;
 use super::resolver::Resolver;
 use super::scope::Meaning;
-use super::typed::{Place, Typed};
+use super::typed::{Typed, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::base::units;
 use crate::syntax::ast::{ItemKind, Unit, UnitFactor, Value};
@@ -90,7 +90,7 @@ impl Resolver<'_> {
     }
 
     /// Records a unit in which declared names could have been meant.
-    pub(super) fn may_be_unclear(&mut self, number: Option<f64>, unit: &Unit, place: Place) {
+    pub(super) fn may_be_unclear(&mut self, number: Option<f64>, unit: &Unit, place: ValueContext) {
         if place.knows_names() && unit.factors.len() > 1 {
             self.units.push((number, unit.clone(), place));
         }
@@ -112,7 +112,7 @@ impl Resolver<'_> {
                 };
                 let reason = if declared == read.dimension {
                     "has the dimension of the declared one"
-                } else if place == Place::Output {
+                } else if place == ValueContext::Output {
                     "would make an output of another dimension"
                 } else {
                     continue;

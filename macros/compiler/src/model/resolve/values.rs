@@ -9,7 +9,7 @@ use super::matrices::is_matrix;
 use super::resolver::Resolver;
 use super::scope::Meaning;
 use super::tension;
-use super::typed::{Place, Quantity, Typed};
+use super::typed::{Quantity, Typed, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::base::nearest::nearest;
@@ -22,7 +22,7 @@ use crate::syntax::ast::{ItemKind, Unit, Value, ValueKind};
 /// All functions below return `None` for a mistake that has been reported.
 impl Resolver<'_> {
     /// A value of any kind and dimension.
-    pub(super) fn value(&mut self, value: &Value, place: Place) -> Option<Typed> {
+    pub(super) fn value(&mut self, value: &Value, place: ValueContext) -> Option<Typed> {
         match &value.kind {
             ValueKind::Number(number, unit) => self.number(*number, unit.as_ref(), place),
             ValueKind::Name(name) => self.named_value(name, place),
@@ -41,7 +41,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn number(&mut self, number: f64, unit: Option<&Unit>, place: Place) -> Option<Typed> {
+    fn number(&mut self, number: f64, unit: Option<&Unit>, place: ValueContext) -> Option<Typed> {
         let Some(unit) = unit else {
             let quantity = if number == 0.0 {
                 Quantity::Zero
@@ -61,18 +61,18 @@ impl Resolver<'_> {
             return None;
         }
         // Tolerances are no lengths of the mechanism, and nominal values are noted by those who ask for them.
-        if place != Place::Nominal {
+        if place != ValueContext::Nominal {
             self.note_length(value, dimension);
         }
         Some(Typed::number(value, dimension))
     }
 
-    fn named_value(&mut self, name: &Ident, place: Place) -> Option<Typed> {
+    fn named_value(&mut self, name: &Ident, place: ValueContext) -> Option<Typed> {
         let text = name.to_string();
         if text == "pi" {
             return Some(Typed::number(std::f64::consts::PI, Dimension::NONE));
         }
-        if place == Place::Tension
+        if place == ValueContext::Tension
             && let Some(word) = tension::word(&text)
         {
             return self.tension_word(word, name);
@@ -168,11 +168,11 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         coordinate: CoordinateId,
-        place: Place,
+        place: ValueContext,
     ) -> Option<()> {
         let reason = match place {
             place if place.knows_places() => None,
-            Place::Tension => Some("a tension depends on `length` and `rate` only"),
+            ValueContext::Tension => Some("a tension depends on `length` and `rate` only"),
             _ => Some(
                 "only outputs, generalized forces, potentials and equations may use coordinates",
             ),
@@ -183,9 +183,9 @@ impl Resolver<'_> {
             return None;
         }
         let motion = self.coordinates.get(coordinate.index())?.motion;
-        if motion == DeclaredMotion::Coasting && place != Place::Equation {
+        if motion == DeclaredMotion::Coasting && place != ValueContext::Equation {
             let rate = format!("use `rate({name})`");
-            let help = (place != Place::Energy).then_some(rate);
+            let help = (place != ValueContext::Energy).then_some(rate);
             let message =
                 format!("`{name}` is coasting: nothing may depend on how far it has gone");
             self.report(name, message, help);
@@ -194,7 +194,7 @@ impl Resolver<'_> {
         Some(())
     }
 
-    fn unknown_value(&mut self, name: &Ident, place: Place) {
+    fn unknown_value(&mut self, name: &Ident, place: ValueContext) {
         let text = name.to_string();
         let usable = |meaning| match meaning {
             Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => {
@@ -204,7 +204,7 @@ impl Resolver<'_> {
         };
         let near = self.scope.nearest(&text, usable);
         let near = match place {
-            Place::Tension => near.or_else(|| nearest(&text, tension::words())),
+            ValueContext::Tension => near.or_else(|| nearest(&text, tension::words())),
             _ => near,
         };
         let help = match near {
@@ -234,7 +234,7 @@ impl Resolver<'_> {
         components: &[Value],
         unit: Option<&Unit>,
         extent: Extent,
-        place: Place,
+        place: ValueContext,
     ) -> Option<Typed> {
         if let Some(unit) = unit {
             self.may_be_unclear(None, unit, place);
@@ -323,7 +323,7 @@ impl Resolver<'_> {
         Some(typed.map(scaled, quantity))
     }
 
-    fn component(&mut self, of: &Value, axis: &Ident, place: Place) -> Option<Typed> {
+    fn component(&mut self, of: &Value, axis: &Ident, place: ValueContext) -> Option<Typed> {
         let (vector, quantity) = self.vector(of, place)?;
         let [x, y, z] = vector;
         let component = match axis.to_string().as_str() {
@@ -340,7 +340,11 @@ impl Resolver<'_> {
     }
 
     /// A value that must be one number.
-    pub(super) fn scalar(&mut self, value: &Value, place: Place) -> Option<(Expr, Quantity)> {
+    pub(super) fn scalar(
+        &mut self,
+        value: &Value,
+        place: ValueContext,
+    ) -> Option<(Expr, Quantity)> {
         match self.value(value, place)? {
             Typed::Scalar(expr, quantity) => Some((expr, quantity)),
             Typed::Vector(..) => {
@@ -360,7 +364,11 @@ impl Resolver<'_> {
     }
 
     /// A value that must be a vector.
-    pub(super) fn vector(&mut self, value: &Value, place: Place) -> Option<(Vector, Quantity)> {
+    pub(super) fn vector(
+        &mut self,
+        value: &Value,
+        place: ValueContext,
+    ) -> Option<(Vector, Quantity)> {
         match self.value(value, place)? {
             Typed::Vector(vector, quantity) => Some((vector, quantity)),
             Typed::Scalar(..) => {
@@ -389,7 +397,7 @@ impl Resolver<'_> {
         expected: impl Into<Expected>,
         what: &str,
     ) -> Option<Expr> {
-        let (expr, quantity) = self.scalar(value, Place::Parameter)?;
+        let (expr, quantity) = self.scalar(value, ValueContext::Parameter)?;
         self.expect(quantity, expected, what, value)?;
         Some(expr)
     }
@@ -406,7 +414,7 @@ impl Resolver<'_> {
         expected: impl Into<Expected>,
         what: &str,
     ) -> Option<Vector> {
-        let (vector, quantity) = self.vector(value, Place::Parameter)?;
+        let (vector, quantity) = self.vector(value, ValueContext::Parameter)?;
         self.expect(quantity, expected, what, value)?;
         self.require_finite(&vector, what, value.extent);
         Some(vector)
@@ -470,17 +478,17 @@ impl Resolver<'_> {
 }
 
 /// The content of a place that admits no names, and advice on what to do there.
-fn of_numbers_only(place: Place) -> Option<(&'static str, &'static str)> {
+fn of_numbers_only(place: ValueContext) -> Option<(&'static str, &'static str)> {
     match place {
-        Place::Nominal => Some((
+        ValueContext::Nominal => Some((
             "a nominal value is",
             "use `let` for a value computed from others",
         )),
-        Place::Points => Some((
+        ValueContext::Points => Some((
             "the points of a curve are",
             "multiply the curve where it is used: `factor * stiffness(speed)`",
         )),
-        Place::Values => Some(("listed values are", "write the numbers themselves")),
+        ValueContext::Values => Some(("listed values are", "write the numbers themselves")),
         _ => None,
     }
 }

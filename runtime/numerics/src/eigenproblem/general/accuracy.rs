@@ -2,11 +2,11 @@
 
 use num_complex::Complex64;
 
-use super::cluster::Found;
+use super::cluster::ComputedPairs;
 use super::measure::Pair;
 use super::pair::INACCURATE;
 use super::pencil::{bound, modulus};
-use super::solver::Solver;
+use super::solver::PairSolver;
 
 /// Eigenvalues farther away than this many errors are ignored.
 const FAR: f64 = 8.0;
@@ -25,7 +25,7 @@ pub(super) fn in_trouble(pair: &Pair) -> bool {
 }
 
 /// The pairs before or behind pair `i` that the pencil cannot tell from it, although they did not merge.
-fn crowd<'f>(found: &'f Found, i: usize) -> impl Iterator<Item = usize> + use<'f> {
+fn crowd<'f>(found: &'f ComputedPairs, i: usize) -> impl Iterator<Item = usize> + use<'f> {
     let pair = &found.pairs[i];
     let near = move |j: &usize| (pair.s - found.pairs[*j].s).norm() <= pair.reach;
     let others = (0..found.count).filter(move |&j| j != i && !pair.merged);
@@ -33,12 +33,12 @@ fn crowd<'f>(found: &'f Found, i: usize) -> impl Iterator<Item = usize> + use<'f
 }
 
 /// Whether the pencil cannot tell pair `i` from another one, although they did not merge.
-pub(super) fn is_crowded(found: &Found, i: usize) -> bool {
+pub(super) fn is_crowded(found: &ComputedPairs, i: usize) -> bool {
     crowd(found, i).next().is_some()
 }
 
 /// Whether pair `i` is the same as another one: one eigenvalue found twice in place of two.
-pub(super) fn is_repeated(solver: &mut Solver, found: &Found, i: usize) -> bool {
+pub(super) fn is_repeated(solver: &mut PairSolver, found: &ComputedPairs, i: usize) -> bool {
     crowd(found, i).any(|j| {
         let (own, other) = (vector(found, i), vector(found, j));
         solver.pencil.multiply(own, false, &mut solver.of_right);
@@ -48,7 +48,7 @@ pub(super) fn is_repeated(solver: &mut Solver, found: &Found, i: usize) -> bool 
 
 /// Whether the eigenvalues have the required sum, within their errors: an eigenvalue found twice in place of another
 /// spoils it.
-pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
+pub(super) fn is_complete(solver: &PairSolver, found: &ComputedPairs) -> bool {
     let (mut sum, mut allowed) = (0.0, 0.0);
     for pair in &found.pairs[..found.count] {
         let weight = if pair.conjugate { 2.0 } else { 1.0 };
@@ -61,7 +61,7 @@ pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
 /// Fills in the second-order errors of the pairs that are `open`: from their residuals and the resolvent, to which every
 /// other eigenvalue contributes `phi_j psi_j^T / ((s_j - s) slope_j)`, or, where this is not small, by a correction.
 /// Eigenvalues that may be the same are left out: they share a cluster, or their errors are those of a defective one.
-pub(super) fn second_order(solver: &mut Solver, found: &mut Found, open: &[bool]) {
+pub(super) fn second_order(solver: &mut PairSolver, found: &mut ComputedPairs, open: &[bool]) {
     if !open.contains(&true) {
         return;
     }
@@ -91,7 +91,7 @@ pub(super) fn second_order(solver: &mut Solver, found: &mut Found, open: &[bool]
 
 /// Fills in the errors of all pairs that are not part of a cluster. Returns whether each eigenvalue is clearly
 /// distinct: of two that almost meet, one may be found in place of the other.
-pub(super) fn estimate(solver: &mut Solver, found: &mut Found) -> bool {
+pub(super) fn estimate(solver: &mut PairSolver, found: &mut ComputedPairs) -> bool {
     let mut all_told_apart = true;
     for i in 0..found.count {
         let told_apart = if found.pairs[i].merged {
@@ -107,7 +107,7 @@ pub(super) fn estimate(solver: &mut Solver, found: &mut Found) -> bool {
 }
 
 /// The error of an eigenvalue, and whether it is clearly distinct from the others.
-fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
+fn error(solver: &mut PairSolver, found: &ComputedPairs, i: usize) -> (f64, bool) {
     let pair = &found.pairs[i];
     let step = modulus(pair.newton);
     let own = pair.own();
@@ -144,7 +144,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
     (reduced.min(most).max(own), false)
 }
 
-impl Solver<'_> {
+impl PairSolver<'_> {
     /// `x^H M phi`, or `x^T M phi` for the conjugate of `x`, with the right vector multiplied last.
     fn overlap(&self, x: &[Complex64], conjugate: bool) -> Complex64 {
         let weighed = self.pencil.weighed(&self.of_right).iter();
@@ -155,14 +155,14 @@ impl Solver<'_> {
     }
 }
 
-fn vector<'f>(found: &'f Found, i: usize) -> &'f [Complex64] {
+fn vector<'f>(found: &'f ComputedPairs, i: usize) -> &'f [Complex64] {
     let n = found.right.len() / found.pairs.len();
     &found.right[i * n..(i + 1) * n]
 }
 
 /// The other eigenvalues: value, pair, and whether the value is the conjugate of that pair.
 fn others<'f>(
-    found: &'f Found,
+    found: &'f ComputedPairs,
     i: usize,
 ) -> impl Iterator<Item = (Complex64, usize, bool)> + use<'f> {
     let pairs = &found.pairs[..found.count];

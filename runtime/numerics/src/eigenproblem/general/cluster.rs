@@ -4,10 +4,10 @@ use num_complex::Complex64;
 
 use super::measure::Pair;
 use super::pencil::modulus;
-use super::solver::Solver;
+use super::solver::PairSolver;
 
 /// The pairs found so far; the vectors of pair `i` are components `i n .. (i + 1) n`.
-pub(super) struct Found<'a> {
+pub(super) struct ComputedPairs<'a> {
     pub(super) count: usize,
     pub(super) pairs: &'a mut [Pair],
     pub(super) right: &'a mut [Complex64],
@@ -54,7 +54,11 @@ impl Links {
 
 /// Merges eigenvalues that cannot be distinguished. Returns whether a pair was found twice in place of two different
 /// ones.
-pub(super) fn merge(solver: &mut Solver, found: &mut Found, label: &mut [usize]) -> bool {
+pub(super) fn merge(
+    solver: &mut PairSolver,
+    found: &mut ComputedPairs,
+    label: &mut [usize],
+) -> bool {
     let mut collapsed = false;
     for links in [Links::Loose, Links::Tight] {
         let count = found.count;
@@ -94,8 +98,8 @@ fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
 
 /// Merges one cluster if justified; returns whether it turned out to be one eigenvalue found twice.
 fn merge_one(
-    solver: &mut Solver,
-    found: &mut Found,
+    solver: &mut PairSolver,
+    found: &mut ComputedPairs,
     label: &[usize],
     first: usize,
     links: Links,

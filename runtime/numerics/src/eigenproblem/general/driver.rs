@@ -2,30 +2,33 @@
 
 use num_complex::Complex64;
 
-use super::cluster::Found;
+use super::cluster::ComputedPairs;
 use super::gyroscopic::{Oscillation, oscillations};
 use super::iteration::Iteration;
 use super::linearisation::Linearisation;
 use super::order::{finish, sort};
 use super::pencil::Products;
-use super::prediction::{Near, predict};
+use super::prediction::{ApproximatePair, predict};
 use super::scaled_pencil::{Eigenproblem, Scaled, scaled};
 use super::scratch::{Work, take};
 use super::search::{Values, accepted, find, linear_values, second_values};
-use super::solver::Solver;
+use super::solver::PairSolver;
 use super::{Root, accuracy, census, hessenberg};
-use crate::eigenproblem::symmetric::{Trouble, not_found};
+use crate::eigenproblem::symmetric::{EigenproblemError, not_found};
 
 /// Up to this size, every pair is found by factors of its own.
 const DIRECT: usize = 8;
 
 /// Roots with `Im s >= 0`, without their conjugates, ascending in `|s|`, then in `Im s`, then in `Re s`.
-pub fn solve(problem: Eigenproblem) -> Result<Vec<Root>, Trouble> {
+pub fn solve(problem: Eigenproblem) -> Result<Vec<Root>, EigenproblemError> {
     solve_near(problem, &[])
 }
 
 /// Like [`solve`], but starts from the roots of a nearby problem if they predict all roots.
-pub fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Root>, Trouble> {
+pub fn solve_near(
+    problem: Eigenproblem,
+    near: &[ApproximatePair],
+) -> Result<Vec<Root>, EigenproblemError> {
     let n = problem.size();
     if n == 0 {
         return Ok(Vec::new());
@@ -59,7 +62,7 @@ pub fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Root>, Tro
     let label = take(&mut indices, count);
     let open = take(&mut flags, count);
     let marked = take(&mut flags, count);
-    let mut solver = Solver {
+    let mut solver = PairSolver {
         of_right: Products::new(n, take(&mut complex, 3 * n), take(&mut real, 6 * n)),
         of_left: Products::new(n, take(&mut complex, 3 * n), take(&mut real, 6 * n)),
         basis_right: take(&mut complex, n * n),
@@ -71,7 +74,7 @@ pub fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Root>, Tro
         order,
         iteration: None,
     };
-    let mut found = Found {
+    let mut found = ComputedPairs {
         count: 0,
         pairs: &mut work.pairs[..count],
         right: take(&mut complex, count * n),
@@ -124,7 +127,7 @@ pub fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Root>, Tro
         let (phi, psi) = (&found.right[vectors.clone()], &found.left[vectors]);
         let Some(residual) = accepted(&mut solver, pair, phi, psi) else {
             let residual = pair.residual;
-            return Err(Trouble::Inaccurate { mode, residual });
+            return Err(EigenproblemError::Inaccurate { mode, residual });
         };
         roots.push(Root {
             s: pair.s * rate,

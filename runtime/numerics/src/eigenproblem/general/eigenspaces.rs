@@ -3,17 +3,17 @@
 use num_complex::Complex64;
 
 use super::accuracy::DEFECTIVE;
-use super::cluster::{Cluster, Found};
+use super::cluster::{Cluster, ComputedPairs};
 use super::lu::Lu;
 use super::measure::{Pair, ZERO, normalise};
 use super::pair::INACCURATE;
 use super::pencil::{bound, modulus};
-use super::solver::Solver;
+use super::solver::PairSolver;
 
 /// Newton steps per cluster.
 const STEPS: usize = 4;
 
-impl Solver<'_> {
+impl PairSolver<'_> {
     /// Writes bases of the eigenspaces to `basis_right` and `basis_left`: the right one orthonormal in the mass matrix,
     /// the left one dual to it if the eigenvalue is semisimple.
     pub(super) fn eigenspaces(&mut self, cluster: &mut Cluster) {
@@ -220,7 +220,7 @@ impl Solver<'_> {
         k: usize,
         conjugate: bool,
         place: usize,
-        found: &mut Found,
+        found: &mut ComputedPairs,
     ) {
         let n = self.pencil.n;
         let regular = k < cluster.regular;

@@ -56,7 +56,7 @@ impl<'a> Iteration<'a> {
         left: &mut [Complex64],
     ) {
         let fill = |own: &mut Self, k: usize, side| {
-            own.aim(values[k]);
+            own.factor_shifted(values[k]);
             own.iterate(side);
         };
         self.blocks(linearisation, values.len(), fill, (right, left));
@@ -71,7 +71,7 @@ impl<'a> Iteration<'a> {
         left: &mut [Complex64],
     ) {
         let count = right.len() / linearisation.n;
-        self.aim(s + ASIDE * linearisation.size);
+        self.factor_shifted(s + ASIDE * linearisation.size);
         let fill = |own: &mut Self, k: usize, side| own.iterate_from(side, k);
         self.blocks(linearisation, count, fill, (right, left));
     }
@@ -155,7 +155,7 @@ impl<'a> Iteration<'a> {
     }
 
     /// Factors `H - s` for corrections near `s`.
-    pub(super) fn aim(&mut self, s: Complex64) {
+    pub(super) fn factor_shifted(&mut self, s: Complex64) {
         if self.shift != s {
             self.shifted.factor(self.form.h, s, self.least);
             self.shift = s;

@@ -6,7 +6,7 @@ use super::hessenberg;
 use super::pencil::{Degree, Pencil, modulus};
 use super::shifted::Parts;
 use crate::eigenproblem::dense;
-use crate::eigenproblem::symmetric::{Trouble, factor_into};
+use crate::eigenproblem::symmetric::{EigenproblemError, factor_into};
 
 /// `x' = A x` for `x = D^-1 (y, s y)`, `phi = L^-T y`, `M = L L^T`, with
 /// `A = D^-1 [[0, I], [-L^-1 K L^-T, -L^-1 C L^-T]] D`; for a first-order pencil `A = -K`, which is already balanced.
@@ -36,7 +36,7 @@ impl<'a> Linearisation<'a> {
         pencil: &Pencil,
         companion: &mut [f64],
         store: &'a mut [f64],
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, EigenproblemError> {
         let n = pencil.n;
         let (lower, store) = store.split_at_mut(n * n);
         let (damping, store) = store.split_at_mut(n * n);

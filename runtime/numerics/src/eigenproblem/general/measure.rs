@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::pencil::{Pencil, Products, bound, modulus};
-use super::solver::Solver;
+use super::solver::PairSolver;
 use crate::algebra::for_size;
 
 /// Terms below this are zero in a scaled pencil.
@@ -97,7 +97,7 @@ impl Pair {
     }
 }
 
-impl Solver<'_> {
+impl PairSolver<'_> {
     /// Normalises both vectors and measures them with `s`.
     pub(super) fn examine(
         &mut self,

@@ -52,11 +52,11 @@ pub(crate) mod tests;
 use num_complex::Complex64;
 
 pub use driver::{solve as roots_of, solve_near as roots_near};
-pub use prediction::Near;
+pub use prediction::ApproximatePair;
 pub use reference::{Reference, ReferencePair};
 pub use scaled_pencil::Eigenproblem;
 
-use super::symmetric::Trouble;
+use super::symmetric::EigenproblemError;
 use crate::algebra::Vector;
 use crate::linear::Linear;
 
@@ -78,6 +78,6 @@ pub struct Root {
 }
 
 /// Solves the general eigenproblem of `linear`.
-pub fn solve(linear: &Linear) -> Result<Vec<Root>, Trouble> {
+pub fn solve(linear: &Linear) -> Result<Vec<Root>, EigenproblemError> {
     driver::solve(Eigenproblem::Quadratic(linear))
 }

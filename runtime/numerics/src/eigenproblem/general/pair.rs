@@ -14,7 +14,7 @@ use num_complex::Complex64;
 use super::lu::Lu;
 use super::measure::{Pair, ZERO, normalise};
 use super::pencil::modulus;
-use super::solver::Solver;
+use super::solver::PairSolver;
 
 /// Maximum number of improvements per pair.
 const STEPS: usize = 8;
@@ -25,7 +25,7 @@ const SMALL: f64 = 1e-6;
 /// Residual above which the vectors are improved.
 pub(crate) const INACCURATE: f64 = 1e-13;
 
-impl Solver<'_> {
+impl PairSolver<'_> {
     /// Relative rounding error of a component of `Q(s) x`.
     pub(super) fn relative(&self) -> f64 {
         (self.pencil.n as f64 + 4.0) * f64::EPSILON

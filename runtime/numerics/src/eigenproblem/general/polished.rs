@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use super::linearisation::Side;
 use super::measure::Pair;
 use super::pencil::{Pencil, Products, modulus};
-use super::solver::Solver;
+use super::solver::PairSolver;
 
 /// Residual of vectors that need no correction.
 const CLEAN: f64 = 2e-14;
@@ -17,7 +17,7 @@ const CORRECTIONS: usize = 3;
 /// Newton steps with the same vectors.
 const STEPS: usize = 2;
 
-impl Solver<'_> {
+impl PairSolver<'_> {
     /// The pair near `start`, at a distance `gap` from the next eigenvalue, with vectors of the linearisation to start
     /// from. Its second-order error is left open.
     pub(super) fn polished(
@@ -27,7 +27,7 @@ impl Solver<'_> {
         left: &mut [Complex64],
     ) -> Pair {
         let n = self.pencil.n;
-        let mut pair = self.settled((start, start), gap, right, left);
+        let mut pair = self.rayleigh_newton((start, start), gap, right, left);
         for _ in 0..CORRECTIONS {
             let Some(iteration) = &mut self.iteration else {
                 break;
@@ -35,7 +35,7 @@ impl Solver<'_> {
             if pair.residual <= CLEAN || !pair.residual.is_finite() {
                 break;
             }
-            iteration.aim(start);
+            iteration.factor_shifted(start);
             let mut vectors = [vec![Complex64::ZERO; n], vec![Complex64::ZERO; n]];
             let sides = [(Side::Right, &*right), (Side::Left, &*left)];
             for ((side, x), corrected) in sides.into_iter().zip(&mut vectors) {
@@ -53,7 +53,7 @@ impl Solver<'_> {
                 }
             }
             let [new_right, new_left] = &mut vectors;
-            let better = self.settled((start, pair.s), gap, new_right, new_left);
+            let better = self.rayleigh_newton((start, pair.s), gap, new_right, new_left);
             let enough = better.residual <= 0.5 * pair.residual;
             if better.residual < pair.residual {
                 right.copy_from_slice(new_right);
@@ -84,7 +84,7 @@ impl Solver<'_> {
         self.pencil.multiply(left, true, &mut self.of_left);
         let mut change: Vec<_> = (0..n).map(|i| self.of_left.value(pair.s, i)).collect();
         if let Some(iteration) = &mut self.iteration {
-            iteration.aim(pair.s);
+            iteration.factor_shifted(pair.s);
             iteration.correct(&self.linearisation, Side::Left, &mut change);
         }
         let along = along(&self.pencil, &self.of_left, &change);
@@ -96,7 +96,7 @@ impl Solver<'_> {
     }
 
     /// Newton steps from `s`, within a quarter of the gap about `start`.
-    fn settled(
+    fn rayleigh_newton(
         &mut self,
         (start, s): (Complex64, Complex64),
         gap: f64,

@@ -10,7 +10,7 @@ const NEAR: f64 = 0.1;
 
 /// An eigenvalue of a nearby problem, `Im s >= 0`, with its vectors.
 #[derive(Clone, Copy)]
-pub struct Near<'a> {
+pub struct ApproximatePair<'a> {
     pub s: Complex64,
     pub right: &'a [Complex64],
     pub left: &'a [Complex64],
@@ -21,7 +21,7 @@ pub struct Near<'a> {
 /// apart, or some eigenvalue has no nearby counterpart.
 pub(super) fn predict(
     problem: Eigenproblem,
-    near: &[Near],
+    near: &[ApproximatePair],
     rate: f64,
     values: &mut [Complex64],
 ) -> bool {
@@ -45,7 +45,7 @@ pub(super) fn predict(
     filled == values.len()
 }
 
-fn improved(linear: &Linear, pair: &Near) -> Option<Complex64> {
+fn improved(linear: &Linear, pair: &ApproximatePair) -> Option<Complex64> {
     let (s, n) = (pair.s, linear.mass.row_count());
     if pair.right.len() != n || pair.left.len() != n {
         return None;

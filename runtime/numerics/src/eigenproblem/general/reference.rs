@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::lu::Lu;
 use super::powers::{exponent, power_of_two};
-use super::prediction::Near;
+use super::prediction::ApproximatePair;
 use super::scaling::largest;
 use crate::algebra::{Matrix, Vector};
 use crate::linear::Linear;
@@ -31,11 +31,11 @@ pub struct ReferencePair {
 impl Reference {
     /// The reference for a pencil whose first `motions` unknowns have masses and whose others are the reactions of as
     /// many constraints; `None` unless the pairs represent all eigenvalues, conjugates included.
-    pub fn new(linear: &Linear, motions: usize, pairs: &[Near]) -> Option<Self> {
+    pub fn new(linear: &Linear, motions: usize, pairs: &[ApproximatePair]) -> Option<Self> {
         let n = linear.mass.row_count();
         let values = pairs.iter().map(|pair| 1 + usize::from(pair.s.im > 0.0));
         let wanted = (4 * motions).checked_sub(2 * n)?;
-        let fits = |pair: &Near| pair.right.len() == n && pair.left.len() == n;
+        let fits = |pair: &ApproximatePair| pair.right.len() == n && pair.left.len() == n;
         if values.sum::<usize>() != wanted || !pairs.iter().all(fits) {
             return None;
         }

@@ -4,7 +4,7 @@ use super::pencil::{Degree, Pencil};
 use super::scaling::{largest, scale, scale_first_order};
 use super::scratch::take;
 use crate::algebra::Matrix;
-use crate::eigenproblem::symmetric::{Trouble, not_found};
+use crate::eigenproblem::symmetric::{EigenproblemError, not_found};
 use crate::linear::Linear;
 
 /// An eigenproblem.
@@ -38,7 +38,7 @@ pub(crate) struct Scaled<'a> {
 pub(crate) fn scaled<'a>(
     problem: Eigenproblem,
     store: &mut &'a mut [f64],
-) -> Result<Scaled<'a>, Trouble> {
+) -> Result<Scaled<'a>, EigenproblemError> {
     let n = problem.size();
     let mass = take(store, n * n);
     let damping = take(store, n * n);
@@ -52,7 +52,7 @@ pub(crate) fn scaled<'a>(
             for i in 0..n {
                 let diagonal = mass[i * n + i];
                 if !(diagonal >= f64::MIN_POSITIVE && diagonal.is_finite()) {
-                    return Err(Trouble::SingularMass(i));
+                    return Err(EigenproblemError::SingularMass(i));
                 }
             }
             let rate = scale(n, mass, damping, stiffness, right);

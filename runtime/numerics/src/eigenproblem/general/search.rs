@@ -2,10 +2,10 @@
 
 use num_complex::Complex64;
 
-use super::cluster::Found;
+use super::cluster::ComputedPairs;
 use super::measure::Pair;
 use super::pencil::Pencil;
-use super::solver::Solver;
+use super::solver::PairSolver;
 use super::{aberth, accuracy, census, cluster, schur};
 
 /// Largest residual of an accepted pair, relative to the terms in it.
@@ -92,8 +92,8 @@ impl<'a> Values<'a> {
 /// Finds all pairs from these values and, if they are near, from the vectors in `found`. Returns the number of pairs
 /// that failed; a pair that would be refused counts more than all others.
 pub(super) fn find(
-    solver: &mut Solver,
-    found: &mut Found,
+    solver: &mut PairSolver,
+    found: &mut ComputedPairs,
     from: Values,
     label: &mut [usize],
 ) -> usize {
@@ -148,8 +148,8 @@ pub(super) fn find(
 /// if too many are bad for a pencil of this size.
 #[cold]
 pub(super) fn second_values(
-    solver: &mut Solver,
-    found: &Found,
+    solver: &mut PairSolver,
+    found: &ComputedPairs,
     second: &mut [Complex64],
     spare: &mut [Complex64],
     open: &mut [bool],
@@ -191,7 +191,7 @@ pub(super) fn second_values(
 
 /// The residual of a pair, if it passes the check.
 pub(super) fn accepted(
-    solver: &mut Solver,
+    solver: &mut PairSolver,
     pair: &Pair,
     right: &[Complex64],
     left: &[Complex64],

@@ -7,7 +7,7 @@ use super::linearisation::Linearisation;
 use super::pencil::{Pencil, Products};
 
 /// All data needed to find pairs, in slices.
-pub(super) struct Solver<'a> {
+pub(super) struct PairSolver<'a> {
     pub(super) pencil: Pencil<'a>,
     pub(super) linearisation: Linearisation<'a>,
     pub(super) q: &'a mut [Complex64],

@@ -2,7 +2,9 @@
 
 use super::refine::refine;
 use super::residual::{Matrices, Rest, second_order};
-use super::{INACCURATE, SMALL, Trouble, accepted, fix_sign, not_found, sort, symmetrise};
+use super::{
+    EigenproblemError, INACCURATE, SMALL, accepted, fix_sign, not_found, sort, symmetrise,
+};
 use crate::algebra::largest;
 use crate::eigenproblem::dense::{self, add, dot, dot_sizes};
 use crate::eigenproblem::tridiagonal;
@@ -18,7 +20,7 @@ pub(crate) fn solve(
     lambda: &mut [f64],
     shapes: &mut [f64],
     (residuals, errors): (&mut [f64], &mut [f64]),
-) -> Result<(), Trouble> {
+) -> Result<(), EigenproblemError> {
     let n = matrices.n;
     decompose(matrices, lambda, shapes)?;
     measure(matrices, lambda, shapes, (residuals, errors));
@@ -52,10 +54,14 @@ pub(crate) fn solve(
 }
 
 /// Pairs as they come from `L^-1 K L^-T`, `M = L L^T`, sorted.
-fn decompose(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]) -> Result<(), Trouble> {
+fn decompose(
+    matrices: &Matrices,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+) -> Result<(), EigenproblemError> {
     let n = matrices.n;
     let mut lower = vec![0.0; n * n];
-    dense::cholesky(n, matrices.m, &mut lower).map_err(Trouble::SingularMass)?;
+    dense::cholesky(n, matrices.m, &mut lower).map_err(EigenproblemError::SingularMass)?;
     let mut reduced = matrices.k.to_vec();
     for _ in 0..2 {
         dense::solve_lower(n, &lower, n, &mut reduced);

@@ -11,7 +11,7 @@ use residual::Matrices;
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Trouble {
+pub enum EigenproblemError {
     /// The mass matrix has no positive pivot in this row.
     SingularMass(usize),
     /// This pair failed its residual check.
@@ -51,14 +51,18 @@ const SMALL: f64 = 1e-6;
 const SMALL_SIZE: usize = 8;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
-pub fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
+pub fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, EigenproblemError> {
     let mut pairs = Pairs::default();
     solve_into(stiffness, mass, &mut pairs)?;
     Ok(pairs)
 }
 
 /// Like [`solve`], overwriting existing pairs.
-pub fn solve_into(stiffness: &Matrix, mass: &Matrix, pairs: &mut Pairs) -> Result<(), Trouble> {
+pub fn solve_into(
+    stiffness: &Matrix,
+    mass: &Matrix,
+    pairs: &mut Pairs,
+) -> Result<(), EigenproblemError> {
     let n = mass.row_count();
     let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
     let lambda = pairs.lambda.make_room(n);
@@ -100,9 +104,14 @@ pub fn solve_into(stiffness: &Matrix, mass: &Matrix, pairs: &mut Pairs) -> Resul
 }
 
 #[inline]
-fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+fn one(
+    k: &[f64],
+    m: &[f64],
+    lambda: &mut [f64],
+    vectors: &mut [f64],
+) -> Result<(), EigenproblemError> {
     if !(m[0] > 0.0 && m[0].is_finite()) {
-        return Err(Trouble::SingularMass(0));
+        return Err(EigenproblemError::SingularMass(0));
     }
     lambda[0] = k[0] / m[0];
     vectors[0] = 1.0 / m[0].sqrt();
@@ -111,17 +120,22 @@ fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
 
 /// Size two directly: explicit Cholesky reduction and one Jacobi rotation.
 #[inline]
-fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+fn two(
+    k: &[f64],
+    m: &[f64],
+    lambda: &mut [f64],
+    vectors: &mut [f64],
+) -> Result<(), EigenproblemError> {
     let threshold = 16.0 * f64::EPSILON;
     if !(m[0] > 0.0 && m[0].is_finite()) {
-        return Err(Trouble::SingularMass(0));
+        return Err(EigenproblemError::SingularMass(0));
     }
     // Reciprocals of the diagonal of L.
     let r0 = 1.0 / m[0].sqrt();
     let l10 = m[2] * r0;
     let pivot = m[3] - l10 * l10;
     if !(pivot > threshold * m[3].abs() && pivot.is_finite()) {
-        return Err(Trouble::SingularMass(1));
+        return Err(EigenproblemError::SingularMass(1));
     }
     let r1 = 1.0 / pivot.sqrt();
     // A = L^-1 K L^-T
@@ -156,7 +170,7 @@ fn small(
     m: &[f64],
     lambda: &mut [f64],
     vectors: &mut [f64],
-) -> Result<(), Trouble> {
+) -> Result<(), EigenproblemError> {
     let lower = factor(n, m)?;
     let mut reduced = [0.0; SMALL_SIZE * SMALL_SIZE];
     let reduced = &mut reduced[..n * n];
@@ -208,14 +222,14 @@ fn symmetrise(n: usize, matrix: &mut [f64]) {
 }
 
 /// Lower Cholesky factor of a mass matrix of size up to 8, row by row.
-fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], Trouble> {
+fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], EigenproblemError> {
     let mut lower = [0.0; 64];
     factor_into(n, m, &mut lower)?;
     Ok(lower)
 }
 
 /// Lower Cholesky factor of a mass matrix, row by row; the part of `lower` above the diagonal is unchanged.
-pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), Trouble> {
+pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), EigenproblemError> {
     let threshold = 8.0 * n as f64 * f64::EPSILON;
     for i in 0..n {
         for j in 0..=i {
@@ -228,7 +242,7 @@ pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), 
             } else if sum > threshold * m[i * n + i].abs() && sum.is_finite() {
                 lower[i * n + i] = sum.sqrt();
             } else {
-                return Err(Trouble::SingularMass(i));
+                return Err(EigenproblemError::SingularMass(i));
             }
         }
     }
@@ -243,7 +257,7 @@ fn finish(
     lambda: &mut [f64],
     shapes: &mut [f64],
     (residuals, errors): (&mut [f64], &mut [f64]),
-) -> Result<(), Trouble> {
+) -> Result<(), EigenproblemError> {
     sort(n, lambda, shapes, (residuals, errors));
     let mut refined = false;
     for r in 0..n {
@@ -277,18 +291,18 @@ fn accepted(
     matrices: &Matrices,
     (lambda, shape): (f64, &[f64]),
     (mode, residual): (usize, f64),
-) -> Result<f64, Trouble> {
+) -> Result<f64, EigenproblemError> {
     if residual <= ACCEPTED {
         return Ok(residual);
     }
     // Relative to the matrices, because the terms are rounding themselves.
     let rounding = matrices.is_rounding(lambda, shape).then_some(ROUNDING);
-    rounding.ok_or(Trouble::Inaccurate { mode, residual })
+    rounding.ok_or(EigenproblemError::Inaccurate { mode, residual })
 }
 
 /// The error for a spectrum that was not found.
-pub(super) fn not_found() -> Trouble {
-    Trouble::Inaccurate {
+pub(super) fn not_found() -> EigenproblemError {
+    EigenproblemError::Inaccurate {
         mode: 0,
         residual: f64::INFINITY,
     }

@@ -6,12 +6,16 @@ use super::{Gathered, Normalisation, is_shared, lift, with_reactions};
 use crate::Complex;
 use crate::algebra::Vector;
 use crate::constraints::Tangent;
-use crate::eigenproblem::{Eigenproblem, Root, Trouble, roots_of};
+use crate::eigenproblem::{Eigenproblem, EigenproblemError, Root, roots_of};
 use crate::kernels::Linear;
 use crate::modes::deflation;
 use crate::modes::pencil::pencil_transposed_times;
 
-pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, Trouble> {
+pub(super) fn roots(
+    linear: &Linear,
+    tangent: &Tangent,
+    free: usize,
+) -> Result<Vec<Root>, EigenproblemError> {
     let system = System::new(linear, tangent)?;
     let matrix = match free {
         0 => system.matrix(),

@@ -31,7 +31,7 @@ pub(crate) use pairs::free_pairs_into;
 use super::pencil::pencil_times;
 use crate::algebra::{Matrix, Vector, dot, times, times_complex};
 use crate::constraints::{Structure, Tangent};
-use crate::eigenproblem::{Root, Trouble};
+use crate::eigenproblem::{EigenproblemError, Root};
 use crate::kernels::Linear;
 use crate::{Complex, Description};
 use measure::Measure;
@@ -43,7 +43,7 @@ pub(super) fn general_roots(
     linear: &Linear,
     structure: Structure,
     free: usize,
-) -> Result<Vec<Root>, Trouble> {
+) -> Result<Vec<Root>, EigenproblemError> {
     let tangent = Tangent::new(linear, structure);
     if structure.holonomic() {
         quadratic::roots(linear, &tangent, free)
@@ -197,8 +197,8 @@ impl<'a> Gathered<'a> {
         shared: bool,
         mut right: Vector<Complex>,
         mut left: Vector<Complex>,
-    ) -> Result<(), Trouble> {
-        let inaccurate = |residual| Trouble::Inaccurate {
+    ) -> Result<(), EigenproblemError> {
+        let inaccurate = |residual| EigenproblemError::Inaccurate {
             mode: self.roots.len(),
             residual,
         };

@@ -10,7 +10,7 @@ use super::{measure, projected};
 use crate::Description;
 use crate::algebra::{Matrix, Vector, dot, largest, largest_element, times};
 use crate::constraints::{Structure, Tangent};
-use crate::eigenproblem::{Pairs, Trouble, symmetric};
+use crate::eigenproblem::{EigenproblemError, Pairs, symmetric};
 use crate::kernels::Linear;
 use crate::modes::deflation;
 use crate::rounding::of_form;
@@ -21,7 +21,7 @@ use crate::rounding::of_form;
 ///
 /// # Errors
 /// Fails as inaccurate for a mechanism with speeds or constraints on velocities, which has no such pairs.
-pub fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, Trouble> {
+pub fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, EigenproblemError> {
     let mut pairs = Pairs::default();
     free_pairs_into(linear, description, &mut pairs)?;
     Ok(pairs)
@@ -32,14 +32,14 @@ pub(crate) fn free_pairs_into(
     linear: &Linear,
     description: &Description,
     pairs: &mut Pairs,
-) -> Result<(), Trouble> {
+) -> Result<(), EigenproblemError> {
     let structure = Structure::of(description);
     if structure.open() {
         let free = description.free_directions;
         return deflation::pairs(&linear.stiffness, &linear.mass, free, pairs);
     }
     if !structure.holonomic() {
-        return Err(Trouble::Inaccurate {
+        return Err(EigenproblemError::Inaccurate {
             mode: 0,
             residual: f64::INFINITY,
         });
@@ -49,7 +49,11 @@ pub(crate) fn free_pairs_into(
     Ok(())
 }
 
-fn reduced_pairs(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Pairs, Trouble> {
+fn reduced_pairs(
+    linear: &Linear,
+    tangent: &Tangent,
+    free: usize,
+) -> Result<Pairs, EigenproblemError> {
     let mut mass = projected(&linear.mass, tangent);
     let mut stiffness = projected(&linear.stiffness, tangent);
     symmetrise(&mut mass);
@@ -78,7 +82,7 @@ fn reduced_pairs(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Pair
         pairs.shapes[r].copy_from_slice(&shape);
         pairs.residuals[r] = residual;
         if residual.is_nan() || residual > ACCEPTED {
-            return Err(Trouble::Inaccurate { mode: r, residual });
+            return Err(EigenproblemError::Inaccurate { mode: r, residual });
         }
     }
     Ok(pairs)

@@ -2,12 +2,16 @@
 
 use super::{Gathered, Normalisation, is_shared, lift, projected, with_reactions};
 use crate::constraints::Tangent;
-use crate::eigenproblem::{Root, Trouble, general};
+use crate::eigenproblem::{EigenproblemError, Root, general};
 use crate::kernels::Linear;
 use crate::modes::deflation;
 use crate::modes::pencil::transposed;
 
-pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, Trouble> {
+pub(super) fn roots(
+    linear: &Linear,
+    tangent: &Tangent,
+    free: usize,
+) -> Result<Vec<Root>, EigenproblemError> {
     let reduced = Linear {
         mass: projected(&linear.mass, tangent),
         damping: projected(&linear.damping, tangent),
@@ -30,10 +34,10 @@ pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<V
 }
 
 /// Names a coordinate moved by the massless direction.
-pub(super) fn tangent_trouble(trouble: Trouble, tangent: &Tangent) -> Trouble {
+pub(super) fn tangent_trouble(trouble: EigenproblemError, tangent: &Tangent) -> EigenproblemError {
     match trouble {
-        Trouble::SingularMass(row) => {
-            Trouble::SingularMass(tangent.basis.get(row).map_or(0, |x| greatest(x)))
+        EigenproblemError::SingularMass(row) => {
+            EigenproblemError::SingularMass(tangent.basis.get(row).map_or(0, |x| greatest(x)))
         }
         other => other,
     }

@@ -17,7 +17,7 @@
 use super::quadratic::greatest;
 use crate::algebra::{Cholesky, Matrix, Vector, dot, times};
 use crate::constraints::{Rows, Tangent, inertias};
-use crate::eigenproblem::Trouble;
+use crate::eigenproblem::EigenproblemError;
 use crate::kernels::Linear;
 
 /// Share of a constraint on velocities below which it follows from the constraints on positions.
@@ -44,7 +44,7 @@ pub(super) struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    pub(super) fn new(linear: &'a Linear, tangent: &'a Tangent) -> Result<Self, Trouble> {
+    pub(super) fn new(linear: &'a Linear, tangent: &'a Tangent) -> Result<Self, EigenproblemError> {
         let structure = tangent.structure;
         let (f, speeds) = (tangent.freedom, structure.speed_range());
         let velocities = f + speeds.len();
@@ -120,7 +120,7 @@ impl<'a> System<'a> {
             let x = Vector::from_fn(structure.size(), |i| {
                 (0..velocities).fold(0.0, |sum, a| sum + column[a] * directions[a][i])
             });
-            Trouble::SingularMass(greatest(&x))
+            EigenproblemError::SingularMass(greatest(&x))
         })?;
         let forced = tangent.basis.iter().map(|along| {
             let right = order

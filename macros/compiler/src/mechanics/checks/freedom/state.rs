@@ -33,7 +33,7 @@ pub(super) struct Linearised {
 
 /// Values of the first unknowns, found by iteration, and what that leaves uncertain.
 #[derive(Default)]
-struct Place {
+struct IteratedValues {
     values: Vec<f64>,
     rounding: Vec<f64>,
 }
@@ -104,7 +104,7 @@ impl<'a> System<'a> {
         let state = RandomState { design, motion: 1 };
         let free = self.fields.free;
         if self.size() == free {
-            let place = Place {
+            let place = IteratedValues {
                 values: vec![0.0; free],
                 rounding: vec![0.0; free],
             };
@@ -116,7 +116,12 @@ impl<'a> System<'a> {
         if starts[0].iter().any(|value| *value != 0.0) {
             starts.push(vec![0.0; self.size()]);
         }
-        let found = |start| self.at_place(&self.solve(state, &roots, start, free)?, state);
+        let found = |start| {
+            self.at_place(
+                &self.minimum_norm_newton(state, &roots, start, free)?,
+                state,
+            )
+        };
         starts.into_iter().find_map(found)
     }
 
@@ -143,13 +148,13 @@ impl<'a> System<'a> {
                 LAST => vec![0.0; self.size()],
                 _ => self.start(state, 0..moving),
             };
-            let place = self.solve(state, &roots, start, 0)?;
+            let place = self.minimum_norm_newton(state, &roots, start, 0)?;
             self.at_place(&place, state)
         })
     }
 
     /// Linearises where all equations hold.
-    fn at_place(&self, place: &Place, state: RandomState) -> Option<Linearised> {
+    fn at_place(&self, place: &IteratedValues, state: RandomState) -> Option<Linearised> {
         let residual = Evaluator::new(self.g, self.rest);
         let gaps = residual.at(state.motion, |symbol| self.found(place, state, symbol));
         let holds = |gap: &Disturbed| gap.is_finite() && gap.is_rounding(residual.operations());
@@ -162,7 +167,7 @@ impl<'a> System<'a> {
     }
 
     /// The value of a symbol where unknowns have been found by iteration.
-    fn found(&self, place: &Place, state: RandomState, symbol: SymbolId) -> Disturbed {
+    fn found(&self, place: &IteratedValues, state: RandomState, symbol: SymbolId) -> Disturbed {
         let unknowns = &self.context.symbols.q.ids;
         match unknowns.iter().position(|own| *own == symbol) {
             Some(k) if k < place.values.len() => {
@@ -189,11 +194,11 @@ impl<'a> System<'a> {
 
     /// Coordinates and speeds near a random state that satisfy the constraints; nothing without constraints, or if none
     /// are found.
-    fn place(&self, state: RandomState) -> Place {
+    fn place(&self, state: RandomState) -> IteratedValues {
         let moving = self.context.moving().1;
         let rows = moving..self.size();
         if rows.is_empty() {
-            return Place::default();
+            return IteratedValues::default();
         }
         let mut roots: Vec<ExprId> = self.rest[rows.clone()].to_vec();
         let columns = self.stiffness[..moving].iter();
@@ -201,18 +206,19 @@ impl<'a> System<'a> {
         let unknowns = &self.context.symbols.q.ids[..moving];
         let random = |symbol: &SymbolId| state.value(self.context, *symbol);
         let start = unknowns.iter().map(random).collect();
-        self.solve(state, &roots, start, 0).unwrap_or_default()
+        self.minimum_norm_newton(state, &roots, start, 0)
+            .unwrap_or_default()
     }
 
     /// Solves equations for some unknowns, `values[first..]`, by Newton's method with the shortest steps. `roots` holds
     /// the equations, then their derivatives by one of these unknowns after the other.
-    fn solve(
+    fn minimum_norm_newton(
         &self,
         state: RandomState,
         roots: &[ExprId],
         mut values: Vec<f64>,
         first: usize,
-    ) -> Option<Place> {
+    ) -> Option<IteratedValues> {
         let unknowns = &self.context.symbols.q.ids[..values.len()];
         let count = roots.len() / (1 + values.len() - first);
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -233,7 +239,7 @@ impl<'a> System<'a> {
                     4.0 * step.max(f64::EPSILON * values[k].abs())
                 };
                 let rounding = (0..values.len()).map(rounding).collect();
-                return Some(Place { values, rounding });
+                return Some(IteratedValues { values, rounding });
             }
             let coordinates = self.fields.free.saturating_sub(first).min(step.len());
             let share = (LARGEST_STEP / size(&step[..coordinates])).min(1.0);

@@ -1,7 +1,7 @@
 //! The inertia of a rigid body of any shape.
 
 use super::super::matrices::is_matrix;
-use super::super::typed::{Place, Typed};
+use super::super::typed::{Typed, ValueContext};
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
@@ -64,7 +64,7 @@ impl Quantities<'_, '_, '_> {
         };
         let scalars: Vec<_> = entries
             .iter()
-            .map(|entry| (entry, self.resolver.scalar(entry, Place::Parameter)))
+            .map(|entry| (entry, self.resolver.scalar(entry, ValueContext::Parameter)))
             .collect();
         let scale = scale?;
         let mut tensor = Vec::new();
@@ -104,7 +104,8 @@ impl Quantities<'_, '_, '_> {
 
     /// The moments of inertia about the axes, by an expression.
     fn moments(&mut self, value: &Value) -> Option<[Expr; 6]> {
-        let Typed::Vector([x, y, z], quantity) = self.resolver.value(value, Place::Parameter)?
+        let Typed::Vector([x, y, z], quantity) =
+            self.resolver.value(value, ValueContext::Parameter)?
         else {
             return self.wrong_inertia(value);
         };

@@ -3,7 +3,7 @@
 
 use super::super::arguments::Arguments;
 use super::super::resolver::Resolver;
-use super::super::typed::Place;
+use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::rules::physical::{Demand, Requirement};
@@ -87,12 +87,12 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
 
     pub(super) fn direction(&mut self, name: &str) -> Option<Vector> {
         let value = self.arguments.get(name)?;
-        self.resolver.direction(value, Place::Parameter)
+        self.resolver.direction(value, ValueContext::Parameter)
     }
 
     pub(super) fn size(&mut self) -> Option<Vector> {
         let value = self.arguments.get("size")?;
-        let (size, quantity) = self.resolver.vector(value, Place::Parameter)?;
+        let (size, quantity) = self.resolver.vector(value, ValueContext::Parameter)?;
         self.resolver
             .expect(quantity, Dimension::LENGTH, "`size`", value)?;
         let demand = Demand::Positive(Dimension::LENGTH);

@@ -5,7 +5,7 @@ use super::super::coordinates::{self, DeclaredMotion};
 use super::super::exerted::Exerted;
 use super::super::expected::Expected;
 use super::super::resolver::Resolver;
-use super::super::typed::Place;
+use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::base::span::Extent;
@@ -33,7 +33,7 @@ impl Resolver<'_> {
         let driving = simplify::multiply(ratio?, with);
         let zero = simplify::subtract(simplify::subtract(of, driving), offset?);
         let dimension = coordinates::dimension(quantity);
-        self.zero(zero, dimension, arguments.get("of")?)
+        self.equation_with_reaction(zero, dimension, arguments.get("of")?)
     }
 
     /// The two coordinates, which must be different.
@@ -113,7 +113,7 @@ impl Resolver<'_> {
     /// An expression of coordinates and points.
     pub(super) fn equation(&mut self, arguments: &Arguments) -> Option<(ConstraintLaw, Exerted)> {
         let value = arguments.get("zero")?;
-        let (zero, quantity) = self.scalar(value, Place::Equation)?;
+        let (zero, quantity) = self.scalar(value, ValueContext::Equation)?;
         let unknown = zero.leaves().into_iter().any(|leaf| match leaf {
             Expr::Coordinate(id) => !self.is_driven(*id),
             Expr::Position(point, _) => self.point_moves(*point),
@@ -128,7 +128,7 @@ impl Resolver<'_> {
             return None;
         }
         self.runs_without_points(&zero, value.extent)?;
-        self.zero(zero, quantity.dimension(), value)
+        self.equation_with_reaction(zero, quantity.dimension(), value)
     }
 
     /// Rejects points in an equation with running coordinates: such an equation applies to rates, which points do not
@@ -153,7 +153,7 @@ impl Resolver<'_> {
     }
 
     /// The equation, with its reaction: this does work on changes of the expression.
-    fn zero(
+    fn equation_with_reaction(
         &mut self,
         zero: Expr,
         dimension: Dimension,

@@ -3,7 +3,7 @@
 use super::super::arguments::Arguments;
 use super::super::expected::Expected;
 use super::super::resolver::Resolver;
-use super::super::typed::Place;
+use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::base::ids::PointId;
 use crate::model::mechanism::ForceLaw;
@@ -31,7 +31,7 @@ impl Resolver<'_> {
     pub(super) fn tension(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let ends = self.ends(arguments, "their distance never changes");
         let law = arguments.get("law")?;
-        let (tension, quantity) = self.scalar(law, Place::Tension)?;
+        let (tension, quantity) = self.scalar(law, ValueContext::Tension)?;
         self.expect(quantity, Dimension::FORCE, "a tension", law)?;
         let (from, to) = ends?;
         Some(ForceLaw::Tension { from, to, tension })

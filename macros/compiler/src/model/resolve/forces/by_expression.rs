@@ -4,7 +4,7 @@
 use super::super::arguments::Arguments;
 use super::super::expected::Expected;
 use super::super::resolver::Resolver;
-use super::super::typed::Place;
+use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{CoordinateQuantity, ForceLaw};
@@ -13,7 +13,7 @@ impl Resolver<'_> {
     pub(super) fn generalized(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let target = self.free_coordinate("generalized force", arguments);
         let law = arguments.get("value")?;
-        let (value, found) = self.scalar(law, Place::GeneralizedForce)?;
+        let (value, found) = self.scalar(law, ValueContext::GeneralizedForce)?;
         let (coordinate, quantity) = target?;
         let expected = match quantity {
             CoordinateQuantity::Angle => Expected::moment(),
@@ -26,7 +26,7 @@ impl Resolver<'_> {
     /// A potential energy, which must contain a coordinate: otherwise it exerts no force.
     pub(super) fn potential(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let value = arguments.get("energy")?;
-        let (energy, quantity) = self.scalar(value, Place::Energy)?;
+        let (energy, quantity) = self.scalar(value, ValueContext::Energy)?;
         self.expect(quantity, Expected::energy(), "a potential", value)?;
         if !self.moves(&energy) {
             self.diagnostics.error_with_help(

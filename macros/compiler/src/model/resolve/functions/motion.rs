@@ -4,7 +4,7 @@ use proc_macro2::Ident;
 
 use super::super::coordinates::{self, DeclaredMotion};
 use super::super::resolver::Resolver;
-use super::super::typed::{Place, Quantity, Typed};
+use super::super::typed::{Quantity, Typed, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::model::expression::{Expr, Vector};
@@ -20,7 +20,7 @@ impl Resolver<'_> {
         name: &str,
         function: &Ident,
         arguments: &[Value],
-        place: Place,
+        place: ValueContext,
     ) -> Option<Typed> {
         let length = Quantity::Of(Dimension::LENGTH);
         let energy = Quantity::Of(Dimension::MOMENT);
@@ -39,7 +39,7 @@ impl Resolver<'_> {
             ("rate", [coordinate]) => {
                 let name = self.name_of(coordinate, "coordinate")?;
                 let (coordinate, quantity) = self.coordinate(name)?;
-                if place == Place::Output {
+                if place == ValueContext::Output {
                     self.rate_is_constant(function, name, coordinate)?;
                 }
                 let rate = Quantity::Of(coordinates::rate_dimension(quantity));

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::resolver::Resolver;
-use super::super::typed::Place;
+use super::super::typed::ValueContext;
 use super::kinds::{Condition, Elementary, Kind};
 use crate::base::dimension::Dimension;
 use crate::base::ids::JointId;
@@ -37,7 +37,7 @@ impl Resolver<'_> {
         let counted = self.count(joint, kind, axes.len());
         let directions: Vec<Option<Vector>> = axes
             .iter()
-            .map(|axis| self.direction(&axis.value, Place::Parameter))
+            .map(|axis| self.direction(&axis.value, ValueContext::Parameter))
             .collect();
         let directions: Vec<Vector> = directions.into_iter().collect::<Option<_>>()?;
         named.and(counted)?;

@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use super::super::coordinates;
 use super::super::coordinates::DeclaredMotion;
 use super::super::resolver::Resolver;
-use super::super::typed::Place;
+use super::super::typed::ValueContext;
 use super::kinds::Kind;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::base::nearest::nearest;
@@ -58,7 +58,7 @@ impl Resolver<'_> {
         let place = kind.and_then(|kind| self.driven_place(joint, kind, drive, &motions.ids));
         let Some(place) = place else {
             // Its value may be wrong as well, so check it too.
-            self.scalar(&drive.speed, Place::Parameter);
+            self.scalar(&drive.speed, ValueContext::Parameter);
             return None;
         };
         let name = drive.coordinate.as_ref();

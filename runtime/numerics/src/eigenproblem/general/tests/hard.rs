@@ -59,9 +59,9 @@ fn critically_damped() {
 #[test]
 fn failures_are_answers() {
     let singular = solve(&linear([[1.0, 1.0], [1.0, 1.0]], zeros(2), zeros(2)));
-    assert_eq!(singular.err(), Some(Trouble::SingularMass(1)));
+    assert_eq!(singular.err(), Some(EigenproblemError::SingularMass(1)));
     let negative = solve(&linear(diagonal(&[-1.0, 1.0]), zeros(2), zeros(2)));
-    assert_eq!(negative.err(), Some(Trouble::SingularMass(0)));
+    assert_eq!(negative.err(), Some(EigenproblemError::SingularMass(0)));
     for bad in [f64::NAN, f64::INFINITY] {
         for place in 0..3 {
             let mut matrices = [identity(2), identity(2), identity(2)];

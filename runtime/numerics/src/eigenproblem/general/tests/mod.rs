@@ -17,7 +17,7 @@ use num_complex::Complex64;
 
 use super::{Root, solve};
 use crate::algebra::{Matrix, Vector};
-use crate::eigenproblem::symmetric::Trouble;
+use crate::eigenproblem::symmetric::EigenproblemError;
 use crate::linear::Linear;
 use pencils::{diagonal, identity, linear, zeros};
 

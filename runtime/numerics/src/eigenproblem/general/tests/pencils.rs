@@ -1,7 +1,7 @@
 //! Random pencils and what tests compare of their roots, shared with the tests of the solver in lanes.
 
 use eigentol_numerics::algebra::{Matrix, Vector};
-use eigentol_numerics::eigenproblem::{Near, Root};
+use eigentol_numerics::eigenproblem::{ApproximatePair, Root};
 use eigentol_numerics::linear::Linear;
 use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
@@ -86,9 +86,9 @@ pub(crate) fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear
     )
 }
 
-pub(crate) fn near(roots: &[Root]) -> Vec<Near<'_>> {
-    fn near(root: &Root) -> Near<'_> {
-        Near {
+pub(crate) fn near(roots: &[Root]) -> Vec<ApproximatePair<'_>> {
+    fn near(root: &Root) -> ApproximatePair<'_> {
+        ApproximatePair {
             s: root.s,
             right: &root.right,
             left: &root.left,
