@@ -120,7 +120,7 @@ impl<'a> Curve<'a> {
     }
 
     /// The curve prepared for branches near a state. In a singular configuration more constraints look redundant than
-    /// around it: then those of the first regular state beside it count, or none.
+    /// around it: the redundancies of the nearest regular state are used, or none.
     pub(crate) fn about(mut self, state: &Equilibrium) -> Self {
         if !state.free.held.is_empty() {
             self.place = state.free.clone();
@@ -314,7 +314,7 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// What holds a critical point of the branch: what holds its other points.
+    /// The gauge at a critical point: that of the other points of the branch.
     pub(crate) fn place_at(&self, at: &CurvePosition) -> FreeDirections {
         let mut free = self.place.clone();
         free.held = self.held_at(at);

@@ -55,7 +55,7 @@ pub enum Law {
     Lognormal,
     /// Two-parameter Weibull, for positive values, with the mean midway between the limits.
     Weibull,
-    /// Normal as above, with values beyond the limits sorted out.
+    /// Normal as above; values beyond the limits are rejected.
     TruncatedNormal,
     /// Every value between the limits equally probable.
     Uniform,

@@ -25,8 +25,8 @@ const ROUNDING: f64 = 1e-9;
 /// each design has the same sign at both, and a Newton step from either leads to the other. At a pitchfork the branch
 /// that ends and the one that begins fail the first test, however close they are; two valleys with a ridge between them
 /// fail the second. Where the tests fail, the path between the two designs is bisected. Branches that meet where two
-/// stiffnesses vanish at once cannot be told apart. Upon a branch point the nominal equilibrium has no basin; the other
-/// one decides.
+/// stiffnesses vanish at once cannot be told apart. At a branch point the nominal equilibrium has no basin, so the test at
+/// the other one decides.
 #[doc(hidden)]
 pub struct Branch<'a> {
     mechanism: &'a dyn Kernels,

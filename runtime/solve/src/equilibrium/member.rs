@@ -37,7 +37,7 @@ const INDEPENDENT: f64 = 1e-8;
 /// Difference, relative to an unknown or in its unit, that counts as another value.
 const DIFFERENT: f64 = 1e-9;
 
-/// Moves a steady motion found from `start` to the member of its family that is meant, and notes what holds it there.
+/// Moves a steady motion found from `start` to the requested member of its family, and notes what holds it there.
 /// Leaves a steady motion that belongs to no family as it is.
 pub(super) fn select_member(
     point: &OperatingPoint<'_>,
@@ -47,7 +47,7 @@ pub(super) fn select_member(
     let q = &found.state.coordinates;
     let choice = choice(point, start, q)?;
     let unit = units_of(point, q)?;
-    let family = choice.filter(|held| newton(point, q, &beside(held, q, &unit)).is_some());
+    let family = choice.filter(|held| newton(point, q, &perturbed(held, q, &unit)).is_some());
     let Some(mut held) = family else {
         return refuse_held(point).map(|()| found);
     };
@@ -175,8 +175,8 @@ fn units_of(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
     }))
 }
 
-/// The held unknowns with values beside those at `q`.
-fn beside(held: &[Held], q: &[f64], unit: &[f64]) -> Vec<Held> {
+/// The held unknowns, each perturbed slightly from its value at `q`.
+fn perturbed(held: &[Held], q: &[f64], unit: &[f64]) -> Vec<Held> {
     let moved = |own: &Held| {
         let here = q[own.unknown];
         Held {

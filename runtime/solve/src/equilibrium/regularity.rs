@@ -8,7 +8,7 @@
 //! weight, and are no equilibria. The test is therefore not a residual, but how far rounding moves a state towards the
 //! singular configuration.
 //!
-//! # Residuals say nothing beside a singular configuration
+//! # Near a singular configuration, residuals are not informative
 //!
 //! Reactions grow there as the inverse of the distance, and constraint gaps within rounding turn the free directions:
 //! any state within about a micrometre balances to all digits. The test is therefore how far rounding moves a result

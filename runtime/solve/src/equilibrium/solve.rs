@@ -1,12 +1,11 @@
-//! From a start value to a finished equilibrium, by the way that suits the mechanism.
+//! Finds an equilibrium from a start value, with the method that suits the mechanism.
 //!
 //! # What a start value means
 //!
-//! A start value that is given, not a default, is a wish. If the other coordinates relax about the given ones and those
+//! A start value given by the user expresses an intention; a default does not. If the other coordinates relax about the given ones and those
 //! balance too, that equilibrium is the answer whatever its stability, and a note says so (`Note::Stays`); a default
 //! never keeps a mechanism upright that the user forgot. `Study::stay` asks for the nearest equilibrium of any kind.
-//! Designs beside an unstable nominal state are solved from where that state moves, by Newton's method and without
-//! descent. Conservative, rolling and coasting mechanisms are treated alike.
+//! Designs near an unstable nominal state start from its shifted position and use Newton's method without descent. Conservative, rolling and coasting mechanisms are treated alike.
 
 use super::acceptance::{Measured, UnjudgedResult};
 use super::convergence::{SMALL_MOTION, relative_residual};

@@ -393,7 +393,7 @@ fn standing(motion: &[f64], balance: &[f64]) -> Root {
     }
 }
 
-/// Free directions, right and left, by whether damping acts on the motions among themselves.
+/// Right and left free directions, split by whether damping couples them.
 struct Split {
     drifting: (Vec<Vector>, Vec<Vector>),
     damped: (Vec<Vector>, Vec<Vector>),
@@ -500,8 +500,7 @@ fn restore_symmetry(matrix: &mut Matrix, like: &Matrix) {
     }
 }
 
-/// The places outside those that independent vectors determine: of each vector the largest remaining component is left
-/// out, in units in which components compare.
+/// Indices that remain after eliminating, for each vector, its largest remaining component (in comparable units).
 fn others(vectors: impl IntoIterator<Item = Vector>) -> Vec<usize> {
     let mut rest: Vec<Vector> = vectors.into_iter().collect();
     let mut kept: Vec<usize> = (0..rest.first().map_or(0, |x| x.len())).collect();

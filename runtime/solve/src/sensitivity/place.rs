@@ -45,8 +45,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
     Ok(())
 }
 
-/// Whether a covector sees the place: an output with this derivative by the unknowns depends on where the mechanism
-/// stands.
+/// Whether an output with these derivatives by the unknowns depends on the position along the free directions.
 pub(super) fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
     at.free.motions.iter().any(|z| {
         let terms = by_unknown

@@ -69,7 +69,7 @@ pub struct Events {
     pub description: Shared<Description>,
 }
 
-/// The way along which events were sought: states near which any other on the way lies.
+/// The path searched for events: states so close together that every state on the path is near one of them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Route {
     /// In the order of the search.

@@ -170,7 +170,7 @@ struct Search<'a, F> {
     events: Events,
 }
 
-/// How the way goes on.
+/// How the search continues.
 enum Next {
     /// It does not.
     Done,
@@ -330,7 +330,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         }
     }
 
-    /// Finds the events of one step; breaks off with how the way goes on if it leaves the branch.
+    /// Finds the events of one step; returns early, with how the search continues, if the path leaves the branch.
     fn step(
         &mut self,
         curve: &Curve<'_>,
@@ -518,7 +518,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         stop
     }
 
-    /// How the way goes on behind the last critical state; where it leaves the branch, no instability begins.
+    /// How the search continues past the last critical state; leaving the branch does not count as the onset of instability.
     fn goes_on(&mut self, special: &SpecialPoint, arm: bool, after: &CurvePoint) -> Option<Next> {
         let next = self.leaves(special, arm, after)?;
         if let Some(last) = self.events.critical.last_mut()

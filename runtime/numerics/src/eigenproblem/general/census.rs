@@ -1,6 +1,6 @@
 //! What was done, counted for tests.
 
-/// Work since the last look.
+/// Operation counts since the last call of `take`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Census {
     /// Pencils solved as conservative ones, and by the general method.
