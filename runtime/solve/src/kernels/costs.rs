@@ -1,5 +1,6 @@
 //! Costs of the kernels from which gradients can be computed.
 
+use super::Kernel;
 use crate::Description;
 use crate::mechanism::KernelInfo;
 
@@ -31,10 +32,10 @@ impl Costs {
         let of = |name: &str| cost(description.kernel(name));
         Self {
             linear_partials: of("linear_partials"),
-            residual_partials: of("residual_partials"),
-            mode_gradient: of("mode_gradient"),
-            pencil_gradient: of("pencil_gradient"),
-            residual_gradient: of("residual_gradient"),
+            residual_partials: of(Kernel::ResidualPartials.name()),
+            mode_gradient: of(Kernel::ModeGradient.name()),
+            pencil_gradient: of(Kernel::PencilGradient.name()),
+            residual_gradient: of(Kernel::ResidualGradient.name()),
         }
     }
 
@@ -42,10 +43,10 @@ impl Costs {
     pub(super) const fn of_constant(description: &Description) -> Self {
         Self {
             linear_partials: cost(description.static_kernel("linear_partials")),
-            residual_partials: cost(description.static_kernel("residual_partials")),
-            mode_gradient: cost(description.static_kernel("mode_gradient")),
-            pencil_gradient: cost(description.static_kernel("pencil_gradient")),
-            residual_gradient: cost(description.static_kernel("residual_gradient")),
+            residual_partials: cost(description.static_kernel(Kernel::ResidualPartials.name())),
+            mode_gradient: cost(description.static_kernel(Kernel::ModeGradient.name())),
+            pencil_gradient: cost(description.static_kernel(Kernel::PencilGradient.name())),
+            residual_gradient: cost(description.static_kernel(Kernel::ResidualGradient.name())),
         }
     }
 }
