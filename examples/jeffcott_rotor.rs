@@ -11,8 +11,8 @@ use std::error::Error;
 use std::io::{self, Write};
 
 use eigentol::requirement::Requirement;
-use eigentol::second_order::Band;
-use eigentol::{InDeclaredUnit, Study, mechanism};
+use eigentol::response::Response;
+use eigentol::{InDeclaredUnit, Quantity, Study, mechanism};
 
 mechanism! {
     /// Jeffcott's rotor with the disk nearer to one of its two rigid bearings.
@@ -83,6 +83,16 @@ pub fn study() -> Study<JeffcottRotor> {
 /// The number, from 0, of the backward whirl of the tilting disk.
 pub const TILTING: usize = 2;
 
+/// The backward whirl of the tilting disk stays away from the speed.
+#[must_use]
+pub fn resonance() -> Requirement {
+    let tilting = Response::Mode {
+        mode: TILTING,
+        quantity: Quantity::Frequency,
+    };
+    Requirement::away(tilting, JeffcottRotor::speed.any(), 0.1)
+}
+
 /// Writes the Campbell diagram with its events, what tolerances do at the running speed, and the risks there.
 pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (study, speed) = (study(), JeffcottRotor::speed);
@@ -94,11 +104,7 @@ pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         writeln!(out, "{limit}")?;
     }
     writeln!(out, "{}", study.summary()?)?;
-    writeln!(
-        out,
-        "{}",
-        study.margin(TILTING, Band::around(speed.any(), 0.1))?
-    )?;
+    writeln!(out, "{}", study.second_order_failure(resonance())?)?;
     write!(out, "{}", study.probability(&[Requirement::Stable])?)?;
     Ok(())
 }

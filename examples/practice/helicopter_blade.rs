@@ -9,8 +9,9 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::io::Write;
 
-use eigentol::second_order::Band;
-use eigentol::{Study, mechanism};
+use eigentol::requirement::Requirement;
+use eigentol::response::Response;
+use eigentol::{Quantity, Study, mechanism};
 
 mechanism! {
     /// One blade of a light helicopter with coincident flap and lag hinges and an elastomeric lag bearing; typical
@@ -58,7 +59,16 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         return Err("both motions oscillate".into());
     };
     let [high, low] = ROCKING.map(|rocking| FLIGHT - TAU * rocking);
-    let margin = study.margin(0, Band::Between { low, high })?.margin;
+    let response = Response::Mode {
+        mode: 0,
+        quantity: Quantity::Frequency,
+    };
+    let wanted = Requirement::Outside {
+        response,
+        low,
+        high,
+    };
+    let margin = study.second_order_failure(wanted)?.margin;
     let [lag_ratio, flap_ratio] = [lag / FLIGHT, flap / FLIGHT];
     let [beat, sigma] = [(FLIGHT - lag) / TAU, margin.sigma / TAU];
     let [slow, fast] = ROCKING;

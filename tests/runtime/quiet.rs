@@ -1,15 +1,17 @@
 //! Reports omit negligible numbers, and say so.
 
-use eigentol::second_order::Band;
+use eigentol::requirement::Requirement;
 use eigentol::{Coordinate, DesignVariable, InDeclaredUnit, Input, Study, mechanism};
 
+use crate::common::FREQUENCY;
 use crate::common::pendulum::Pendulum;
 
 const OMEGA: Input<Pendulum> = Input::new(0);
 const MASS: DesignVariable<Pendulum> = DesignVariable::new(0);
 
 /// About twelve standard deviations away.
-const FAR: Band = Band::Between {
+const FAR: Requirement = Requirement::Outside {
+    response: FREQUENCY,
     low: 3.55,
     high: 5.0,
 };
@@ -95,7 +97,7 @@ fn shares_that_do_not_matter_are_bounds() {
 
 #[test]
 fn a_chance_too_small_to_tell_is_a_bound() {
-    let margin = hanging().margin(0, FAR).unwrap();
+    let margin = hanging().second_order_failure(FAR).unwrap();
     let text = margin.to_string();
     assert!(text.contains("< 1.00e-12"), "{text}");
     assert!(!text.contains("probability by"), "{text}");

@@ -1,9 +1,10 @@
 //! Results beyond the range of a double are errors, never NaN.
 
+use crate::common::FREQUENCY;
 use crate::common::derived::Derived;
 use crate::common::models::{Pair, Plate, Spring};
 use crate::common::pendulum::Pendulum;
-use eigentol::second_order::Band;
+use eigentol::requirement::Requirement;
 use eigentol::sweep::Line;
 use eigentol::{DesignVariable, Error, Family, Input, Mechanism, Study};
 
@@ -170,16 +171,18 @@ fn a_band_around_something_infinite_is_refused() {
         (1.0, -0.1),
     ] {
         for speed in [0.0, 5.0] {
-            let band = Band::Around {
+            let wanted = Requirement::Away {
+                response: FREQUENCY,
                 input: Input::new(0),
                 order,
                 fraction,
             };
-            let found = study.clone().input(Input::new(0), speed).margin(0, band);
+            let study = study.clone().input(Input::new(0), speed);
+            let found = study.second_order_failure(wanted);
             let in_range =
                 speed == 0.0 && order.is_finite() && fraction > 0.0 && fraction.is_finite();
             match found {
-                Err(Error::Setting { setting, .. }) => assert_eq!(setting, "band"),
+                Err(Error::Setting { setting, .. }) => assert_eq!(setting, "requirement"),
                 Ok(margin) => {
                     let text = format!("{margin:?}");
                     assert!(in_range && !text.contains("NaN"), "{text}");

@@ -1,7 +1,7 @@
 //! Requirements: linear limits, and the rotating bar, whose frequency is a function of its length, against exact
 //! probabilities.
 
-use eigentol::requirement::{Edge, Requirement, SamplingSettings};
+use eigentol::requirement::Requirement;
 use eigentol::response::Response;
 use eigentol::tolerance::Distribution;
 use eigentol::{Error, Law, Quantity, Study, mechanism};
@@ -90,7 +90,7 @@ fn a_linear_limit_is_exact() {
             .unwrap();
         assert!(found.verified());
         let own = &found.limits[0];
-        assert_eq!(own.limit.edge, Edge::AtMost(41e-3));
+        assert_eq!(own.limit, Requirement::at_most(gap(), 41e-3));
         let points = own.design_points.as_ref().unwrap();
         assert_eq!(points.len(), 1);
         let at = &points[0];
@@ -300,25 +300,19 @@ fn small_probabilities_of_a_curved_limit() {
         (second / exact - 1.0).abs() < (at.probability() / exact - 1.0).abs(),
         "second order is nearer than first"
     );
-    let settings = SamplingSettings {
-        coefficient_of_variation: 0.02,
-        ..SamplingSettings::default()
-    };
-    let rare = study.rare_failure(&wanted, &settings).unwrap();
+    let most = study.sampling().samples(1_000_000);
+    let rare = study.rare_failure(&wanted, &most, 0.02).unwrap();
     let probability = rare.failure.probability;
     assert!(rare.failure.reached && rare.failure.samples < 30_000);
     assert!((probability.value - exact).abs() < 4.0 * probability.standard_error);
     assert!(probability.standard_error < 0.021 * exact);
     assert_eq!(rare.counts.total() as u64, rare.failure.samples);
-    let one = study.clone().threads(1).rare_failure(&wanted, &settings);
+    let one = study.rare_failure(&wanted, &most.clone().threads(1), 0.02);
     assert_eq!(one.unwrap().failure, rare.failure);
     // No sample is omitted or drawn twice, even when threads have separate pieces.
-    let few = SamplingSettings {
-        samples: 1000,
-        coefficient_of_variation: 0.0,
-        ..SamplingSettings::default()
-    };
-    let rare = study.rare_failure(&wanted, &few).unwrap();
+    let rare = study
+        .rare_failure(&wanted, &most.samples(1000), 0.0)
+        .unwrap();
     assert_eq!((rare.failure.samples, rare.counts.total()), (1000, 1000));
 }
 
@@ -375,12 +369,8 @@ fn derivatives_are_those_of_samples() {
         .tolerance(Pendulum::omega, 0.15);
     let found = study.reliability(&wanted).unwrap();
     let at = &found.limits[0].design_points.as_ref().unwrap()[0];
-    let settings = SamplingSettings {
-        samples: 40_000,
-        coefficient_of_variation: 0.0,
-        ..SamplingSettings::default()
-    };
-    let rare = study.rare_failure(&wanted, &settings).unwrap().failure;
+    let all = study.sampling().samples(40_000);
+    let rare = study.rare_failure(&wanted, &all, 0.0).unwrap().failure;
     for (k, sigma) in [(1, 0.01), (2, 0.05)] {
         let by_mean = rare.by_mean[k].value / sigma;
         let by_half_width = rare.by_sigma[k].value / sigma / 3.0;
@@ -447,7 +437,7 @@ fn a_limit_out_of_reach() {
     ));
     assert!(found.system.is_none() && !found.verified() && found.beta_of(0).is_none());
     assert!(matches!(
-        study.rare_failure(&wanted, &SamplingSettings::default()),
+        study.rare_failure(&wanted, &study.sampling(), 0.05),
         Err(Error::Setting {
             setting: "design points",
             ..
@@ -495,7 +485,7 @@ fn reports_name_what_they_are_about() {
     assert!(text.contains("gap at least 0.0395 m"), "{text}");
     assert!(text.contains("a [mm]"), "{text}");
     assert!(text.contains("Requirement 2 has no design point"), "{text}");
-    let settings = SamplingSettings::default();
-    let text = study.rare_failure(&wanted[..1], &settings).unwrap();
+    let most = study.sampling().samples(1_000_000);
+    let text = study.rare_failure(&wanted[..1], &most, 0.05).unwrap();
     assert!(text.to_string().contains("about 2 design points"), "{text}");
 }

@@ -3,11 +3,11 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::chain::{Bars, DOUBLE};
-use crate::common::close;
 use crate::common::derived::Derived;
 use crate::common::models::{Pair, Plate, Spring, Supercritical};
 use crate::common::pendulum::Pendulum;
-use eigentol::second_order::Band;
+use crate::common::{FREQUENCY, close};
+use eigentol::requirement::{Requirement, SecondOrderFailure};
 use eigentol::tolerance::{Spread, Tolerances, output_tolerances};
 use eigentol::{
     Complex, Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Policy, Quantity, Study,
@@ -377,17 +377,15 @@ fn every_result_prints() {
             .to_string(),
         study.second_order().unwrap().to_string(),
         study
-            .margin(0, Band::around(OMEGA.any(), 0.1))
+            .second_order_failure(Requirement::away(FREQUENCY, OMEGA.any(), 0.1))
             .unwrap()
             .to_string(),
         study
-            .margin(
-                0,
-                Band::Between {
-                    low: 900.0,
-                    high: 1000.0,
-                },
-            )
+            .second_order_failure(Requirement::Outside {
+                response: FREQUENCY,
+                low: 900.0,
+                high: 1000.0,
+            })
             .unwrap()
             .to_string(),
         study.branches(OMEGA, 1.0, 5.0).unwrap().to_string(),
@@ -404,7 +402,7 @@ fn every_result_prints() {
         "critical at omega = 3.83601",
         "Campbell",
         "second order",
-        "margin of frequency 1",
+        "frequency 1 away from omega by 10.0 %, to second order",
         "The tables show what changes so small a probability",
         "No variable changes the probability",
     ] {
@@ -472,10 +470,10 @@ fn a_margin_moves_with_speed_and_design() {
             .design(DesignVariable::new(1), length)
             .tolerance(DesignVariable::new(1), 0.03)
     };
-    let band = Band::around(OMEGA.any(), 0.2);
-    let margin = study(5.0, 1.0).margin(0, band).unwrap();
+    let wanted = Requirement::away(FREQUENCY, OMEGA.any(), 0.2);
+    let margin = study(5.0, 1.0).second_order_failure(wanted).unwrap();
     let first_order = |speed: f64, length: f64| {
-        let margin = study(speed, length).margin(0, band).unwrap();
+        let margin = study(speed, length).second_order_failure(wanted).unwrap();
         margin.margin.first_order
     };
     let step = 1e-4;
@@ -535,11 +533,10 @@ fn means_scatter_by_their_standard_error() {
 #[test]
 fn a_band_about_a_negative_speed_moves_the_other_way() {
     let length = |speed: f64| pendulum(speed, 0.03).tolerance(LENGTH, 0.03);
-    let band = Band::around(OMEGA.any(), 0.2);
-    let margin = |speed: f64| length(speed).margin(0, band).unwrap();
+    let wanted = Requirement::away(FREQUENCY, OMEGA.any(), 0.2);
+    let margin = |speed: f64| length(speed).second_order_failure(wanted).unwrap();
     let (forward, backward) = (margin(5.0), margin(-5.0));
-    let by_speed =
-        |margin: &eigentol::second_order::ModeMargin| margin.by_input.as_ref().unwrap()[0];
+    let by_speed = |margin: &SecondOrderFailure| margin.by_input.as_ref().unwrap()[0];
     close(
         backward.margin.first_order,
         forward.margin.first_order,
@@ -552,12 +549,13 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
         margin(-5.0 + step).margin.first_order - margin(-5.0 - step).margin.first_order;
     close(by_speed(&backward), difference / (2.0 * step), 1e-4);
     // So does an order with the opposite sign.
-    let against = Band::Around {
+    let against = Requirement::Away {
+        response: FREQUENCY,
         input: OMEGA.any(),
         order: -1.0,
         fraction: 0.2,
     };
-    let found = length(5.0).margin(0, against).unwrap();
+    let found = length(5.0).second_order_failure(against).unwrap();
     close(by_speed(&found), by_speed(&forward), 1e-12);
 }
 

@@ -6,8 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::branches::BranchEnd;
-use eigentol::propagation::{Points, Sampler};
-use eigentol::requirement::{Requirement, SamplingSettings};
+use eigentol::requirement::Requirement;
 use eigentol::response::Response;
 use eigentol::{Error, Quantity, Study, mechanism};
 
@@ -74,7 +73,8 @@ fn questions_about_responses_stop() {
         ("rare_failure", |s| {
             s.rare_failure(
                 &[Requirement::at_least(ANGLE, 0.9)],
-                &SamplingSettings::default(),
+                &s.sampling().samples(1_000_000),
+                0.05,
             )
             .map(drop)
         }),
@@ -91,9 +91,9 @@ fn questions_about_responses_stop() {
     // Frequencies are solved in vectors.
     let (study, _) = stopped_after(pendulum(), 0);
     assert!(matches!(study.propagate(&[FREQUENCY]), Err(Error::Stopped)));
-    let sampler = Sampler::new(Points::Random).samples(3000).threads(1);
     let (study, done) = stopped_after(pendulum(), 500);
-    let part = study.sample_responses(&[ANGLE], &sampler).unwrap();
+    let sampling = study.sampling().samples(3000).threads(1);
+    let part = study.sample_responses(&[ANGLE], &sampling).unwrap();
     let ranges = part.ranges();
     let count = ranges.iter().map(|own| own.end - own.start).sum::<u64>();
     assert!((500..3000).contains(&count) && count as usize == done.load(Ordering::Relaxed));

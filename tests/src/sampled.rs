@@ -1,10 +1,11 @@
 //! Compares samples solved in vectors with samples solved one by one.
 
 use eigentol::modes::Family;
-use eigentol::propagation::{Points, ResponseSpread, Sampler, sampled};
+use eigentol::propagation::{ResponseSpread, sampled};
 use eigentol::response::{Response, Responses};
 use eigentol::scalar::Instructions;
 use eigentol::tolerance::Sample;
+use eigentol::tolerance::{Points, Sampling};
 use eigentol::{Error, Mechanism, MonteCarlo, Quantity, Study};
 
 /// The number of samples compared, and the number that differ in their last bits, which were solved in vectors.
@@ -85,9 +86,12 @@ fn responses<M: Mechanism + Copy>(study: &Study<M>, what: &str) {
     );
     let (machine, wanted) = (study.mechanism(), quantities.to_vec());
     let tolerances = study.tolerances().expect("tolerances");
-    let sampler = Sampler::new(Points::Sobol).samples(64).threads(1);
+    let sampling = Sampling::default()
+        .points(Points::Sobol)
+        .samples(64)
+        .threads(1);
     let run = |responses: Result<Responses<'_>, Error>| {
-        let samples = sampled(&responses?, &tolerances, &sampler)?;
+        let samples = sampled(&responses?, &tolerances, &sampling)?;
         samples.propagation()
     };
     let own = run(Responses::side_by_side(machine, at, modes, wanted.clone())).expect("samples");

@@ -7,9 +7,8 @@ mod along;
 pub mod branches;
 pub mod campbell;
 pub mod clusters;
+mod deviations;
 pub mod judge;
-#[doc(hidden)]
-pub mod limits;
 pub mod motion;
 pub mod picture;
 pub mod propagation;

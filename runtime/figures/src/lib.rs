@@ -14,6 +14,7 @@ pub use error::Error;
 pub use figure::Figure;
 pub use results::{
     Along, Histogram, Spreads, branches, campbell, damping_ratios, eigenvalues, equilibria,
-    frequencies, margin, mode_shapes, participation, root_locus, shares, shares_of_all,
+    frequencies, mode_shapes, participation, root_locus, second_order_failure, shares,
+    shares_of_all,
 };
 pub use style::Style;

@@ -48,7 +48,9 @@ mod module {
     #[pymodule_export]
     use crate::parts::Part;
     #[pymodule_export]
-    use crate::requirements::{Chances, Probabilities, RareFailure, Reliability};
+    use crate::requirements::{
+        Chances, Probabilities, RareFailure, Reliability, SecondOrderFailure,
+    };
     #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]
@@ -61,8 +63,8 @@ mod module {
     use crate::robots::{Import, import_urdf};
     #[pymodule_export]
     use crate::spreads::{
-        FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,
-        Summary, WorstCase,
+        FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary,
+        WorstCase,
     };
     #[pymodule_export]
     use crate::study::Study;

@@ -1,6 +1,5 @@
 //! The analyses of a study.
 
-use eigentol::second_order::Band;
 use eigentol::sweep::Line;
 use eigentol::{Coordinate, Input};
 use eigentol_interpreter::Interpreted;
@@ -14,11 +13,11 @@ use crate::hints;
 use crate::response::wanted;
 use crate::results::{
     Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature, ModeCurvature,
-    Modes, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
+    Modes, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
 };
 use crate::spreads::{
-    FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,
-    Summary, WorstCase,
+    FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary,
+    WorstCase,
 };
 use crate::study::Study;
 use crate::values::{List, mode_number, not_finite, number, numbers};
@@ -193,9 +192,6 @@ impl Study {
     }
 }
 
-/// An input, a fraction and perhaps an order. In Python `tuple[str, float] | tuple[str, float, float]`.
-type Around<'py> = Bound<'py, PyTuple>;
-
 #[pymethods]
 impl Study {
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
@@ -261,53 +257,6 @@ impl Study {
         let mode = mode_number(py, mode)?;
         self.ask(py, |study| study.shape_sensitivity(mode))
             .map(ShapeSensitivity)
-    }
-
-    /// Probability that a quantity of a mode, counted from 0, lies between `low` and `high` (rad/s, 1/s; None for no
-    /// end), or within a fraction of a multiple of an input: `around=("speed", 0.1)` or `("speed", 0.1, order)`.
-    #[pyo3(signature = (mode, low=None, high=None, *, around=None, quantity="frequency"))]
-    fn margin(
-        &self,
-        py: Python<'_>,
-        mode: i64,
-        low: Option<f64>,
-        high: Option<f64>,
-        around: Option<&Around<'_>>,
-        quantity: &hints::Quantity,
-    ) -> PyResult<ModeMargin> {
-        let (mode, wanted) = (mode_number(py, mode)?, self::quantity(py, quantity)?);
-        let band = match around {
-            None if low.is_none() && high.is_none() => {
-                let message = "a band is needed: `low`, `high`, or `around`";
-                return Err(PyTypeError::new_err(message));
-            }
-            None => Band::Between {
-                low: low.unwrap_or(f64::NEG_INFINITY),
-                high: high.unwrap_or(f64::INFINITY),
-            },
-            Some(given) => {
-                let with_order = given.extract::<(String, f64, f64)>();
-                let without = |_| {
-                    let (input, fraction) = given.extract::<(String, f64)>()?;
-                    Ok((input, fraction, 1.0))
-                };
-                let read: PyResult<_> = with_order.or_else(without);
-                let (input, fraction, order) = read.map_err(|_| {
-                    let message = "`around`: an input, a fraction and, where it is not 1, an order are needed";
-                    PyTypeError::new_err(message)
-                })?;
-                let of = self.inner.description();
-                let (place, _) = List::Inputs.find(py, of, &input)?;
-                let input = Input::new(place);
-                Band::Around {
-                    input,
-                    order,
-                    fraction,
-                }
-            }
-        };
-        self.ask(py, |study| study.margin_of(mode, wanted, band))
-            .map(ModeMargin)
     }
 
     /// Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`.

@@ -1,6 +1,8 @@
 //! Probabilities of meeting requirements.
 
-use eigentol::requirement::{self, DesignPoint, LimitReliability, SamplingSettings};
+use eigentol::requirement::{self, DesignPoint, LimitReliability};
+use eigentol::second_order::MarginDerivatives;
+use eigentol::{Input, Vector};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -10,11 +12,12 @@ use crate::response::wanted;
 use crate::results::{attributes, result};
 use crate::spreads::{counts, judgement};
 use crate::study::Study;
-use crate::values::not_finite;
+use crate::values::{List, not_finite};
 use crate::{hints, names};
+use requirement::Requirement as Limit;
 
 /// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before
-/// the ends for a forbidden band.
+/// the ends for a forbidden band, "away" before an input and a fraction for a band around it.
 fn requirement(
     study: &eigentol::Study<eigentol_interpreter::Interpreted>,
     given: &Requirement<'_>,
@@ -22,15 +25,22 @@ fn requirement(
     if given.extract::<String>().is_ok_and(|word| word == "stable") {
         return Ok(requirement::Requirement::Stable);
     }
+    if let Some((response, input, fraction, order)) = around(given) {
+        let (place, _) = List::Inputs.find(given.py(), study.description(), &input)?;
+        return Ok(requirement::Requirement::Away {
+            response: response_of(study, &response)?,
+            input: Input::new(place),
+            order,
+            fraction,
+        });
+    }
     let (response, low, high, outside) = ends(given)?;
     for end in [low, high].into_iter().flatten() {
         if end.is_nan() {
             return Err(not_finite(given.py(), "end of a requirement", end));
         }
     }
-    let what = response.get_item(0)?.extract::<String>()?;
-    let of = response.get_slice(1, response.len());
-    let response = wanted(study, &what, &of)?;
+    let response = response_of(study, &response)?;
     let (low, high) = (
         low.unwrap_or(f64::NEG_INFINITY),
         high.unwrap_or(f64::INFINITY),
@@ -49,13 +59,33 @@ fn requirement(
     })
 }
 
-/// "stable"; a response with a low and a high end; a forbidden band.
+fn response_of(
+    study: &eigentol::Study<eigentol_interpreter::Interpreted>,
+    given: &Bound<'_, PyTuple>,
+) -> PyResult<eigentol::response::Response> {
+    let what = given.get_item(0)?.extract::<String>()?;
+    wanted(study, &what, &given.get_slice(1, given.len()))
+}
+
+/// "stable"; a response with a low and a high end; a forbidden band; a band around an input.
 ///
 /// In Python `Literal["stable"] | tuple[tuple[Any, ...], float | None, float | None] | tuple[Literal["outside"],
-/// tuple[Any, ...], float, float]`.
+/// tuple[Any, ...], float, float] | tuple[Literal["away"], tuple[Any, ...], str, float] | tuple[Literal["away"],
+/// tuple[Any, ...], str, float, float]`.
 pub(crate) type Requirement<'py> = Bound<'py, PyAny>;
 
 type Ends<'py> = (Bound<'py, PyTuple>, Option<f64>, Option<f64>, bool);
+
+/// Response, input, fraction and order of a band to stay away from.
+fn around<'py>(given: &Bound<'py, PyAny>) -> Option<(Bound<'py, PyTuple>, String, f64, f64)> {
+    let with_order = given.extract::<(String, _, _, _, f64)>();
+    let all = with_order.or_else(|_| {
+        let (word, response, input, fraction) = given.extract()?;
+        Ok::<_, PyErr>((word, response, input, fraction, 1.0))
+    });
+    let (word, response, input, fraction, order) = all.ok()?;
+    (word == "away").then_some((response, input, fraction, order))
+}
 
 /// Response, low and high end, and whether it must stay outside.
 fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
@@ -69,7 +99,8 @@ fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
         }
         _ => Err(PyTypeError::new_err(
             "a requirement is \"stable\", or a response, a low and a high end: ((\"frequency\", 0), 3.0, None), or a \
-             forbidden band: (\"outside\", (\"frequency\", 0), 3.0, 4.0)",
+             forbidden band: (\"outside\", (\"frequency\", 0), 3.0, 4.0), or one around an input: (\"away\", \
+             (\"frequency\", 0), \"speed\", 0.1)",
         )),
     }
 }
@@ -78,7 +109,8 @@ fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
 impl Study {
     /// Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low
     /// and a high end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band:
-    /// `("outside", ("frequency", 0), 3.0, 4.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
+    /// `("outside", ("frequency", 0), 3.0, 4.0)`, or one within a fraction of a multiple (1) of an input:
+    /// `("away", ("frequency", 0), "speed", 0.1, 2.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
     /// `start` to below `stop` are taken; numbers of samples of parts add up to those of the whole. Ctrl-C ends it.
     #[pyo3(signature = (requirements, start=None, stop=None))]
     fn chances(
@@ -98,9 +130,42 @@ impl Study {
     }
 }
 
+/// Most samples of a small probability, and the coefficient of variation that is enough.
+const RARE: (usize, f64) = (1_000_000, 0.05);
+
+#[pymethods]
+impl Study {
+    /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
+    /// `chances` takes them.
+    fn rare_failure(
+        &self,
+        py: Python<'_>,
+        requirements: Vec<Requirement<'_>>,
+    ) -> PyResult<RareFailure> {
+        let wanted = self.requirements(&requirements)?;
+        let found = self.ask_stoppably(py, |study| {
+            let (most, accuracy) = RARE;
+            study.rare_failure(&wanted, &study.sampling().samples(most), accuracy)
+        });
+        found.map(RareFailure)
+    }
+
+    /// Probability of failing one requirement by the second-order model of its response, with what changes it;
+    /// requirements as `chances` takes them.
+    fn second_order_failure(
+        &self,
+        py: Python<'_>,
+        requirement: Requirement<'_>,
+    ) -> PyResult<SecondOrderFailure> {
+        let wanted = self::requirement(&self.inner, &requirement)?;
+        self.ask(py, |study| study.second_order_failure(wanted))
+            .map(SecondOrderFailure)
+    }
+}
+
 /// Analyses of requirements, given as `chances` takes them.
 macro_rules! of_requirements {
-    ($($(#[$doc:meta])* $question:ident($($settings:expr)?) -> $result:ident;)*) => {
+    ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
         #[pymethods]
         impl Study {
             $(
@@ -111,8 +176,7 @@ macro_rules! of_requirements {
                     requirements: Vec<Requirement<'_>>,
                 ) -> PyResult<$result> {
                     let wanted = self.requirements(&requirements)?;
-                    let found =
-                        self.ask_stoppably(py, |study| study.$question(&wanted $(, $settings)?));
+                    let found = self.ask_stoppably(py, |study| study.$question(&wanted));
                     found.map($result)
                 }
             )*
@@ -123,13 +187,10 @@ macro_rules! of_requirements {
 of_requirements! {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
     /// of designs, or samples; requirements as `chances` takes them.
-    probability() -> Probabilities;
+    probability -> Probabilities;
     /// Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
     /// takes them.
-    reliability() -> Reliability;
-    /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
-    /// `chances` takes them.
-    rare_failure(&SamplingSettings::default()) -> RareFailure;
+    reliability -> Reliability;
 }
 
 impl Study {
@@ -276,17 +337,18 @@ attributes! {
         any_failure: Option<f64> = self.0.system.as_ref().map(|own| own.probability.value);
         /// The limits: the position of the requirement, and the name of the response.
         limits: Vec<(usize, String)> = {
-            let name = |own: &requirement::Limit| own.response.name(&self.0.description);
+            let name = |own: &LimitReliability| Some(own.limit.response()?.name(&self.0.description));
             let all = self.0.limits.iter();
-            all.map(|own| (own.limit.requirement, name(&own.limit))).collect()
+            all.map(|own| (own.requirement, name(own).unwrap_or_default())).collect()
         };
-        /// Where each response fails: "below", "above" or "between", and the ends, SI.
+        /// Where each response fails: "below", "above" or "between", and the ends, SI; "around", and order and fraction.
         edges: Vec<(&'static str, Vec<f64>)> = {
             let all = self.0.limits.iter();
-            all.map(|own| match own.limit.edge {
-                requirement::Edge::AtLeast(low) => ("below", vec![low]),
-                requirement::Edge::AtMost(high) => ("above", vec![high]),
-                requirement::Edge::Outside { low, high } => ("between", vec![low, high]),
+            all.map(|own| match own.limit {
+                Limit::Within { low, .. } if low.is_finite() => ("below", vec![low]),
+                Limit::Within { high, .. } => ("above", vec![high]),
+                Limit::Outside { low, high, .. } => ("between", vec![low, high]),
+                Limit::Away { order, fraction, .. } => ("around", vec![order, fraction]),
                 _ => ("", Vec::new()),
             })
             .collect()
@@ -374,4 +436,69 @@ attributes! {
         /// What lines of designs say, by name; under "open" why there are none.
         judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
     }
+}
+
+result! {
+    /// The probability of failing a requirement, by the second-order model of its response.
+    SecondOrderFailure(requirement::SecondOrderFailure)
+}
+
+impl SecondOrderFailure {
+    fn slopes<'py>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&MarginDerivatives) -> &Vector,
+    ) -> Array1<'py> {
+        let own = self.0.margin.derivatives.as_ref().map(|own| &of(own)[..]);
+        slopes(py, self.0.description.design.len(), own)
+    }
+}
+
+attributes! {
+    SecondOrderFailure(self, py) {
+        /// Probability by the exact distribution of the second-order model.
+        failure: f64 = self.0.margin.corrected.value;
+        /// Error of that: of the integration, and of the model where designs were solved anew.
+        error: f64 = self.0.margin.corrected.error;
+        /// Probability to first order.
+        first_order: f64 = self.0.margin.first_order;
+        /// Probability by designs solved anew, which judges the other two; None where that is too dear.
+        solved_anew: Option<f64> = self.0.judgement.judged().map(|own| own.probability.value);
+        /// 95 % interval of that.
+        interval: Option<(f64, f64)> =
+            self.0.judgement.judged().map(|own| own.interval()).map(|own| (own.lower, own.upper));
+        /// Whether designs solved anew confirm the probability of the second-order model.
+        verified: bool = self.0.verified();
+        /// Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on.
+        mixed_with: Vec<usize> = self.0.mixed_with.clone();
+        /// The requirement, in words.
+        name: String = self.0.wanted.text(&self.0.description);
+        /// The bands of values that fail, in the SI unit of the response.
+        bands: Vec<(f64, f64)> = self.0.bands.clone();
+        /// Standard deviations between the value and the nearest end of a band.
+        distance: f64 = self.0.margin.distance;
+        /// Nominal value of the response, SI.
+        value: f64 = self.0.margin.value;
+        /// Its standard deviation to first order.
+        sigma: f64 = self.0.margin.sigma;
+        /// Error of the model alone; None where no designs were solved anew.
+        model_error: Option<f64> = self.0.margin.corrected.model_error;
+        /// What the designs solved anew say, by name; under "open" why there are none.
+        judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
+        /// Derivatives of the probability to first order by inputs, shape (inputs,); NaN where there are none.
+        by_input: Array1<'py> =
+            slopes(py, self.0.description.inputs.len(), self.0.by_input.as_deref());
+        /// The same by nominal values of design variables, shape (design,).
+        by_design: Array1<'py> = self.slopes(py, |own| &own.by_design);
+        /// The same by half-widths of their tolerances, shape (design,).
+        by_half_width: Array1<'py> = self.slopes(py, |own| &own.by_half_width);
+    }
+}
+
+/// Derivatives, or as many NaN.
+fn slopes<'py>(py: Python<'py>, count: usize, own: Option<&[f64]>) -> Array1<'py> {
+    vector(
+        py,
+        own.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec),
+    )
 }

@@ -93,7 +93,7 @@ def results():
         study.summary(),
         study.monte_carlo(),
         study.samples_between(0, 32),
-        study.margin(0, low=5.0),
+        study.second_order_failure((("frequency", 0), 5.0, None)),
         study.propagate([frequency]),
         study.influence([frequency]),
         study.worst_case([frequency]),

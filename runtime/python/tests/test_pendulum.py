@@ -198,8 +198,10 @@ def test_spreads_of_responses(study):
 def test_probability_of_a_band(study):
     # The frequency grows with the length, so that the band is one of lengths: exact by the normal distribution of l.
     low = frequency(1.0) - 1.0
-    margin = study.margin(0, low, frequency(1.01))
-    assert margin.probability == pytest.approx(0.8413447, abs=2e-3)
+    found = study.second_order_failure(("outside", ("frequency", 0), low, frequency(1.01)))
+    assert found.failure == pytest.approx(0.8413447, abs=2e-3)
+    around = study.second_order_failure(("away", ("frequency", 0), "omega", 0.5, -1.0))
+    assert around.bands[0] == pytest.approx((2.5, 7.5))
 
 
 def test_requirements(study):
@@ -250,8 +252,8 @@ def test_a_layer_beside_the_critical_length_is_no_half_space(study):
     found = near.probability(wanted)
     assert found.found_by == ["lines"]
     np.testing.assert_allclose(found.failure, [expected], rtol=1e-6)
-    margin = near.margin(0, 0.0, 0.1)
-    assert not margin.verified and abs(margin.probability - expected) <= margin.error * (1 + 1e-6)
+    second = near.second_order_failure(wanted[0])
+    assert not second.verified and abs(second.failure - expected) <= second.error * (1 + 1e-6)
     doubts = near.first_order().doubts
     assert len(doubts) == 1 and "critical" in doubts[0][0]
 

@@ -5,8 +5,7 @@ use super::deviating::Toleranced;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{CurvatureKernels, DirectionalKernels, PictureKernels, SummaryKernels};
 use crate::picture::{self, ModePictures, Scene};
-use crate::second_order::{self, Band, ModeCurvature, ModeMargin, OutputCurvature, SecondOrder};
-use crate::sensitivity::Quantity;
+use crate::second_order::{self, ModeCurvature, OutputCurvature, SecondOrder};
 use crate::shapes::{self, ShapeSensitivity};
 use crate::summary::{self, BUDGET, Summary};
 use crate::{Equilibrium, Error, Output};
@@ -140,44 +139,6 @@ impl<M: CurvatureKernels> Study<M> {
         Ok(second_order::second_order(
             kernels, state, modes, tolerances,
         ))
-    }
-
-    /// Probability that the frequency of one mode (counted from 0) lies in a forbidden band
-    /// ([`mode_margin`](crate::second_order::mode_margin)).
-    #[doc = include_str!("example.txt")]
-    /// use eigentol::second_order::Band;
-    ///
-    /// let band = Band::Between { low: 4.1, high: 4.2 };
-    /// println!("{}", study.margin(0, band)?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for an
-    /// invalid band.
-    pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
-        self.margin_of(mode, Quantity::Frequency, band)
-    }
-
-    /// Like [`Study::margin`], for any quantity of the mode: with [`Quantity::Growth`] between zero and infinity it is
-    /// the probability that the mode is unstable.
-    #[doc = include_str!("example.txt")]
-    /// use eigentol::Quantity;
-    /// use eigentol::second_order::Band;
-    ///
-    /// let band = Band::around(Pendulum::omega.any(), 0.1);
-    /// println!("{}", study.margin_of(0, Quantity::NaturalFrequency, band)?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::margin`].
-    pub fn margin_of(
-        &self,
-        mode: usize,
-        quantity: Quantity,
-        band: Band,
-    ) -> Result<ModeMargin, Error> {
-        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        let what = (mode, quantity);
-        second_order::mode_margin(own.kernels(), state, modes, what, own.tolerances, band)
     }
 }
 

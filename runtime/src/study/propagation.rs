@@ -3,10 +3,9 @@
 use super::Study;
 use super::deviating::Toleranced;
 use crate::kernels::SummaryKernels;
-use crate::propagation::{
-    self, Controlled, Effort, Influence, Points, Propagation, Sampler, Samples, WorstCase,
-};
+use crate::propagation::{self, Controlled, Influence, Propagation, SOLUTIONS, Samples, WorstCase};
 use crate::response::{Response, Responses};
+use crate::tolerance::Sampling;
 use crate::{Error, Watch};
 
 impl<M: SummaryKernels> Study<M> {
@@ -22,32 +21,37 @@ impl<M: SummaryKernels> Study<M> {
     pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
         let own = Own::of(&self.settings, &self.mechanism)?;
         let responses = own.responses(wanted)?;
-        propagation::propagate(own.kernels(), &responses, own.tolerances, own.effort())
+        let sampling = self.settings.sampling();
+        // At least one solution for each sample.
+        let solutions = SOLUTIONS.max(sampling.samples as u64);
+        propagation::propagate(
+            own.kernels(),
+            &responses,
+            own.tolerances,
+            solutions,
+            &sampling,
+        )
     }
 
     /// Samples the given responses at any kind of points, over any range of them ([`propagation::sampled`]).
     #[doc = include_str!("example.txt")]
-    /// use eigentol::propagation::{Points, Sampler};
     /// use eigentol::response::Response;
+    /// use eigentol::tolerance::Points;
     ///
     /// let angle = Response::Output(Pendulum::angle.any());
-    /// let sampler = Sampler::new(Points::LatinHypercube).samples(800);
-    /// println!("{}", study.sample_responses(&[angle], &sampler)?.propagation()?);
+    /// let sampling = study.sampling().points(Points::LatinHypercube).samples(800);
+    /// println!("{}", study.sample_responses(&[angle], &sampling)?.propagation()?);
     #[doc = include_str!("end.txt")]
     /// # Errors
-    /// As [`Study::propagate`]; [`Error::Setting`] for invalid settings of the sampler.
+    /// As [`Study::propagate`]; [`Error::Setting`] for invalid settings.
     pub fn sample_responses(
         &self,
         wanted: &[Response],
-        sampler: &Sampler<'_>,
+        sampling: &Sampling<'_>,
     ) -> Result<Samples, Error> {
         let own = Own::of(&self.settings, &self.mechanism)?;
         let responses = own.responses(wanted)?.watched(Watch::default());
-        let watch = self.settings.watch();
-        let mut sampler = sampler.clone();
-        sampler.progress = sampler.progress.or(watch.progress);
-        sampler.stop = sampler.stop.or(watch.stop);
-        propagation::sampled(&responses, own.tolerances, &sampler)
+        propagation::sampled(&responses, own.tolerances, sampling)
     }
 
     /// Smallest and largest value of each response over the box of tolerance limits ([`propagation::worst_case`]).
@@ -74,13 +78,9 @@ impl<M: SummaryKernels> Study<M> {
     pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
         let own = Own::of(&self.settings, &self.mechanism)?;
         let responses = own.responses(wanted)?;
-        let effort = own.effort();
-        let sampler = Sampler::new(Points::Random)
-            .samples(effort.samples)
-            .seed(effort.seed)
-            .stream(effort.stream)
-            .threads(effort.threads);
-        propagation::controlled(own.kernels(), &responses, own.tolerances, &sampler)
+        // The designs report themselves.
+        let sampling = self.settings.sampling().progress(None).stop(None);
+        propagation::controlled(own.kernels(), &responses, own.tolerances, &sampling)
     }
 
     /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).
@@ -93,7 +93,7 @@ impl<M: SummaryKernels> Study<M> {
     pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
         let own = Own::of(&self.settings, &self.mechanism)?;
         let responses = own.responses(wanted)?;
-        propagation::influence(&responses, own.tolerances, own.effort())
+        propagation::influence(&responses, own.tolerances, &self.settings.sampling())
     }
 }
 
@@ -107,16 +107,5 @@ impl Own<'_> {
         Ok(responses
             .vectors(settings.vectors)
             .watched(settings.watch()))
-    }
-
-    /// The effort that the settings allow: at least one solution for each sample.
-    fn effort(&self) -> Effort {
-        let settings = self.settings();
-        let effort = Effort::default().samples(settings.samples as u64);
-        effort
-            .solutions(effort.solutions.max(effort.samples))
-            .seed(settings.seed)
-            .stream(settings.stream)
-            .threads(settings.threads)
     }
 }

@@ -4,10 +4,10 @@ use super::Study;
 use super::deviating::Toleranced;
 use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
-use crate::kernels::DirectionalKernels;
+use crate::kernels::{CurvatureKernels, DirectionalKernels};
 use crate::requirement::{
     Chances, FormSettings, Probabilities, RareFailure, Reliability, Requirement, Requirements,
-    SamplingSettings,
+    SecondOrderFailure, second_order_failure,
 };
 use crate::tolerance::Sampling;
 
@@ -82,29 +82,25 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Estimates a small probability of failing any requirement by importance sampling about the design points
-    /// ([`Requirements::rare_failure`]), with the seed, stream and threads of the study.
+    /// ([`Requirements::rare_failure`]), until its coefficient of variation is `accuracy` or the samples are used up.
     #[doc = include_str!("example.txt")]
-    /// use eigentol::requirement::{Requirement, SamplingSettings};
+    /// use eigentol::requirement::Requirement;
     #[doc = include_str!("frequency.txt")]
-    /// let settings = SamplingSettings::default();
-    /// println!("{}", study.rare_failure(&[Requirement::at_least(frequency, 3.9)], &settings)?);
+    /// let (wanted, most) = ([Requirement::at_least(frequency, 3.9)], study.sampling().samples(1_000_000));
+    /// println!("{}", study.rare_failure(&wanted, &most, 0.05)?);
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::reliability`] and [`Requirements::rare_failure`].
     pub fn rare_failure(
         &self,
         wanted: &[Requirement],
-        settings: &SamplingSettings,
+        sampling: &Sampling<'_>,
+        accuracy: f64,
     ) -> Result<RareFailure, Error> {
         let own = Own::of(&self.settings, &self.mechanism)?;
-        let settings = SamplingSettings {
-            seed: self.settings.seed,
-            stream: self.settings.stream,
-            ..settings.clone()
-        };
         let requirements = own.requirements(wanted)?.watched(self.settings.watch());
         let about = requirements.reliability(&FormSettings::default())?;
-        requirements.rare_failure(&about, &settings, self.settings.threads)
+        requirements.rare_failure(&about, sampling, accuracy)
     }
 
     /// Finds the cheapest tolerances that meet the requirements, checked with the study's number of samples
@@ -130,6 +126,25 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<Allocation, Error> {
         let own = Own::of(&self.settings, &self.mechanism)?;
         allocate(&own.requirements(wanted)?, choices, &self.sampling())
+    }
+}
+
+impl<M: CurvatureKernels> Study<M> {
+    /// The probability of failing a requirement from the second-order model of its response, such as that of a frequency
+    /// lying in a forbidden band ([`second_order_failure`]). With [`Quantity::Growth`](crate::Quantity::Growth) at most
+    /// zero it is the probability that a mode is unstable.
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::requirement::Requirement;
+    #[doc = include_str!("frequency.txt")]
+    /// let resonance = Requirement::away(frequency, Pendulum::omega.any(), 0.1);
+    /// println!("{}", study.second_order_failure(resonance)?);
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::modes`], [`Study::tolerances`] and [`second_order_failure`].
+    pub fn second_order_failure(&self, wanted: Requirement) -> Result<SecondOrderFailure, Error> {
+        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = own.solved();
+        second_order_failure(own.kernels(), state, modes, own.tolerances, wanted)
     }
 }
 

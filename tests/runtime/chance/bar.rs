@@ -1,10 +1,10 @@
 //! The spinning bar of normally distributed length, in 400 combinations of speed, tolerance and limit.
 
 use eigentol::judge::Judgement;
-use eigentol::requirement::{Found, Requirement, SamplingSettings};
+use eigentol::requirement::{Found, Requirement};
 use eigentol::response::Response;
-use eigentol::second_order::Band;
 use eigentol::tolerance::Outcome;
+use eigentol::tolerance::Sampling;
 use eigentol::{Quantity, Study, mechanism};
 
 use super::oracle::{W, between, slow, speed};
@@ -120,11 +120,7 @@ impl Called {
             within(judged.probability.value, 1e-6 * exact),
             "{at}\n{found}"
         );
-        let band = Band::Between {
-            low: failing.0,
-            high: failing.1,
-        };
-        let margin = study.margin(0, band).unwrap();
+        let margin = study.second_order_failure(wanted).unwrap();
         let corrected = margin.margin.corrected;
         assert!(
             within(corrected.value, corrected.error + 1e-6 * exact),
@@ -217,14 +213,16 @@ fn a_margin_states_the_error_of_its_model() {
         (1.05, 0.06, (1.0, 1.2), 0.00409, 0.00564),
         (0.97, 0.12, (0.0, 0.0055), 0.0116, 1.0e-5),
     ] {
-        let low = if band.0 == 0.0 {
-            f64::NEG_INFINITY
-        } else {
-            band.0
+        let (low, high) = band;
+        let wanted = match low == 0.0 {
+            true => Requirement::at_least(FREQUENCY, high),
+            false => Requirement::Outside {
+                response: FREQUENCY,
+                low,
+                high,
+            },
         };
-        let margin = bar(ratio, tolerance)
-            .margin(0, Band::Between { low, high: band.1 })
-            .unwrap();
+        let margin = bar(ratio, tolerance).second_order_failure(wanted).unwrap();
         let corrected = margin.margin.corrected;
         let own = between(speed(ratio), tolerance / 3.0, band);
         assert!((own / exact - 1.0).abs() < 0.02, "{own}");
@@ -239,16 +237,15 @@ fn a_margin_states_the_error_of_its_model() {
 /// Samples about design points miss a layer; the result says that it is not to be trusted.
 #[test]
 fn importance_samples_that_miss_a_layer_are_not_trusted() {
-    let settings = SamplingSettings {
-        samples: 20_000,
-        ..SamplingSettings::default()
-    };
+    let most = Sampling::default().samples(20_000);
     let limit = |low| [Requirement::at_least(FREQUENCY, low)];
     let thin = bar(0.97, 0.12)
-        .rare_failure(&limit(0.0055), &settings)
+        .rare_failure(&limit(0.0055), &most, 0.05)
         .unwrap();
     assert!(!thin.trusted(), "{thin}");
-    let plain = bar(0.9, 0.03).rare_failure(&limit(1.3), &settings).unwrap();
+    let plain = bar(0.9, 0.03)
+        .rare_failure(&limit(1.3), &most, 0.05)
+        .unwrap();
     let exact = between(speed(0.9), 0.01, (0.0, 1.3));
     assert!(plain.trusted(), "{plain}");
     assert!((plain.failure.probability.value / exact - 1.0).abs() < 0.2);

@@ -3,7 +3,6 @@
 
 use eigentol::requirement::{Found, Requirement};
 use eigentol::response::Response;
-use eigentol::second_order::Band;
 use eigentol::{Mechanism, Quantity, Study, mechanism};
 
 use super::oracle::{normal_between, upper};
@@ -80,11 +79,9 @@ fn growth_has_a_value_on_both_sides_of_stability() {
         .reliability(&[Requirement::at_most(growth, 0.0)])
         .unwrap();
     assert!(found.verified(), "{found}");
-    let unstable = Band::Between {
-        low: 0.0,
-        high: f64::INFINITY,
-    };
-    let margin = block().margin_of(0, Quantity::Growth, unstable).unwrap();
+    let margin = block()
+        .second_order_failure(Requirement::at_most(growth, 0.0))
+        .unwrap();
     assert!(margin.verified(), "{margin}");
     assert!((margin.margin.corrected.value / exact - 1.0).abs() < 1e-6);
 }
@@ -172,9 +169,7 @@ fn agrees<M: Mechanism>(study: &Study<M>, wanted: &[Requirement]) {
         );
     }
     for own in found.limits.iter().filter(|own| own.verified()) {
-        let sampled = run.each[own.limit.requirement]
-            .clopper_pearson(0.9999)
-            .unwrap();
+        let sampled = run.each[own.requirement].clopper_pearson(0.9999).unwrap();
         let claimed = own.probability().unwrap();
         assert!(
             0.9 * claimed <= sampled.upper && sampled.lower <= 1.1 * claimed,

@@ -2,9 +2,10 @@
 
 use eigentol::judge::Doubt;
 use eigentol::propagation::{
-    Effort, Method, Propagation, first_order, propagate, quadrature, second_order,
+    Method, Propagation, first_order, propagate, quadrature, second_order,
 };
 use eigentol::response::{Response, Responses};
+use eigentol::tolerance::Sampling;
 use eigentol::{Error, Quantity, Study, mechanism};
 
 use super::oracle::speed;
@@ -38,12 +39,12 @@ fn spreads(ratio: f64, tolerance: f64) -> Result<[Propagation; 4], Error> {
     };
     let wanted = vec![frequency, Response::Output(Bar::angle.any())];
     let responses = Responses::new(&Bar, &state, &modes, wanted)?;
-    let effort = Effort::default().solutions(200);
+    let sampling = Sampling::default().samples(4096);
     Ok([
         first_order(&Bar, &responses, &tolerances)?,
         second_order(&Bar, &responses, &tolerances)?,
         quadrature(&responses, &tolerances, 4, 1)?,
-        propagate(&Bar, &responses, &tolerances, effort)?,
+        propagate(&Bar, &responses, &tolerances, 200, &sampling)?,
     ])
 }
 

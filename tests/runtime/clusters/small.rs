@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use eigentol::clusters::ModalCouplings;
-use eigentol::clusters::{ClusterSampling, ClusterSpread, sample_cluster};
+use eigentol::clusters::{ClusterSpread, sample_cluster};
+use eigentol::tolerance::Sampling;
 use eigentol::{Complex, Error, Family, Matrix, Tolerances};
 
 use super::{close, independent, refused, within};
@@ -21,7 +22,7 @@ fn undamped(
     let complex = |values: &[f64]| -> Vec<Complex> { values.iter().map(|&x| x.into()).collect() };
     let slopes: Vec<Vec<Complex>> = slopes.iter().map(|own| complex(own)).collect();
     let couplings = couplings(Family::Undamped, &complex(values), &slopes);
-    sample_cluster(&couplings, tolerances, &ClusterSampling::default())
+    sample_cluster(&couplings, tolerances, &Sampling::default().samples(4096))
 }
 
 /// `s = i 10 + i (matrix)`: the eigenvalues of the real matrices appear in the frequencies.
@@ -29,7 +30,7 @@ fn turned(values: &[f64], slopes: &[Vec<f64>], tolerances: &Tolerances) -> Clust
     let turn = |values: &[f64]| values.iter().map(|&x| Complex::new(0.0, x)).collect();
     let slopes: Vec<Vec<Complex>> = slopes.iter().map(|own| turn(own)).collect();
     let couplings = couplings(Family::General, &turn(values), &slopes);
-    sample_cluster(&couplings, tolerances, &ClusterSampling::default()).unwrap()
+    sample_cluster(&couplings, tolerances, &Sampling::default().samples(4096)).unwrap()
 }
 
 #[test]
@@ -165,10 +166,7 @@ fn one_seed_gives_one_result() {
     let couplings = couplings(Family::General, &[5.0 * one, 5.0 * one], &slopes);
     let tolerances = independent([0.1, 0.2]);
     let of = |seed, stream| {
-        let sampling = ClusterSampling::default()
-            .samples(500)
-            .seed(seed)
-            .stream(stream);
+        let sampling = Sampling::default().samples(500).seed(seed).stream(stream);
         sample_cluster(&couplings, &tolerances, &sampling).unwrap()
     };
     assert_eq!(of(1, 0), of(1, 0));
@@ -186,7 +184,7 @@ fn nonsense_is_refused() {
     wrong(&[1.0], vec![f64::INFINITY]);
     wrong(&[1.0], vec![1e300]);
     let one = Complex::new(1.0, 0.0);
-    let sampling = ClusterSampling::default();
+    let sampling = Sampling::default().samples(4096);
     let complex = couplings(Family::Undamped, &[one], &[vec![Complex::new(1.0, 1.0)]]);
     refused(sample_cluster(&complex, &tolerances, &sampling));
     let missing = couplings(Family::General, &[one], &[]);

@@ -24,8 +24,9 @@ pub mod dual;
 pub mod models;
 pub mod pendulum;
 
+use eigentol::response::Response;
 use eigentol::{
-    CoordinateInfo, DesignInfo, InputInfo, Role, Shared, ToleranceInfo, Unit, Violation,
+    CoordinateInfo, DesignInfo, InputInfo, Quantity, Role, Shared, ToleranceInfo, Unit, Violation,
 };
 
 pub const RAD: Unit = Unit {
@@ -55,6 +56,12 @@ pub const NUMBER: Unit = Unit {
 
 /// Standard gravity as given in the paper, m/s^2.
 pub const GRAVITY: f64 = 9.81;
+
+/// The frequency of the first mode.
+pub const FREQUENCY: Response = Response::Mode {
+    mode: 0,
+    quantity: Quantity::Frequency,
+};
 
 pub const fn coordinate(name: &'static str, unit: Unit) -> CoordinateInfo {
     CoordinateInfo {

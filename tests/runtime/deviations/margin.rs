@@ -1,22 +1,31 @@
 //! A forbidden band around a deviating input: the band deviates with it.
 
 use super::{CRITICAL, OMEGA, Single, all_deviate, solved};
-use crate::common::close;
-use eigentol::second_order::{Band, ModeMargin, mode_margin};
-use eigentol::{Error, Quantity, Tolerances};
+use crate::common::{FREQUENCY, close};
+use eigentol::requirement::{Requirement, SecondOrderFailure, second_order_failure};
+use eigentol::{Error, Tolerances};
 
 const SIGMA: f64 = 0.1;
 
-/// The margin of the bar from a tenth of its speed, which is set to `speed` with mean `deviation` and standard
-/// deviation `sigma`.
-fn margin(speed: f64, deviation: f64, sigma: f64, band: Band) -> Result<ModeMargin, Error> {
+/// A tenth away from the speed.
+fn away() -> Requirement {
+    Requirement::away(FREQUENCY, OMEGA, 0.1)
+}
+
+/// The probability that the bar fails a requirement at a speed set to `speed` with mean `deviation` and standard deviation
+/// `sigma`.
+fn failure(
+    speed: f64,
+    deviation: f64,
+    sigma: f64,
+    wanted: Requirement,
+) -> Result<SecondOrderFailure, Error> {
     let deviating = all_deviate(&Single);
     let mut b = deviating.design(&[3.0, 1.0]);
     b[2] = deviation;
     let (at, modes) = solved(&deviating, &[speed], &b, &[1.0]);
     let tolerances = Tolerances::new([0.0, 0.0, 3.0 * sigma], 3.0, None).unwrap();
-    let what = (0, Quantity::Frequency);
-    mode_margin(&deviating, &at, &modes, what, &tolerances, band)
+    second_order_failure(&deviating, &at, &modes, &tolerances, wanted)
 }
 
 /// Probability that a standard normal variable exceeds `low`, by the midpoint rule.
@@ -32,9 +41,7 @@ fn tail(low: f64) -> f64 {
 #[test]
 fn the_band_is_around_the_speed_that_it_is() {
     let speed = 5.6_f64;
-    let found = margin(speed, 0.0, SIGMA, Band::around(OMEGA, 0.1))
-        .unwrap()
-        .margin;
+    let found = failure(speed, 0.0, SIGMA, away()).unwrap().margin;
     let square = CRITICAL * CRITICAL;
     let ratio = (1.0 - square / speed.powi(4)).sqrt();
     let slope = 2.0 * square / (speed.powi(5) * ratio);
@@ -59,10 +66,12 @@ fn the_band_is_around_the_speed_that_it_is() {
 /// Derivatives by the set speed and by the mean deviation, against differences.
 #[test]
 fn its_derivatives_are_what_differences_show() {
-    let band = Band::around(OMEGA, 0.1);
-    let found = margin(5.6, 0.0, SIGMA, band).unwrap();
+    let found = failure(5.6, 0.0, SIGMA, away()).unwrap();
     let step = 1e-4;
-    let probability = |speed: f64| margin(speed, 0.0, SIGMA, band).unwrap().margin.first_order;
+    let probability = |speed: f64| {
+        let found = failure(speed, 0.0, SIGMA, away());
+        found.unwrap().margin.first_order
+    };
     let expected = (probability(5.6 + step) - probability(5.6 - step)) / (2.0 * step);
     assert!(expected.abs() > 0.1);
     close(found.by_input.as_ref().unwrap()[0], expected, 1e-6);
@@ -73,13 +82,14 @@ fn its_derivatives_are_what_differences_show() {
 /// A mean deviation of the set speed is equivalent to that speed.
 #[test]
 fn a_mean_deviation_moves_the_speed() {
-    let beside = Band::Between {
+    let beside = Requirement::Outside {
+        response: FREQUENCY,
         low: 5.0,
         high: 6.0,
     };
-    for band in [Band::around(OMEGA, 0.1), beside] {
+    for wanted in [away(), beside] {
         let [moved, other] = [(5.5, 0.12), (5.62, 0.0)].map(|(speed, deviation)| {
-            let found = margin(speed, deviation, SIGMA, band).unwrap();
+            let found = failure(speed, deviation, SIGMA, wanted).unwrap();
             let derivatives = found.margin.derivatives.unwrap();
             let probabilities = [found.margin.first_order, found.margin.corrected.value];
             [
@@ -98,11 +108,9 @@ fn a_mean_deviation_moves_the_speed() {
 /// Without a tolerance on the input nothing changes, and a band about zero has no relative width.
 #[test]
 fn exact_inputs_and_none() {
-    let found = margin(5.6, 0.0, 0.0, Band::around(OMEGA, 0.1))
-        .unwrap()
-        .margin;
+    let found = failure(5.6, 0.0, 0.0, away()).unwrap().margin;
     assert_eq!((found.sigma, found.first_order), (0.0, 0.0));
-    let at_rest = margin(0.0, 0.0, SIGMA, Band::around(OMEGA, 0.1));
+    let at_rest = failure(0.0, 0.0, SIGMA, away());
     assert!(
         matches!(at_rest, Err(Error::NotFinite { .. })),
         "{at_rest:?}"

@@ -1,11 +1,12 @@
 //! Quantities of modes as responses: sampled in vectors where Monte Carlo does so.
 
 use eigentol::kernels::SummaryKernels;
-use eigentol::propagation::{Points, Sampler, Samples, sampled};
+use eigentol::propagation::{Samples, sampled};
 use eigentol::response::{Response, Responses};
 use eigentol::scalar::Instructions;
 use eigentol::sweep::Range;
 use eigentol::tolerance::Distribution;
+use eigentol::tolerance::{Points, Sampling};
 use eigentol::{Quantity, Study};
 use proptest::prelude::*;
 
@@ -23,10 +24,10 @@ fn how(samples: &Samples) -> &str {
 }
 
 /// The same samples, solved one by one.
-fn alone<M: SummaryKernels>(study: &Study<M>, sampler: &Sampler<'_>) -> Samples {
+fn alone<M: SummaryKernels>(study: &Study<M>, sampling: &Sampling<'_>) -> Samples {
     let (at, modes) = (&study.equilibrium().unwrap(), &study.modes().unwrap());
     let responses = Responses::new(study.mechanism(), at, modes, vec![FREQUENCY]).unwrap();
-    sampled(&responses, &study.tolerances().unwrap(), sampler).unwrap()
+    sampled(&responses, &study.tolerances().unwrap(), sampling).unwrap()
 }
 
 fn close(a: Option<f64>, b: Option<f64>, scale: f64) {
@@ -49,15 +50,15 @@ fn side_by_side_as_one_by_one() {
         (bar().input(Bar::omega, 3.83), false),
     ] {
         for points in [Points::Random, Points::LatinHypercube, Points::Sobol] {
-            let sampler = Sampler::new(points).samples(2048).threads(2);
-            let own = study.sample_responses(&[FREQUENCY], &sampler).unwrap();
-            let other = alone(&study, &sampler);
+            let sampling = Sampling::default().points(points).samples(2048).threads(2);
+            let own = study.sample_responses(&[FREQUENCY], &sampling).unwrap();
+            let other = alone(&study, &sampling);
             assert_eq!(how(&other), "one by one");
             if side_by_side {
                 assert_eq!(how(&own), "side by side");
                 assert!(
                     own.clone()
-                        .merge(alone(&study, &sampler.clone().range(Some(0..0))))
+                        .merge(alone(&study, &sampling.clone().range(Some(0..0))))
                         .is_err()
                 );
             }
@@ -85,14 +86,14 @@ fn side_by_side_as_one_by_one() {
         mode: 0,
         quantity: Quantity::Growth,
     };
-    let sampler = Sampler::new(Points::Random).samples(64);
+    let sampling = Sampling::default().samples(64);
     let study = bar();
-    let both = study.sample_responses(&[FREQUENCY, growth], &sampler);
+    let both = study.sample_responses(&[FREQUENCY, growth], &sampling);
     assert_eq!(how(&both.unwrap()), "side by side");
     let critical = Response::Critical(Range::new(Bar::omega.any(), 1.0, 6.0));
-    let both = study.sample_responses(&[FREQUENCY, critical], &sampler);
+    let both = study.sample_responses(&[FREQUENCY, critical], &sampling);
     assert_eq!(how(&both.unwrap()), "one by one");
-    let plate = plate().sample_responses(&[FREQUENCY], &sampler);
+    let plate = plate().sample_responses(&[FREQUENCY], &sampling);
     assert_eq!(how(&plate.unwrap()), "one by one");
 }
 
@@ -109,10 +110,10 @@ fn questions_about_responses_use_the_vectors_that_are_chosen() {
         }
     }
     let study = bar().vectors(None);
-    let sampler = Sampler::new(Points::Sobol).samples(512);
-    let own = study.sample_responses(&[FREQUENCY], &sampler).unwrap();
+    let sampling = Sampling::default().points(Points::Sobol).samples(512);
+    let own = study.sample_responses(&[FREQUENCY], &sampling).unwrap();
     assert_eq!(how(&own), "one by one");
-    assert!(own == alone(&study, &sampler));
+    assert!(own == alone(&study, &sampling));
 }
 
 /// Whether every answer of two studies has the same bits, or none has.
@@ -137,10 +138,10 @@ proptest! {
         points in prop::sample::select(vec![Points::Random, Points::LatinHypercube, Points::Sobol]),
     ) {
         let study = bar();
-        let sampler = Sampler::new(points).samples(3000);
-        let total = sampler.total().unwrap();
+        let sampling = Sampling::default().points(points).samples(3000);
+        let total = sampling.total().unwrap();
         let run = |range, threads| {
-            let own = sampler.clone().range(range).threads(threads);
+            let own = sampling.clone().range(range).threads(threads);
             study.sample_responses(&[FREQUENCY], &own).unwrap()
         };
         let mut all = run(Some(0..0), 1);

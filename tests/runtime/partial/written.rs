@@ -1,8 +1,9 @@
 //! Parts of a run written and read again have the same bits; unreadable ones are refused with a reason.
 
-use eigentol::propagation::{Points, Sampler, Samples};
+use eigentol::propagation::Samples;
 use eigentol::response::Response;
 use eigentol::tolerance::PartialMonteCarlo;
+use eigentol::tolerance::{Points, Sampling};
 use eigentol::{MonteCarlo, Quantity};
 use serde_json::{Value, json};
 
@@ -59,9 +60,9 @@ fn responses_that_were_written_are_merged_to_the_same_bits() {
     };
     let study = bar();
     for points in [Points::Random, Points::Sobol] {
-        let sampler = Sampler::new(points).samples(1024);
+        let sampling = Sampling::default().points(points).samples(1024);
         let run = |range| {
-            let own = sampler.clone().range(range);
+            let own = sampling.clone().range(range);
             let part = study.sample_responses(&[frequency], &own).unwrap();
             let text = serde_json::to_string(&part).expect("numbers and lists");
             let found: Samples = serde_json::from_str(&text).expect("what was written");

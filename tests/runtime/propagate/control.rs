@@ -2,18 +2,19 @@
 //! samples.
 
 use eigentol::propagation::{
-    Controlled, ControlledSpread, Method, Points, Propagation, Sampler, controlled, sampled,
+    Controlled, ControlledSpread, Method, Propagation, controlled, sampled,
 };
+use eigentol::tolerance::{Points, Sampling};
 
 use super::*;
 use crate::common::close;
 
-fn of(tolerances: &Tolerances, samples: u64, seed: u64) -> (Controlled, Propagation) {
-    let sampler = Sampler::new(Points::Random).samples(samples).seed(seed);
+fn of(tolerances: &Tolerances, samples: usize, seed: u64) -> (Controlled, Propagation) {
+    let sampling = Sampling::default().samples(samples).seed(seed);
     ask(&bar(), vec![FREQUENCY], |responses| {
         (
-            controlled(&Bar, responses, tolerances, &sampler).unwrap(),
-            sampled(responses, tolerances, &sampler)
+            controlled(&Bar, responses, tolerances, &sampling).unwrap(),
+            sampled(responses, tolerances, &sampling)
                 .unwrap()
                 .propagation()
                 .unwrap(),
@@ -64,9 +65,9 @@ fn it_is_worth_many_plain_samples() {
 #[test]
 fn a_linear_response_is_exact() {
     let tolerances = Tolerances::new([0.0, 0.0, 0.1, 0.2, 0.3], 1.0, None).unwrap();
-    let sampler = Sampler::new(Points::Random).samples(50);
+    let sampling = Sampling::default().samples(50);
     let all = ask_sum(outputs(), |responses| {
-        controlled(&Sum, responses, &tolerances, &sampler).unwrap()
+        controlled(&Sum, responses, &tolerances, &sampling).unwrap()
     });
     let own = all.spreads[0].unwrap();
     assert_eq!(own.model, Method::SecondOrder);
@@ -80,10 +81,10 @@ fn a_linear_response_is_exact() {
 fn a_mean_that_the_model_misses() {
     let s: f64 = 0.3;
     let tolerances = Tolerances::new([0.0, 0.0, s, 0.0, 0.0], 1.0, None).unwrap();
-    let sampler = Sampler::new(Points::Random).samples(100_000);
+    let sampling = Sampling::default().samples(100_000);
     let fourth = vec![Response::Output(Sum::fourth.any())];
     let all = ask_sum(fourth, |responses| {
-        controlled(&Sum, responses, &tolerances, &sampler).unwrap()
+        controlled(&Sum, responses, &tolerances, &sampling).unwrap()
     });
     let own = all.spreads[0].unwrap();
     assert_eq!(own.model, Method::SecondOrder);
@@ -112,7 +113,7 @@ fn what_samples_do_not_have_is_not_controlled() {
     assert!(found.counts.unphysical > 0 && found.counts.total() == 500);
     ask(&bar(), vec![FREQUENCY], |responses| {
         let tolerances = varied(lengths()[0].clone());
-        let with = |points| Sampler::new(points).samples(100);
+        let with = |points| Sampling::default().points(points).samples(100);
         let found = controlled(&Bar, responses, &tolerances, &with(Points::Sobol));
         assert!(is_setting(found, "points"));
         let few = with(Points::Random).samples(2);

@@ -1,9 +1,10 @@
 //! Resonances and onsets of flutter as responses, against closed forms.
 
-use eigentol::propagation::{Points, Sampler, sampled, second_order};
+use eigentol::propagation::{sampled, second_order};
 use eigentol::requirement::Requirement;
 use eigentol::second_order::crossing_curvature;
 use eigentol::sweep::{Condition, Line, Range};
+use eigentol::tolerance::{Points, Sampling};
 use eigentol::{Input, Law, Mechanism};
 
 use super::*;
@@ -50,8 +51,8 @@ fn a_resonance_spreads() {
     let length = Distribution::uniform(0.9, 1.1).unwrap();
     let tolerances = varied(length.clone());
     ask(&bar(), vec![resonance()], |responses| {
-        let sampler = Sampler::new(Points::Sobol).samples(1 << 11);
-        let samples = sampled(responses, &tolerances, &sampler).unwrap();
+        let sampling = Sampling::default().points(Points::Sobol).samples(1 << 11);
+        let samples = sampled(responses, &tolerances, &sampling).unwrap();
         let found = samples.propagation().unwrap();
         let model = second_order(&Bar, responses, &tolerances).unwrap();
         let number = 20_000;

@@ -1,6 +1,7 @@
 //! Sources of the scatter: exact for linear responses and products.
 
-use eigentol::propagation::{Effort, Method, Points, influence};
+use eigentol::propagation::{Method, influence};
+use eigentol::tolerance::{Points, Sampling};
 
 use super::*;
 use crate::common::close;
@@ -14,7 +15,7 @@ fn indices_of_simple_responses() {
     let tolerances = Tolerances::new(SIGMAS, 3.0, None).unwrap();
     let sigma = tolerances.sigmas().to_vec();
     let all = ask_sum(outputs(), |responses| {
-        influence(responses, &tolerances, Effort::default().samples(20_480)).unwrap()
+        influence(responses, &tolerances, &Sampling::default().samples(20_480)).unwrap()
     });
     assert_eq!(all.counts.stable, 5 * 4096);
     let parts = [sigma[2], 2.0 * sigma[3], -3.0 * sigma[4]];
@@ -62,7 +63,7 @@ fn interaction() {
     let tolerances =
         Tolerances::distributed(&[2.0, 8.0, 1.0, 2.0, 3.0], values, 3.0, None).unwrap();
     let all = ask_sum(outputs(), |responses| {
-        influence(responses, &tolerances, Effort::default().samples(16_384)).unwrap()
+        influence(responses, &tolerances, &Sampling::default().samples(16_384)).unwrap()
     });
     for own in &all.responses[1].variables {
         assert!(own.first.unwrap().value.abs() < 0.02);
@@ -79,9 +80,9 @@ fn what_has_no_indices() {
         _ => f64::from(u8::from(i == j)),
     });
     let tolerances = Tolerances::new(SIGMAS, 3.0, Some(correlation)).unwrap();
-    let effort = Effort::default();
+    let sampling = Sampling::default().samples(4096);
     ask_sum(outputs(), |responses| {
-        let all = influence(responses, &tolerances, effort).unwrap();
+        let all = influence(responses, &tolerances, &sampling).unwrap();
         let sum = &all.responses[0];
         assert!(
             all.to_string()
@@ -101,10 +102,10 @@ fn what_has_no_indices() {
             (1.0 + 2.0) / sigma,
             2e-2,
         );
-        let few = influence(responses, &tolerances, effort.samples(15));
+        let few = influence(responses, &tolerances, &sampling.clone().samples(15));
         assert!(is_setting(few, "samples"));
         let still = Tolerances::new([0.0; 5], 3.0, None).unwrap();
-        let none = influence(responses, &still, effort).unwrap();
+        let none = influence(responses, &still, &sampling).unwrap();
         assert!(none.responses[0].variables.is_empty() && none.counts.total() == 0);
     });
 }

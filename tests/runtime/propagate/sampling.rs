@@ -4,7 +4,8 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use eigentol::propagation::{Points, Sampler, Samples, sampled};
+use eigentol::propagation::{Samples, sampled};
+use eigentol::tolerance::{Points, Sampling};
 
 use super::*;
 use crate::common::close;
@@ -18,9 +19,12 @@ fn statistics_of_the_exact_distribution() {
         let exact = Exact::new(&length);
         let tolerances = varied(length);
         for points in ALL {
-            let sampler = Sampler::new(points).samples(8192).seed(seed as u64);
+            let sampling = Sampling::default()
+                .points(points)
+                .samples(8192)
+                .seed(seed as u64);
             let all = ask(&bar(), vec![FREQUENCY], |responses| {
-                let samples = sampled(responses, &tolerances, &sampler).unwrap();
+                let samples = sampled(responses, &tolerances, &sampling).unwrap();
                 samples.propagation().unwrap()
             });
             assert_eq!((all.evaluations, all.counts.stable), (8192, 8192));
@@ -66,9 +70,13 @@ fn stated_errors_are_those_of_many_runs() {
             let (mut squares, mut sums) = ([0.0; 7], [0.0; 7]);
             let seeds = 40;
             for seed in 0..seeds {
-                let sampler = Sampler::new(points).samples(1024).seed(seed).threads(1);
+                let sampling = Sampling::default()
+                    .points(points)
+                    .samples(1024)
+                    .seed(seed)
+                    .threads(1);
                 let all = ask(&bar(), vec![FREQUENCY], |responses| {
-                    let samples = sampled(responses, &tolerances, &sampler).unwrap();
+                    let samples = sampled(responses, &tolerances, &sampling).unwrap();
                     samples.propagation().unwrap()
                 });
                 let found = spread(&all, 0);
@@ -99,11 +107,11 @@ fn stated_errors_are_those_of_many_runs() {
 fn splits_merge_to_the_same_bits() {
     let tolerances = varied(lengths()[1].clone());
     for points in ALL {
-        let sampler = Sampler::new(points).samples(3000).threads(1);
-        let total = sampler.total().unwrap();
+        let sampling = Sampling::default().points(points).samples(3000).threads(1);
+        let total = sampling.total().unwrap();
         let run = |range, threads| {
             ask(&bar(), vec![FREQUENCY], |responses| {
-                let own = sampler.clone().range(range).threads(threads);
+                let own = sampling.clone().range(range).threads(threads);
                 sampled(responses, &tolerances, &own).unwrap()
             })
         };
@@ -135,7 +143,10 @@ fn a_run_that_is_stopped_can_be_resumed() {
             stop.store(true, Ordering::Relaxed);
         }
     };
-    let whole = Sampler::new(Points::Sobol).samples(4096).threads(1);
+    let whole = Sampling::default()
+        .points(Points::Sobol)
+        .samples(4096)
+        .threads(1);
     let stopped = whole.clone().progress(Some(&progress)).stop(Some(&stop));
     ask(&bar(), vec![FREQUENCY], |responses| {
         let all = sampled(responses, &tolerances, &whole).unwrap();
@@ -161,11 +172,9 @@ fn progress_counts_every_sample() {
     let tolerances = varied(lengths()[0].clone());
     let seen = Mutex::new(0);
     let progress = |number| *seen.lock().unwrap() += number;
-    let sampler = Sampler::new(Points::Random)
-        .samples(777)
-        .progress(Some(&progress));
+    let sampling = Sampling::default().samples(777).progress(Some(&progress));
     ask(&bar(), vec![FREQUENCY], |responses| {
-        sampled(responses, &tolerances, &sampler).unwrap()
+        sampled(responses, &tolerances, &sampling).unwrap()
     });
     assert_eq!(*seen.lock().unwrap(), 777);
 }
@@ -175,9 +184,9 @@ fn progress_counts_every_sample() {
 fn covariance_of_responses() {
     let sigmas = [0.0, 0.0, 0.1, 0.2, 0.05];
     let tolerances = Tolerances::new(sigmas, 1.0, None).unwrap();
-    let sampler = Sampler::new(Points::Sobol).samples(1 << 14);
+    let sampling = Sampling::default().points(Points::Sobol).samples(1 << 14);
     let all = ask_sum(outputs(), |responses| {
-        sampled(responses, &tolerances, &sampler)
+        sampled(responses, &tolerances, &sampling)
             .unwrap()
             .propagation()
             .unwrap()
@@ -211,9 +220,9 @@ fn correlation_1_is_a_shared_variable() {
         _ => f64::from(u8::from(i == j)),
     });
     let both = Tolerances::new([0.0, 0.0, 0.1, 0.1, 0.0], 1.0, Some(matrix)).unwrap();
-    let sampler = Sampler::new(Points::Sobol).samples(4096);
+    let sampling = Sampling::default().points(Points::Sobol).samples(4096);
     let all = ask_sum(outputs(), |responses| {
-        sampled(responses, &both, &sampler)
+        sampled(responses, &both, &sampling)
             .unwrap()
             .propagation()
             .unwrap()
@@ -221,7 +230,7 @@ fn correlation_1_is_a_shared_variable() {
     // Three times the standard normal number underlying both.
     let alone = Tolerances::new([0.0, 0.0, 0.3, 0.0, 0.0], 1.0, None).unwrap();
     let one = ask_sum(outputs(), |responses| {
-        sampled(responses, &alone, &sampler)
+        sampled(responses, &alone, &sampling)
             .unwrap()
             .propagation()
             .unwrap()
@@ -235,12 +244,14 @@ fn correlation_1_is_a_shared_variable() {
 #[test]
 fn samples_without_values_are_counted() {
     let tolerances = varied(Distribution::uniform(-0.5, 1.5).unwrap());
-    let sampler = Sampler::new(Points::LatinHypercube).samples(1600);
+    let sampling = Sampling::default()
+        .points(Points::LatinHypercube)
+        .samples(1600);
     let all = ask(
         &bar(),
         vec![FREQUENCY, Response::Output(Bar::length.any())],
         |responses| {
-            sampled(responses, &tolerances, &sampler)
+            sampled(responses, &tolerances, &sampling)
                 .unwrap()
                 .propagation()
                 .unwrap()
@@ -253,20 +264,17 @@ fn samples_without_values_are_counted() {
 }
 
 #[test]
-fn a_sampler_that_makes_no_sense_is_refused() {
+fn a_sampling_that_makes_no_sense_is_refused() {
     let tolerances = varied(lengths()[0].clone());
     ask(&bar(), vec![FREQUENCY], |responses| {
-        let found = |sampler: Sampler<'_>| sampled(responses, &tolerances, &sampler);
-        let sobol = || Sampler::new(Points::Sobol);
+        let found = |sampling: Sampling<'_>| sampled(responses, &tolerances, &sampling);
+        let sobol = || Sampling::default().points(Points::Sobol);
         assert!(is_setting(found(sobol().samples(15)), "samples"));
         assert!(is_setting(
             found(sobol().randomisations(1)),
             "randomisations"
         ));
-        assert!(is_setting(
-            found(Sampler::new(Points::Random).samples(0)),
-            "samples"
-        ));
+        assert!(is_setting(found(Sampling::default().samples(0)), "samples"));
         assert!(is_setting(found(sobol().range(Some(4000..4097))), "range"));
         let other = Tolerances::new([0.1], 3.0, None).unwrap();
         assert!(matches!(
@@ -287,9 +295,9 @@ fn a_sampler_that_makes_no_sense_is_refused() {
 #[test]
 fn without_tolerances_nothing_is_spread() {
     let tolerances = varied(Distribution::constant(1.0).unwrap());
-    let sampler = Sampler::new(Points::Sobol).samples(64);
+    let sampling = Sampling::default().points(Points::Sobol).samples(64);
     let all = ask(&bar(), vec![FREQUENCY], |responses| {
-        sampled(responses, &tolerances, &sampler)
+        sampled(responses, &tolerances, &sampling)
             .unwrap()
             .propagation()
             .unwrap()
@@ -305,9 +313,9 @@ fn without_tolerances_nothing_is_spread() {
 fn quantiles_beyond_all_samples_have_no_error() {
     let tolerances = varied(lengths()[0].clone());
     for points in ALL {
-        let sampler = Sampler::new(points).samples(256);
+        let sampling = Sampling::default().points(points).samples(256);
         let all = ask(&bar(), vec![FREQUENCY], |responses| {
-            let samples = sampled(responses, &tolerances, &sampler).unwrap();
+            let samples = sampled(responses, &tolerances, &sampling).unwrap();
             samples.propagation().unwrap()
         });
         let quantiles = &spread(&all, 0).quantiles;

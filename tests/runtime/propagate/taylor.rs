@@ -1,10 +1,9 @@
 //! First and second order for any distribution, and the automatic choice of method.
 
 use eigentol::Law;
-use eigentol::propagation::{
-    Effort, Estimated, Method, Points, Propagation, first_order, propagate, second_order,
-};
+use eigentol::propagation::{Estimated, Method, Propagation, first_order, propagate, second_order};
 use eigentol::sweep::Range;
+use eigentol::tolerance::{Points, Sampling};
 
 use super::*;
 use crate::common::close;
@@ -222,8 +221,8 @@ fn first_order_where_there_is_no_second() {
     let (at, modes) = (&study.equilibrium().unwrap(), &study.modes().unwrap());
     let tolerances = study.tolerances().unwrap();
     let responses = Responses::new(&Twins, at, modes, vec![FREQUENCY]).unwrap();
-    let effort = Effort::default().solutions(1);
-    let all = propagate(&Twins, &responses, &tolerances, effort).unwrap();
+    let sampling = Sampling::default();
+    let all = propagate(&Twins, &responses, &tolerances, 1, &sampling).unwrap();
     assert_eq!(all.method, Method::FirstOrder);
     assert!(
         all.reason.ends_with("no second derivatives"),
@@ -266,8 +265,8 @@ fn the_method_follows_the_cost() {
     let tolerances = varied(Distribution::normal(1.0, 0.02).unwrap());
     let of = |wanted: &[Response], tolerances: &Tolerances, solutions| {
         ask(&bar(), wanted.to_vec(), |responses| {
-            let effort = Effort::default().solutions(solutions);
-            let all = propagate(&Bar, responses, tolerances, effort).unwrap();
+            let sampling = Sampling::default().samples(4096);
+            let all = propagate(&Bar, responses, tolerances, solutions, &sampling).unwrap();
             assert!(!all.reason.is_empty());
             all
         })

@@ -41,7 +41,7 @@ fn means_beside_the_nominal_values() {
         let [found, expected] = [(&model, &shifted), (&moved, &central)]
             .map(|(model, tolerances)| model.probability(tolerances, band).unwrap().value);
         close(found, expected, 1e-10);
-        let linear = margin(&model, &shifted, band).unwrap();
+        let linear = margin(&model, &shifted, &[band]).unwrap();
         let mean = 2.0 + 0.3 + 0.3;
         assert!((linear.sigma - 0.13_f64.sqrt()).abs() < 1e-14);
         if band.0.is_infinite() {
@@ -72,7 +72,7 @@ fn a_uniform_variable() {
         .unwrap();
     assert!((first - 0.25).abs() < 1e-3);
     assert!(
-        margin(&model, &tolerances, (0.5, 2.0))
+        margin(&model, &tolerances, &[(0.5, 2.0)])
             .unwrap()
             .derivatives
             .is_none()

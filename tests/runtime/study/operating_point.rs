@@ -1,6 +1,7 @@
 //! Values in declared units, as input and in reports: every report begins with its operating point.
 
-use eigentol::second_order::Band;
+use crate::common::FREQUENCY;
+use eigentol::requirement::Requirement;
 use eigentol::{Error, InDeclaredUnit, Input, Study, mechanism};
 
 mechanism! {
@@ -99,7 +100,7 @@ fn reports_name_the_operating_point() {
         asked.summary().unwrap().to_string(),
         asked.monte_carlo().unwrap().to_string(),
         asked
-            .margin(0, Band::around(Governor::speed.any(), 0.1))
+            .second_order_failure(Requirement::away(FREQUENCY, Governor::speed.any(), 0.1))
             .unwrap()
             .to_string(),
     ];

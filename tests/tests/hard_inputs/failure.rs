@@ -2,9 +2,8 @@
 //! are extrema or lie inside a forbidden band, values too rare for samples. Against closed forms.
 
 use eigentol::allocation::{Choices, Cost, HalfWidth};
-use eigentol::requirement::{Requirement, SamplingSettings};
+use eigentol::requirement::Requirement;
 use eigentol::response::Response;
-use eigentol::second_order::Band;
 use eigentol::sensitivity::Quantity;
 use eigentol::summary::Doubt;
 use eigentol::{Error, Study};
@@ -79,7 +78,7 @@ fn unstable_designs_fail_requirements_on_their_modes() {
         (share - expected).abs() < 4.0 * (expected / 20_000.0).sqrt(),
         "{share} {expected}"
     );
-    let rare = study.rare_failure(&wanted, &SamplingSettings::default());
+    let rare = study.rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05);
     let found = rare.expect("samples").failure.probability;
     assert!(
         (found.value - expected).abs() < 4.0 * found.standard_error,
@@ -94,7 +93,7 @@ fn failures_without_a_design_point_are_found() {
     let frequency = of_mode(Quantity::Frequency);
     let wanted = [Requirement::Stable, Requirement::at_most(frequency, 100.0)];
     let rare = study
-        .rare_failure(&wanted, &SamplingSettings::default())
+        .rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05)
         .expect("samples");
     let expected = phi(-3.0) + phi(-4.5);
     let found = rare.failure.probability;
@@ -110,11 +109,10 @@ fn failures_without_a_design_point_are_found() {
         "{text}"
     );
     // With design points for all requirements there is nothing to be unseen.
-    let few = SamplingSettings {
-        samples: 100,
-        ..SamplingSettings::default()
-    };
-    let rare = study.rare_failure(&wanted[1..], &few).expect("samples");
+    let few = study.sampling().samples(100);
+    let rare = study
+        .rare_failure(&wanted[1..], &few, 0.05)
+        .expect("samples");
     assert_eq!((rare.unseen, rare.without_design_point.len()), (0.0, 0));
 }
 
@@ -174,7 +172,7 @@ fn design_points_that_are_reflections_are_found() {
         |i| (0..steps).map(move |j| density(at(i)) * density(at(j)) * phi(-20.0 / (at(i) * at(j))));
     let expected: f64 = 4.0 * width * width * (0..steps).flat_map(row).sum::<f64>();
     let rare = study
-        .rare_failure(&wanted, &SamplingSettings::default())
+        .rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05)
         .expect("samples");
     let found = rare.failure.probability;
     assert!(
@@ -273,11 +271,10 @@ fn the_margin_of_mixed_modes_says_so() {
             }}"
         ))
     };
-    let below = Band::Between {
-        low: f64::NEG_INFINITY,
-        high: 63.0,
-    };
-    let mixed = pair("40").margin(0, below).expect("a margin");
+    let wanted = Requirement::at_least(of_mode(Quantity::Frequency), 63.0);
+    let mixed = pair("40")
+        .second_order_failure(wanted)
+        .expect("a probability");
     assert_eq!(mixed.mixed_with, [1]);
     assert!(
         mixed
@@ -285,7 +282,9 @@ fn the_margin_of_mixed_modes_says_so() {
             .contains("Tolerances mix this mode with mode 2"),
         "{mixed}"
     );
-    let apart = pair("80").margin(0, below).expect("a margin");
+    let apart = pair("80")
+        .second_order_failure(wanted)
+        .expect("a probability");
     assert!(
         apart.mixed_with.is_empty() && !apart.to_string().contains("mix"),
         "{apart}"

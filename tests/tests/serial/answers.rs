@@ -4,9 +4,9 @@ use std::fmt::Debug;
 
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::clusters::ClusterTolerance;
-use eigentol::requirement::{Requirement, SamplingSettings};
+use eigentol::requirement::Requirement;
 use eigentol::response::Response;
-use eigentol::second_order::{Band, EventCurvature};
+use eigentol::second_order::EventCurvature;
 use eigentol::sweep::{CriticalState, Crossing, EventTolerance};
 use eigentol::{Coordinate, Error, Input, Mechanism, Output, Quantity, Study};
 use eigentol_tables::{Answer, json};
@@ -92,13 +92,13 @@ impl Answers {
         self.both::<Vec<ClusterTolerance>>(name, study.clusters());
         self.both(
             name,
-            study.margin(
-                0,
-                Band::Between {
-                    low: 0.0,
-                    high: f64::INFINITY,
+            study.second_order_failure(Requirement::at_least(
+                Response::Mode {
+                    mode: 0,
+                    quantity: Quantity::Frequency,
                 },
-            ),
+                0.0,
+            )),
         );
         self.both(name, study.monte_carlo());
         self.both(name, study.whirls());
@@ -145,12 +145,8 @@ impl Answers {
         self.plain(name, &wanted.to_vec());
         self.both(name, study.chances(&wanted));
         self.both(name, study.reliability(&wanted));
-        let settings = SamplingSettings {
-            samples: 50,
-            ..SamplingSettings::default()
-        };
-        self.plain(name, &settings);
-        self.both(name, study.rare_failure(&wanted, &settings));
+        let most = study.sampling().samples(50);
+        self.both(name, study.rare_failure(&wanted, &most, 0.05));
         if name == "rotating_pendulum" {
             let widths = HalfWidth {
                 variable: 0,

@@ -6,10 +6,8 @@ use std::ops::ControlFlow;
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::equilibrium::Search;
 use eigentol::kernels::{BatchKernels, CurvatureKernels, PictureKernels};
-use eigentol::propagation::{Points, Sampler};
-use eigentol::requirement::{Requirement, SamplingSettings};
+use eigentol::requirement::Requirement;
 use eigentol::response::Response;
-use eigentol::second_order::Band;
 use eigentol::sensitivity::Quantity;
 use eigentol::{Error, Input, Output, Study};
 
@@ -31,10 +29,12 @@ pub(crate) struct Range {
 /// A question with its name: the one that overflows its stack is named in the message.
 pub(crate) type Question<M> = (&'static str, fn(&Study<M>, &Range));
 
-const BAND: Band = Band::Between {
-    low: 1.0,
-    high: 2.0,
-};
+fn growth<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> Response {
+    Response::Mode {
+        mode: mode(study),
+        quantity: Quantity::Growth,
+    }
+}
 
 fn answered<T>(answer: Result<T, Error>) {
     black_box(answer.expect("an answer"));
@@ -98,9 +98,8 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
         }),
         ("second_order", |s, _| answered(s.second_order())),
         ("clusters", |s, _| answered(s.clusters())),
-        ("margin", |s, _| answered(s.margin(mode(s), BAND))),
-        ("margin_of", |s, _| {
-            answered(s.margin_of(mode(s), Quantity::Growth, BAND));
+        ("second_order_failure", |s, _| {
+            answered(s.second_order_failure(Requirement::at_most(growth(s), 1.0)));
         }),
         ("monte_carlo", |s, _| answered(s.monte_carlo())),
         ("monte_carlo_with_progress", |s, _| {
@@ -123,18 +122,12 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
 
 /// Statistical questions.
 pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
-    const SAMPLES: u64 = 8;
-    fn response<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> Response {
-        Response::Mode {
-            mode: mode(study),
-            quantity: Quantity::Growth,
-        }
-    }
+    const SAMPLES: usize = 8;
     fn wanted<M: BatchKernels + CurvatureKernels + PictureKernels>(
         study: &Study<M>,
     ) -> [Requirement; 2] {
         [
-            Requirement::at_most(response(study), 1e3),
+            Requirement::at_most(growth(study), 1e3),
             Requirement::Stable,
         ]
     }
@@ -143,14 +136,14 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
         let _ = black_box(answer);
     }
     vec![
-        ("propagate", |s, _| replied(s.propagate(&[response(s)]))),
+        ("propagate", |s, _| replied(s.propagate(&[growth(s)]))),
         ("sample_responses", |s, _| {
-            let sampler = Sampler::new(Points::Random).samples(SAMPLES);
-            answered(s.sample_responses(&[response(s)], &sampler));
+            let sampling = s.sampling().samples(SAMPLES);
+            answered(s.sample_responses(&[growth(s)], &sampling));
         }),
-        ("worst_case", |s, _| replied(s.worst_case(&[response(s)]))),
-        ("controlled", |s, _| replied(s.controlled(&[response(s)]))),
-        ("influence", |s, _| replied(s.influence(&[response(s)]))),
+        ("worst_case", |s, _| replied(s.worst_case(&[growth(s)]))),
+        ("controlled", |s, _| replied(s.controlled(&[growth(s)]))),
+        ("influence", |s, _| replied(s.influence(&[growth(s)]))),
         ("chances", |s, _| answered(s.chances(&wanted(s)))),
         ("chances_by", |s, _| {
             answered(s.chances_by(&wanted(s), &s.sampling()));
@@ -158,11 +151,8 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
         ("reliability", |s, _| replied(s.reliability(&wanted(s)))),
         ("probability", |s, _| replied(s.probability(&wanted(s)))),
         ("rare_failure", |s, _| {
-            let settings = SamplingSettings {
-                samples: SAMPLES,
-                ..SamplingSettings::default()
-            };
-            replied(s.rare_failure(&wanted(s), &settings));
+            let most = s.sampling().samples(SAMPLES);
+            replied(s.rare_failure(&wanted(s), &most, 0.05));
         }),
         ("allocation", |s, _| {
             let widths = HalfWidth {

@@ -5,8 +5,8 @@ use eigentol_statistics::normal;
 use eigentol_statistics::reliability::{DesignPoint, failure_regions};
 
 use super::choices::Choices;
-use crate::limits::{Deviations, LimitAt};
-use crate::requirement::{FormSettings, Limit, Requirements, out_of_reach, slopes_at};
+use crate::deviations::Deviations;
+use crate::requirement::{FormSettings, Limit, LimitAt, Requirements, out_of_reach, slopes_at};
 use crate::{Error, Vector};
 
 /// Cost and reliability at one choice.
@@ -50,7 +50,7 @@ impl Evaluated {
 pub(super) struct Problem<'a> {
     pub(super) requirements: &'a Requirements<'a>,
     pub(super) choices: &'a Choices<'a>,
-    pub(super) limits: Vec<(usize, Limit)>,
+    pub(super) limits: Vec<Limit>,
     pub(super) nominal: Vector,
     pub(super) half_widths: Vector,
     pub(super) search: Search,
@@ -123,7 +123,7 @@ impl Problem<'_> {
             let own = self
                 .limits
                 .iter()
-                .filter(|(_, limit)| limit.requirement == requirement);
+                .filter(|limit| limit.requirement == requirement);
             let parts = own.map(|limit| self.limit(&deviations, &wide, limit));
             let parts: Vec<Vec<(f64, Vec<f64>)>> = parts.collect::<Result<_, _>>()?;
             if !parts.is_empty() {
@@ -165,12 +165,12 @@ impl Problem<'_> {
         &self,
         deviations: &Deviations<'_>,
         wide: &[f64],
-        (place, limit): &(usize, Limit),
+        limit: &Limit,
     ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
         let limit = LimitAt::new(
             self.requirements.responses(),
-            *place,
-            limit.edge,
+            limit.place,
+            limit.alone,
             deviations,
         );
         let points = match failure_regions(&limit, &self.search.settings()) {

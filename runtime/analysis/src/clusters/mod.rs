@@ -25,6 +25,6 @@ mod tolerance;
 pub(crate) use couplings::common_slopes;
 pub use couplings::{ModalCouplings, modal_couplings};
 pub use directional::{DirectionalDerivatives, directional_derivatives};
-pub use sampling::{ClusterSampling, ClusterSpread, MemberSpread, SortedSpread, sample_cluster};
+pub use sampling::{ClusterSpread, MemberSpread, SortedSpread, sample_cluster};
 pub(crate) use tolerance::groups;
 pub use tolerance::{ClusterTolerance, MeanEigenvalue, clusters};

@@ -10,36 +10,8 @@ use crate::algebra::{Matrix, Vector};
 use crate::eigenproblem::{Tridiagonal, diagonalise, eigenvalues};
 use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
-use crate::setters;
-use crate::tolerance::{Draw, Statistics, Tolerances};
+use crate::tolerance::{Draw, Sampling, Statistics, Tolerances};
 use crate::{Complex, Error, Quantity};
-
-/// Settings for sampling a cluster.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct ClusterSampling {
-    /// Number of samples.
-    pub samples: usize,
-    /// The same seed gives bit-identical results.
-    pub seed: u64,
-    /// Which independent sequence of the seed to use.
-    pub stream: u64,
-}
-
-impl ClusterSampling {
-    setters!(samples: usize, seed: u64, stream: u64);
-}
-
-impl Default for ClusterSampling {
-    fn default() -> Self {
-        Self {
-            samples: 4096,
-            seed: 0,
-            stream: 0,
-        }
-    }
-}
 
 /// Spread of the sorted members of a cluster.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,17 +72,18 @@ pub struct MemberSpread {
 }
 
 /// Samples the eigenvalues of `diag(eigenvalues) + sum_k x_k by_design[k]` for deviations `x ~ N(0, Sigma)` of the
-/// design variables.
+/// design variables: of `sampling`, the number of samples, seed and stream count.
 ///
 /// # Errors
-/// [`Error::Setting`] if matrices have the wrong number or size, are not finite, or for undamped modes are not real and
+/// [`Error::Setting`] if points are not random, if matrices have the wrong number or size, are not finite, or for undamped modes are not real and
 /// symmetric, and for samples beyond the range of a double.
 pub fn sample_cluster(
     couplings: &ModalCouplings,
     tolerances: &Tolerances,
-    sampling: &ClusterSampling,
+    sampling: &Sampling<'_>,
 ) -> Result<ClusterSpread, Error> {
     check(couplings, tolerances)?;
+    sampling.check_random()?;
     let family = couplings.family;
     let m = couplings.eigenvalues.len();
     let mut work = Work::new(couplings);

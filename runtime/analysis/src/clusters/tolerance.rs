@@ -2,17 +2,19 @@
 //! derivatives, and the sorted members, by sampling.
 
 use super::couplings::{ModalCouplings, PairSpreads, coupled_eigenvalue, modal_couplings};
-use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, operations, sample_cluster};
+use super::sampling::{ClusterSpread, frequency_of, operations, sample_cluster};
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::DirectionalKernels;
 use crate::modes::{CLUSTER_GAP, Family, merged};
 use crate::sensitivity::Quantity;
-use crate::tolerance::{Spread, TRUSTED_DISTANCE, Tolerances};
+use crate::tolerance::{Sampling, Spread, TRUSTED_DISTANCE, Tolerances};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Modes, Shared};
 
 /// Limit on the additions and multiplications spent on the samples of one cluster, and the smallest number of samples.
 const BUDGET: f64 = 1.5e8;
 const FEWEST: usize = 256;
+/// Enough of them.
+const SAMPLES: usize = 4096;
 
 /// Relative difference of eigenvalues, by nominal values and within tolerances, that is rounding.
 const EQUAL: f64 = 1e-9;
@@ -261,9 +263,8 @@ fn tolerance(
         Err(Error::Defective { modes })
     } else {
         let affordable = (BUDGET / operations(couplings, tolerances)) as usize;
-        let all = ClusterSampling::default();
-        let samples = affordable.clamp(FEWEST.min(all.samples), all.samples);
-        sample_cluster(couplings, tolerances, &all.samples(samples))
+        let samples = affordable.clamp(FEWEST, SAMPLES);
+        sample_cluster(couplings, tolerances, &Sampling::default().samples(samples))
     };
     ClusterTolerance {
         modes: couplings.modes.clone(),

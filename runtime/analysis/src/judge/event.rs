@@ -11,7 +11,7 @@ use super::cost::{BUDGET, operations};
 use super::judged::{Judged, Judgement, Unjudged};
 use crate::Error;
 use crate::algebra::Vector;
-use crate::limits::Deviations;
+use crate::deviations::Deviations;
 use crate::response::{Realisation, Responses, Workspace};
 
 /// Most designs: further ones would not change a verdict.
@@ -25,7 +25,7 @@ const FARTHEST: f64 = 40.0;
 const BEYOND: f64 = 3.0;
 
 /// A function of a design and its responses.
-type Distance<'a> = dyn Fn(&[f64], &Realisation) -> Option<f64> + 'a;
+pub(crate) type Distance<'a> = dyn Fn(&[f64], &Realisation) -> Option<f64> + 'a;
 
 /// An event: designs for which a function of their responses is not positive.
 pub(crate) struct Event<'a> {

@@ -36,4 +36,4 @@ pub(crate) use answer::{chance, judged, verdict};
 pub use cost::BUDGET;
 pub(crate) use cost::{operations, together};
 pub(crate) use distances::{distances, doubts_of_models};
-pub(crate) use event::{Event, Lines};
+pub(crate) use event::{Distance, Event, Lines};

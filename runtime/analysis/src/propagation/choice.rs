@@ -3,64 +3,27 @@
 use super::quadrature::{cost, quadrature, refuse_discrete};
 use super::result::Propagation;
 use super::sampled::sampled;
-use super::sampler::{Points, Sampler};
 use super::space::Space;
 use super::taylor::{first_order, second_order};
 use crate::Error;
 use crate::judge::doubts_of_models;
 use crate::kernels::CurvatureKernels;
 use crate::response::Responses;
-use crate::setters;
-use crate::tolerance::Tolerances;
+use crate::tolerance::{Points, Sampling, Tolerances};
 
 /// Quadrature levels that are worth their points.
 const LEVELS: core::ops::RangeInclusive<usize> = 2..=6;
 /// Fewer samples are not informative.
 const FEW: u64 = 64;
 
-/// The effort an answer may cost.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Effort {
-    /// Number of equilibrium solutions allowed: one for each design, and one more for each step of the range of each
-    /// critical value or crossing.
-    pub solutions: u64,
-    /// Number of samples, if the solutions allow as many.
-    pub samples: u64,
-    /// Seed of the samples.
-    pub seed: u64,
-    /// Which independent sequence of the seed to use.
-    pub stream: u64,
-    /// Number of threads; 0 uses all available.
-    pub threads: usize,
-}
-
-impl Effort {
-    setters!(
-        solutions: u64,
-        samples: u64,
-        seed: u64,
-        stream: u64,
-        threads: usize,
-    );
-}
-
-impl Default for Effort {
-    /// 100,000 solutions, 4096 samples.
-    fn default() -> Self {
-        Self {
-            solutions: 100_000,
-            samples: 4096,
-            seed: 0,
-            stream: 0,
-            threads: 0,
-        }
-    }
-}
+/// Number of equilibrium solutions that an answer usually may cost.
+pub const SOLUTIONS: u64 = 100_000;
 
 /// Computes how tolerances spread responses, by the best affordable method; [`Propagation::reason`] says why it was
 /// chosen.
+///
+/// The `solutions` allowed are equilibria: one for each design, and one more for each step of the range of each critical
+/// value or crossing. Of `sampling`, the number of samples, seed, stream and threads count.
 ///
 /// The first choice is sampling at scrambled Sobol' points, if affordable: it works for every response and
 /// distribution, gives quantiles, and counts failures. It may be too expensive if critical values or crossings must be
@@ -71,11 +34,13 @@ impl Default for Effort {
 ///
 /// ```
 #[doc = include_str!("example.txt")]
-/// use eigentol::propagation::{Effort, Method, Points, propagate};
+/// use eigentol::propagation::{Method, SOLUTIONS, propagate};
+/// use eigentol::tolerance::{Points, Sampling};
 ///
-/// let all = propagate(&Pendulum, &responses, &tolerances, Effort::default())?;
+/// let sampling = Sampling::default();
+/// let all = propagate(&Pendulum, &responses, &tolerances, SOLUTIONS, &sampling)?;
 /// assert_eq!(all.method, Method::Sampled(Points::Sobol));
-/// let dear = propagate(&Pendulum, &responses, &tolerances, Effort::default().solutions(20))?;
+/// let dear = propagate(&Pendulum, &responses, &tolerances, 20, &sampling)?;
 /// assert_eq!(dear.method, Method::Tensor { nodes: 7 });
 /// # Ok::<(), eigentol::Error>(())
 /// ```
@@ -86,7 +51,8 @@ pub fn propagate(
     mechanism: &dyn CurvatureKernels,
     responses: &Responses<'_>,
     tolerances: &Tolerances,
-    effort: Effort,
+    solutions: u64,
+    sampling: &Sampling<'_>,
 ) -> Result<Propagation, Error> {
     let space = Space::new(responses.nominal(), tolerances)?;
     let dimensions = space.dimensions();
@@ -98,33 +64,30 @@ pub fn propagate(
         return with(found, "no tolerance is declared".to_owned());
     }
     let price = responses.price();
-    let affordable = effort.solutions / price;
+    let (affordable, wanted) = (solutions / price, sampling.samples as u64);
     let sample = |samples: u64, reason: String| {
-        let sampler = Sampler::new(Points::Sobol)
-            .samples(samples)
-            .seed(effort.seed)
-            .stream(effort.stream)
-            .threads(effort.threads)
+        let sampling = sampling
+            .clone()
+            .points(Points::Sobol)
+            .samples(usize::try_from(samples).unwrap_or(usize::MAX))
+            .range(None)
+            .progress(None)
             .stop(responses.watch().stop);
-        let samples = sampled(responses, tolerances, &sampler)?;
+        let samples = sampled(responses, tolerances, &sampling)?;
         responses.go_on()?;
         with(samples.propagation(), reason)
     };
-    if effort.samples <= affordable {
-        let spent = effort.samples * price;
+    let cost_of_all = wanted.saturating_mul(price);
+    if wanted <= affordable {
         return sample(
-            effort.samples,
+            wanted,
             format!(
-                "samples cost {spent} solutions of the {} allowed, and hold for any response",
-                effort.solutions
+                "samples cost {cost_of_all} solutions of the {solutions} allowed, and hold for any response"
             ),
         );
     }
     let dear = format!(
-        "{} samples would cost {} solutions, more than the {} allowed",
-        effort.samples,
-        effort.samples.saturating_mul(price),
-        effort.solutions
+        "{wanted} samples would cost {cost_of_all} solutions, more than the {solutions} allowed"
     );
     let doubted = doubts_of_models(responses, tolerances);
     if affordable >= FEW && !doubted.iter().all(Vec::is_empty) {
@@ -135,7 +98,7 @@ pub fn propagate(
         .rev()
         .filter(|level| cost(dimensions, *level).is_some_and(|cost| cost <= affordable));
     if let (Some(level), Ok(())) = (levels.max(), refuse_discrete(tolerances)) {
-        match quadrature(responses, tolerances, level, effort.threads) {
+        match quadrature(responses, tolerances, level, sampling.threads) {
             Err(Error::NoResponse { response, .. }) if affordable >= FEW => {
                 let reason = format!(
                     "{dear}; quadrature has a node without response {}: so fewer samples",

@@ -5,12 +5,11 @@ use super::gather::{Gathered, Scale, Task};
 use super::model::{DesignRoom, Designs, Evaluated, Model, Take};
 use super::moments;
 use super::result::{Estimated, Method};
-use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::algebra::Vector;
 use crate::kernels::CurvatureKernels;
 use crate::response::{Response, Responses};
-use crate::tolerance::{Counts, Tolerances};
+use crate::tolerance::{Counts, Points, Sampling, Tolerances};
 use crate::{Description, Error, Shared};
 
 /// Mean and standard deviation of a response, corrected with those of its Taylor model. SI.
@@ -58,10 +57,11 @@ pub struct Controlled {
 ///
 /// ```
 #[doc = include_str!("example.txt")]
-/// use eigentol::propagation::{Points, Sampler, controlled};
+/// use eigentol::propagation::controlled;
+/// use eigentol::tolerance::Sampling;
 ///
-/// let sampler = Sampler::new(Points::Random).samples(500);
-/// let all = controlled(&Pendulum, &responses, &tolerances, &sampler)?;
+/// let sampling = Sampling::default().samples(500);
+/// let all = controlled(&Pendulum, &responses, &tolerances, &sampling)?;
 /// let spread = all.spreads[0].expect("every bar swings");
 /// assert!(spread.worth > 1000.0 && spread.mean.error < Some(1e-4));
 /// # Ok::<(), eigentol::Error>(())
@@ -73,19 +73,19 @@ pub fn controlled(
     mechanism: &dyn CurvatureKernels,
     responses: &Responses<'_>,
     tolerances: &Tolerances,
-    sampler: &Sampler<'_>,
+    sampling: &Sampling<'_>,
 ) -> Result<Controlled, Error> {
     let refused = |setting, reason: &str| {
         let reason = reason.to_owned();
         Err(Error::Setting { setting, reason })
     };
-    if sampler.points != Points::Random {
+    if sampling.points != Points::Random {
         return refused(
             "points",
             "standard errors of control variates need random ones",
         );
     }
-    if sampler.samples < 3 {
+    if sampling.samples < 3 {
         return refused("samples", "two tell no error of a standard deviation");
     }
     let at = responses.nominal();
@@ -108,7 +108,7 @@ pub fn controlled(
         space: &space,
         unknowns: at.coordinates.len(),
     };
-    let samples = task.gather(sampler)?;
+    let samples = task.gather(sampling)?;
     let spreads = controls.iter().enumerate();
     let spreads = spreads.map(|(i, own)| match own {
         None => Ok(None),

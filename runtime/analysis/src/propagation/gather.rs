@@ -10,12 +10,11 @@ use eigentol_statistics::summary::{
 
 use super::model::{Evaluated, Model, TOGETHER};
 use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
-use super::sampler::Sampler;
 use super::space::Space;
 use crate::Error;
 use crate::algebra::Vector;
 use crate::tolerance::gather::{Part, Work};
-use crate::tolerance::{Counts, Outcome};
+use crate::tolerance::{Counts, Outcome, Sampling};
 
 /// Statistics of some samples, per randomisation: responses first, then the varying design variables.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,13 +50,13 @@ impl<M: Model> Task<'_, M> {
     }
 
     /// Solves the requested range of samples, or as many of them as are done when the run is stopped.
-    pub(super) fn gather(&self, sampler: &Sampler<'_>) -> Result<Gathered, Error> {
+    pub(super) fn gather(&self, sampling: &Sampling<'_>) -> Result<Gathered, Error> {
         let plan = self.plan()?;
-        let (of_each, now) = (sampler.of_each()?, sampler.now()?);
-        let sequences = (0..sampler.groups())
-            .map(|group| sampler.sequence(group, self.space.dimensions()))
+        let (of_each, now) = (sampling.of_each()?, sampling.now()?);
+        let sequences = (0..sampling.groups())
+            .map(|group| sampling.sequence(group, self.space.dimensions()))
             .collect::<Result<Vec<_>, _>>()?;
-        let groups: Vec<Range<u64>> = (0..sampler.groups())
+        let groups: Vec<Range<u64>> = (0..sampling.groups())
             .map(|group| {
                 let first = group * of_each;
                 let inside = |sample: u64| sample.clamp(first, first + of_each) - first;
@@ -65,11 +64,11 @@ impl<M: Model> Task<'_, M> {
             })
             .collect();
         let work = Work {
-            threads: sampler.threads,
+            threads: sampling.threads,
             size: (self.unknowns, self.space.nominal.len()),
             least: 1,
-            progress: sampler.progress,
-            stop: sampler.stop,
+            progress: sampling.progress,
+            stop: sampling.stop,
         };
         let room = || self.model.room();
         let solve = |room: &mut M::Room, part: &mut Part<'_, ()>| {

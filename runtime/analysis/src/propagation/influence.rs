@@ -5,14 +5,13 @@ use eigentol_statistics::sensitivity::{
 };
 use eigentol_statistics::sequence::Sequence;
 
-use super::choice::Effort;
 use super::gather::normals;
 use super::limits::limits;
 use super::model::{DesignRoom, Designs, Model, TOGETHER};
 use super::space::Space;
 use crate::algebra::Vector;
 use crate::response::{Response, Responses};
-use crate::tolerance::{Counts, Outcome, Tolerances, pool};
+use crate::tolerance::{Counts, Outcome, Sampling, Tolerances, pool};
 use crate::{Description, Error, Shared};
 
 /// The dependence of a response on one variable.
@@ -79,16 +78,17 @@ pub struct Influence {
 
 /// Attributes the scatter of responses to the variables by Sobol' indices of independent variables, correlation and
 /// regression, and the responses at the limits of each variable by itself (the bars of a tornado diagram). At most
-/// `effort.samples` designs are sampled, at scrambled Sobol' points.
+/// `sampling.samples` designs are sampled, at scrambled Sobol' points.
 ///
 /// If variables depend on each other, no share of the variance belongs to a single variable, and there are no Sobol'
 /// indices.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
-/// use eigentol::propagation::{Effort, influence};
+/// use eigentol::propagation::influence;
+/// use eigentol::tolerance::Sampling;
 ///
-/// let all = influence(&responses, &tolerances, Effort::default())?;
+/// let all = influence(&responses, &tolerances, &Sampling::default())?;
 /// let length = &all.responses[0].variables[0];
 /// assert_eq!(length.variable, Pendulum::l.index());
 /// assert!(length.total.is_some_and(|total| (total.value - 1.0).abs() < 0.01));
@@ -103,13 +103,13 @@ pub struct Influence {
 pub fn influence(
     responses: &Responses<'_>,
     tolerances: &Tolerances,
-    effort: Effort,
+    sampling: &Sampling<'_>,
 ) -> Result<Influence, Error> {
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
     let limits = limits(&at.design, tolerances);
     let variables = space.variables();
-    let table = table(responses, &space, effort)?;
+    let table = table(responses, &space, sampling)?;
     let mut room = responses.workspace();
     let nominal = responses.at(&mut room, &at.design)?.values;
     let mut ends = Vec::new();
@@ -150,7 +150,11 @@ struct Table {
     counts: Counts,
 }
 
-fn table(responses: &Responses<'_>, space: &Space<'_>, effort: Effort) -> Result<Table, Error> {
+fn table(
+    responses: &Responses<'_>,
+    space: &Space<'_>,
+    sampling: &Sampling<'_>,
+) -> Result<Table, Error> {
     let variables = space.variables();
     let d = space.dimensions();
     let mut table = Table {
@@ -163,20 +167,20 @@ fn table(responses: &Responses<'_>, space: &Space<'_>, effort: Effort) -> Result
         return Ok(table);
     }
     table.blocks = if independent(space) { d + 2 } else { 1 };
-    let rows = effort.samples / table.blocks as u64;
+    let rows = sampling.samples / table.blocks;
     if rows < 16 {
         return Err(Error::Setting {
             setting: "samples",
             reason: format!(
                 "{} are less than 16 rows of {} designs each",
-                effort.samples, table.blocks
+                sampling.samples, table.blocks
             ),
         });
     }
     let rows = 1 << rows.ilog2();
-    let points = Points::new(table.blocks, d, rows, effort)?;
+    let points = Points::new(table.blocks, d, rows, sampling)?;
     let at = responses.nominal();
-    let number = rows as usize * table.blocks;
+    let number = rows * table.blocks;
     let designs = Designs::new(responses, space);
     let work = |room: &mut DesignRoom, piece: usize| {
         let range = piece * TOGETHER..number.min((piece + 1) * TOGETHER);
@@ -194,7 +198,13 @@ fn table(responses: &Responses<'_>, space: &Space<'_>, effort: Effort) -> Result
     };
     let room = || designs.room();
     let size = (at.coordinates.len(), at.design.len());
-    for piece in pool::run(effort.threads, size, number.div_ceil(TOGETHER), room, work)? {
+    for piece in pool::run(
+        sampling.threads,
+        size,
+        number.div_ceil(TOGETHER),
+        room,
+        work,
+    )? {
         for (outcome, values, design) in piece? {
             table.counts.add(outcome, 1);
             table.values.push(values);
@@ -222,12 +232,17 @@ enum Points {
 }
 
 impl Points {
-    fn new(blocks: usize, dimensions: usize, rows: u64, effort: Effort) -> Result<Self, Error> {
-        let of = |dimensions| Sequence::sobol(dimensions, effort.seed, effort.stream);
+    fn new(
+        blocks: usize,
+        dimensions: usize,
+        rows: usize,
+        sampling: &Sampling<'_>,
+    ) -> Result<Self, Error> {
+        let of = |dimensions| Sequence::sobol(dimensions, sampling.seed, sampling.stream);
         Ok(if blocks == 1 {
             Self::Plain(of(dimensions)?)
         } else {
-            Self::Rows(SaltelliDesign::new(of(2 * dimensions)?, rows)?)
+            Self::Rows(SaltelliDesign::new(of(2 * dimensions)?, rows as u64)?)
         })
     }
 

@@ -9,7 +9,7 @@
 //! | [`first_order`], [`second_order`] | derivatives at the nominal design | everything, for the model; an estimate of its error |
 //! | [`worst_case`] | some corners of the box of limits | smallest and largest value |
 //!
-//! [`propagate`] chooses a method by the allowed effort; [`influence`] attributes the scatter to the variables.
+//! [`propagate`] chooses a method by the number of solutions allowed; [`influence`] attributes the scatter to the variables.
 
 mod answers;
 mod choice;
@@ -23,12 +23,11 @@ mod moments;
 mod quadrature;
 mod result;
 mod sampled;
-mod sampler;
 mod space;
 mod taylor;
 mod worst_case;
 
-pub use choice::{Effort, propagate};
+pub use choice::{SOLUTIONS, propagate};
 pub use control::{Controlled, ControlledSpread, controlled};
 /// An index of influence and its confidence interval, from [`eigentol_statistics`].
 pub use eigentol_statistics::sensitivity::Estimate;
@@ -36,6 +35,5 @@ pub use influence::{Influence, ResponseInfluence, VariableInfluence, influence};
 pub use quadrature::quadrature;
 pub use result::{Estimated, Method, Propagation, QUANTILES, Quantile, ResponseSpread};
 pub use sampled::{Samples, sampled};
-pub use sampler::{Points, Sampler};
 pub use taylor::{first_order, second_order};
 pub use worst_case::{Extreme, MissingCorner, ResponseLimits, WorstCase, worst_case};

@@ -5,10 +5,8 @@ use core::fmt;
 use crate::algebra::{Matrix, Vector};
 use crate::judge::Doubt;
 use crate::response::Response;
-use crate::tolerance::Counts;
+use crate::tolerance::{Counts, Points};
 use crate::{Description, Shared};
-
-use super::Points;
 
 /// Probabilities of the reported quantiles: the median, and those of a normal variable at 1, 2 and 3 standard
 /// deviations on either side.

@@ -5,14 +5,13 @@ use core::ops::Range;
 use super::gather::{Gathered, Task};
 use super::model::Designs;
 use super::result::{Method, Propagation};
-use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::algebra::{Matrix, Vector};
 use crate::response::{Response, Responses};
 #[cfg(feature = "serde")]
 use crate::tolerance::Outcome;
 use crate::tolerance::run::{Format, Run};
-use crate::tolerance::{Counts, Fingerprint, Tolerances};
+use crate::tolerance::{Counts, Fingerprint, Points, Sampling, Tolerances};
 use crate::{Description, Error, Shared};
 
 /// Statistics of a set of samples. Parts of a run merge to the same bits as the whole, however it was split.
@@ -45,10 +44,11 @@ pub struct Samples {
 ///
 /// ```
 #[doc = include_str!("example.txt")]
-/// use eigentol::propagation::{Points, Sampler, sampled};
+/// use eigentol::propagation::sampled;
+/// use eigentol::tolerance::{Points, Sampling};
 ///
-/// let sampler = Sampler::new(Points::Sobol).samples(1024);
-/// let samples = sampled(&responses, &tolerances, &sampler)?;
+/// let sampling = Sampling::default().points(Points::Sobol).samples(1024);
+/// let samples = sampled(&responses, &tolerances, &sampling)?;
 /// let all = samples.propagation()?;
 /// let spread = all.spreads[0].as_ref().expect("every bar swings");
 /// let sigma = spread.sigma.expect("many samples");
@@ -57,13 +57,19 @@ pub struct Samples {
 /// ```
 ///
 /// # Errors
-/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for invalid settings of the sampler,
+/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for invalid settings,
 /// [`Error::Threads`]. Samples that fail are counted, not errors.
 pub fn sampled(
     responses: &Responses<'_>,
     tolerances: &Tolerances,
-    sampler: &Sampler<'_>,
+    sampling: &Sampling<'_>,
 ) -> Result<Samples, Error> {
+    if sampling.samples == 0 {
+        return Err(Error::Setting {
+            setting: "samples",
+            reason: "there must be one".to_owned(),
+        });
+    }
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
     let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
@@ -80,14 +86,14 @@ pub fn sampled(
     };
     Ok(Samples {
         format: Format,
-        points: sampler.points,
+        points: sampling.points,
         wanted: responses.wanted().to_vec(),
         run: Run {
-            fingerprint: fingerprint(responses, tolerances, sampler, designs.side_by_side()),
-            groups: sampler.groups(),
-            of_each: sampler.of_each()?,
+            fingerprint: fingerprint(responses, tolerances, sampling, designs.side_by_side()),
+            groups: sampling.groups(),
+            of_each: sampling.of_each()?,
         },
-        gathered: task.gather(sampler)?,
+        gathered: task.gather(sampling)?,
         nominal: nominal.values,
         variables: (space.variables(), at.design.len()),
         inputs: at.inputs.clone(),
@@ -99,12 +105,12 @@ pub fn sampled(
 fn fingerprint(
     responses: &Responses<'_>,
     tolerances: &Tolerances,
-    sampler: &Sampler<'_>,
+    sampling: &Sampling<'_>,
     side_by_side: bool,
 ) -> Fingerprint {
     let (at, modes) = (responses.nominal(), responses.modes());
     let mut all = Fingerprint::new(responses.mechanism(), at, modes, tolerances)
-        .with("points", format!("{:?}", sampler.points))
+        .with("points", format!("{:?}", sampling.points))
         .with(
             "solved",
             if side_by_side {
@@ -113,10 +119,10 @@ fn fingerprint(
                 "one by one"
             },
         )
-        .with("samples", sampler.samples)
-        .with("randomisations", sampler.groups())
-        .with("seed", sampler.seed)
-        .with("stream", sampler.stream);
+        .with("samples", sampling.samples)
+        .with("randomisations", sampling.groups())
+        .with("seed", sampling.seed)
+        .with("stream", sampling.stream);
     for (k, response) in responses.wanted().iter().enumerate() {
         all = all.with(format!("response {}", k + 1), format!("{response:?}"));
     }

@@ -6,20 +6,19 @@ use super::expansion::{Expansion, Polynomials, expansions};
 use super::gather::{Gathered, Task};
 use super::moments::{self, ExactMoments};
 use super::result::{Estimated, Method, Propagation, QUANTILES, Quantile, ResponseSpread};
-use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::Error;
 use crate::algebra::{Matrix, times};
 use crate::judge::doubts_of_models;
 use crate::kernels::CurvatureKernels;
 use crate::response::Responses;
-use crate::tolerance::{Counts, Outcome, Tolerances};
+use crate::tolerance::{Counts, Outcome, Points, Sampling, Tolerances};
 
 /// What third derivatives contribute to a standard deviation, relative to `r^2`: `(2 - p) / (1 - p)` for a power `p`.
 const THIRD: f64 = 3.0;
 
 /// Number of samples of the expansions themselves, for results without a closed form.
-const SAMPLES: u64 = 1 << 15;
+const SAMPLES: usize = 1 << 15;
 
 /// First-order propagation of tolerances, for any distribution.
 ///
@@ -170,7 +169,7 @@ fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Gather
         scales: [&scales[..], &scales].concat(),
         unknowns: 0,
     };
-    task.gather(&Sampler::new(Points::Sobol).samples(SAMPLES))
+    task.gather(&Sampling::default().points(Points::Sobol).samples(SAMPLES))
 }
 
 struct Models<'a> {

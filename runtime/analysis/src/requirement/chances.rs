@@ -4,7 +4,7 @@ use eigentol_statistics::reliability::sampling::{Interval, clopper_pearson, wils
 
 use super::requirements::{Requirements, all_met};
 use crate::algebra::{Matrix, Vector};
-use crate::limits::Deviations;
+use crate::deviations::Deviations;
 use crate::response::Workspace;
 use crate::tolerance::{Counts, Draw, Sampling, Tolerances, pool};
 use crate::{Description, Error, Shared};
@@ -120,6 +120,7 @@ pub(crate) fn chances_of(
     deviations: &Deviations<'_>,
     sampling: &Sampling<'_>,
 ) -> Result<Chances, Error> {
+    sampling.check_random()?;
     let range = sampling.now()?;
     if range.is_empty() {
         return Err(Error::Setting {
@@ -148,7 +149,7 @@ pub(crate) fn chances_of(
             let design = deviations.design(draw.next_design());
             let found = requirements.responses().at(room, &design)?;
             piece.counts.add(found.outcome, 1);
-            let each = requirements.each_met(&found);
+            let each = requirements.each_met(&design, &found);
             piece.all.add(all_met(&each));
             for (tally, met) in piece.each.iter_mut().zip(each) {
                 tally.add(met);

@@ -2,9 +2,10 @@
 
 use eigentol_statistics::reliability::{self, FormSensitivity, LimitState, sorm};
 
+use super::limit_at::LimitAt;
 use crate::Error;
 use crate::algebra::Vector;
-use crate::limits::{Deviations, LimitAt};
+use crate::deviations::Deviations;
 
 /// Distance on either side of a design point at which the limit is checked, in standard deviations.
 const STEP: f64 = 1e-3;

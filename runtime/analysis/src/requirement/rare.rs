@@ -13,7 +13,7 @@ use super::requirements::{Requirements, all_met};
 use crate::algebra::Vector;
 use crate::judge::{Judgement, TRUSTED_PROBABILITY_ERROR};
 use crate::response::Workspace;
-use crate::tolerance::{Counts, Outcome, pool};
+use crate::tolerance::{Counts, Outcome, Sampling, pool};
 use crate::{Description, Error, Shared};
 
 /// Number of samples that one thread solves as a unit, and number of such units between checks of the result.
@@ -80,22 +80,31 @@ impl RareFailure {
 }
 
 impl Requirements<'_> {
-    /// Probability of failing any requirement, from samples about the design points of `about`, on `threads` threads (0
-    /// for all available); identical for any number of threads. The estimate is unbiased wherever failure lies, but its
+    /// Probability of failing any requirement, from at most the samples of `sampling` about the design points of `about`,
+    /// fewer if its coefficient of variation falls to `accuracy`; identical for any number of threads. The estimate is
+    /// unbiased wherever failure lies, but its
     /// standard error cannot see a failure region far from all design points: lines of designs do
     /// ([`RareFailure::trusted`]). If a requirement has no design point,
     /// sampling goes on until what its failures may hide ([`RareFailure::unseen`]) is within the target too, or until
     /// the largest number of samples.
     ///
     /// # Errors
-    /// [`Error::Setting`] if `about` has no design point, for zero samples or for an invalid target coefficient of
-    /// variation; [`Error::Threads`].
+    /// [`Error::Setting`] if `about` has no design point, for zero samples, for points that are not random or for an
+    /// invalid `accuracy`; [`Error::Threads`].
     pub fn rare_failure(
         &self,
         about: &Reliability,
-        settings: &SamplingSettings,
-        threads: usize,
+        sampling: &Sampling<'_>,
+        accuracy: f64,
     ) -> Result<RareFailure, Error> {
+        sampling.check_random()?;
+        let settings = &SamplingSettings {
+            seed: sampling.seed,
+            stream: sampling.stream,
+            samples: sampling.samples as u64,
+            coefficient_of_variation: accuracy,
+            ..SamplingSettings::default()
+        };
         let found = about
             .limits
             .iter()
@@ -132,7 +141,7 @@ impl Requirements<'_> {
                 Ok((sampler.sums(start..end), limits[0].counts.get()))
             };
             let chunks = number.div_ceil(CHUNK) as usize;
-            for part in pool::run(threads, size, chunks, || (), piece)? {
+            for part in pool::run(sampling.threads, size, chunks, || (), piece)? {
                 let (part, own) = part?;
                 counts.merge(&own);
                 match &mut sums {
@@ -209,7 +218,7 @@ impl LimitState for Whole<'_> {
         let found = responses.at(&mut self.room.borrow_mut(), &design);
         let found = found.map_err(|error| error.to_string())?;
         self.count(found.outcome);
-        match all_met(&self.requirements.each_met(&found)) {
+        match all_met(&self.requirements.each_met(&design, &found)) {
             Some(true) => Ok(1.0),
             Some(false) => Ok(-1.0),
             None => Err("the design has no response to tell".to_owned()),

@@ -7,11 +7,13 @@ use eigentol_statistics::reliability::system::{FirstOrderSystem, QuadratureSetti
 use eigentol_statistics::reliability::{self, FormSettings, failure_regions};
 
 use super::design_point::DesignPoint;
+use super::kinds::Requirement;
+use super::limit_at::LimitAt;
 use super::requirements::{Limit, Requirements, least};
 use crate::algebra::{Vector, dot};
-use crate::judge::{Event, Judgement, Lines, Unjudged, distances};
-use crate::limits::{Deviations, Edge, LimitAt};
-use crate::response::Realisation;
+use crate::deviations::Deviations;
+use crate::judge::{Distance, Event, Judgement, Lines, Unjudged, distances};
+use crate::response::Response;
 use crate::sensitivity::Quantity;
 use crate::{Description, Error, Shared};
 
@@ -20,8 +22,10 @@ use crate::{Description, Error, Shared};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LimitReliability {
-    /// The limit.
-    pub limit: Limit,
+    /// Position of the requirement that sets it.
+    pub requirement: usize,
+    /// The limit as a requirement of its own: of a band to stay within, each end is one.
+    pub limit: Requirement,
     /// Its design points, most probable first, at least one; or the reason why there are none, for example because no
     /// design within reach fails, or because the centre of the distribution lies inside a forbidden band that can be
     /// left on both sides.
@@ -125,7 +129,7 @@ impl Reliability {
         let own = self
             .limits
             .iter()
-            .filter(|own| own.limit.requirement == requirement);
+            .filter(|own| own.requirement == requirement);
         let parts: Vec<f64> = own.filter_map(LimitReliability::probability).collect();
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
     }
@@ -135,7 +139,7 @@ impl Reliability {
         let lacks = |own: &&LimitReliability| own.design_points.is_err() && !own.out_of_reach();
         let limits = self.limits.iter().filter(lacks);
         let mut all = self.left_out.clone();
-        all.extend(limits.map(|own| own.limit.requirement));
+        all.extend(limits.map(|own| own.requirement));
         all.sort_unstable();
         all.dedup();
         all
@@ -171,14 +175,15 @@ pub(crate) fn reliability_of(
 ) -> Result<Reliability, Error> {
     let state = requirements.responses().nominal();
     let limits = requirements.limits();
-    let found = limits.iter().map(|(place, limit)| LimitReliability {
-        limit: *limit,
-        design_points: design_points(requirements, deviations, (*place, limit), settings),
+    let found = limits.iter().map(|limit| LimitReliability {
+        requirement: limit.requirement,
+        limit: limit.alone,
+        design_points: design_points(requirements, deviations, limit, settings),
         judgement: Judgement::Open(Unjudged::NotAsked),
     });
     let found: Vec<LimitReliability> = found.collect();
     requirements.responses().go_on()?;
-    let has_limit = |k: &usize| limits.iter().any(|(_, limit)| limit.requirement == *k);
+    let has_limit = |k: &usize| limits.iter().any(|limit| limit.requirement == *k);
     Ok(Reliability {
         system: system(&found)?,
         limits: found,
@@ -226,17 +231,17 @@ pub(crate) fn out_of_reach(error: &eigentol_statistics::Error) -> bool {
 fn design_points(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
-    (place, limit): (usize, &Limit),
+    limit: &Limit,
     settings: &FormSettings,
 ) -> Result<Vec<DesignPoint>, Error> {
-    let at = |edge| LimitAt::new(requirements.responses(), place, edge, deviations);
-    let found = failure_regions(&at(limit.edge), settings)?.design_points;
+    let at = |alone| LimitAt::new(requirements.responses(), limit.place, alone, deviations);
+    let limit = at(limit.alone);
+    let found = failure_regions(&limit, settings)?.design_points;
     let inside = found.first().is_some_and(|point| point.beta < 0.0);
-    if let Edge::Outside { low, high } = limit.edge
-        && inside
-        && [Edge::AtLeast(low), Edge::AtMost(high)]
-            .into_iter()
-            .all(|edge| failure_regions(&at(edge), settings).is_ok())
+    let sides = limit.sides();
+    if inside
+        && !sides.is_empty()
+        && (sides.into_iter()).all(|side| failure_regions(&at(side), settings).is_ok())
     {
         return Err(Error::Setting {
             setting: "forbidden band",
@@ -245,7 +250,6 @@ fn design_points(
                     .to_owned(),
         });
     }
-    let limit = at(limit.edge);
     let points = found
         .into_iter()
         .map(|point| DesignPoint::new(&limit, deviations, point));
@@ -307,15 +311,15 @@ pub(super) fn judge_requirements(
     let mut judgements = Vec::with_capacity(count + 1);
     for k in 0..count {
         let limits = found.limits.iter().zip(&all);
-        let own: Vec<_> = limits
-            .filter(|(own, _)| own.limit.requirement == k)
-            .collect();
+        let own: Vec<_> = limits.filter(|(own, _)| own.requirement == k).collect();
         let described = !own.is_empty() && own.iter().all(|(own, _)| own.described());
         let judgement = match &own[..] {
             [(only, _)] => only.judgement,
             _ => {
                 let lines = about.together(own.iter().map(|(_, lines)| *lines), own.is_empty());
-                about.event(&lines, &|found| requirements.distances(found)[k])?
+                about.event(&lines, &|design, found| {
+                    requirements.distances(design, found)[k]
+                })?
             }
         };
         judgements.push((judgement, described));
@@ -352,13 +356,14 @@ impl<'a> About<'a> {
     fn judge_limits(&self, found: &mut Reliability) -> Result<Vec<Lines>, Error> {
         let mut all = Vec::new();
         let limits = self.requirements.limits();
-        for (own, (place, limit)) in found.limits.iter_mut().zip(limits) {
+        let responses = self.requirements.responses();
+        for (own, Limit { place, alone, .. }) in found.limits.iter_mut().zip(limits) {
             let mut lines = Lines {
                 worth: self.worth,
                 effort: EFFORT,
                 ..lines(self.requirements, self.deviations, place, own)
             };
-            if limit.response.of_state() {
+            if alone.response().is_some_and(Response::of_state) {
                 let known = own.design_points.as_ref().is_ok_and(|all| !all.is_empty());
                 let farthest = if known {
                     lines.farthest()
@@ -367,9 +372,9 @@ impl<'a> About<'a> {
                 };
                 lines.directions.extend(self.unstable_within(farthest));
             }
-            own.judgement = self.event(&lines, &|found| {
+            own.judgement = self.event(&lines, &|design, found| {
                 let value = found.values.get(place).copied().flatten();
-                (limit.edge).distance_of(found.outcome, limit.response, value)
+                alone.distance(responses, design, found.outcome, value)
             })?;
             let described = own.described();
             for point in own.design_points.iter_mut().flatten() {
@@ -383,16 +388,13 @@ impl<'a> About<'a> {
     /// Judges all requirements together.
     fn judge_any(&self, found: &Reliability, all: Vec<Lines>) -> Result<Judgement, Error> {
         let lines = self.together(all.iter(), !found.left_out.is_empty());
-        self.event(&lines, &|found| least(&self.requirements.distances(found)))
+        self.event(&lines, &|design, found| {
+            least(&self.requirements.distances(design, found))
+        })
     }
 
-    fn event(
-        &self,
-        lines: &Lines,
-        distance: &dyn Fn(&Realisation) -> Option<f64>,
-    ) -> Result<Judgement, Error> {
-        let of_design = |_: &[f64], found: &Realisation| distance(found);
-        Event::new(self.requirements.responses(), self.deviations, &of_design).judge(lines)
+    fn event(&self, lines: &Lines, distance: &Distance<'_>) -> Result<Judgement, Error> {
+        Event::new(self.requirements.responses(), self.deviations, distance).judge(lines)
     }
 
     /// Lines along all these directions, and towards instability if that matters too.
@@ -442,7 +444,7 @@ fn lines(
             effort: 0.0,
         };
     }
-    let limit = LimitAt::new(requirements.responses(), place, own.limit.edge, deviations);
+    let limit = LimitAt::new(requirements.responses(), place, own.limit, deviations);
     let origin = vec![0.0; deviations.dimension()];
     let (value, slopes) = limit.by_design(&origin).unwrap_or((0.0, origin.clone()));
     let slope = deviations.gradient(&origin, &slopes);

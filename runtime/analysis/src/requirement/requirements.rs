@@ -1,23 +1,21 @@
 //! All requirements of a design.
 
 use super::kinds::Requirement;
+use crate::deviations::Deviations;
 use crate::kernels::DirectionalKernels;
-use crate::limits::{Deviations, Edge};
 use crate::response::{Realisation, Response, Responses};
 use crate::tolerance::Tolerances;
 use crate::{Equilibrium, Error, Modes, Watch};
 
-/// A limit that a requirement sets on a response.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Limit {
+/// A limit that a requirement sets.
+#[derive(Clone, Copy)]
+pub(crate) struct Limit {
     /// Position of the requirement.
-    pub requirement: usize,
-    /// The response that is limited.
-    pub response: Response,
-    /// The values at which it fails.
-    pub edge: Edge,
+    pub(crate) requirement: usize,
+    /// Position of its response among those of all requirements.
+    pub(crate) place: usize,
+    /// The limit as a requirement of its own ([`Requirement::limits`]).
+    pub(crate) alone: Requirement,
 }
 
 /// Requirements on designs near a nominal one, all to be met at once.
@@ -50,7 +48,8 @@ impl<'a> Requirements<'a> {
                 reason: "at least one is needed".to_owned(),
             });
         }
-        wanted.iter().try_for_each(Requirement::check)?;
+        let check = |own: &Requirement| own.check(mechanism, nominal);
+        wanted.iter().try_for_each(check)?;
         let about: Vec<Response> = wanted.iter().filter_map(Requirement::response).collect();
         Ok(Self {
             responses: Responses::new(mechanism, nominal, modes, about)?,
@@ -80,39 +79,33 @@ impl<'a> Requirements<'a> {
         &self.deviations
     }
 
-    /// The limits of failure, in the order of the requirements, each with the position of its response.
-    pub(crate) fn limits(&self) -> Vec<(usize, Limit)> {
+    /// The limits of failure, in the order of the requirements.
+    pub(crate) fn limits(&self) -> Vec<Limit> {
         let mut place = 0;
         let mut limits = Vec::new();
         for (requirement, wanted) in self.wanted.iter().enumerate() {
-            let Some(response) = wanted.response() else {
-                continue;
-            };
-            for edge in wanted.edges() {
-                let limit = Limit {
-                    requirement,
-                    response,
-                    edge,
-                };
-                limits.push((place, limit));
-            }
-            place += 1;
+            limits.extend(wanted.limits().into_iter().map(|alone| Limit {
+                requirement,
+                place,
+                alone,
+            }));
+            place += usize::from(wanted.response().is_some());
         }
         limits
     }
 
     /// Whether each requirement is met.
-    pub(super) fn each_met(&self, found: &Realisation) -> Vec<Option<bool>> {
-        let each = self.distances(found).into_iter();
+    pub(super) fn each_met(&self, design: &[f64], found: &Realisation) -> Vec<Option<bool>> {
+        let each = self.distances(design, found).into_iter();
         each.map(|distance| Some(distance? >= 0.0)).collect()
     }
 
     /// Distance from failing each requirement, as [`Requirement::distance`].
-    pub(super) fn distances(&self, found: &Realisation) -> Vec<Option<f64>> {
+    pub(super) fn distances(&self, design: &[f64], found: &Realisation) -> Vec<Option<f64>> {
         let mut values = found.values.iter();
         let each = self.wanted.iter().map(|wanted| {
             let own = wanted.response().and_then(|_| values.next().copied());
-            wanted.distance(found.outcome, own.flatten())
+            wanted.distance(&self.responses, design, found.outcome, own.flatten())
         });
         each.collect()
     }

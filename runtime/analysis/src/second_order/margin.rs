@@ -1,4 +1,4 @@
-//! Safety margin against a forbidden band: the probability that tolerances bring a quantity into it, and its
+//! Safety margin against forbidden bands: the probability that tolerances bring a quantity into them, and its
 //! derivatives.
 
 use super::probability::{Probability, check_interval};
@@ -8,35 +8,32 @@ use crate::algebra::{Vector, all_finite, dot};
 use crate::second_order::distribution::normal_cdf::density;
 use crate::tolerance::Tolerances;
 
-/// Margin of a quantity against a forbidden band, in units of the quantity.
+/// Margin of a quantity against forbidden bands that do not overlap, in units of the quantity.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margin {
-    /// The band; an end may be infinite.
-    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-    pub band: (f64, f64),
     /// Nominal value.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub value: f64,
     /// First-order standard deviation.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
-    /// Distance of the first-order mean from the nearest end of the band, in standard deviations: negative inside,
+    /// Distance of the first-order mean from the nearest end of a band, in standard deviations: negative inside,
     /// infinite if nothing varies.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
-    /// First-order probability of the band; for normal variables, that of a normal distribution.
+    /// First-order probability of the bands; for normal variables, that of a normal distribution.
     pub first_order: f64,
-    /// Probability of the band from the second-order model ([`Quadratic::probability`]), with the error of that model
-    /// in a [`ModeMargin`](super::ModeMargin).
+    /// Probability of the bands from the second-order model ([`Quadratic::probability`]), with the error of that model
+    /// in a [`SecondOrderFailure`](crate::requirement::SecondOrderFailure).
     pub corrected: Probability,
     /// Derivatives of the first-order probability. `None` if nothing varies, if variables are not normal, or if a
     /// derivative exceeds the range of a double.
     pub derivatives: Option<MarginDerivatives>,
 }
 
-/// Derivatives of the first-order probability of a band.
+/// Derivatives of the first-order probability of bands.
 ///
 /// The derivatives with respect to mean, sigma and band ends are exact for a normal distribution, those with respect to
 /// half-widths for the first-order model. Those with respect to design variables are exact for the first-order
@@ -51,11 +48,11 @@ pub struct MarginDerivatives {
     pub by_mean: f64,
     /// With respect to the standard deviation.
     pub by_sigma: f64,
-    /// With respect to the low end; zero if it is infinite.
+    /// With respect to low ends that move together; an infinite one does not.
     pub by_low: f64,
-    /// With respect to the high end; zero if it is infinite.
+    /// With respect to high ends that move together.
     pub by_high: f64,
-    /// With respect to the nominal value of each design variable, with half-widths and band fixed:
+    /// With respect to the nominal value of each design variable, with half-widths and bands fixed:
     /// `dP/dmean S + dP/dsigma H Sigma S / sigma`.
     pub by_design: Vector,
     /// With respect to each half-width, with correlation and sigma level fixed.
@@ -72,7 +69,7 @@ impl MarginDerivatives {
     }
 }
 
-/// Margin of `quadratic` against the forbidden `band` (low and high end; either may be infinite).
+/// Margin of `quadratic` against forbidden `bands` (low and high end; either may be infinite), which must not overlap.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ
@@ -81,21 +78,27 @@ impl MarginDerivatives {
 pub fn margin(
     quadratic: &Quadratic,
     tolerances: &Tolerances,
-    band: (f64, f64),
+    bands: &[(f64, f64)],
 ) -> Result<Margin, Error> {
-    check_interval(band)?;
+    bands.iter().copied().try_for_each(check_interval)?;
     let sigma = quadratic.sigma(tolerances)?;
     let value = quadratic.value;
     let mean = value + tolerances.mean_shift(&quadratic.slopes);
+    let mut first_order = 0.0;
+    let mut corrected = Probability::default();
+    for band in bands {
+        first_order += quadratic.probability_first_order(tolerances, *band)?;
+        corrected = corrected + quadratic.probability(tolerances, *band)?;
+    }
+    let distances = bands.iter().map(|band| distance(mean, sigma, *band));
     Ok(Margin {
-        band,
         value,
         sigma,
-        distance: distance(mean, sigma, band),
-        first_order: quadratic.probability_first_order(tolerances, band)?,
-        corrected: quadratic.probability(tolerances, band)?,
+        distance: distances.fold(f64::INFINITY, f64::min),
+        first_order,
+        corrected,
         derivatives: (tolerances.is_normal())
-            .then(|| derivatives(quadratic, tolerances, (mean, sigma), band))
+            .then(|| derivatives(quadratic, tolerances, (mean, sigma), bands))
             .flatten(),
     })
 }
@@ -109,18 +112,22 @@ fn derivatives(
     quadratic: &Quadratic,
     tolerances: &Tolerances,
     (mean, sigma): (f64, f64),
-    (low, high): (f64, f64),
+    bands: &[(f64, f64)],
 ) -> Option<MarginDerivatives> {
     if sigma == 0.0 {
         return None;
     }
-    let [at_low, at_high] = [low, high].map(|end| {
+    // The density and its moment.
+    let at = |end: f64| {
         let z = (end - mean) / sigma;
         let height = density(z);
         // z density(z) vanishes at infinity.
         let moment = if height > 0.0 { z * height } else { 0.0 };
         (height / sigma, moment / sigma)
-    });
+    };
+    let sum = |(a, b): (f64, f64), (c, d): (f64, f64)| (a + c, b + d);
+    let at_low = bands.iter().map(|band| at(band.0)).fold((0.0, 0.0), sum);
+    let at_high = bands.iter().map(|band| at(band.1)).fold((0.0, 0.0), sum);
     let by_mean = at_low.0 - at_high.0;
     let by_sigma = at_low.1 - at_high.1;
     let (sigma_by_design, sigma_by_half_width) = sigma_derivatives(quadratic, tolerances, sigma);

@@ -1,5 +1,7 @@
 //! The probability that a quantity lies in an interval: to first order, and exactly for the second-order model.
 
+use core::ops::Add;
+
 use super::distribution::{Sampled, Standard, Terms};
 use super::quadratic::Quadratic;
 use crate::Error;
@@ -7,7 +9,7 @@ use crate::second_order::distribution::normal_cdf;
 use crate::tolerance::Tolerances;
 
 /// A probability and its error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Probability {
@@ -30,12 +32,21 @@ impl Probability {
     }
 
     /// The same with the error of the model.
-    pub(super) fn with_model_error(self, error: f64) -> Self {
+    pub(crate) fn with_model_error(self, error: f64) -> Self {
         Self {
             error: self.error + error,
             model_error: Some(error),
             ..self
         }
+    }
+}
+
+/// The probability of one of two events that exclude each other, from one model.
+impl Add for Probability {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::of_model(self.value + other.value, self.error + other.error)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Distributions of a frequency.
 
-use eigentol::second_order::{ModeMargin, Quadratic, SecondOrder};
+use eigentol::requirement::SecondOrderFailure;
+use eigentol::response::Response;
+use eigentol::second_order::{Quadratic, SecondOrder};
 use eigentol::tolerance::ModeTolerance;
 use eigentol::{FirstOrder, MonteCarlo, Quantity, Tolerances};
 
@@ -158,27 +160,33 @@ impl<'a> Histogram<'a> {
     }
 }
 
-/// A forbidden band and the first-order density, with the probability that tolerances bring the quantity into the band.
+/// The bands in which a requirement fails and the first-order density, with the probability that tolerances bring the
+/// response into them.
 ///
 /// # Errors
-/// [`Error::Nothing`] if no tolerance moves the quantity.
-pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
+/// [`Error::Nothing`] if no tolerance moves the response.
+pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Result<Figure, Error> {
     let (d, own) = (&*result.description, &result.margin);
-    let name = style.mode(result.mode);
+    let Some(response) = result.wanted.response() else {
+        return Err(Error::nothing("stability is not a number"));
+    };
+    let name = match response {
+        Response::Mode { mode, quantity } => format!("{quantity} of {}", style.mode(mode)),
+        response => response.name(d),
+    };
     if own.sigma <= 0.0 || !own.sigma.is_finite() {
         return Err(Error::nothing(format!("no tolerance moves {name}")));
     }
-    let angular = matches!(
-        result.quantity,
-        Quantity::Frequency | Quantity::NaturalFrequency
-    );
-    let (scale, symbol) = match (angular, result.quantity) {
-        (true, _) => style.frequency(None),
-        (false, Quantity::Growth) => (1.0, "1/s"),
-        (false, _) => (1.0, ""),
+    let unit = response.unit(d);
+    let (scale, symbol) = match response {
+        Response::Mode {
+            quantity: Quantity::Frequency | Quantity::NaturalFrequency,
+            ..
+        } => style.frequency(None),
+        _ => (unit.scale.recip(), &*unit.symbol),
     };
     let mut panel = density_panel(&name, symbol);
-    panel.x.name = format!("{} of {name}", result.quantity);
+    panel.x.name.clone_from(&name);
     let (value, sigma) = (scale * own.value, scale * own.sigma);
     let points = normal(value, sigma);
     panel.curve(Curve::new(
@@ -188,22 +196,24 @@ pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
     ));
     panel.fit();
     panel.y.range[0] = 0.0;
-    let ends = [own.band.0, own.band.1].map(|end| scale * end);
-    let near = |end: f64| end.is_finite() && (end - value).abs() < 40.0 * sigma;
-    for end in ends.into_iter().filter(|end| near(*end)) {
+    let bands = result.bands.iter();
+    let bands: Vec<[f64; 2]> = bands.map(|own| [scale * own.0, scale * own.1]).collect();
+    let near = |end: &&f64| end.is_finite() && (*end - value).abs() < 40.0 * sigma;
+    for end in bands.as_flattened().iter().filter(near) {
         panel.x.range = [
             panel.x.range[0].min(end - sigma),
             panel.x.range[1].max(end + sigma),
         ];
     }
     let [left, right] = panel.x.range;
-    let edges = ends.map(|end| end.clamp(left, right));
     let top = panel.y.range[1];
-    panel.band(
-        "forbidden band",
-        Colour::Series(5),
-        edges.map(|end| [end, 0.0, top]),
-    );
+    let bands = bands
+        .iter()
+        .map(|ends| ends.map(|end| end.clamp(left, right)));
+    let bands: Vec<[f64; 2]> = bands.collect();
+    for ends in &bands {
+        panel.band("fails", Colour::Series(5), ends.map(|end| [end, 0.0, top]));
+    }
     panel.marks.push(Mark {
         label: "nominal value".to_owned(),
         at: value,
@@ -213,15 +223,14 @@ pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
         false => format!("{} %", number(100.0 * own)),
     };
     let text = format!(
-        "probability of the band: {} at first order, {} by the second-order model",
+        "probability of failure: {} at first order, {} by the second-order model",
         chance(own.first_order),
         chance(own.corrected.value)
     );
-    let place = 0.5 * (edges[0] + edges[1]);
-    panel.label(
-        [place, 0.9 * top],
-        format!("probability {}", chance(own.corrected.value)),
-    );
+    if let Some([low, high]) = bands.first() {
+        let text = format!("probability {}", chance(own.corrected.value));
+        panel.label([0.5 * (low + high), 0.9 * top], text);
+    }
     let distance = match own.distance.is_finite() {
         true => format!("; {} sigma away", number(own.distance)),
         false => String::new(),
@@ -230,7 +239,7 @@ pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
         operating_point(d, &result.inputs, None),
         format!("{text}{distance}."),
     ];
-    let title = style.titled(format!("{}: margin of {name}", d.name));
+    let title = style.titled(format!("{}: {}", d.name, result.wanted.text(d)));
     Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
 }
 

@@ -2,9 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use eigentol::Quantity;
 use eigentol::Study;
-use eigentol::second_order::Band;
-use eigentol_figures::{Histogram, Style, margin, mode_shapes, participation, shares};
+use eigentol::requirement::Requirement;
+use eigentol::response::Response;
+use eigentol_figures::{
+    Histogram, Style, mode_shapes, participation, second_order_failure, shares,
+};
 
 use crate::machines::{Bars, Pendulum, Rotor, bars, pendulum, save};
 
@@ -126,17 +130,18 @@ fn a_histogram_has_area_one_and_so_have_its_densities() {
 }
 
 #[test]
-fn a_margin_shows_its_probability() {
+fn a_second_order_failure_shows_its_probability() {
     let study = pendulum().input(Pendulum::omega, 4.5);
-    let found = study.margin(
-        0,
-        Band::Between {
-            low: 2.9,
-            high: 3.0,
+    let found = study.second_order_failure(Requirement::Outside {
+        response: Response::Mode {
+            mode: 0,
+            quantity: Quantity::Frequency,
         },
-    );
+        low: 2.9,
+        high: 3.0,
+    });
     let found = found.unwrap();
-    let figure = margin(&found, &Style::default()).unwrap();
+    let figure = second_order_failure(&found, &Style::default()).unwrap();
     let panel = &figure.panels[0];
     let [low, _, _] = panel.bands[0].edges[0];
     assert!(low == 2.9 && panel.bands[0].edges[1][0] == 3.0);
@@ -149,12 +154,12 @@ fn a_margin_shows_its_probability() {
     let line = figure
         .caption
         .iter()
-        .find(|own| own.starts_with("probability of the band"));
+        .find(|own| own.starts_with("probability of failure"));
     let told = numbers(line.unwrap());
     let (own, chance) = (&found.margin, &found.margin.corrected);
     let expected = [100.0 * own.first_order, 100.0 * chance.value, own.distance];
     assert!(same(&told, &expected), "{told:?} {expected:?}");
-    save(&figure, "margin");
+    save(&figure, "second_order_failure");
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! The effect of tolerances: results of first order, second order, sampling and propagation.
 
 mod first_order;
-mod margin;
 mod monte_carlo;
 mod responses;
 mod second_order;
@@ -9,7 +8,6 @@ mod shared;
 mod summary;
 
 pub(crate) use first_order::{FirstOrder, OutputTolerances};
-pub(crate) use margin::ModeMargin;
 pub(crate) use monte_carlo::MonteCarlo;
 pub(crate) use responses::{Influence, Propagation, WorstCase};
 pub(crate) use second_order::SecondOrder;

@@ -73,6 +73,7 @@ reasons! {
         Cusp = "two limit points meet there",
         Transcritical = "another branch continues on both sides of it: second derivatives are available only at limit points and pitchforks",
         Family = "it belongs to a family of steady motions: only first derivatives are available",
+        Stability = "stability is not a number: sample, or require a critical value beyond the operating point",
         NotSmooth = "it has a value there, but no derivative",
     }
 }

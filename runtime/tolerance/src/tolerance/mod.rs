@@ -23,6 +23,7 @@ mod sample;
 mod sampling;
 #[cfg(feature = "serde")]
 mod serial;
+mod settings;
 #[doc(hidden)]
 pub mod side_by_side;
 mod solver;
@@ -43,12 +44,13 @@ pub use eigentol_statistics::{Distribution, Joint};
 pub use fingerprint::Fingerprint;
 pub use first_order::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, first_order};
 pub use law::distribution;
-pub use monte_carlo::{Sampling, monte_carlo, partial_monte_carlo};
+pub use monte_carlo::{monte_carlo, partial_monte_carlo};
 pub use outcome::{Counts, Outcome};
 pub use outputs::{OutputTolerances, output_tolerances};
 pub use partial::PartialMonteCarlo;
 pub use result::MonteCarlo;
 pub use sample::Sample;
+pub use settings::{Points, Sampling};
 pub use spread::Spread;
 pub use tolerances::Tolerances;
 

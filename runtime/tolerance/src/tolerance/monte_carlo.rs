@@ -1,105 +1,18 @@
 //! Monte Carlo: every sample solves its own equilibrium and eigenproblem, and every failure is counted.
 
-use core::ops::Range;
-use std::sync::atomic::AtomicBool;
-
 use eigentol_statistics::summary::Partial;
 
 use super::gather::{Part, Work};
 use super::partial::{SEED, STREAM, VARIABLES};
 use super::run::{Format, Run};
 use super::solver::{Numbered, Room, Solver};
-use super::{Fingerprint, MonteCarlo, PartialMonteCarlo, Tolerances};
+use super::{Fingerprint, MonteCarlo, PartialMonteCarlo, Sampling, Tolerances};
 use crate::kernels::BatchKernels;
 use crate::modes::{CLUSTER_GAP, clusters};
-use crate::scalar::Instructions;
-use crate::setters;
-use crate::{Equilibrium, Error, Modes, Watch};
+use crate::{Equilibrium, Error, Modes};
 
 /// Chunks of samples that justify a thread of their own: side by side, a chunk takes about ten microseconds.
 const CHUNKS_SIDE_BY_SIDE: u64 = 4;
-
-/// How to sample.
-#[derive(Clone)]
-#[non_exhaustive]
-pub struct Sampling<'a> {
-    /// Number of samples.
-    pub samples: usize,
-    /// Seed of the random numbers; the same seed gives the same samples and bit-identical results for any number of
-    /// threads.
-    pub seed: u64,
-    /// Which of the seed's independent sequences to use; points of a sweep that must not share samples take one each.
-    pub stream: u64,
-    /// Number of threads; 0 takes as many as the machine has. The limit is 256, or the number the machine has if that
-    /// is larger. Threads, once started, wait for the next run.
-    pub threads: usize,
-    /// Returns every sample, not only the statistics.
-    pub keep_samples: bool,
-    /// Vector instructions that solve several samples side by side where the mechanism allows it: at most sixteen
-    /// unknowns, no constraints on velocities. `None` solves the samples one by one.
-    ///
-    /// Samples that do not clearly continue the nominal state are solved alone. The statistics are those of the samples
-    /// solved one by one, up to rounding, and do not depend on the instructions. [`MonteCarlo::side_by_side`] reports
-    /// which way was used.
-    pub vectors: Option<Instructions>,
-    /// Which of the samples to process now; all by default. Results of other ranges are added by
-    /// [`PartialMonteCarlo::merge`].
-    pub range: Option<Range<u64>>,
-    /// Called with the number of samples done since the last call, from any thread.
-    pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
-    /// Stops the run soon after it becomes true, with the samples done so far.
-    pub stop: Option<&'a AtomicBool>,
-}
-
-impl<'a> Sampling<'a> {
-    setters!(
-        samples: usize,
-        seed: u64,
-        stream: u64,
-        threads: usize,
-        keep_samples: bool,
-        vectors: Option<Instructions>,
-        range: Option<Range<u64>>,
-        progress: Option<&'a (dyn Fn(usize) + Sync)>,
-        stop: Option<&'a AtomicBool>,
-    );
-
-    /// The progress callback and the stop flag.
-    #[doc(hidden)]
-    pub fn watch(&self) -> Watch<'a> {
-        Watch::default().progress(self.progress).stop(self.stop)
-    }
-
-    /// The samples to process now.
-    #[doc(hidden)]
-    pub fn now(&self) -> Result<Range<u64>, Error> {
-        let total = self.samples as u64;
-        let range = self.range.clone().unwrap_or(0..total);
-        if range.start > range.end || range.end > total {
-            return Err(Error::Setting {
-                setting: "range",
-                reason: format!("{range:?} is not a range of the {total} samples"),
-            });
-        }
-        Ok(range)
-    }
-}
-
-impl Default for Sampling<'_> {
-    fn default() -> Self {
-        Self {
-            samples: 3000,
-            seed: 0,
-            stream: 0,
-            threads: 0,
-            keep_samples: false,
-            vectors: Some(Instructions::best()),
-            range: None,
-            progress: None,
-            stop: None,
-        }
-    }
-}
 
 /// Samples the design variables about those of `nominal` (according to `tolerances`) and gathers statistics of the
 /// frequencies.
@@ -110,7 +23,7 @@ impl Default for Sampling<'_> {
 ///
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that is not one of the
-/// samples, [`Error::Threads`] if worker threads cannot be started. Samples that fail are counted and are not errors.
+/// samples or for points that are not random, [`Error::Threads`] if worker threads cannot be started. Samples that fail are counted and are not errors.
 pub fn monte_carlo(
     mechanism: &dyn BatchKernels,
     nominal: &Equilibrium,
@@ -174,6 +87,7 @@ fn gathered(
     fingerprint: impl FnOnce(&str) -> Fingerprint,
 ) -> Result<PartialMonteCarlo, Error> {
     tolerances.check_count(nominal.design.len())?;
+    sampling.check_random()?;
     let range = sampling.now()?;
     let solver = Solver::new(
         mechanism,

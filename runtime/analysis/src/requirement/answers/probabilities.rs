@@ -108,7 +108,7 @@ fn most_probable(said: &mut Findings, of: &Reliability) {
         };
         said.note(format!(
             "Requirement {}: {}, most probably fails {} standard deviations from the mean.",
-            own.limit.requirement + 1,
+            own.requirement + 1,
             own.limit.text(&of.description),
             rough(nearest.beta().abs())
         ));

@@ -62,7 +62,7 @@ impl Reliability {
         let found = rows
             .iter()
             .filter_map(|(limit, own)| Some((*limit, (*own)?)));
-        let entries = found.flat_map(|(limit, own)| entries(limit.limit.requirement, own, d));
+        let entries = found.flat_map(|(limit, own)| entries(limit.requirement, own, d));
         let entries: Vec<Entry<'_>> = entries.collect();
         said.data(entry_columns(&entries, Vec::new()).finish().0);
         if let Some(own) = &self.system {
@@ -80,8 +80,8 @@ fn points(limit: &LimitReliability) -> Vec<Row<'_>> {
 
 fn design_points(said: &mut Findings, rows: &[Row<'_>], d: &Description) {
     let mut table = Columns::new("design points", rows);
-    table.whole("requirement", &|(own, _)| Some(own.limit.requirement + 1));
-    table.words("response", &|(own, _)| Some(own.limit.response.name(d)));
+    table.whole("requirement", &|(own, _)| Some(own.requirement + 1));
+    table.words("response", &|(own, _)| Some(own.limit.response()?.name(d)));
     table.number("beta", "", &|(_, own)| Some(own.as_ref()?.beta()));
     table.number("probability of failure, first order", "", &|(_, own)| {
         Some(own.as_ref()?.probability())
@@ -107,7 +107,7 @@ fn system(own: &SystemFailure) -> Table {
 
 /// What the text says of a limit.
 fn limit(said: &mut Findings, own: &LimitReliability, d: &Description) {
-    let number = own.limit.requirement + 1;
+    let number = own.requirement + 1;
     let text = own.limit.text(d);
     said.note(match &own.design_points {
         Ok(_) => format!("Requirement {number}: {text}"),

@@ -2,10 +2,11 @@
 
 use core::f64::consts::TAU;
 
+use crate::along::name_of;
 use crate::judge::chance;
-use crate::requirement::{Edge, Found, Limit, Requirement};
+use crate::requirement::{Found, Requirement};
 use crate::{Description, Text, Unit};
-use eigentol_results::numbers::{given_in, with_unit};
+use eigentol_results::numbers::{given_in, number, percent, with_unit};
 
 impl Requirement {
     /// In words, with the units of a mechanism: `frequency 1 at least 4 rad/s`.
@@ -15,17 +16,34 @@ impl Requirement {
             return "stable".to_owned();
         };
         let unit = response.unit(of);
-        let limits = self.edges();
-        let limits: Vec<String> = limits.iter().map(|edge| edge.text(&unit)).collect();
+        let limits = self.limits();
+        let limits: Vec<String> = limits.iter().map(|limit| limit.words(&unit, of)).collect();
         format!("{} {}", response.name(of), limits.join(", "))
     }
-}
 
-impl Limit {
-    /// In words: `frequency 1 at least 4 rad/s`.
-    pub(super) fn text(&self, d: &Description) -> String {
-        let edge = self.edge.text(&self.response.unit(d));
-        format!("{} {edge}", self.response.name(d))
+    /// One of [`limits`](Self::limits) without its response.
+    fn words(&self, unit: &Unit, of: &Description) -> String {
+        match *self {
+            Self::Within { low, .. } if low.is_finite() => {
+                format!("at least {}", ends(&[low], unit))
+            }
+            Self::Within { high, .. } => format!("at most {}", ends(&[high], unit)),
+            Self::Outside { low, high, .. } => format!("outside {}", ends(&[low, high], unit)),
+            Self::Away {
+                input,
+                order,
+                fraction,
+                ..
+            } => {
+                let name = name_of(of, input);
+                let multiple = match order {
+                    1.0 => name.to_owned(),
+                    order => format!("{} times {name}", number(order)),
+                };
+                format!("away from {multiple} by {}", percent(fraction))
+            }
+            Self::Stable => String::new(),
+        }
     }
 }
 
@@ -40,34 +58,19 @@ impl Found {
     }
 }
 
-impl Edge {
-    fn text(&self, unit: &Unit) -> String {
-        let ends: &[f64] = match self {
-            Self::AtLeast(low) => &[*low],
-            Self::AtMost(high) => &[*high],
-            Self::Outside { low, high } => &[*low, *high],
-        };
-        let hertz = Unit {
-            symbol: Text::Static("Hz"),
-            scale: TAU,
-        };
-        // A limit given in Hz is a short number in Hz only.
-        let digits = |unit: &Unit| {
-            ends.iter()
-                .map(|end| given_in(*end, unit).len())
-                .sum::<usize>()
-        };
-        let unit = match &*unit.symbol == "rad/s" && digits(&hertz) < digits(unit) {
-            true => &hertz,
-            false => unit,
-        };
-        let one = |end: f64| with_unit(given_in(end, unit), unit);
-        match *self {
-            Self::AtLeast(low) => format!("at least {}", one(low)),
-            Self::AtMost(high) => format!("at most {}", one(high)),
-            Self::Outside { low, high } => format!("outside {} to {}", one(low), one(high)),
-        }
-    }
+/// The ends of a limit, in Hz if that is shorter: a limit given in Hz is a short number in Hz only.
+pub(super) fn ends(all: &[f64], unit: &Unit) -> String {
+    let hertz = Unit {
+        symbol: Text::Static("Hz"),
+        scale: TAU,
+    };
+    let digits = |unit: &Unit| -> usize { all.iter().map(|end| given_in(*end, unit).len()).sum() };
+    let unit = match &*unit.symbol == "rad/s" && digits(&hertz) < digits(unit) {
+        true => &hertz,
+        false => unit,
+    };
+    let all = all.iter().map(|end| with_unit(given_in(*end, unit), unit));
+    all.collect::<Vec<_>>().join(" to ")
 }
 
 /// A probability without an error.

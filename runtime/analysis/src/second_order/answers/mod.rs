@@ -1,8 +1,4 @@
-//! Second derivatives, and spreads and margins to second order, as text and tables.
+//! Second derivatives, and spreads to second order, as text and tables.
 
 mod curvature;
-mod margin;
-mod mode_margin;
 mod spreads;
-
-pub use margin::MarginTable;

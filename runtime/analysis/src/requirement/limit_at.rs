@@ -1,11 +1,11 @@
-//! Limits of failure as functions of independent standard normal numbers.
+//! Limits as functions of independent standard normal numbers.
 
 use core::cell::RefCell;
 
 use eigentol_statistics::reliability::{LimitState, LimitValue};
 
-use super::deviations::Deviations;
-use super::edge::Edge;
+use super::kinds::{Requirement, beyond};
+use crate::deviations::Deviations;
 use crate::response::{Realisation, Responses, Workspace};
 use crate::tolerance::Outcome;
 
@@ -13,24 +13,24 @@ use crate::tolerance::Outcome;
 pub(crate) struct LimitAt<'a> {
     responses: &'a Responses<'a>,
     place: usize,
-    edge: Edge,
+    limit: Requirement,
     deviations: &'a Deviations<'a>,
     room: RefCell<Workspace>,
 }
 
 impl<'a> LimitAt<'a> {
-    /// Creates a limit for the response at position `place`.
+    /// Creates one of [`Requirement::limits`], for the response at position `place`.
     pub(crate) fn new(
         responses: &'a Responses<'a>,
         place: usize,
-        edge: Edge,
+        limit: Requirement,
         deviations: &'a Deviations<'a>,
     ) -> Self {
         Self {
             room: RefCell::new(responses.workspace()),
             responses,
             place,
-            edge,
+            limit,
             deviations,
         }
     }
@@ -41,11 +41,48 @@ impl<'a> LimitAt<'a> {
         let value = self.value_of(&found)?;
         let gradient = found.gradients.get(self.place).cloned().flatten();
         let gradient = gradient.ok_or("the response has no derivatives there")?;
-        let (distance, sign) = self.edge.distance(value);
-        Ok((
-            distance,
-            gradient.iter().map(|slope| sign * slope).collect(),
-        ))
+        let design = self.deviations.design(z);
+        let (low, high) = self.band(&design);
+        let below = low - value > value - high;
+        let slope = |(k, slope): (usize, &f64)| {
+            let (by_low, by_high) = self.band_slopes(&design, k);
+            if below {
+                by_low - slope
+            } else {
+                slope - by_high
+            }
+        };
+        let slopes = gradient.iter().enumerate().map(slope).collect();
+        Ok((beyond((low, high), value), slopes))
+    }
+
+    /// What is required below and above a band with two ends.
+    pub(super) fn sides(&self) -> Vec<Requirement> {
+        let (low, high) = self.band(&self.responses.nominal().design);
+        match self.limit.response() {
+            Some(response) if low.is_finite() && high.is_finite() => vec![
+                Requirement::at_least(response, low),
+                Requirement::at_most(response, high),
+            ],
+            _ => Vec::new(),
+        }
+    }
+
+    fn band(&self, design: &[f64]) -> (f64, f64) {
+        let inputs = &self.responses.nominal().inputs;
+        self.limit.band(self.responses.mechanism(), inputs, design)
+    }
+
+    /// Derivatives of the ends of the band with respect to a design variable.
+    fn band_slopes(&self, design: &[f64], variable: usize) -> (f64, f64) {
+        let mechanism = self.responses.mechanism();
+        match mechanism.input_of_deviation(variable) {
+            Some(input) => {
+                let inputs = &self.responses.nominal().inputs;
+                self.limit.band_slopes(mechanism, inputs, design, input)
+            }
+            None => (0.0, 0.0),
+        }
     }
 
     fn at(&self, z: &[f64], slopes: bool) -> Result<Realisation, String> {
@@ -94,6 +131,6 @@ impl LimitState for LimitAt<'_> {
 
     fn value(&self, z: &[f64]) -> Result<f64, String> {
         let value = self.value_of(&self.at(z, false)?)?;
-        Ok(self.edge.distance(value).0)
+        Ok(beyond(self.band(&self.deviations.design(z)), value))
     }
 }
