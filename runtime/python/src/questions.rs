@@ -13,7 +13,7 @@ use crate::hints;
 use crate::response::wanted;
 use crate::results::{
     Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature, ModeCurvature,
-    Modes, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
+    Modes, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
 };
 use crate::spreads::{
     FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary,
