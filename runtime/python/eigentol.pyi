@@ -31,10 +31,9 @@ QuantityOrLambda: TypeAlias = Quantity | Literal["lambda"]
 Family: TypeAlias = Literal["undamped", "general"]
 Nominal: TypeAlias = dict[str, float]
 Units: TypeAlias = dict[str, str]
-Around: TypeAlias = tuple[str, float] | tuple[str, float, float]
 Along: TypeAlias = tuple[str, ArrayLike] | tuple[str, ArrayLike, str]
 FrequencyUnit: TypeAlias = Literal["Hz", "rad/s"]
-Requirement: TypeAlias = Literal["stable"] | tuple[tuple[Any, ...], float | None, float | None] | tuple[Literal["outside"], tuple[Any, ...], float, float]
+Requirement: TypeAlias = Literal["stable"] | tuple[tuple[Any, ...], float | None, float | None] | tuple[Literal["outside"], tuple[Any, ...], float, float] | tuple[Literal["away"], tuple[Any, ...], str, float] | tuple[Literal["away"], tuple[Any, ...], str, float, float]
 FoundBy: TypeAlias = Literal["design point", "lines", "samples"]
 AssemblySide: TypeAlias = Literal["positive", "negative"]
 Advised: TypeAlias = Literal["first order", "second order", "cluster", "samples"]
@@ -736,7 +735,7 @@ class Reliability(_Result):
         """The limits: the position of the requirement, and the name of the response."""
     @property
     def edges(self) -> list[tuple[str, list[float]]]:
-        """Where each response fails: "below", "above" or "between", and the ends, SI."""
+        """Where each response fails: "below", "above" or "between", and the ends, SI; "around", and order and fraction."""
     @property
     def second_order(self) -> Real:
         """Probability to second order that each limit is passed, shape (l,); NaN without a design point."""
@@ -782,6 +781,62 @@ class Reliability(_Result):
     @property
     def left_out(self) -> list[int]:
         """Positions of the requirements without a limit, such as `"stable"`."""
+
+@final
+class SecondOrderFailure(_Result):
+    """The probability of failing a requirement, by the second-order model of its response."""
+
+    @property
+    def failure(self) -> float:
+        """Probability by the exact distribution of the second-order model."""
+    @property
+    def error(self) -> float:
+        """Error of that: of the integration, and of the model where designs were solved anew."""
+    @property
+    def first_order(self) -> float:
+        """Probability to first order."""
+    @property
+    def solved_anew(self) -> float | None:
+        """Probability by designs solved anew, which judges the other two; None where that is too dear."""
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """95 % interval of that."""
+    @property
+    def verified(self) -> bool:
+        """Whether designs solved anew confirm the probability of the second-order model."""
+    @property
+    def mixed_with(self) -> list[int]:
+        """Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on."""
+    @property
+    def name(self) -> str:
+        """The requirement, in words."""
+    @property
+    def bands(self) -> list[tuple[float, float]]:
+        """The bands of values that fail, in the SI unit of the response."""
+    @property
+    def distance(self) -> float:
+        """Standard deviations between the value and the nearest end of a band."""
+    @property
+    def value(self) -> float:
+        """Nominal value of the response, SI."""
+    @property
+    def sigma(self) -> float:
+        """Its standard deviation to first order."""
+    @property
+    def model_error(self) -> float | None:
+        """Error of the model alone; None where no designs were solved anew."""
+    @property
+    def judgement(self) -> dict[str, Any]:
+        """What the designs solved anew say, by name; under "open" why there are none."""
+    @property
+    def by_input(self) -> Real:
+        """Derivatives of the probability to first order by inputs, shape (inputs,); NaN where there are none."""
+    @property
+    def by_design(self) -> Real:
+        """The same by nominal values of design variables, shape (design,)."""
+    @property
+    def by_half_width(self) -> Real:
+        """The same by half-widths of their tolerances, shape (design,)."""
 
 @final
 class Response:
@@ -1491,65 +1546,6 @@ class Influence(_Result):
         """Least and greatest values of all design variables, SI, shape (design, 2)."""
 
 @final
-class ModeMargin(_Result):
-    """Probability that a quantity of a mode lies in a forbidden band."""
-
-    @property
-    def probability(self) -> float:
-        """Probability by the exact distribution of the second-order model."""
-    @property
-    def error(self) -> float:
-        """Error of that: of the integration, and of the model where designs were solved anew."""
-    @property
-    def first_order(self) -> float:
-        """Probability to first order."""
-    @property
-    def solved_anew(self) -> float | None:
-        """Probability by designs solved anew, which judges the other two; None where that is too dear."""
-    @property
-    def interval(self) -> tuple[float, float] | None:
-        """95 % interval of that."""
-    @property
-    def verified(self) -> bool:
-        """Whether designs solved anew confirm the probability of the second-order model."""
-    @property
-    def mixed_with(self) -> list[int]:
-        """Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on."""
-    @property
-    def band(self) -> tuple[float, float]:
-        """The band, in the unit of the quantity (rad/s, 1/s)."""
-    @property
-    def distance(self) -> float:
-        """Standard deviations between the value and the nearest end of the band."""
-    @property
-    def mode(self) -> int:
-        """Position of the mode, from 0."""
-    @property
-    def quantity(self) -> str:
-        """Name of the quantity, as `margin` takes it."""
-    @property
-    def value(self) -> float:
-        """Its nominal value, rad/s or 1/s."""
-    @property
-    def sigma(self) -> float:
-        """Its standard deviation to first order."""
-    @property
-    def model_error(self) -> float | None:
-        """Error of the model alone; None where no designs were solved anew."""
-    @property
-    def judgement(self) -> dict[str, Any]:
-        """What the designs solved anew say, by name; under "open" why there are none."""
-    @property
-    def by_input(self) -> Real:
-        """Derivatives of the probability to first order by inputs, shape (inputs,); NaN where there are none."""
-    @property
-    def by_design(self) -> Real:
-        """The same by nominal values of design variables, shape (design,)."""
-    @property
-    def by_half_width(self) -> Real:
-        """The same by half-widths of their tolerances, shape (design,)."""
-
-@final
 class MonteCarlo(_Result):
     """Samples of the design, each with its own equilibrium and modes. `m` is the number of modes, `N` that of the
     samples; modes are in the order of the nominal ones.
@@ -1991,18 +1987,6 @@ class Study:
         """First and second derivatives of an output."""
     def shape_sensitivity(self, mode: int) -> ShapeSensitivity:
         """Derivatives of the shapes of one mode, counted from 0."""
-    def margin(
-        self,
-        mode: int,
-        low: float | None = None,
-        high: float | None = None,
-        *,
-        around: Around | None = None,
-        quantity: Quantity = "frequency",
-    ) -> ModeMargin:
-        """Probability that a quantity of a mode, counted from 0, lies between `low` and `high` (rad/s, 1/s; None for no
-        end), or within a fraction of a multiple of an input: `around=("speed", 0.1)` or `("speed", 0.1, order)`.
-        """
     def sweep(self, input: str, values: ArrayLike, unit: str | None = None) -> Sweep:
         """Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`."""
     def campbell(
@@ -2046,8 +2030,17 @@ class Study:
     ) -> Chances:
         """Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low
         and a high end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band:
-        `("outside", ("frequency", 0), 3.0, 4.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
+        `("outside", ("frequency", 0), 3.0, 4.0)`, or one within a fraction of a multiple (1) of an input:
+        `("away", ("frequency", 0), "speed", 0.1, 2.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
         `start` to below `stop` are taken; numbers of samples of parts add up to those of the whole. Ctrl-C ends it.
+        """
+    def rare_failure(self, requirements: Sequence[Requirement]) -> RareFailure:
+        """A small probability of failing any requirement, by importance sampling about the design points; requirements as
+        `chances` takes them.
+        """
+    def second_order_failure(self, requirement: Requirement) -> SecondOrderFailure:
+        """Probability of failing one requirement by the second-order model of its response, with what changes it;
+        requirements as `chances` takes them.
         """
     def probability(self, requirements: Sequence[Requirement]) -> Probabilities:
         """How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
@@ -2056,10 +2049,6 @@ class Study:
     def reliability(self, requirements: Sequence[Requirement]) -> Reliability:
         """Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
         takes them.
-        """
-    def rare_failure(self, requirements: Sequence[Requirement]) -> RareFailure:
-        """A small probability of failing any requirement, by importance sampling about the design points; requirements as
-        `chances` takes them.
         """
     def response(self, what: str, *of: Any, variables: Sequence[str] | None = None) -> Response:
         """A response as a function of arrays of designs.

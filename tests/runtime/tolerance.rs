@@ -303,10 +303,9 @@ fn progress_adds_up() {
     let count = |number: usize| {
         done.fetch_add(number, Ordering::Relaxed);
     };
-    pendulum(3.0, 0.03)
-        .samples(1000)
-        .monte_carlo_with_progress(&count)
-        .unwrap();
+    let study = pendulum(3.0, 0.03).samples(1000);
+    let sampling = study.sampling().progress(Some(&count));
+    study.sample_modes(&sampling).unwrap();
     assert_eq!(done.load(Ordering::Relaxed), 1000);
 }
 

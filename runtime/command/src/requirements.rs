@@ -8,7 +8,7 @@ use eigentol_interpreter::Interpreted;
 
 use crate::ends::with_unit_of;
 use crate::failure::Failure;
-use crate::point::{unknown, written};
+use crate::point::{input, unknown, written};
 use crate::study_file::{self, Require, Written};
 use crate::sweep::{multiple, range};
 
@@ -17,7 +17,8 @@ macro_rules! require_keys {
     () => {
         r#"  [[require]]                    # once for each requirement
   failure = 0.001                # greatest probability of violating it
-  at_least = "59 rad/s"          # and, or instead, at_most; or outside = ["4 Hz", "5 Hz"]
+  at_least = "59 rad/s"          # and, or instead, at_most; or outside = ["4 Hz", "5 Hz"]; or, of a multiple of an input,
+                                 # away_from = "2 speed by 10%"
                                  # of one of these:
   mode = 1                       #   a mode, counted from 1; its quantity is "frequency", "natural_frequency",
   quantity = "frequency"         #   "damping_ratio" or "growth"
@@ -33,7 +34,7 @@ pub(crate) use require_keys;
 
 /// The syntax of a requirement on the command line.
 pub(crate) const HELP: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, \
-                               `angle <= 5 deg`, `frequency 1 outside 4..5 Hz`, `critical speed=0..6000rpm >= 3000 rpm`, or `stable`";
+                               `angle <= 5 deg`, `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, or `stable`";
 
 /// Parses a requirement as written on the command line.
 pub(crate) fn parsed(text: &str) -> Result<Require, String> {
@@ -43,7 +44,7 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
         own.stable = true;
         return Ok(own);
     }
-    let limits = [">=", "<=", " outside ", " within "];
+    let limits = [">=", "<=", " outside ", " within ", " away from "];
     let found = limits.into_iter().find_map(|word| {
         let (what, limit) = text.split_once(word)?;
         Some((what, word.trim(), limit.trim()))
@@ -54,6 +55,7 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
     match word {
         ">=" => own.at_least = Some(written(limit)),
         "<=" => own.at_most = Some(written(limit)),
+        "away from" => own.away_from = Some(limit.to_owned()),
         _ => {
             let (low, high) = ends()?;
             let (low, high) = (written(&with_unit_of(low, high)), written(high));
@@ -98,6 +100,9 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
     let response = response(study, own)?;
     let unit = response.unit(study.description());
     let read = |place: &str, text: &Written| written(place, text, &unit);
+    if let Some(text) = &own.away_from {
+        return away(study, response, text);
+    }
     match (&own.at_least, &own.at_most, &own.outside) {
         (None, None, Some([low, high])) => Ok(Requirement::Outside {
             response,
@@ -120,9 +125,39 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
     }
 }
 
+/// A requirement to stay away from a multiple of an input: `2 speed by 10%`.
+fn away(
+    study: &Study<Interpreted>,
+    response: Response,
+    text: &str,
+) -> Result<Requirement, Failure> {
+    let refused = || {
+        let help = "write an input, perhaps a multiple of it, and a fraction: `away_from = \"2 speed by 10%\"`";
+        Failure::usage(format!("`{text}` is no multiple of an input"), help)
+    };
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refused());
+    let (what, fraction) = text.split_once(" by ").ok_or_else(refused)?;
+    let fraction = match fraction.trim().strip_suffix('%') {
+        Some(percent) => number(percent)? / 100.0,
+        None => number(fraction)?,
+    };
+    let (order, name) = match what.trim().split_once(' ') {
+        Some((order, name)) => (number(order)?, name.trim()),
+        None => (1.0, what.trim()),
+    };
+    let (input, _) = input(study, name)?;
+    Ok(Requirement::Away {
+        response,
+        input: input.any(),
+        order,
+        fraction,
+    })
+}
+
 /// Rejects settings that would have no effect in this requirement.
 fn all_used(own: &Require) -> Result<(), Failure> {
-    let limited = own.at_least.is_some() || own.at_most.is_some() || own.outside.is_some();
+    let ends = own.at_least.is_some() || own.at_most.is_some() || own.outside.is_some();
+    let limited = ends || own.away_from.is_some();
     let elsewhere = [&own.output, &own.critical, &own.resonance, &own.flutter];
     let of_a_mode = own.mode.is_some() && elsewhere.iter().all(|text| text.is_none());
     let refuse = |message: &str, help: &str| Err(Failure::usage(message, help));
@@ -133,6 +168,10 @@ fn all_used(own: &Require) -> Result<(), Failure> {
     if own.quantity.is_some() && !of_a_mode {
         let help = "`quantity` goes with `mode = 1` alone, at the operating point";
         return refuse("`quantity` belongs to a mode", help);
+    }
+    if ends && own.away_from.is_some() {
+        let help = "state another requirement for the other limits";
+        return refuse("`away_from` takes no further limits", help);
     }
     if own.stable && limited {
         let help = "`stable = true` takes `failure` and nothing else";

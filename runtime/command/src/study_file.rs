@@ -116,6 +116,8 @@ pub(crate) struct Require {
     pub(crate) at_least: Option<Written>,
     pub(crate) at_most: Option<Written>,
     pub(crate) outside: Option<[Written; 2]>,
+    /// A multiple of an input, and how far away from it: `2 speed by 10%`.
+    pub(crate) away_from: Option<String>,
     /// Maximum probability of violating the requirement.
     pub(crate) failure: Option<f64>,
 }

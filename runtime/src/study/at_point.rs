@@ -187,27 +187,9 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`], of the nominal design; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
-        self.sampled(&self.sampling())
-    }
-
-    /// Like [`Study::monte_carlo`], calling `progress` with the number of samples done since its last call.
-    #[doc = include_str!("example.txt")]
-    /// let dots = |_| print!(".");
-    /// println!("{}", study.samples(500).monte_carlo_with_progress(&dots)?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::monte_carlo`].
-    pub fn monte_carlo_with_progress(
-        &self,
-        progress: &(dyn Fn(usize) + Sync),
-    ) -> Result<MonteCarlo, Error> {
-        self.sampled(&self.sampling().progress(Some(progress)))
-    }
-
-    fn sampled(&self, sampling: &Sampling<'_>) -> Result<MonteCarlo, Error> {
         let own = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        tolerance::monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
+        let ((state, modes), sampling) = (own.solved(), self.sampling());
+        tolerance::monte_carlo(own.kernels(), state, modes, own.tolerances, &sampling)
     }
 
     /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same

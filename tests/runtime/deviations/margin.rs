@@ -2,7 +2,10 @@
 
 use super::{CRITICAL, OMEGA, Single, all_deviate, solved};
 use crate::common::{FREQUENCY, close};
-use eigentol::requirement::{Requirement, SecondOrderFailure, second_order_failure};
+use eigentol::requirement::{
+    FormSettings, Requirement, Requirements, SecondOrderFailure, second_order_failure,
+};
+use eigentol::tolerance::Sampling;
 use eigentol::{Error, Tolerances};
 
 const SIGMA: f64 = 0.1;
@@ -60,6 +63,32 @@ fn the_band_is_around_the_speed_that_it_is() {
     assert!(
         errors[0] > 0.5 * exact && errors[1] < 0.1 * exact,
         "{errors:?} of {exact}"
+    );
+}
+
+/// Design points and samples see the band move too. One variable matters, so that first order is exact.
+#[test]
+fn design_points_and_samples_follow_the_band() {
+    let speed = 5.6_f64;
+    let beta = ((CRITICAL * CRITICAL / 0.19).powf(0.25) - speed) / SIGMA;
+    let deviating = all_deviate(&Single);
+    let (at, modes) = solved(&deviating, &[speed], &deviating.design(&[3.0, 1.0]), &[1.0]);
+    let tolerances = Tolerances::new([0.0, 0.0, 3.0 * SIGMA], 3.0, None).unwrap();
+    let wanted = vec![away()];
+    let all = Requirements::new(&deviating, &at, &modes, &tolerances, wanted).unwrap();
+    let found = all.reliability(&FormSettings::default()).unwrap();
+    assert!(found.verified(), "{found}");
+    let point = &found.limits[0].design_points.as_ref().unwrap()[0];
+    close(point.beta(), beta, 1e-6);
+    close(point.by_nominal[2].beta, -1.0 / SIGMA, 1e-6);
+    let judged = found.judgement.judged().unwrap().probability.value;
+    close(judged, tail(beta), 1e-6);
+    let samples = 4000;
+    let chances = all.chances(&Sampling::default().samples(samples)).unwrap();
+    let error = (tail(beta) * (1.0 - tail(beta)) / samples as f64).sqrt();
+    assert!(
+        (chances.all.failure() - tail(beta)).abs() < 4.0 * error,
+        "{chances}"
     );
 }
 

@@ -82,16 +82,16 @@ fn responses_that_were_written_are_merged_to_the_same_bits() {
 #[test]
 fn another_version_of_the_format_is_refused() {
     let written = text(&bar().samples_between(0..10).unwrap());
-    assert!(written.starts_with(r#"{"format":1,"#));
+    assert!(written.starts_with(r#"{"format":2,"#));
     // The format of any other version.
-    for other in ["2", "0"] {
+    for other in ["1", "3"] {
         let later = format!(r#"{{"format":{other},"shards":[]}}"#);
         let reason = refused(&later);
         assert!(
-            reason.contains(&format!("version {other} of the format, and version 1")),
+            reason.contains(&format!("version {other} of the format, and version 2")),
             "{reason}"
         );
-        let changed = written.replacen("\"format\":1", &format!("\"format\":{other}"), 1);
+        let changed = written.replacen("\"format\":2", &format!("\"format\":{other}"), 1);
         assert!(refused(&changed).contains("one version of eigentol for all parts"));
     }
 }
@@ -114,12 +114,13 @@ fn what_was_cut_off_or_changed_is_refused() {
         assert!(!reason.is_empty());
     };
     changed("/run/of_each", 699.into());
-    changed("/run/groups", 2.into());
-    changed("/run/groups", u64::MAX.into());
-    changed("/part/outcomes/0", 599.into());
-    changed("/part/outcomes", json!([]));
+    changed("/run/parts", json!([]));
+    let part = &whole["run"]["parts"][0];
+    changed("/run/parts", json!([part, part]));
+    changed("/run/parts/0/outcomes/0", 599.into());
+    changed("/run/parts/0/outcomes", json!([]));
     changed("/family", "General".into());
-    changed("/inputs", json!([]));
+    changed("/run/inputs", json!([]));
     let kept = bar().keep_samples(true).samples_between(0..3).unwrap();
     let mut kept: Value = serde_json::from_str(&text(&kept)).expect("JSON");
     kept["kept"].as_array_mut().expect("samples").pop();

@@ -102,11 +102,6 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
             answered(s.second_order_failure(Requirement::at_most(growth(s), 1.0)));
         }),
         ("monte_carlo", |s, _| answered(s.monte_carlo())),
-        ("monte_carlo_with_progress", |s, _| {
-            answered(s.monte_carlo_with_progress(&|done| {
-                black_box(done);
-            }));
-        }),
         ("samples_between", |s, _| answered(s.samples_between(0..1))),
         ("sample_modes", |s, _| {
             answered(s.sample_modes(&s.sampling()))

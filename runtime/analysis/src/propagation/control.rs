@@ -108,7 +108,8 @@ pub fn controlled(
         space: &space,
         unknowns: at.coordinates.len(),
     };
-    let samples = task.gather(sampling)?;
+    let parts = task.gather(sampling)?;
+    let samples = Gathered(&parts);
     let spreads = controls.iter().enumerate();
     let spreads = spreads.map(|(i, own)| match own {
         None => Ok(None),
@@ -117,7 +118,7 @@ pub fn controlled(
     Ok(Controlled {
         wanted: responses.wanted().to_vec(),
         spreads: spreads.collect::<Result<_, Error>>()?,
-        counts: samples.counts(),
+        counts: Counts::of_parts(&parts),
         inputs: at.inputs.clone(),
         description: at.description.clone(),
     })
@@ -180,9 +181,12 @@ impl<'a> Control<'a> {
     }
 
     /// The spread from the samples, whose quantities for this response start at `place`.
-    fn spread(&self, samples: &Gathered, place: usize) -> Result<Option<ControlledSpread>, Error> {
-        let total = samples.counts().total() as u64;
-        if samples.count(place)? < total {
+    fn spread(
+        &self,
+        samples: &Gathered<'_>,
+        place: usize,
+    ) -> Result<Option<ControlledSpread>, Error> {
+        if samples.count(place)? < samples.total() {
             return Ok(None);
         }
         let first = corrected(samples, place, self.mean)?;
@@ -219,7 +223,7 @@ struct Corrected {
 
 /// The mean of the quantity at `place`, with the next quantity, whose mean `known` is exact, as control variate:
 /// `f - beta (g - known)`, `beta = Cov(f, g) / Var(g)`.
-fn corrected(samples: &Gathered, place: usize, known: f64) -> Result<Option<Corrected>, Error> {
+fn corrected(samples: &Gathered<'_>, place: usize, known: f64) -> Result<Option<Corrected>, Error> {
     let covariance = |i, j| samples.covariance(i, j);
     let all = (
         covariance(place, place)?,

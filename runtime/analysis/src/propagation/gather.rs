@@ -14,14 +14,10 @@ use super::space::Space;
 use crate::Error;
 use crate::algebra::Vector;
 use crate::tolerance::gather::{Part, Work};
-use crate::tolerance::{Counts, Outcome, Sampling};
+use crate::tolerance::{Outcome, Sampling};
 
 /// Statistics of some samples, per randomisation: responses first, then the varying design variables.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Gathered {
-    pub(super) parts: Vec<Partial>,
-}
+pub(super) struct Gathered<'a>(pub(super) &'a [Partial]);
 
 /// Reference value and scale of a response for its quantile sketch, SI; any positive scale works.
 pub(super) type Scale = (f64, f64);
@@ -50,7 +46,7 @@ impl<M: Model> Task<'_, M> {
     }
 
     /// Solves the requested range of samples, or as many of them as are done when the run is stopped.
-    pub(super) fn gather(&self, sampling: &Sampling<'_>) -> Result<Gathered, Error> {
+    pub(super) fn gather(&self, sampling: &Sampling<'_>) -> Result<Vec<Partial>, Error> {
         let plan = self.plan()?;
         let (of_each, now) = (sampling.of_each()?, sampling.now()?);
         let sequences = (0..sampling.groups())
@@ -76,7 +72,7 @@ impl<M: Model> Task<'_, M> {
             self.solve(room, sequence, part)
         };
         let (parts, _) = work.gather(&plan, &groups, room, solve)?;
-        Ok(Gathered { parts })
+        Ok(parts)
     }
 
     /// Solves a chunk of samples.
@@ -132,13 +128,11 @@ fn take(
     Ok(())
 }
 
-impl Gathered {
-    pub(super) fn counts(&self) -> Counts {
-        let mut counts = Counts::default();
-        for part in &self.parts {
-            counts.merge(&Counts::of_all(part.outcomes()));
-        }
-        counts
+impl Gathered<'_> {
+    /// Number of samples.
+    pub(super) fn total(&self) -> u64 {
+        let of = |part: &Partial| part.outcomes().iter().sum::<u64>();
+        self.0.iter().map(of).sum()
     }
 
     /// Covariance of two quantities, the first of them a response; `None` where no two samples have both.
@@ -149,7 +143,7 @@ impl Gathered {
             return Ok(all.and_then(variance));
         }
         let mut all = Comoments::default();
-        for part in &self.parts {
+        for part in self.0 {
             all.merge(&part.comoments(first, second)?);
         }
         let covariance = |all: Covariance| Some(all.covariance? * self.divisor(all.count));
@@ -161,7 +155,7 @@ impl Gathered {
     /// spread that it takes none.
     fn divisor(&self, count: u64) -> f64 {
         let n = count as f64;
-        if self.parts.len() == 1 {
+        if self.0.len() == 1 {
             1.0
         } else {
             (n - 1.0) / n
@@ -180,7 +174,7 @@ impl Gathered {
 
     fn moments(&self, quantity: usize) -> Result<Moments, Error> {
         let mut all = Moments::default();
-        for part in &self.parts {
+        for part in self.0 {
             all.merge(&part.moments(quantity)?);
         }
         Ok(all)
@@ -189,7 +183,7 @@ impl Gathered {
     /// Statistics over the samples of all randomisations.
     fn statistics(&self, quantity: usize) -> Result<Option<Statistics>, Error> {
         let mut sketch: Option<Sketch> = None;
-        for part in &self.parts {
+        for part in self.0 {
             let own = part.statistics(quantity)?;
             let Some(own) = own.as_ref().and_then(Statistics::sketch) else {
                 continue;
@@ -212,7 +206,7 @@ impl Gathered {
             return Ok(None);
         };
         let groups = self.groups(response)?;
-        let one = self.parts.len() == 1;
+        let one = self.0.len() == 1;
         let errors = |alone: Option<f64>, of: &dyn Fn(&Statistics) -> Option<f64>| {
             if one { alone } else { scatter(&groups, of) }
         };
@@ -230,7 +224,7 @@ impl Gathered {
                 error,
             });
         }
-        let total = self.counts().total() as f64;
+        let total = self.total() as f64;
         let (n, divisor) = (all.count as f64, self.divisor(all.count));
         // The estimate for `n` random values contains the factor `sqrt(n (n - 1)) / (n - 2)` against bias; remove it.
         let unskewed = if one {
@@ -262,13 +256,13 @@ impl Gathered {
     fn groups(&self, response: usize) -> Result<Vec<Statistics>, Error> {
         let number = |part: &Partial| part.outcomes().iter().sum::<u64>();
         let equal = self
-            .parts
+            .0
             .windows(2)
             .all(|pair| number(&pair[0]) == number(&pair[1]));
         if !equal {
             return Ok(Vec::new());
         }
-        let all = self.parts.iter().map(|part| part.statistics(response));
+        let all = self.0.iter().map(|part| part.statistics(response));
         Ok(all.collect::<Result<Option<_>, _>>()?.unwrap_or_default())
     }
 }

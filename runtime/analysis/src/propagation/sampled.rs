@@ -6,13 +6,13 @@ use super::gather::{Gathered, Task};
 use super::model::Designs;
 use super::result::{Method, Propagation};
 use super::space::Space;
-use crate::algebra::{Matrix, Vector};
+use crate::Error;
+use crate::algebra::Matrix;
 use crate::response::{Response, Responses};
 #[cfg(feature = "serde")]
 use crate::tolerance::Outcome;
 use crate::tolerance::run::{Format, Run};
 use crate::tolerance::{Counts, Fingerprint, Points, Sampling, Tolerances};
-use crate::{Description, Error, Shared};
 
 /// Statistics of a set of samples. Parts of a run merge to the same bits as the whole, however it was split.
 ///
@@ -31,12 +31,9 @@ pub struct Samples {
     /// The responses requested.
     pub wanted: Vec<Response>,
     run: Run,
-    gathered: Gathered,
     nominal: Vec<Option<f64>>,
     /// The varying design variables, and the number of all design variables.
     variables: (Vec<usize>, usize),
-    inputs: Vector,
-    description: Shared<Description>,
 }
 
 /// Samples designs according to the tolerances and solves each anew, starting from the nominal equilibrium, on the
@@ -90,14 +87,13 @@ pub fn sampled(
         wanted: responses.wanted().to_vec(),
         run: Run {
             fingerprint: fingerprint(responses, tolerances, sampling, designs.side_by_side()),
-            groups: sampling.groups(),
             of_each: sampling.of_each()?,
+            parts: task.gather(sampling)?,
+            inputs: at.inputs.clone(),
+            description: at.description.clone(),
         },
-        gathered: task.gather(sampling)?,
         nominal: nominal.values,
         variables: (space.variables(), at.design.len()),
-        inputs: at.inputs.clone(),
-        description: at.description.clone(),
     })
 }
 
@@ -136,20 +132,19 @@ impl Samples {
     /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that have already been
     /// added; in either case nothing is added.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
-        let added = (&other.run, other.gathered.parts);
-        self.run.merge(&mut self.gathered.parts, added)
+        self.run.merge(other.run)
     }
 
     /// The ranges of samples that are done, sorted and disjoint.
     #[must_use]
     pub fn ranges(&self) -> Vec<Range<u64>> {
-        self.run.ranges(&self.gathered.parts)
+        self.run.ranges()
     }
 
     /// The ranges of samples that are missing, sorted and disjoint.
     #[must_use]
     pub fn missing(&self) -> Vec<Range<u64>> {
-        self.run.missing(&self.gathered.parts)
+        self.run.missing()
     }
 
     /// Fails if the run is incomplete.
@@ -157,7 +152,7 @@ impl Samples {
     /// # Errors
     /// [`Error::SamplesMissing`], which lists the gaps.
     pub fn check_complete(&self) -> Result<(), Error> {
-        self.run.check_complete(&self.gathered.parts)
+        self.run.check_complete()
     }
 
     /// Identifies the run: equal for parts that can be merged.
@@ -169,7 +164,7 @@ impl Samples {
     /// Outcomes of the samples.
     #[must_use]
     pub fn counts(&self) -> Counts {
-        self.gathered.counts()
+        self.run.counts()
     }
 
     /// The spread of the responses over the samples done so far.
@@ -177,17 +172,17 @@ impl Samples {
     /// # Errors
     /// Those of the sample statistics; none is known to occur.
     pub fn propagation(&self) -> Result<Propagation, Error> {
-        let responses = self.wanted.len();
+        let (responses, gathered) = (self.wanted.len(), Gathered(&self.run.parts));
         let mut spreads = Vec::new();
         let mut covariance = Matrix::zeros(responses, responses);
         let mut with_design = Matrix::from_fn(responses, self.variables.1, |_, _| Some(0.0));
         for i in 0..responses {
-            spreads.push(self.gathered.spread(i, self.nominal[i])?);
+            spreads.push(gathered.spread(i, self.nominal[i])?);
             for j in 0..responses {
-                covariance[i][j] = self.gathered.covariance(i, j)?;
+                covariance[i][j] = gathered.covariance(i, j)?;
             }
             for (k, &variable) in self.variables.0.iter().enumerate() {
-                with_design[i][variable] = self.gathered.covariance(i, responses + k)?;
+                with_design[i][variable] = gathered.covariance(i, responses + k)?;
             }
         }
         let counts = self.counts();
@@ -201,8 +196,8 @@ impl Samples {
             with_design,
             evaluations: counts.total() as u64,
             counts,
-            inputs: self.inputs.clone(),
-            description: self.description.clone(),
+            inputs: self.run.inputs.clone(),
+            description: self.run.description.clone(),
         })
     }
 }
@@ -216,11 +211,8 @@ struct Unchecked {
     points: Points,
     wanted: Vec<Response>,
     run: Run,
-    gathered: Gathered,
     nominal: Vec<Option<f64>>,
     variables: (Vec<usize>, usize),
-    inputs: Vector,
-    description: Shared<Description>,
 }
 
 #[cfg(feature = "serde")]
@@ -231,11 +223,9 @@ impl TryFrom<Unchecked> for Samples {
         let (varied, variables) = &read.variables;
         let quantities = read.wanted.len() + varied.len();
         let outcomes = Outcome::ALL.len();
-        read.run
-            .check_parts(&read.gathered.parts, quantities, outcomes)?;
+        read.run.check(quantities, outcomes)?;
         let fits = read.nominal.len() == read.wanted.len()
-            && varied.iter().all(|variable| variable < variables)
-            && read.inputs.len() == read.description.inputs.len();
+            && varied.iter().all(|variable| variable < variables);
         if !fits {
             return Err("the parts of these samples do not fit together");
         }
@@ -244,11 +234,8 @@ impl TryFrom<Unchecked> for Samples {
             points: read.points,
             wanted: read.wanted,
             run: read.run,
-            gathered: read.gathered,
             nominal: read.nominal,
             variables: read.variables,
-            inputs: read.inputs,
-            description: read.description,
         })
     }
 }

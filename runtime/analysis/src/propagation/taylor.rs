@@ -1,6 +1,7 @@
 //! First- and second-order propagation, for any distribution of the variables.
 
 use eigentol_statistics::normal;
+use eigentol_statistics::summary::Partial;
 
 use super::expansion::{Expansion, Polynomials, expansions};
 use super::gather::{Gathered, Task};
@@ -88,8 +89,9 @@ fn taylor(
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
     let expansions = expansions(mechanism, responses)?;
+    let parts = samples(&space, &expansions)?;
     let all = Models {
-        samples: samples(&space, &expansions)?,
+        samples: Gathered(&parts),
         expansions: &expansions,
         tolerances,
     };
@@ -148,7 +150,7 @@ fn taylor(
 }
 
 /// Samples the expansions: to first order, then to second.
-fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Gathered, Error> {
+fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Vec<Partial>, Error> {
     let scale = |own: &Option<Expansion>| {
         let own = own.as_ref();
         let sigma = own.map_or(0.0, |own| space.tolerances.sigma(&own.slopes));
@@ -173,7 +175,7 @@ fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Gather
 }
 
 struct Models<'a> {
-    samples: Gathered,
+    samples: Gathered<'a>,
     expansions: &'a [Option<Expansion>],
     tolerances: &'a Tolerances,
 }

@@ -16,6 +16,7 @@ const KEYS: &str = concat!(
     "On the command line, each requirement is one text:\n",
     "  --require 'frequency 1 >= 20 Hz'      also <=; natural_frequency, damping_ratio, growth; modes count from 1\n",
     "  --require 'frequency 1 outside 4..5 Hz'   or within 4..5 Hz\n",
+    "  --require 'frequency 1 away from 2 speed by 10%'   a multiple (1) of an input\n",
     "  --require 'angle <= 5 deg'            an output of the declaration\n",
     "  --require 'critical speed=0..6000rpm >= 3000 rpm'   also 'resonance 1 ..', 'flutter 1 ..'\n",
     "  --require stable\n\n",

@@ -119,11 +119,11 @@ fn damaged_files_are_refused() {
             &["cannot be merged: the file is cut off"],
         );
     }
-    let newer = whole.replace("{\"format\":1,", "{\"format\":99,");
+    let newer = whole.replace("{\"format\":2,", "{\"format\":99,");
     assert_ne!(newer, whole);
     refused(
         &["merge", &files[0], &with(&newer)],
-        &["version 99", "version 1 can be read"],
+        &["version 99", "version 2 can be read"],
     );
     refused(
         &["merge", &files[0], &with("{}")],

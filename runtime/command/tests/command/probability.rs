@@ -78,6 +78,10 @@ fn requirements_in_words() {
             length_between(length_at(4.08), length_at(4.1)),
         ),
         (
+            "frequency 1 away from 0.82 omega by 0.5%",
+            length_between(length_at(0.8159 * SPEED), length_at(0.8241 * SPEED)),
+        ),
+        (
             "frequency 1 within 3.95 rad/s..4.1 rad/s",
             1.0 - length_between(length_at(3.95), length_at(4.1)),
         ),

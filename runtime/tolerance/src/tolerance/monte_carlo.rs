@@ -1,7 +1,5 @@
 //! Monte Carlo: every sample solves its own equilibrium and eigenproblem, and every failure is counted.
 
-use eigentol_statistics::summary::Partial;
-
 use super::gather::{Part, Work};
 use super::partial::{SEED, STREAM, VARIABLES};
 use super::run::{Format, Run};
@@ -107,7 +105,7 @@ fn gathered(
     };
     let plan = solver.plan()?;
     let solve = |room: &mut Room, part: &mut Part<'_, Numbered>| solver.solve(room, part);
-    let (mut parts, kept) = work.gather(&plan, &[range], || solver.room(), solve)?;
+    let (parts, kept) = work.gather(&plan, &[range], || solver.room(), solve)?;
     let method = if side_by_side {
         "Monte Carlo side by side"
     } else {
@@ -117,15 +115,14 @@ fn gathered(
         format: Format,
         run: Run {
             fingerprint: fingerprint(method),
-            groups: 1,
             of_each: sampling.samples as u64,
+            parts,
+            inputs: nominal.inputs.clone(),
+            description: nominal.description.clone(),
         },
-        part: parts.pop().unwrap_or_else(|| Partial::new(plan)),
         kept: sampling.keep_samples.then_some(kept),
         side_by_side,
         clustered: clusters(modes, CLUSTER_GAP).contains(&true),
         family: modes.family,
-        inputs: nominal.inputs.clone(),
-        description: nominal.description.clone(),
     })
 }

@@ -1,5 +1,7 @@
 //! Outcomes of samples.
 
+use eigentol_statistics::summary::Partial;
+
 use crate::Stability;
 use crate::equilibrium::Failure;
 
@@ -118,11 +120,20 @@ impl Counts {
     }
 
     /// Counts from numbers in the order of [`Outcome::ALL`].
-    #[doc(hidden)]
-    pub fn of_all(numbers: &[u64]) -> Self {
+    fn of_all(numbers: &[u64]) -> Self {
         let mut counts = Self::default();
         for (outcome, number) in Outcome::ALL.into_iter().zip(numbers) {
             counts.add(outcome, *number as usize);
+        }
+        counts
+    }
+
+    /// The sum over parts that count outcomes in this order.
+    #[doc(hidden)]
+    pub fn of_parts(parts: &[Partial]) -> Self {
+        let mut counts = Self::default();
+        for part in parts {
+            counts.merge(&Self::of_all(part.outcomes()));
         }
         counts
     }

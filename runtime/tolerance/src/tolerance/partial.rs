@@ -7,10 +7,9 @@ use eigentol_statistics::summary::Partial;
 use super::result::MonteCarlo;
 use super::run::{Format, Run};
 use super::solver::{LEFT_NOMINAL_BRANCH, Numbered};
-use super::{Counts, Fingerprint, Sample, Statistics};
-use crate::algebra::Vector;
+use super::{Fingerprint, Sample, Statistics};
+use crate::Error;
 use crate::modes::Family;
-use crate::{Description, Error, Shared};
 
 /// The fingerprint facts that identify the random numbers.
 pub(super) const SEED: &str = "seed";
@@ -32,13 +31,10 @@ pub(super) const VARIABLES: &str = "variables with a tolerance";
 pub struct PartialMonteCarlo {
     pub(super) format: Format,
     pub(super) run: Run,
-    pub(super) part: Partial,
     pub(super) kept: Option<Vec<Numbered>>,
     pub(super) side_by_side: bool,
     pub(super) clustered: bool,
     pub(super) family: Family,
-    pub(super) inputs: Vector,
-    pub(super) description: Shared<Description>,
 }
 
 impl PartialMonteCarlo {
@@ -48,8 +44,7 @@ impl PartialMonteCarlo {
     /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for samples that were already added;
     /// in either case nothing is added.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
-        let own = core::slice::from_mut(&mut self.part);
-        self.run.merge(own, (&other.run, vec![other.part]))?;
+        self.run.merge(other.run)?;
         self.kept = match (self.kept.take(), other.kept) {
             (Some(mut kept), Some(other)) => {
                 kept.extend(other);
@@ -64,13 +59,13 @@ impl PartialMonteCarlo {
     /// The ranges of samples that are done, sorted and disjoint.
     #[must_use]
     pub fn ranges(&self) -> Vec<Range<u64>> {
-        self.run.ranges(self.parts())
+        self.run.ranges()
     }
 
     /// The ranges of samples that are missing, sorted and disjoint.
     #[must_use]
     pub fn missing(&self) -> Vec<Range<u64>> {
-        self.run.missing(self.parts())
+        self.run.missing()
     }
 
     /// Refuses an incomplete run.
@@ -78,7 +73,7 @@ impl PartialMonteCarlo {
     /// # Errors
     /// [`Error::SamplesMissing`], which lists the gaps.
     pub fn check_complete(&self) -> Result<(), Error> {
-        self.run.check_complete(self.parts())
+        self.run.check_complete()
     }
 
     /// Identifies the run: equal for parts that can be merged.
@@ -100,24 +95,22 @@ impl PartialMonteCarlo {
         self.kept.take().unwrap_or_default()
     }
 
-    fn parts(&self) -> &[Partial] {
-        core::slice::from_ref(&self.part)
-    }
-
     /// Seed and stream; `None` if the fingerprint of a file lacks them.
     fn sequence(&self) -> Option<(u64, u64)> {
         let number = |name| self.run.fingerprint.number(name);
         Some((number(SEED)?, number(STREAM)?))
     }
 
-    pub(super) fn into_result(self) -> MonteCarlo {
+    pub(super) fn into_result(mut self) -> MonteCarlo {
         let (seed, stream) = self.sequence().unwrap_or_default();
         let varies = self.run.fingerprint.number(VARIABLES) != Some(0);
         let ranges = self.ranges();
-        let outcomes = self.part.outcomes();
-        let counts = Counts::of_all(outcomes);
+        let planned = self.run.total() as usize;
+        let counts = self.run.counts();
+        let part = self.run.parts.pop();
+        let outcomes = part.as_ref().map_or(&[][..], Partial::outcomes);
         let left_nominal_branch = outcomes.get(LEFT_NOMINAL_BRANCH).copied();
-        let mut modes = self.part.into_statistics();
+        let mut modes = part.map_or_else(Vec::new, Partial::into_statistics);
         let damping_ratios = match self.family {
             Family::General => modes.split_off(modes.len() / 2),
             Family::Undamped => (modes.iter().flatten())
@@ -126,7 +119,7 @@ impl PartialMonteCarlo {
         };
         MonteCarlo {
             samples: counts.total(),
-            planned: self.run.total() as usize,
+            planned,
             seed,
             stream,
             ranges,
@@ -139,8 +132,8 @@ impl PartialMonteCarlo {
             clustered: self.clustered,
             all: (self.kept).map(|kept| kept.into_iter().map(|(_, sample)| sample).collect()),
             family: self.family,
-            inputs: self.inputs,
-            description: self.description,
+            inputs: self.run.inputs,
+            description: self.run.description,
         }
     }
 }
@@ -152,13 +145,10 @@ impl PartialMonteCarlo {
 struct Unchecked {
     format: Format,
     run: Run,
-    part: Partial,
     kept: Option<Vec<Numbered>>,
     side_by_side: bool,
     clustered: bool,
     family: Family,
-    inputs: Vector,
-    description: Shared<Description>,
 }
 
 #[cfg(feature = "serde")]
@@ -169,17 +159,13 @@ impl TryFrom<Unchecked> for PartialMonteCarlo {
         let all = Self {
             format: read.format,
             run: read.run,
-            part: read.part,
             kept: read.kept,
             side_by_side: read.side_by_side,
             clustered: read.clustered,
             family: read.family,
-            inputs: read.inputs,
-            description: read.description,
         };
-        let quantities = all.part.plan().quantities();
-        all.run
-            .check_parts(all.parts(), quantities, LEFT_NOMINAL_BRANCH)?;
+        let quantities = (all.run.parts.first()).map_or(0, |part| part.plan().quantities());
+        all.run.check(quantities, LEFT_NOMINAL_BRANCH)?;
         let of_each_mode = match all.family {
             Family::Undamped => 1,
             Family::General => 2,
@@ -187,9 +173,9 @@ impl TryFrom<Unchecked> for PartialMonteCarlo {
         let numbers = all.kept.iter().flatten().map(|(number, _)| *number);
         let covered = all.ranges().into_iter().flatten();
         let kept = all.kept.is_none() || numbers.eq(covered);
-        let inputs = all.inputs.len() == all.description.inputs.len();
+        let one = all.run.parts.len() == 1;
         let drawn = all.sequence().is_some();
-        if quantities.is_multiple_of(of_each_mode) && kept && inputs && drawn {
+        if quantities.is_multiple_of(of_each_mode) && kept && one && drawn {
             Ok(all)
         } else {
             Err("the parts of these samples do not fit together")

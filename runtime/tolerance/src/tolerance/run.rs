@@ -4,8 +4,9 @@ use core::ops::Range;
 
 use eigentol_statistics::summary::Partial;
 
-use super::Fingerprint;
-use crate::Error;
+use super::{Counts, Fingerprint};
+use crate::algebra::Vector;
+use crate::{Description, Error, Shared};
 
 /// Version of the layout of stored partial results; other versions are refused on reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +19,7 @@ pub struct Format;
 
 #[cfg(feature = "serde")]
 impl Format {
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 }
 
 #[cfg(feature = "serde")]
@@ -44,31 +45,43 @@ impl TryFrom<u32> for Format {
     }
 }
 
-/// Identity of a run, and the numbering of its samples: one randomisation after the other.
+/// Some samples of a run: its identity, and the statistics of the samples that are done, one randomisation after the other.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Run {
     #[doc(hidden)]
     pub fingerprint: Fingerprint,
-    /// Number of randomisations.
-    #[doc(hidden)]
-    pub groups: u64,
-    /// Number of samples in each.
+    /// Number of samples in each randomisation.
     #[doc(hidden)]
     pub of_each: u64,
+    /// The statistics of each randomisation.
+    #[doc(hidden)]
+    pub parts: Vec<Partial>,
+    /// The inputs of the operating point, SI.
+    #[doc(hidden)]
+    pub inputs: Vector,
+    /// The mechanism it belongs to.
+    #[doc(hidden)]
+    pub description: Shared<Description>,
 }
 
 impl Run {
     /// Number of samples of the complete run.
     pub(crate) fn total(&self) -> u64 {
-        self.of_each * self.groups
+        self.of_each * self.parts.len() as u64
     }
 
-    /// The ranges of samples that are done, sorted and disjoint; `parts` holds one part per randomisation.
+    /// Outcomes of the samples that are done.
     #[doc(hidden)]
-    pub fn ranges(&self, parts: &[Partial]) -> Vec<Range<u64>> {
+    pub fn counts(&self) -> Counts {
+        Counts::of_parts(&self.parts)
+    }
+
+    /// The ranges of samples that are done, sorted and disjoint.
+    #[doc(hidden)]
+    pub fn ranges(&self) -> Vec<Range<u64>> {
         let mut all: Vec<Range<u64>> = Vec::new();
-        for (group, part) in parts.iter().enumerate() {
+        for (group, part) in self.parts.iter().enumerate() {
             let first = group as u64 * self.of_each;
             for own in part.ranges() {
                 let own = own.start + first..own.end + first;
@@ -83,10 +96,10 @@ impl Run {
 
     /// The ranges of samples that are missing, sorted and disjoint.
     #[doc(hidden)]
-    pub fn missing(&self, parts: &[Partial]) -> Vec<Range<u64>> {
+    pub fn missing(&self) -> Vec<Range<u64>> {
         let mut missing = Vec::new();
         let mut next = 0;
-        for done in self.ranges(parts) {
+        for done in self.ranges() {
             missing.push(next..done.start);
             next = done.end;
         }
@@ -97,8 +110,8 @@ impl Run {
 
     /// Refuses a run with missing samples.
     #[doc(hidden)]
-    pub fn check_complete(&self, parts: &[Partial]) -> Result<(), Error> {
-        let missing = self.missing(parts);
+    pub fn check_complete(&self) -> Result<(), Error> {
+        let missing = self.missing();
         if missing.is_empty() {
             return Ok(());
         }
@@ -107,36 +120,28 @@ impl Run {
 
     /// Adds other samples of the same run; adds nothing if some of them are already there.
     #[doc(hidden)]
-    pub fn merge(
-        &self,
-        parts: &mut [Partial],
-        (other, added): (&Self, Vec<Partial>),
-    ) -> Result<(), Error> {
+    pub fn merge(&mut self, other: Self) -> Result<(), Error> {
         self.fingerprint.check(&other.fingerprint)?;
-        for own in self.ranges(parts) {
-            for added in other.ranges(&added) {
+        let added = other.ranges();
+        for own in self.ranges() {
+            for added in &added {
                 let (start, end) = (own.start.max(added.start), own.end.min(added.end));
                 if start < end {
                     return Err(Error::SamplesOverlap { start, end });
                 }
             }
         }
-        for (own, added) in parts.iter_mut().zip(added) {
+        for (own, added) in self.parts.iter_mut().zip(other.parts) {
             own.merge(added)?;
         }
         Ok(())
     }
 
-    /// Refuses data that cannot be samples of this run: the first `outcomes` counts must count each sample once.
+    /// Refuses data that cannot be samples of one run: the first `outcomes` counts must count each sample once.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
-    pub fn check_parts(
-        &self,
-        parts: &[Partial],
-        quantities: usize,
-        outcomes: usize,
-    ) -> Result<(), &'static str> {
-        let total = self.groups.checked_mul(self.of_each);
+    pub fn check(&self, quantities: usize, outcomes: usize) -> Result<(), &'static str> {
+        let total = self.of_each.checked_mul(self.parts.len() as u64);
         let fits = |part: &Partial| {
             let ranges = part.ranges();
             let done: u64 = ranges.iter().map(|own| own.end - own.start).sum();
@@ -149,8 +154,8 @@ impl Run {
                 && ranges.last().is_none_or(|last| last.end <= self.of_each)
                 && counted == Some(done)
         };
-        let all = total.is_some() && parts.len() as u64 == self.groups && parts.iter().all(fits);
-        if all {
+        let inputs = self.inputs.len() == self.description.inputs.len();
+        if total.is_some() && inputs && !self.parts.is_empty() && self.parts.iter().all(fits) {
             Ok(())
         } else {
             Err("the parts of these samples do not fit together")
