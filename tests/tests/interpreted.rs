@@ -166,7 +166,7 @@ fn twins_have_the_same_tolerances() {
 
 #[test]
 fn names_are_handles() {
-    let governor = corpus::corpus()
+    let governor = corpus::declarations()
         .into_iter()
         .find(|(name, _)| *name == "governor")
         .expect("it is there");

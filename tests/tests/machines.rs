@@ -9,7 +9,7 @@ use eigentol_compiler::program::Program;
 use eigentol_oracle::Oracle;
 use eigentol_oracle::kernels::Kernels;
 use eigentol_oracle::truth::Truth;
-use eigentol_tests::corpus::corpus;
+use eigentol_tests::corpus::declarations;
 use eigentol_tests::to_oracle_model::to_oracle_model;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -72,7 +72,7 @@ fn largest(values: &[f64]) -> f64 {
 #[test]
 fn the_corpus_agrees_with_the_oracle() {
     let mut rng = ChaCha8Rng::seed_from_u64(7);
-    for (name, declaration) in corpus() {
+    for (name, declaration) in declarations() {
         let machine =
             Machine::new(declaration).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
         for _ in 0..4 {
@@ -162,7 +162,7 @@ fn check_design_derivatives(name: &str, machine: &Machine, q: &[f64], u: &[f64],
 /// (`truth/panda_arm.json`).
 #[test]
 fn the_arm_is_the_public_one() {
-    let (_, declaration) = corpus()
+    let (_, declaration) = declarations()
         .into_iter()
         .find(|(name, _)| *name == "robot_arm")
         .expect("the arm is there");

@@ -3,7 +3,7 @@
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile, expand, expand_pretty};
-use eigentol_tests::corpus::corpus;
+use eigentol_tests::corpus::declarations;
 use eigentol_tests::every;
 use eigentol_tests::fits;
 use eigentol_tests::loops::{geared_coasting, slider_crank};
@@ -47,7 +47,7 @@ fn machines() -> Vec<(&'static str, &'static str)> {
         ("every", every::DECLARATION),
         ("conical", CONICAL),
     ];
-    corpus().into_iter().chain(constrained).collect()
+    declarations().into_iter().chain(constrained).collect()
 }
 
 fn compiled(declaration: &str) -> Compilation {
@@ -93,7 +93,7 @@ fn the_same_declaration_gives_the_same_tokens() {
 /// Long function bodies are split into blocks, so that no chain of `let`s is long enough to overflow rustc's stack.
 #[test]
 fn no_block_nests_many_statements() {
-    let long = corpus()
+    let long = declarations()
         .into_iter()
         .find(|(machine, _)| *machine == "chain_of_eight");
     let (_, declaration) = long.expect("the chain of eight is in the corpus");

@@ -26,23 +26,29 @@ pub trait Visitor {
     );
 }
 
-macro_rules! corpus {
+/// Makes each machine known by the name of its module.
+macro_rules! machines {
     ($($module:ident: $machine:ident,)*) => {
-        $(pub mod $module;)*
+        $(
+            pub mod $module;
+            pub use $module::$machine;
+        )*
 
         /// Names and declarations, in a fixed order.
-        pub fn corpus() -> Vec<(&'static str, &'static str)> {
+        pub fn declarations() -> Vec<(&'static str, &'static str)> {
             vec![$((stringify!($module), $module::DECLARATION)),*]
         }
 
-        /// Passes every machine to a visitor, in the order of [`corpus`].
-        pub fn visit(visitor: &mut impl Visitor) {
+        /// Passes every machine to a visitor, in the order of [`declarations`].
+        pub fn visit(visitor: &mut impl $crate::corpus::Visitor) {
             $(visitor.visit(stringify!($module), $module::DECLARATION, $module::$machine);)*
         }
     };
 }
 
-corpus! {
+pub(crate) use machines;
+
+machines! {
     rotating_pendulum: RotatingPendulum,
     rotating_double_pendulum: RotatingDoublePendulum,
     sliders_on_plate: SlidersOnPlate,

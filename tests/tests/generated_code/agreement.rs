@@ -5,7 +5,7 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{compile, program};
 use eigentol_consistency::interpreter::interpret;
-use eigentol_tests::corpus::{Visitor, corpus, visit};
+use eigentol_tests::corpus::{Visitor, declarations, visit};
 use eigentol_tests::generated::evaluate;
 use proc_macro2::TokenStream;
 
@@ -108,7 +108,7 @@ fn pose_margin(machine: &dyn Kernels, arguments: &[Vec<f64>]) -> Option<f64> {
 fn generated_code_computes_what_the_interpreter_computes() {
     let mut agreement = Agreement::default();
     visit(&mut agreement);
-    assert_eq!(agreement.machines, corpus().len());
+    assert_eq!(agreement.machines, declarations().len());
     assert!(agreement.kernels >= 15 * agreement.machines);
     assert!(agreement.numbers > 50_000, "{}", agreement.numbers);
 }
@@ -294,14 +294,14 @@ fn entries<M: Mechanism>(partials: &PartialsOf<M, f64>) -> Vec<f64> {
 fn partials_into_a_used_result_are_those_of_a_new_one() {
     let mut reused = Reused::default();
     visit(&mut reused);
-    assert_eq!(reused.machines, corpus().len());
+    assert_eq!(reused.machines, declarations().len());
     assert!(reused.largest > 4096, "{}", reused.largest);
 }
 
 /// A keyword that no machine uses is not covered by the tests above.
 #[test]
 fn the_corpus_uses_the_whole_language() {
-    let text: String = corpus()
+    let text: String = declarations()
         .iter()
         .map(|(_, declaration)| *declaration)
         .collect();

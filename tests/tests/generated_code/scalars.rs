@@ -6,7 +6,7 @@ use eigentol::{Array, Kernels, Mechanism};
 use eigentol_compiler::program;
 use eigentol_compiler::program::Program;
 use eigentol_consistency::interpreter::interpret;
-use eigentol_tests::corpus::{Visitor, corpus, visit};
+use eigentol_tests::corpus::{Visitor, declarations, visit};
 use eigentol_tests::dual::Dual;
 use eigentol_tests::generated::{evaluate, evaluate_at};
 use eigentol_tests::loops;
@@ -66,7 +66,7 @@ impl Visitor for SinglePrecision {
 fn single_precision_agrees_roughly() {
     let mut single = SinglePrecision::default();
     visit(&mut single);
-    assert_eq!(single.0, corpus().len());
+    assert_eq!(single.0, declarations().len());
 }
 
 /// Compares derivatives of kernels in dual numbers with the kernels that return these derivatives.
@@ -322,11 +322,11 @@ fn assert_close_to(found: &[f64], expected: &[f64], tolerance: f64, what: &str) 
 fn duals_agree_with_every_derivative_kernel() {
     let mut duals = Duals { machines: 0 };
     visit(&mut duals);
-    assert_eq!(duals.machines, corpus().len());
+    assert_eq!(duals.machines, declarations().len());
     loops::visit(&mut duals);
     duals.visit("caster", caster::DECLARATION, TowedCaster);
     duals.visit("disk", disk::DECLARATION, RollingDisk);
-    assert!(duals.machines >= corpus().len() + 10);
+    assert!(duals.machines >= declarations().len() + 10);
 }
 
 #[derive(Default)]
@@ -403,5 +403,5 @@ fn flat_largest(matrix: &[impl AsRef<[f64]>]) -> f64 {
 fn linearised_along_any_motion_as_dual_numbers_say() {
     let mut motion = AlongMotion::default();
     visit(&mut motion);
-    assert_eq!(motion.0, corpus().len());
+    assert_eq!(motion.0, declarations().len());
 }

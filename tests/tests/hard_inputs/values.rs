@@ -2,7 +2,7 @@
 
 use eigentol::{Coordinate, DesignVariable, Error, Input, Kernels, Mechanism, Study};
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
-use eigentol_tests::corpus::{Visitor, corpus, visit};
+use eigentol_tests::corpus::{Visitor, declarations, visit};
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
@@ -53,7 +53,7 @@ impl Visitor for EveryPlace {
 fn what_is_not_finite_is_named() {
     let mut every = EveryPlace(0);
     visit(&mut every);
-    assert_eq!(every.0, corpus().len());
+    assert_eq!(every.0, declarations().len());
 }
 
 #[test]

@@ -5,7 +5,7 @@ use eigentol::equilibrium::Equilibrium;
 use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::undamped_modes;
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
-use eigentol_tests::corpus::corpus;
+use eigentol_tests::corpus::declarations;
 use eigentol_tests::rederived::{
     Comparison, ComplexDerived, Derived, GeneralMode, State, every_machine,
 };
@@ -109,7 +109,7 @@ impl Comparison for Gradients {
 fn first_derivatives_of_equilibria_outputs_and_undamped_modes() {
     let mut gradients = Gradients::default();
     every_machine(&mut gradients);
-    assert!(gradients.points >= corpus().len());
+    assert!(gradients.points >= declarations().len());
     // From the corpus the bearing rotor and the press once and the film rotor twice; the Jeffcott rotor twice, and the
     // column.
     assert_eq!(gradients.nonsymmetric, 7);

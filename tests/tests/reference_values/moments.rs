@@ -1,18 +1,23 @@
 //! Monte Carlo against moments by quadrature: `w1_moments`, and closed-form integrals near the critical speed.
 
 use eigentol::{MonteCarlo, Study};
+use eigentol_interpreter::Interpreted;
 use eigentol_oracle::truth::Truth;
-use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
+use eigentol_tests::corpus::rotating_pendulum::DECLARATION;
 
 const SAMPLES: usize = 20_000;
 
 /// Samples of the pendulum with a tolerance on its length only.
 fn sampled(omega: f64, half_width: f64) -> MonteCarlo {
-    Study::new(RotatingPendulum)
-        .input(RotatingPendulum::omega, omega)
-        .start(RotatingPendulum::theta, 0.5)
-        .tolerance(RotatingPendulum::l, half_width)
-        .tolerance(RotatingPendulum::m, 0.0)
+    let study = Study::new(Interpreted::from_text(DECLARATION).expect("a declaration"));
+    let speed = study.find_input("omega").expect("declared");
+    let angle = study.find_coordinate("theta").expect("declared");
+    let [length, mass] = ["l", "m"].map(|name| study.find_design(name).expect("declared"));
+    study
+        .input(speed, omega)
+        .start(angle, 0.5)
+        .tolerance(length, half_width)
+        .tolerance(mass, 0.0)
         .samples(SAMPLES)
         .seed(1)
         .monte_carlo()

@@ -8,9 +8,10 @@ use eigentol::requirement::Requirement;
 use eigentol::response::Response;
 use eigentol::second_order::EventCurvature;
 use eigentol::sweep::{CriticalState, Crossing, EventTolerance};
-use eigentol::{Coordinate, Error, Input, Mechanism, Output, Quantity, Study};
+use eigentol::{Coordinate, Error, Input, Output, Quantity, Study};
+use eigentol_interpreter::Interpreted;
 use eigentol_tables::{Answer, json};
-use eigentol_tests::corpus::{self, Visitor};
+use eigentol_tests::corpus::declarations;
 use eigentol_tests::machines;
 use eigentol_tests::rederived::{Operation, operating_points};
 use serde::Serialize;
@@ -66,7 +67,7 @@ impl Answers {
         assert_eq!(tables, answer.tables(), "{name}");
     }
 
-    fn ask<M: Mechanism + Copy>(&mut self, name: &str, machine: M, operation: &Operation) {
+    fn ask(&mut self, name: &str, machine: Interpreted, operation: &Operation) {
         let mut study = Study::new(machine)
             .policy(operation.policy)
             .samples(20)
@@ -123,7 +124,7 @@ impl Answers {
         }
     }
 
-    fn ask_of_chance<M: Mechanism + Copy>(&mut self, name: &str, study: &Study<M>) {
+    fn ask_of_chance(&mut self, name: &str, study: &Study<Interpreted>) {
         let mode = Response::Mode {
             mode: 0,
             quantity: Quantity::Frequency,
@@ -162,7 +163,7 @@ impl Answers {
         }
     }
 
-    fn ask_along<M: Mechanism + Copy>(&mut self, name: &str, study: &Study<M>, value: f64) {
+    fn ask_along(&mut self, name: &str, study: &Study<Interpreted>, value: f64) {
         let input = Input::new(0);
         let values = [value, 1.01 * value, 1.02 * value];
         let (low, high) = (0.5 * value, 1.5 * value);
@@ -179,18 +180,14 @@ impl Answers {
     }
 }
 
-impl Visitor for Answers {
-    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
-        let first = operating_points(name).into_iter().next().expect("a point");
-        self.ask(name, machine, &first);
-    }
-}
-
 #[test]
 fn answers_come_back() {
     let mut answers = Answers::default();
-    corpus::visit(&mut answers);
-    machines::visit(&mut answers);
+    for (name, declaration) in declarations().into_iter().chain(machines::declarations()) {
+        let machine = Interpreted::from_text(declaration).expect("a declaration");
+        let operation = operating_points(name).into_iter().next();
+        answers.ask(name, machine, &operation.expect("a point"));
+    }
     assert!(
         answers.answered > 400 && answers.refused > 10,
         "{} {}",
