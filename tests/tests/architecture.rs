@@ -50,7 +50,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
     (
         "runtime/numerics",
         &["eigentol-contract", "eigentol-statistics"],
-        7_450,
+        7_500,
     ),
     ("runtime/results", &["eigentol-contract"], 1_150),
     (
@@ -61,7 +61,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        15_200,
+        15_250,
     ),
     (
         "runtime/tolerance",

@@ -38,7 +38,7 @@ pub fn accelerations(
     check_count("design variables", b, description.design.len())?;
     let structure = Structure::of(description);
     if !structure.open() {
-        return constrained(mechanism, structure, velocity, q, u, b);
+        return constrained_accelerations(mechanism, structure, velocity, q, u, b);
     }
     let (mass, right) = mechanism.motion(velocity, q, u, b);
     if !all_finite(&right) || !all_finite_matrix(&mass) {
@@ -49,7 +49,7 @@ pub fn accelerations(
         .map_err(|row| singular(description, row))
 }
 
-fn constrained(
+fn constrained_accelerations(
     mechanism: &dyn MotionKernels,
     structure: Structure,
     velocity: &[f64],

@@ -159,7 +159,7 @@ impl<'a> Shapes<'a> {
             Sides::Undamped(side) => {
                 let shape = &mode.real_shape();
                 let [k, m] = [&change.stiffness, &change.mass].map(|matrix| times(matrix, shape));
-                let right = side.solve(&self.moved((&k, &m), rate.re), &m);
+                let right = side.nelson_derivative(&self.moved((&k, &m), rate.re), &m);
                 let right: Vector<Complex> = right.iter().map(|value| (*value).into()).collect();
                 (right.clone(), right)
             }
@@ -169,11 +169,11 @@ impl<'a> Shapes<'a> {
                     let slope = pencil_slope_times(linear, mode.s, shape);
                     Vector::from_fn(shape.len(), |i| -direct[i] - rate * slope[i])
                 };
-                let right = right.solve(
+                let right = right.nelson_derivative(
                     &moved(self.linear, change, &mode.shape),
                     &times_complex(&change.mass, &mode.shape),
                 );
-                let left = left.solve(
+                let left = left.nelson_derivative(
                     &moved(&transposed(self.linear), &transposed(change), mode.left()),
                     &times_complex(&change.mass, mode.left()),
                 );
@@ -327,7 +327,7 @@ impl<T: Component> Side<T> {
     }
 
     /// The derivative of the shape, from the right-hand side and `dMhat phi`.
-    fn solve(&self, right: &[T], mass_change: &[T]) -> Vector<T> {
+    fn nelson_derivative(&self, right: &[T], mass_change: &[T]) -> Vector<T> {
         self.complete(&self.factors.solve(right), mass_change)
     }
 

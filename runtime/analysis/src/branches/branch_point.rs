@@ -6,7 +6,7 @@
 //! second derivatives give the directions of both branches (algebraic branching equation).
 
 use super::bordered::Bordered;
-use super::curve::{Curve, Trouble, plane};
+use super::curve::{ContinuationFailure, Curve, plane};
 use super::curve_point::{CurvePoint, symmetric_to_rounding};
 use super::fold::{LAST_STEP, ROUNDING, beside};
 use super::local_scaling::{CurvePosition, Frame};
@@ -49,7 +49,11 @@ struct Borders {
 
 impl Curve<'_> {
     /// Finds the branch point between two stations.
-    pub(crate) fn branch_point(&self, a: &CurvePoint, b: &CurvePoint) -> Result<Junction, Trouble> {
+    pub(crate) fn branch_point(
+        &self,
+        a: &CurvePoint,
+        b: &CurvePoint,
+    ) -> Result<Junction, ContinuationFailure> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let (mut local, borders) = self.saddle(a, &end)?;
@@ -70,7 +74,7 @@ impl Curve<'_> {
         let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
         let stationary = |direction: &CurvePosition| direction.p.abs() <= STATIONARY;
         let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
-        let pitchfork = |crossed| -> Result<SpecialKind, Trouble> {
+        let pitchfork = |crossed| -> Result<SpecialKind, ContinuationFailure> {
             let known = (&borders, &reduced);
             Ok(SpecialKind::Pitchfork {
                 supercritical: self.supercritical(frame, &local, known, [crossed, &v])?,
@@ -106,7 +110,7 @@ impl Curve<'_> {
         &self,
         a: &CurvePoint,
         end: &CurvePosition,
-    ) -> Result<(CurvePosition, Borders), Trouble> {
+    ) -> Result<(CurvePosition, Borders), ContinuationFailure> {
         let frame = &a.frame;
         let mut borders = self.borders(a, end)?;
         let mut local = end.scaled(0.5);
@@ -138,18 +142,18 @@ impl Curve<'_> {
             local = local.plus(1.0, &step);
             (mu, last) = (reduced.mu, size);
             if !beside(&local, end) {
-                return Err(Trouble::Missed(NotFound::BranchPointOutside));
+                return Err(ContinuationFailure::Missed(NotFound::BranchPointOutside));
             }
             if let Some(column) = unit(&reduced.w) {
                 mu *= dot(&column, &borders.column);
                 borders.column = column;
             }
         }
-        Err(Trouble::Missed(NotFound::BranchPointLost))
+        Err(ContinuationFailure::Missed(NotFound::BranchPointLost))
     }
 
     /// Singular vectors of `[Khat dg/du; n1^T]`, which is nearly singular, by inverse iteration.
-    fn borders(&self, a: &CurvePoint, end: &CurvePosition) -> Result<Borders, Trouble> {
+    fn borders(&self, a: &CurvePoint, end: &CurvePosition) -> Result<Borders, ContinuationFailure> {
         let first = end.unit().ok_or_else(not_simple)?;
         let factors = self.nearly_singular(&a.frame, end, &first)?;
         let mut left = (Vector::filled(end.q.len(), 1.0), [0.5]);
@@ -181,7 +185,7 @@ impl Curve<'_> {
         frame: &Frame,
         end: &CurvePosition,
         first: &CurvePosition,
-    ) -> Result<Bordered, Trouble> {
+    ) -> Result<Bordered, ContinuationFailure> {
         let at = |fraction: f64| {
             let system = self.system(&frame.place(&end.scaled(fraction)))?;
             plane(&frame.scaled(&system), first).ok_or_else(not_simple)
@@ -210,7 +214,7 @@ impl Curve<'_> {
         local: &CurvePosition,
         mu: f64,
         borders: &Borders,
-    ) -> Result<Reduced, Trouble> {
+    ) -> Result<Reduced, ContinuationFailure> {
         let place = frame.place(local);
         let scaled = frame.scaled(&self.system(&place)?);
         let [first, second] = &borders.normals;
@@ -231,7 +235,7 @@ impl Curve<'_> {
         });
         let (w, slopes) = factors.solve_transposed(&Vector::zeros(n), [0.0, 1.0]);
         let weights = frame.weights(&w);
-        let bend = |tangent: &CurvePosition| -> Result<CurvePosition, Trouble> {
+        let bend = |tangent: &CurvePosition| -> Result<CurvePosition, ContinuationFailure> {
             let curvature = self.curvature(&place, &weights, &frame.stretched(tangent))?;
             Ok(frame.stretched(&curvature))
         };
@@ -257,7 +261,7 @@ impl Curve<'_> {
         at: &CurvePosition,
         (borders, reduced): (&Borders, &Reduced),
         [crossed, v]: [&CurvePosition; 2],
-    ) -> Result<Option<bool>, Trouble> {
+    ) -> Result<Option<bool>, ContinuationFailure> {
         let parts = |direction| {
             let normals = borders.normals.each_ref();
             normals.map(|normal| normal.dot(direction))
@@ -324,12 +328,12 @@ fn product(hessian: &[[f64; 2]; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * rows[0] + a[1] * rows[1]
 }
 
-fn not_simple() -> Trouble {
-    Trouble::Missed(NotFound::BranchPointNotSimple)
+fn not_simple() -> ContinuationFailure {
+    ContinuationFailure::Missed(NotFound::BranchPointNotSimple)
 }
 
 /// Unit directions of the two branches: the roots of the quadratic form of the second derivatives.
-fn directions(reduced: &Reduced) -> Result<[CurvePosition; 2], Trouble> {
+fn directions(reduced: &Reduced) -> Result<[CurvePosition; 2], ContinuationFailure> {
     let [[a, b], [_, c]] = reduced.hessian;
     let discriminant = b * b - a * c;
     let size = a.abs().max(b.abs()).max(c.abs());

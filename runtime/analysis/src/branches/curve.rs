@@ -35,7 +35,7 @@ pub(crate) struct Curve<'a> {
 
 /// The reason why a point was not reached.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Trouble {
+pub(crate) enum ContinuationFailure {
     /// The equations are not finite at this point.
     OutsideDomain(Vector),
     /// The input describes a body that cannot exist.
@@ -46,7 +46,7 @@ pub(crate) enum Trouble {
     Missed(NotFound),
 }
 
-impl Trouble {
+impl ContinuationFailure {
     /// Whether the equations end there.
     pub(crate) fn at_edge(&self) -> bool {
         matches!(
@@ -167,18 +167,18 @@ impl<'a> Curve<'a> {
     }
 
     /// The mechanism linearised at a point.
-    pub(crate) fn linear(&self, at: &CurvePosition) -> Result<Linear, Trouble> {
+    pub(crate) fn linear(&self, at: &CurvePosition) -> Result<Linear, ContinuationFailure> {
         self.operating_point(&self.inputs_at(at.p))
             .linear(&at.q)
-            .map_err(Trouble::Refused)
+            .map_err(ContinuationFailure::Refused)
     }
 
-    pub(crate) fn system(&self, at: &CurvePosition) -> Result<System, Trouble> {
+    pub(crate) fn system(&self, at: &CurvePosition) -> Result<System, ContinuationFailure> {
         let inputs = self.inputs_at(at.p);
         let point = self.operating_point(&inputs).without(&self.dropped);
         let (residual, stiffness) = point
             .evaluate(&at.q)
-            .ok_or_else(|| Trouble::OutsideDomain(at.q.clone()))?;
+            .ok_or_else(|| ContinuationFailure::OutsideDomain(at.q.clone()))?;
         let (by_inputs, _) = point
             .mechanism
             .residual_partials(&at.q, &inputs, self.design);
@@ -200,7 +200,7 @@ impl<'a> Curve<'a> {
                 by_input,
             })
         } else {
-            Err(Trouble::OutsideDomain(at.q.clone()))
+            Err(ContinuationFailure::OutsideDomain(at.q.clone()))
         }
     }
 
@@ -210,7 +210,7 @@ impl<'a> Curve<'a> {
         at: &CurvePosition,
         w: &[f64],
         direction: &CurvePosition,
-    ) -> Result<CurvePosition, Trouble> {
+    ) -> Result<CurvePosition, ContinuationFailure> {
         let input = self.settings.input.index();
         let mut along = Vector::zeros(self.inputs.len());
         along[input] = direction.p;
@@ -233,7 +233,7 @@ impl<'a> Curve<'a> {
         if found.finite() {
             Ok(found)
         } else {
-            Err(Trouble::OutsideDomain(at.q.clone()))
+            Err(ContinuationFailure::OutsideDomain(at.q.clone()))
         }
     }
 
@@ -247,17 +247,17 @@ impl<'a> Curve<'a> {
         system: &System,
         iterations: usize,
         also: Option<f64>,
-    ) -> Result<SolvedState, Trouble> {
+    ) -> Result<SolvedState, ContinuationFailure> {
         let inputs = self.inputs_at(at.p);
         if let Some(violation) = self.mechanism.violation(&inputs, self.design) {
-            return Err(Trouble::Unphysical(Error::Unphysical {
+            return Err(ContinuationFailure::Unphysical(Error::Unphysical {
                 quantity: violation.quantity,
                 requirement: violation.requirement,
                 value: violation.value,
             }));
         }
         let point = self.operating_point(&inputs);
-        let linear = point.linear(&at.q).map_err(Trouble::Refused)?;
+        let linear = point.linear(&at.q).map_err(ContinuationFailure::Refused)?;
         let residual = if self.dropped.contains(&true) {
             point.residual(&at.q)
         } else {
@@ -270,15 +270,15 @@ impl<'a> Curve<'a> {
                 .min(also.unwrap_or(f64::INFINITY));
         }
         if relative > ACCEPTED {
-            return Err(Trouble::Refused(Failure::NotFound {
+            return Err(ContinuationFailure::Refused(Failure::NotFound {
                 reason: NotFound::Inaccurate,
                 coordinates: at.q.to_vec(),
                 iterations,
                 relative,
             }));
         }
-        let constraints =
-            constraint_state(&point, &at.q, &residual, &linear).map_err(Trouble::Refused)?;
+        let constraints = constraint_state(&point, &at.q, &residual, &linear)
+            .map_err(ContinuationFailure::Refused)?;
         let verdict = if constraints.singular {
             Verdict::undecided()
         } else {
@@ -288,7 +288,7 @@ impl<'a> Curve<'a> {
                 design: self.design,
                 residual: &residual,
             };
-            judge(self.mechanism, &place, &linear, &[]).map_err(Trouble::Refused)?
+            judge(self.mechanism, &place, &linear, &[]).map_err(ContinuationFailure::Refused)?
         };
         let mut state = Equilibrium::blank(&self.description, &inputs, self.design);
         state.pose = self.mechanism.pose_margin(&at.q, &inputs, self.design);
@@ -364,7 +364,7 @@ impl<'a> Curve<'a> {
         from: &CurvePosition,
         normal: &CurvePosition,
         reach: f64,
-    ) -> Result<Corrected, Trouble> {
+    ) -> Result<Corrected, ContinuationFailure> {
         let mut local = from.clone();
         let mut last = f64::INFINITY;
         let mut stalled = false;
@@ -389,11 +389,11 @@ impl<'a> Curve<'a> {
                 .map(|lu| lu.solve(&scaled.residual.map(|value| -value), [-off]))
                 .map(|(q, [p])| CurvePosition { q, p })
                 .filter(CurvePosition::finite)
-                .ok_or(Trouble::Missed(NotFound::NotIsolated))?;
+                .ok_or(ContinuationFailure::Missed(NotFound::NotIsolated))?;
             let size = step.norm();
             if size > CONTRACTION * last {
                 if last > ROUNDING {
-                    return Err(Trouble::Missed(NotFound::Diverges));
+                    return Err(ContinuationFailure::Missed(NotFound::Diverges));
                 }
                 stalled = true;
                 continue;
@@ -401,7 +401,7 @@ impl<'a> Curve<'a> {
             local = local.plus(1.0, &step);
             last = size;
             if local.plus(-1.0, from).norm() > reach {
-                return Err(Trouble::Missed(NotFound::BendsAway));
+                return Err(ContinuationFailure::Missed(NotFound::BendsAway));
             }
         }
         if last <= ROUNDING {
@@ -414,7 +414,7 @@ impl<'a> Curve<'a> {
                 iterations: most,
             });
         }
-        Err(Trouble::Missed(NotFound::Diverges))
+        Err(ContinuationFailure::Missed(NotFound::Diverges))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A point on a branch with the data to continue from it, and the signs that reveal events between two points.
 
-use super::curve::{Curve, Trouble, plane};
+use super::curve::{ContinuationFailure, Curve, plane};
 use super::local_scaling::{CurvePosition, Frame, System};
 use crate::algebra::{Cholesky, Vector, asymmetry};
 use crate::constraints::Structure;
@@ -48,10 +48,10 @@ impl Curve<'_> {
         judged: SolvedState,
         towards: &CurvePosition,
         before: Option<&Signs>,
-    ) -> Result<CurvePoint, Trouble> {
+    ) -> Result<CurvePoint, ContinuationFailure> {
         let frame = self.frame(place, system);
         let scaled = frame.scaled(system);
-        let singular = Trouble::Missed(NotFound::NotIsolated);
+        let singular = ContinuationFailure::Missed(NotFound::NotIsolated);
         let towards = frame.direction(towards).unit();
         let factors = towards.and_then(|towards| plane(&scaled, &towards));
         let Some(factors) = factors else {
@@ -78,7 +78,7 @@ impl Curve<'_> {
         // Cramer: sign det Khat = sign t_p sign det [Khat dg/du; t^T].
         let odd = signs.falling != signs.crossed;
         if signs.negative.is_some_and(|count| (count % 2 == 1) != odd) {
-            return Err(Trouble::Missed(NotFound::SingularStiffness));
+            return Err(ContinuationFailure::Missed(NotFound::SingularStiffness));
         }
         Ok(CurvePoint {
             place: place.clone(),
@@ -91,7 +91,10 @@ impl Curve<'_> {
     }
 
     /// The first station of a branch, with its tangent towards the high end of the range.
-    pub(crate) fn first_station(&self, judged: SolvedState) -> Result<CurvePoint, Trouble> {
+    pub(crate) fn first_station(
+        &self,
+        judged: SolvedState,
+    ) -> Result<CurvePoint, ContinuationFailure> {
         let equilibrium = &judged.state;
         let place = CurvePosition {
             q: equilibrium.coordinates.clone(),
@@ -118,7 +121,7 @@ impl Curve<'_> {
             }
         }
         let forward = (self.settings.high - self.settings.low).signum();
-        let tangent = best.ok_or(Trouble::Missed(NotFound::NotIsolated))?;
+        let tangent = best.ok_or(ContinuationFailure::Missed(NotFound::NotIsolated))?;
         let tangent = tangent.scaled(if tangent.p * forward < 0.0 { -1.0 } else { 1.0 });
         let direction = frame.stretched(&tangent);
         self.station(&place, &system, judged, &direction, None)

@@ -1,7 +1,7 @@
 //! Where and why a walk along a branch ends.
 
 use super::BranchEnd;
-use super::curve::{Corrected, Curve, Trouble};
+use super::curve::{ContinuationFailure, Corrected, Curve};
 use super::curve_point::{CurvePoint, VERTICAL};
 use super::local_scaling::CurvePosition;
 use crate::algebra::Vector;
@@ -24,7 +24,7 @@ impl Curve<'_> {
         &self,
         corrected: &Corrected,
         before: &CurvePoint,
-    ) -> Result<CurvePoint, Trouble> {
+    ) -> Result<CurvePoint, ContinuationFailure> {
         let (place, system) = (&corrected.place, &corrected.system);
         let judged = self.equilibrium(place, system, corrected.iterations, None)?;
         let frame = self.frame(place, system);
@@ -34,7 +34,7 @@ impl Curve<'_> {
             equilibrium: judged.state,
             judged: judged.modes,
             frame,
-            tangent: tangent.ok_or(Trouble::Missed(NotFound::NotIsolated))?,
+            tangent: tangent.ok_or(ContinuationFailure::Missed(NotFound::NotIsolated))?,
             signs: before.signs,
         })
     }
@@ -78,7 +78,7 @@ impl Curve<'_> {
         at: &CurvePoint,
         outside: &Corrected,
         bound: f64,
-    ) -> Result<Corrected, Trouble> {
+    ) -> Result<Corrected, ContinuationFailure> {
         let target = at.frame.local(&CurvePosition {
             p: bound,
             ..at.place.clone()
@@ -86,7 +86,7 @@ impl Curve<'_> {
         let share = target.p / outside.local.p;
         // A step that turns back between the points would land on the wrong side of the turn.
         if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
-            return Err(Trouble::Missed(NotFound::TurnsBack));
+            return Err(ContinuationFailure::Missed(NotFound::TurnsBack));
         }
         let from = outside.local.scaled(share);
         let input = CurvePosition {
@@ -129,19 +129,21 @@ impl Curve<'_> {
         Some((Some(station), self.end_at(bound)))
     }
 
-    pub(crate) fn broken_off(&self, trouble: Trouble, at: &Equilibrium) -> BranchEnd {
+    pub(crate) fn broken_off(&self, trouble: ContinuationFailure, at: &Equilibrium) -> BranchEnd {
         match trouble {
-            Trouble::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
+            ContinuationFailure::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
                 mechanism: self.description.name.clone(),
                 what: "the residual",
                 coordinates: q.to_vec(),
             }),
-            Trouble::Unphysical(error) => BranchEnd::Domain(error),
-            Trouble::Refused(failure @ Failure::OutsideDomain { .. }) => {
+            ContinuationFailure::Unphysical(error) => BranchEnd::Domain(error),
+            ContinuationFailure::Refused(failure @ Failure::OutsideDomain { .. }) => {
                 BranchEnd::Domain(failure.explain(&self.description))
             }
-            Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(&self.description)),
-            Trouble::Missed(reason) => {
+            ContinuationFailure::Refused(failure) => {
+                BranchEnd::Lost(failure.explain(&self.description))
+            }
+            ContinuationFailure::Missed(reason) => {
                 let input = &self.description.inputs[self.settings.input.index()];
                 BranchEnd::Lost(Error::BranchLost {
                     reason,

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::curve::{Curve, Trouble};
+use super::curve::{ContinuationFailure, Curve};
 use super::curve_point::CurvePoint;
 use super::local_scaling::CurvePosition;
 use super::settings::Continuation;
@@ -158,7 +158,7 @@ fn rest_where_the_input_stands(points: &mut [BranchPoint]) {
 
 impl Curve<'_> {
     /// The station at an equilibrium, or next to it if branches cross there.
-    pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, Trouble> {
+    pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, ContinuationFailure> {
         self.first_station(unjudged(state.clone()))
             .or_else(|trouble| match self.beside(state, NUDGE) {
                 Ok(beside) => self.first_station(beside),
@@ -203,7 +203,7 @@ impl Curve<'_> {
     }
 
     /// A branch of which only one point is known.
-    fn lone_point(&self, state: Equilibrium, trouble: Trouble) -> Branch {
+    fn lone_point(&self, state: Equilibrium, trouble: ContinuationFailure) -> Branch {
         let end = self.broken_off(trouble, &state);
         Branch {
             input: self.settings.input,

@@ -2,7 +2,7 @@
 //! `Khat` is singular (Griewank and Reddien, 1984).
 
 use super::bordered::Bordered;
-use super::curve::{Curve, Trouble};
+use super::curve::{ContinuationFailure, Curve};
 use super::curve_point::CurvePoint;
 use super::local_scaling::CurvePosition;
 use super::special::{SpecialKind, SpecialPoint};
@@ -21,11 +21,11 @@ impl Curve<'_> {
         &self,
         a: &CurvePoint,
         b: &CurvePoint,
-    ) -> Result<(SpecialPoint, CurvePosition), Trouble> {
+    ) -> Result<(SpecialPoint, CurvePosition), ContinuationFailure> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let end_tangent = frame.direction(&b.direction());
-        let singular = || Trouble::Missed(NotFound::UnusualLimitPoint);
+        let singular = || ContinuationFailure::Missed(NotFound::UnusualLimitPoint);
         // The input component of the tangent falls to zero on the way.
         let (p_a, p_b) = (a.tangent.p, end_tangent.unit().map_or(0.0, |t| t.p));
         let fraction = p_a / (p_a - p_b);
@@ -83,10 +83,10 @@ impl Curve<'_> {
             local = local.plus(1.0, &step);
             last = size;
             if !beside(&local, &end) {
-                return Err(Trouble::Missed(NotFound::LimitPointOutside));
+                return Err(ContinuationFailure::Missed(NotFound::LimitPointOutside));
             }
         }
-        Err(Trouble::Missed(NotFound::LimitPointLost))
+        Err(ContinuationFailure::Missed(NotFound::LimitPointLost))
     }
 }
 

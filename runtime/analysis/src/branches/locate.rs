@@ -1,6 +1,6 @@
 //! Locates events between two neighbouring points of a branch.
 
-use super::curve::{Curve, Trouble};
+use super::curve::{ContinuationFailure, Curve};
 use super::curve_point::{CurvePoint, Signs};
 use super::local_scaling::CurvePosition;
 use super::special::{Located, SpecialKind};
@@ -49,7 +49,7 @@ impl Curve<'_> {
         a: &CurvePoint,
         b: &CurvePoint,
         found: &mut Vec<Located>,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ContinuationFailure> {
         self.divide(a, b, found, &mut 0)
     }
 
@@ -59,7 +59,7 @@ impl Curve<'_> {
         b: &CurvePoint,
         found: &mut Vec<Located>,
         points: &mut usize,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), ContinuationFailure> {
         let changes = Changes::between(&a.signs, &b.signs);
         if changes.none() {
             return Ok(());
@@ -75,7 +75,7 @@ impl Curve<'_> {
         }
         *points += 1;
         if *points > MOST_POINTS {
-            return Err(Trouble::Missed(NotFound::TooManyEvents));
+            return Err(ContinuationFailure::Missed(NotFound::TooManyEvents));
         }
         let middle = self.middle(a, b)?;
         self.divide(a, &middle, found, points)?;
@@ -88,12 +88,12 @@ impl Curve<'_> {
         a: &CurvePoint,
         b: &CurvePoint,
         changes: Changes,
-    ) -> Result<Option<Located>, Trouble> {
+    ) -> Result<Option<Located>, ContinuationFailure> {
         if changes.crossed {
             let junction = match self.branch_point(a, b) {
                 Ok(junction) => junction,
                 // Branches that nearly meet do not cross: the step has jumped from one to the other.
-                Err(trouble @ Trouble::Refused(_)) => return Err(trouble),
+                Err(trouble @ ContinuationFailure::Refused(_)) => return Err(trouble),
                 Err(_) => return Ok(None),
             };
             let pitchfork = matches!(junction.special.kind, SpecialKind::Pitchfork { .. });
@@ -119,8 +119,8 @@ impl Curve<'_> {
     }
 
     /// A station between two others.
-    fn middle(&self, a: &CurvePoint, b: &CurvePoint) -> Result<CurvePoint, Trouble> {
-        let mut trouble = Trouble::Missed(NotFound::NothingBetween);
+    fn middle(&self, a: &CurvePoint, b: &CurvePoint) -> Result<CurvePoint, ContinuationFailure> {
+        let mut trouble = ContinuationFailure::Missed(NotFound::NothingBetween);
         for fraction in [0.5, 0.41, 0.62] {
             match self.between(a, b, fraction) {
                 Ok(station) => return Ok(station),
@@ -135,9 +135,11 @@ impl Curve<'_> {
         a: &CurvePoint,
         b: &CurvePoint,
         fraction: f64,
-    ) -> Result<CurvePoint, Trouble> {
+    ) -> Result<CurvePoint, ContinuationFailure> {
         let end = a.frame.local(&b.place);
-        let normal = end.unit().ok_or(Trouble::Missed(NotFound::Coincide))?;
+        let normal = end
+            .unit()
+            .ok_or(ContinuationFailure::Missed(NotFound::Coincide))?;
         self.across(a, &end.scaled(fraction), &normal, 0.5 * end.norm())
     }
 
@@ -148,7 +150,7 @@ impl Curve<'_> {
         from: &CurvePosition,
         normal: &CurvePosition,
         reach: f64,
-    ) -> Result<CurvePoint, Trouble> {
+    ) -> Result<CurvePoint, ContinuationFailure> {
         let corrected = self.correct(&a.frame, from, normal, reach)?;
         self.arrive(&corrected, &a.frame.stretched(normal), Some(a))
     }
@@ -159,9 +161,11 @@ impl Curve<'_> {
         a: &CurvePoint,
         b: &CurvePoint,
         changes: Changes,
-    ) -> Result<Located, Trouble> {
+    ) -> Result<Located, ContinuationFailure> {
         let end = a.frame.local(&b.place);
-        let normal = end.unit().ok_or(Trouble::Missed(NotFound::Coincide))?;
+        let normal = end
+            .unit()
+            .ok_or(ContinuationFailure::Missed(NotFound::Coincide))?;
         let first = a
             .signs
             .negative

@@ -28,7 +28,7 @@ mod walk;
 
 pub use answer::branch_table;
 pub(crate) use bordered::Bordered;
-pub(crate) use curve::{Curve, Trouble};
+pub(crate) use curve::{ContinuationFailure, Curve};
 pub(crate) use curve_point::CurvePoint;
 pub use explore::{branch, branches, branches_each};
 pub(crate) use local_scaling::CurvePosition;

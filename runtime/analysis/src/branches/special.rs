@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::curve::{Curve, Trouble};
+use super::curve::{ContinuationFailure, Curve};
 use super::curve_point::symmetric_to_rounding;
 use super::local_scaling::{CurvePosition, Frame};
 use crate::algebra::{Matrix, Values, Vector, dot, form, largest, times};
@@ -104,7 +104,7 @@ impl Curve<'_> {
         (v, w): (&[f64], &[f64]),
         zero: usize,
         also: Option<f64>,
-    ) -> Result<SpecialPoint, Trouble> {
+    ) -> Result<SpecialPoint, ContinuationFailure> {
         let (least, most) = self.settings.bounds();
         let place = &CurvePosition {
             q: place.q.clone(),
@@ -114,7 +114,7 @@ impl Curve<'_> {
             .equilibrium(place, &self.system(place)?, 0, also)?
             .state;
         let (v, w) = normalised(&equilibrium.linear, self.structure, v, w)
-            .ok_or(Trouble::Missed(NotFound::DependentVectors))?;
+            .ok_or(ContinuationFailure::Missed(NotFound::DependentVectors))?;
         equilibrium.free = self.place_at(place);
         make_critical(&mut equilibrium, zero);
         Ok(SpecialPoint {
@@ -134,7 +134,7 @@ impl Curve<'_> {
         place: &CurvePosition,
         (frame, tangent): (&Frame, &CurvePosition),
         zero: usize,
-    ) -> Result<SpecialPoint, Trouble> {
+    ) -> Result<SpecialPoint, ContinuationFailure> {
         let linear = self.linear(place)?;
         let softest = symmetric_to_rounding(&linear, &self.description)
             .then(|| free_pairs(&linear, &self.description).ok())

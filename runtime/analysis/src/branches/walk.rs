@@ -1,6 +1,6 @@
 //! Pseudo-arclength continuation: follows a branch along its tangent with steps adapted to the curvature.
 
-use super::curve::{Corrected, Curve, Trouble};
+use super::curve::{ContinuationFailure, Corrected, Curve};
 use super::curve_point::CurvePoint;
 use super::ends::STRAY;
 use super::local_scaling::CurvePosition;
@@ -69,7 +69,7 @@ impl Curve<'_> {
         let far = settings.escape * (1.0 + largest(home));
         let mut at = start.clone();
         let mut length = 0.2 * settings.max_step;
-        let mut refused: Option<Trouble> = None;
+        let mut refused: Option<ContinuationFailure> = None;
         let mut seen = 0;
         while walk.points.len() < settings.max_points {
             self.watch.advance(walk.points.len() - seen);
@@ -88,7 +88,10 @@ impl Curve<'_> {
                 Err(trouble) => {
                     length *= 0.5;
                     // Near the edge of a domain, Newton's method fails for other reasons too.
-                    let reason = refused.take().filter(Trouble::at_edge).unwrap_or(trouble);
+                    let reason = refused
+                        .take()
+                        .filter(ContinuationFailure::at_edge)
+                        .unwrap_or(trouble);
                     if length.is_nan() || length < settings.min_step {
                         walk.end = match self.last_step(&at) {
                             Some((station, end)) => {
@@ -107,7 +110,7 @@ impl Curve<'_> {
             match pass(&at, &step.station, &step.located) {
                 Pass::Shorter if length > 2.0 * settings.min_step => {
                     length *= 0.5;
-                    refused = Some(Trouble::Missed(NotFound::BendsSharply));
+                    refused = Some(ContinuationFailure::Missed(NotFound::BendsSharply));
                     continue;
                 }
                 Pass::Stop => {
@@ -218,7 +221,7 @@ impl Curve<'_> {
         length: f64,
         home: &CurvePosition,
         steps: usize,
-    ) -> Result<Step, Trouble> {
+    ) -> Result<Step, ContinuationFailure> {
         let (frame, tangent) = (&at.frame, &at.tangent);
         let from = tangent.scaled(length);
         let mut corrected = self.correct(frame, &from, tangent, BEND * length)?;
@@ -239,7 +242,7 @@ impl Curve<'_> {
         }
         let station = station?;
         if !straight(&frame.direction(&station.direction()), tangent) {
-            return Err(Trouble::Missed(NotFound::BendsSharply));
+            return Err(ContinuationFailure::Missed(NotFound::BendsSharply));
         }
         let mut located = Vec::new();
         self.locate(at, &station, &mut located)?;
@@ -267,7 +270,7 @@ impl Curve<'_> {
         corrected: &Corrected,
         towards: &CurvePosition,
         before: Option<&CurvePoint>,
-    ) -> Result<CurvePoint, Trouble> {
+    ) -> Result<CurvePoint, ContinuationFailure> {
         let place = &corrected.place;
         let system = &corrected.system;
         let judged = self.equilibrium(place, system, corrected.iterations, None)?;

@@ -13,7 +13,7 @@ use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
 use super::space::Space;
 use crate::Error;
 use crate::algebra::Vector;
-use crate::tolerance::gather::{Part, Work};
+use crate::tolerance::gather::{Part, SampleRun};
 use crate::tolerance::{Outcome, Sampling};
 
 /// Statistics of some samples, per randomisation: responses first, then the varying design variables.
@@ -59,7 +59,7 @@ impl<M: Model> Task<'_, M> {
                 inside(now.start)..inside(now.end)
             })
             .collect();
-        let work = Work {
+        let work = SampleRun {
             threads: sampling.threads,
             size: (self.unknowns, self.space.nominal.len()),
             least: 1,

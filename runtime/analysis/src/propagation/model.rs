@@ -5,7 +5,7 @@ use crate::Error;
 use crate::algebra::Vector;
 use crate::response::{Response, Responses, Workspace};
 use crate::sensitivity::Quantity;
-use crate::tolerance::side_by_side::{Lanes, SideBySide};
+use crate::tolerance::side_by_side::{DesignWorkspace, SideBySide};
 use crate::tolerance::{Outcome, Tolerances};
 
 /// A design (SI), its outcome and its responses.
@@ -79,7 +79,7 @@ fn side_by_side<'a>(
 pub(super) struct DesignRoom {
     alone: Workspace,
     design: Vector,
-    lanes: Option<Lanes>,
+    lanes: Option<DesignWorkspace>,
     values: Vec<Option<f64>>,
 }
 

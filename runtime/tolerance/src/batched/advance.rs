@@ -3,7 +3,7 @@
 use super::block::{Block, Past};
 use super::continuity::Continuity;
 use super::newton::newton;
-use super::room::Room;
+use super::room::BatchArena;
 use super::slopes::{Slopes, slopes};
 use super::state::{Scratch, state};
 use crate::Input;
@@ -35,7 +35,7 @@ impl<'a> Workspace<'a> {
         with_slopes: bool,
     ) -> Self {
         let sizes = kernels.sizes();
-        let room = &mut Room::new(memory);
+        let room = &mut BatchArena::new(memory);
         Self {
             block: Block::new(room, inputs, design, sizes.coordinates),
             scratch: Scratch::new(room, sizes.coordinates),

@@ -1,7 +1,7 @@
 //! Neighbouring values of an input, solved side by side.
 
 use super::algebra::LARGEST;
-use super::room::Room;
+use super::room::BatchArena;
 use crate::constraints::Structure;
 use crate::equilibrium::Passed;
 use crate::kernels::{BatchLinear, BatchPoint, Sizes};
@@ -69,7 +69,7 @@ impl<'a> Block<'a> {
     }
 
     /// A block for a given design and inputs, one of which will vary.
-    pub(super) fn new(room: &mut Room<'a>, inputs: &[f64], design: &[f64], n: usize) -> Self {
+    pub(super) fn new(room: &mut BatchArena<'a>, inputs: &[f64], design: &[f64], n: usize) -> Self {
         Self {
             values: Batch::default(),
             inputs: room.constants(inputs),

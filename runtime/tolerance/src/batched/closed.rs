@@ -10,13 +10,13 @@ const TURNED: f64 = 0.25;
 const COUPLED: f64 = 0.01;
 
 /// A matrix prepared for solving.
-pub(crate) enum Solver<V: Lanes, const N: usize> {
+pub(crate) enum FactoredMatrix<V: Lanes, const N: usize> {
     /// Size two: the matrix and the inverse of its determinant.
     Two(V, V, V, V),
     Factor(Square<V, N>),
 }
 
-impl<V: Lanes, const N: usize> Solver<V, N> {
+impl<V: Lanes, const N: usize> FactoredMatrix<V, N> {
     /// The flag says that the matrix is positive definite, with pivots of at least the share `least`.
     #[inline(always)]
     pub(crate) fn new(n: usize, matrix: &Square<V, N>, least: f64) -> (Self, V) {

@@ -2,7 +2,7 @@
 
 use super::algebra::{self, Square, for_size, keep, load_matrix};
 use super::block::{Block, POSITIVE};
-use super::closed::Solver;
+use super::closed::FactoredMatrix;
 use super::state::Scratch;
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::kernels::BatchKernels;
@@ -67,7 +67,7 @@ impl Task for Step<'_, '_> {
         for_size!(block.coordinates.len(), |n, N| {
             for at in (0..WIDTH).step_by(V::WIDTH) {
                 let stiffness: Square<V, N> = load_matrix(n, scratch.stiffness, at);
-                let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
+                let (solver, positive) = FactoredMatrix::new(n, &stiffness, POSITIVE);
                 let step = solver.solve(n, &algebra::load(n, scratch.residual, at));
                 // Lanes at rest do not move, so that none depends on the others.
                 let rested = V::load(resting, at);

@@ -3,11 +3,11 @@
 use crate::scalar::Batch;
 
 /// Memory from which pieces are taken one after the other.
-pub(crate) struct Room<'a> {
+pub(crate) struct BatchArena<'a> {
     rest: &'a mut [Batch],
 }
 
-impl<'a> Room<'a> {
+impl<'a> BatchArena<'a> {
     pub(crate) fn new(rest: &'a mut [Batch]) -> Self {
         Self { rest }
     }

@@ -4,8 +4,8 @@
 
 use super::algebra::{self, Row, Square, for_size, load_matrix};
 use super::block::{Block, POSITIVE};
-use super::closed::Solver;
-use super::room::Room;
+use super::closed::FactoredMatrix;
+use super::room::BatchArena;
 use crate::Description;
 use crate::kernels::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, Costs, Sizes};
 use crate::modes::Family;
@@ -42,7 +42,7 @@ impl<'a> Slopes<'a> {
         partials.max(gradients)
     }
 
-    pub(super) fn new(room: &mut Room<'a>, description: &Description, sizes: Sizes) -> Self {
+    pub(super) fn new(room: &mut BatchArena<'a>, description: &Description, sizes: Sizes) -> Self {
         let n = sizes.coordinates;
         if Source::cheapest(Costs::of(description), sizes, Family::Undamped) == Source::Partials {
             let mut matrices = |count| BatchLinear {
@@ -95,7 +95,7 @@ pub(super) fn slopes<'m>(
                 instructions.run(Adjoint { block, gradients });
                 let Gradients { shift, adjoint, .. } = gradients;
                 kernels.residual_gradient_batch(instructions, block.point(), adjoint, shift);
-                instructions.run(Difference {
+                instructions.run(TotalDerivatives {
                     block,
                     gradients,
                     mode,
@@ -134,7 +134,7 @@ fn from_partials<V: Lanes, const N: usize>(
 ) {
     let Partials { matrices, residual } = partials;
     let stiffness: Square<V, N> = load_matrix(n, block.linear.stiffness, at);
-    let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
+    let (solver, _) = FactoredMatrix::new(n, &stiffness, POSITIVE);
     let lambda: Row<V, N> = algebra::load(n, block.lambda, at);
     let phi: Square<V, N> = load_matrix(n, block.shapes, at);
     let mut right = [[V::constant(0.0); N]; N];
@@ -190,7 +190,7 @@ impl Task for Adjoint<'_, '_> {
         for_size!(block.coordinates.len(), |n, N| {
             for at in (0..WIDTH).step_by(V::WIDTH) {
                 let stiffness: Square<V, N> = load_matrix(n, block.linear.stiffness, at);
-                let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
+                let (solver, _) = FactoredMatrix::new(n, &stiffness, POSITIVE);
                 let right = algebra::load(n, gradients.direct.coordinates, at);
                 let w = solver.solve(n, &right);
                 algebra::store(n, &w, gradients.adjoint, at);
@@ -200,13 +200,13 @@ impl Task for Adjoint<'_, '_> {
 }
 
 /// The derivatives of a mode with respect to inputs and design variables.
-struct Difference<'a, 'b> {
+struct TotalDerivatives<'a, 'b> {
     block: &'a mut Block<'b>,
     gradients: &'a Gradients<'b>,
     mode: usize,
 }
 
-impl Task for Difference<'_, '_> {
+impl Task for TotalDerivatives<'_, '_> {
     type Output = ();
 
     #[inline(always)]

@@ -2,8 +2,8 @@
 
 use super::algebra::{self, Row, Square, congruent, for_size, keep, load_matrix, small};
 use super::block::{Block, POSITIVE};
-use super::closed::{self, Solver};
-use super::room::Room;
+use super::closed::{self, FactoredMatrix};
+use super::room::BatchArena;
 use crate::algebra::Matrix;
 use crate::eigenproblem::INACCURATE;
 use crate::equilibrium::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
@@ -25,7 +25,7 @@ impl<'a> Scratch<'a> {
         3 * n + n * n
     }
 
-    pub(super) fn new(room: &mut Room<'a>, n: usize) -> Self {
+    pub(super) fn new(room: &mut BatchArena<'a>, n: usize) -> Self {
         Self {
             residual: room.take(n),
             stiffness: room.take(n * n),
@@ -137,7 +137,7 @@ fn remainder<V: Lanes, const N: usize>(
         let own = residual[i].abs() / scale;
         most = V::choose(own.at_most(most), most, own);
     }
-    let (solver, mut flag) = Solver::new(n, stiffness, POSITIVE);
+    let (solver, mut flag) = FactoredMatrix::new(n, stiffness, POSITIVE);
     flag = keep(flag, most.at_most(V::constant(TOLERANCE)));
     let rest = solver.solve(n, residual);
     for i in 0..n {

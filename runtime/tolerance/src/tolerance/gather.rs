@@ -23,9 +23,9 @@ const ROUND: u64 = 4;
 /// Maximum number of chunks per piece: threads should not wait long for the last one.
 const MOST: u64 = 64;
 
-/// How samples are processed, and who watches.
+/// How samples are processed, with the progress callback and the stop flag.
 #[doc(hidden)]
-pub struct Work<'a> {
+pub struct SampleRun<'a> {
     /// Number of threads; 0 for as many as the machine has.
     #[doc(hidden)]
     pub threads: usize,
@@ -56,7 +56,7 @@ pub struct Part<'a, K> {
     pub(crate) kept: &'a mut Vec<K>,
 }
 
-impl Work<'_> {
+impl SampleRun<'_> {
     /// Processes the samples of one range per group, or as many as are done when the work is stopped. Returns them
     /// together with what `solve` keeps, in order. Each thread has its own workspace.
     #[doc(hidden)]
@@ -188,7 +188,7 @@ mod tests {
     fn pieces_end_where_chunks_do() {
         for threads in [1, 2, 3, 7] {
             for range in [0..0, 5..6, 0..3000, 100..100_000, 255..257] {
-                let work = Work {
+                let work = SampleRun {
                     threads,
                     size: (1, 1),
                     least: 4,

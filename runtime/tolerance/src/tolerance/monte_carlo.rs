@@ -1,9 +1,9 @@
 //! Monte Carlo: every sample solves its own equilibrium and eigenproblem, and every failure is counted.
 
-use super::gather::{Part, Work};
+use super::gather::{Part, SampleRun};
 use super::partial::{SEED, STREAM, VARIABLES};
 use super::run::{Format, Run};
-use super::solver::{Numbered, Room, Solver};
+use super::solver::{Numbered, SampleSolver, SampleWorkspace};
 use super::{Fingerprint, MonteCarlo, PartialMonteCarlo, Sampling, Tolerances};
 use crate::kernels::BatchKernels;
 use crate::modes::{CLUSTER_GAP, clusters};
@@ -32,7 +32,7 @@ pub fn monte_carlo(
     let about = (nominal, modes);
     // Nothing will be merged with this run, so its fingerprint may stay empty.
     let fingerprint = |method: &str| drawn(Fingerprint::default(), method, tolerances, sampling);
-    let all = gathered(mechanism, about, tolerances, sampling, fingerprint)?;
+    let all = run_samples(mechanism, about, tolerances, sampling, fingerprint)?;
     Ok(all.into_result())
 }
 
@@ -51,7 +51,7 @@ pub fn partial_monte_carlo(
         let about = Fingerprint::new(mechanism, nominal, modes, tolerances);
         drawn(about, method, tolerances, sampling)
     };
-    gathered(
+    run_samples(
         mechanism,
         (nominal, modes),
         tolerances,
@@ -77,7 +77,7 @@ fn drawn(
         .with("samples kept", sampling.keep_samples)
 }
 
-fn gathered(
+fn run_samples(
     mechanism: &dyn BatchKernels,
     (nominal, modes): (&Equilibrium, &Modes),
     tolerances: &Tolerances,
@@ -87,7 +87,7 @@ fn gathered(
     tolerances.check_count(nominal.design.len())?;
     sampling.check_random()?;
     let range = sampling.now()?;
-    let solver = Solver::new(
+    let solver = SampleSolver::new(
         mechanism,
         (nominal, modes),
         tolerances,
@@ -96,7 +96,7 @@ fn gathered(
         sampling.keep_samples,
     );
     let side_by_side = solver.side_by_side();
-    let work = Work {
+    let work = SampleRun {
         threads: sampling.threads,
         size: (nominal.coordinates.len(), nominal.design.len()),
         least: if side_by_side { CHUNKS_SIDE_BY_SIDE } else { 1 },
@@ -104,7 +104,8 @@ fn gathered(
         stop: sampling.stop,
     };
     let plan = solver.plan()?;
-    let solve = |room: &mut Room, part: &mut Part<'_, Numbered>| solver.solve(room, part);
+    let solve =
+        |room: &mut SampleWorkspace, part: &mut Part<'_, Numbered>| solver.solve(room, part);
     let (parts, kept) = work.gather(&plan, &[range], || solver.room(), solve)?;
     let method = if side_by_side {
         "Monte Carlo side by side"

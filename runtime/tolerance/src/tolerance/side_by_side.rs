@@ -17,7 +17,7 @@ pub struct SideBySide<'a> {
 
 /// Workspace of one thread.
 #[doc(hidden)]
-pub struct Lanes(Memory);
+pub struct DesignWorkspace(Memory);
 
 impl<'a> SideBySide<'a> {
     /// Maximum number of designs solved together.
@@ -40,8 +40,8 @@ impl<'a> SideBySide<'a> {
     }
 
     #[doc(hidden)]
-    pub fn room(&self) -> Lanes {
-        Lanes(Memory::new(TOGETHER, self.size))
+    pub fn room(&self) -> DesignWorkspace {
+        DesignWorkspace(Memory::new(TOGETHER, self.size))
     }
 
     /// Solves up to [`Self::MOST`] designs, each given by a row of standard normal numbers. Calls `each` with the
@@ -50,7 +50,7 @@ impl<'a> SideBySide<'a> {
     #[doc(hidden)]
     pub fn solve(
         &self,
-        Lanes(memory): &mut Lanes,
+        DesignWorkspace(memory): &mut DesignWorkspace,
         rows: &[Vector],
         mut each: impl FnMut(usize, &[f64], Option<&[Complex]>) -> Result<(), Error>,
     ) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 use eigentol_statistics::summary::{LARGEST, Plan};
 
-use super::batched::{Memory, Prepared, Size, Solved, TOGETHER};
+use super::batched::{Memory, Prepared, SampleBatch, Size, TOGETHER};
 use super::gather::Part;
 use super::sample::Solution;
 use super::sampling::{Batches, Draw};
@@ -22,14 +22,14 @@ pub(super) const LEFT_NOMINAL_BRANCH: usize = Outcome::ALL.len();
 pub(super) type Numbered = (u64, Sample);
 
 /// Workspace of one thread.
-pub(super) struct Room {
+pub(super) struct SampleWorkspace {
     /// For batches; empty if samples are solved one by one.
     together: Memory,
     alone: Solution,
 }
 
 /// All data that samples need.
-pub(super) struct Solver<'a> {
+pub(super) struct SampleSolver<'a> {
     pub(super) mechanism: &'a dyn BatchKernels,
     pub(super) nominal: &'a Equilibrium,
     pub(super) modes: &'a Modes,
@@ -40,7 +40,7 @@ pub(super) struct Solver<'a> {
     prepared: Option<Prepared<'a>>,
 }
 
-impl<'a> Solver<'a> {
+impl<'a> SampleSolver<'a> {
     pub(super) fn new(
         mechanism: &'a dyn BatchKernels,
         (nominal, modes): (&'a Equilibrium, &'a Modes),
@@ -88,9 +88,9 @@ impl<'a> Solver<'a> {
         Ok(plan)
     }
 
-    pub(super) fn room(&self) -> Room {
+    pub(super) fn room(&self) -> SampleWorkspace {
         let count = self.prepared.as_ref().map_or(0, |_| TOGETHER);
-        Room {
+        SampleWorkspace {
             together: Memory::new(count, Size::of(self.nominal, self.modes)),
             alone: Solution::about(self.nominal, self.modes),
         }
@@ -99,25 +99,25 @@ impl<'a> Solver<'a> {
     /// Solves the samples of one chunk.
     pub(super) fn solve(
         &self,
-        room: &mut Room,
+        room: &mut SampleWorkspace,
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
         if let Some(prepared) = &self.prepared {
-            return self.together(prepared, room, part);
+            return self.solve_batched(prepared, room, part);
         }
         let (nominal, samples) = (&self.nominal.design, part.samples.clone());
         let mut draw = Draw::starting(self.sequence, samples.start, nominal, self.tolerances);
         for sample in samples {
-            self.alone(&mut room.alone, (sample, draw.next_design()), part)?;
+            self.solve_single(&mut room.alone, (sample, draw.next_design()), part)?;
         }
         Ok(())
     }
 
-    /// Solves samples in batches, and those that a batch cannot vouch for alone.
-    fn together(
+    /// Solves samples in batches; those that fail a check are solved one by one.
+    fn solve_batched(
         &self,
         prepared: &Prepared<'_>,
-        room: &mut Room,
+        room: &mut SampleWorkspace,
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
         let samples = part.samples.clone();
@@ -136,7 +136,7 @@ impl<'a> Solver<'a> {
             }
             prepared.solve(batches);
             for batch in &*batches {
-                self.decided((next, batch), &mut room.alone, part)?;
+                self.record_batch((next, batch), &mut room.alone, part)?;
                 next += batch.members as u64;
             }
         }
@@ -144,9 +144,9 @@ impl<'a> Solver<'a> {
     }
 
     /// Records the samples that a batch accepted, and solves the others alone.
-    fn decided(
+    fn record_batch(
         &self,
-        (first, batch): (u64, &Solved<'_>),
+        (first, batch): (u64, &SampleBatch<'_>),
         alone: &mut Solution,
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
@@ -177,7 +177,7 @@ impl<'a> Solver<'a> {
             let sample = first + member as u64;
             if batch.accepted >> member & 1 == 0 {
                 let design = member_of(batch.design, member);
-                self.alone(alone, (sample, &design), part)?;
+                self.solve_single(alone, (sample, &design), part)?;
             } else if self.keep_samples {
                 part.kept.push((sample, accepted_member(batch, member)));
             }
@@ -186,12 +186,12 @@ impl<'a> Solver<'a> {
     }
 
     /// Whether an equilibrium lies on the nominal branch.
-    fn stays(&self, design: &[f64], q: &[f64]) -> bool {
+    fn is_on_nominal_branch(&self, design: &[f64], q: &[f64]) -> bool {
         Branch::of(self.mechanism, self.nominal).holds(design, q)
     }
 
     /// Solves a sample on its own.
-    fn alone(
+    fn solve_single(
         &self,
         solved: &mut Solution,
         (sample, design): (u64, &[f64]),
@@ -201,7 +201,7 @@ impl<'a> Solver<'a> {
         chunk.count(solved.outcome as usize, 1)?;
         let count = self.modes.modes.len();
         if solved.continues(self.nominal) {
-            let left = !self.stays(design, &solved.state.coordinates);
+            let left = !self.is_on_nominal_branch(design, &solved.state.coordinates);
             chunk.count(LEFT_NOMINAL_BRANCH, u64::from(left))?;
             for r in 0..count {
                 let Some(mode) = solved.mode(r) else { continue };
@@ -223,7 +223,7 @@ impl<'a> Solver<'a> {
 }
 
 /// A sample that passed the checks of its batch.
-fn accepted_member(solved: &Solved<'_>, member: usize) -> Sample {
+fn accepted_member(solved: &SampleBatch<'_>, member: usize) -> Sample {
     let eigenvalues: Vec<Complex> = solved.eigenvalues(member).collect();
     let all = |quantity: Quantity| {
         let values = eigenvalues.iter().map(|s| quantity.of_stable(*s));

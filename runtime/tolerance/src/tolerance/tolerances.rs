@@ -2,7 +2,7 @@
 //!
 //! # A tolerance is a distribution of values
 //!
-//! The language and a study say how each value varies (`mechanism/tolerance.rs`), and `tolerance/tolerances.rs` derives
+//! The language and a study say how each value varies (`mechanism/tolerance.rs` of the contract), and `tolerance/tolerances.rs` derives
 //! covariance and means for first and second order and, where values are not jointly normal, the values as increasing
 //! functions of jointly normal numbers (a Gaussian copula with the requested linear correlations). Chance without
 //! mechanisms is in `runtime/statistics`, a crate that depends on none of the others.

@@ -8,8 +8,8 @@ use super::node::{Node, Question, has_stiffness};
 use super::scalars::{Kind, Wanted};
 use super::step::{Event, Step};
 use crate::branches::{
-    BranchEnd, Continuation, Curve, CurvePoint, CurvePosition, Located, Pass, SpecialKind,
-    SpecialPoint, Trouble,
+    BranchEnd, Continuation, ContinuationFailure, Curve, CurvePoint, CurvePosition, Located, Pass,
+    SpecialKind, SpecialPoint,
 };
 use crate::equilibrium::{Held, OperatingPoint, Policy, equilibrium_into};
 use crate::error::NotFound;
@@ -661,7 +661,7 @@ fn reason(curve: &Curve<'_>, end: BranchEnd, last: &Equilibrium) -> Error {
         BranchEnd::Escape => NotFound::Escape,
         _ => NotFound::IterationLimit,
     };
-    match curve.broken_off(Trouble::Missed(missed), last) {
+    match curve.broken_off(ContinuationFailure::Missed(missed), last) {
         BranchEnd::Lost(error) => error,
         _ => Error::CriticalState,
     }

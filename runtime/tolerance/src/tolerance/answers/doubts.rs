@@ -32,7 +32,7 @@ pub fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
     shared(all).iter().map(sentence).collect()
 }
 
-/// How a number stands about which there is a doubt.
+/// The verdict on a number that is in doubt.
 pub fn standing(doubt: &Doubt) -> &'static str {
     match doubt.certain() {
         true => "Not to be trusted",
@@ -40,7 +40,7 @@ pub fn standing(doubt: &Doubt) -> &'static str {
     }
 }
 
-/// Writes the doubts of a result that only distances judge, and who judges better.
+/// Writes the doubts that distances raise, and names the analysis that can settle them.
 pub fn doubted(said: &mut Findings, all: &[impl AsRef<[Doubt]>]) {
     let mut open = false;
     for (modes, doubt) in shared(all) {

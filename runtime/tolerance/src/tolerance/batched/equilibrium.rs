@@ -1,10 +1,10 @@
 //! The equilibrium of a sample: the steps to it, and the check that it continues the nominal equilibrium.
 
 use super::statics::{Forces, Potential, Statics};
-use super::{Solved, TaylorModel};
+use super::{SampleBatch, TaylorModel};
 use crate::batched::POSITIVE;
 use crate::batched::algebra::{self, Row, Square, congruent, keep, load_matrix};
-use crate::batched::closed::{self, Solver};
+use crate::batched::closed::{self, FactoredMatrix};
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::kernels::BatchPoint;
 use crate::scalar::Lanes;
@@ -22,10 +22,10 @@ const CHANGED: f64 = 0.5;
 
 /// A Newton step; a sample fails if its stiffness departs from the nominal one on the way.
 #[inline(always)]
-pub(super) fn improve<V: Lanes, const N: usize>(
+pub(super) fn newton_step<V: Lanes, const N: usize>(
     n: usize,
     prepared: &TaylorModel<'_, N>,
-    batch: &mut Solved<'_>,
+    batch: &mut SampleBatch<'_>,
     at: usize,
 ) {
     let one = V::constant(1.0);
@@ -55,7 +55,7 @@ pub(super) fn improve<V: Lanes, const N: usize>(
 /// The stiffness of the nominal design at the equilibrium of a sample, where no derivative of it is known.
 pub(super) fn nominal_stiffness<const N: usize>(
     prepared: &TaylorModel<'_, N>,
-    batch: &mut Solved<'_>,
+    batch: &mut SampleBatch<'_>,
 ) {
     let point = BatchPoint {
         q: batch.coordinates,
@@ -73,10 +73,10 @@ pub(super) fn nominal_stiffness<const N: usize>(
 /// Flags samples at rest near the nominal equilibrium whose stiffness stays close to the nominal one all the way. They
 /// are on its branch: each of the two equilibria is in the basin of the other.
 #[inline(always)]
-pub(super) fn held<V: Lanes, const N: usize>(
+pub(super) fn continues_nominal<V: Lanes, const N: usize>(
     n: usize,
     prepared: &TaylorModel<'_, N>,
-    batch: &Solved<'_>,
+    batch: &SampleBatch<'_>,
     at: usize,
 ) -> V {
     let one = V::constant(1.0);
@@ -109,7 +109,7 @@ pub(super) fn held<V: Lanes, const N: usize>(
 pub(super) fn between_modes<V: Lanes, const N: usize>(
     n: usize,
     potential: &Potential<N>,
-    batch: &mut Solved<'_>,
+    batch: &mut SampleBatch<'_>,
     at: usize,
 ) {
     for (from, to) in [
@@ -137,7 +137,7 @@ impl<const N: usize> Potential<N> {
         stiffness: &Square<V, N>,
         residual: &Row<V, N>,
     ) -> (Row<V, N>, V, V) {
-        let (solver, positive) = Solver::new(n, stiffness, POSITIVE);
+        let (solver, positive) = FactoredMatrix::new(n, stiffness, POSITIVE);
         let mut step = solver.solve(n, residual);
         let correction = solver.solve(n, &curved(n, &self.curvature, &step));
         let mut last = V::constant(1.0);

@@ -5,7 +5,7 @@
 //! minimum with a margin if there is a potential; that damped modes decay; and that each mode is clearly the nominal
 //! one. A sample that fails a check is passed to the solvers for one state, which decide its outcome. Accepted samples
 //! have the equilibrium and eigenvalues of those solvers up to rounding, and do not depend on the processor or on the
-//! samples beside them.
+//! other samples of the batch.
 //!
 //! # Monte Carlo side by side
 //!
@@ -49,6 +49,6 @@ mod taylor_model;
 pub(super) use prepared::Prepared;
 #[doc(hidden)]
 pub use prepared::possible;
-pub(super) use samples::{Memory, Size, Solved};
+pub(super) use samples::{Memory, SampleBatch, Size};
 pub(super) use solve::TOGETHER;
 use taylor_model::TaylorModel;

@@ -1,7 +1,7 @@
 //! The modes of a sample, each identified with a nominal one.
 
 use super::statics::Potential;
-use super::{Solved, TaylorModel};
+use super::{SampleBatch, TaylorModel};
 use crate::DampingKind;
 use crate::batched::algebra::{Square, keep, load_matrix};
 use crate::batched::closed;
@@ -21,7 +21,7 @@ const SLOW: f64 = 1e-12;
 pub(super) fn undamped<V: Lanes, const N: usize>(
     n: usize,
     potential: &Potential<N>,
-    batch: &mut Solved<'_>,
+    batch: &mut SampleBatch<'_>,
     mut flag: V,
     at: usize,
 ) -> V {
@@ -45,7 +45,7 @@ pub(super) fn undamped<V: Lanes, const N: usize>(
 pub(super) fn general<V: Lanes, const N: usize>(
     n: usize,
     (prepared, reference): (&TaylorModel<'_, N>, &Reference),
-    batch: &mut Solved<'_>,
+    batch: &mut SampleBatch<'_>,
     at: usize,
 ) {
     let mut flag = V::load(&batch.flags, at);

@@ -1,6 +1,6 @@
 //! Dispatches samples to vector code for their number of unknowns.
 
-use super::samples::Solved;
+use super::samples::SampleBatch;
 use super::taylor_model::TaylorModel;
 use crate::constraints::Structure;
 use crate::kernels::BatchKernels;
@@ -51,7 +51,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// Solves the members of several batches from their random bits.
-    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<'_>]) {
+    pub(in crate::tolerance) fn solve(&self, batches: &mut [SampleBatch<'_>]) {
         match self {
             Self::Four(model) => model.solve(batches),
             Self::Eight(model) => model.solve(batches),

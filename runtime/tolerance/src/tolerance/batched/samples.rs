@@ -1,6 +1,6 @@
 //! Samples of one batch.
 
-use crate::batched::room::Room;
+use crate::batched::room::BatchArena;
 use crate::kernels::BatchLinear;
 use crate::modes::{Family, in_order};
 use crate::scalar::{Batch, WIDTH};
@@ -8,7 +8,7 @@ use crate::tolerance::sampling::Bits;
 use crate::{Complex, Equilibrium, Modes};
 
 /// Samples of one batch. Matrices are stored row by row.
-pub(in crate::tolerance) struct Solved<'a> {
+pub(in crate::tolerance) struct SampleBatch<'a> {
     pub(in crate::tolerance) design: &'a mut [Batch],
     pub(in crate::tolerance) coordinates: &'a mut [Batch],
     /// `Im s` of each nominal mode.
@@ -85,12 +85,12 @@ impl Memory {
     pub(in crate::tolerance) fn batches<const COUNT: usize>(
         &mut self,
         size: Size,
-    ) -> [Solved<'_>; COUNT] {
+    ) -> [SampleBatch<'_>; COUNT] {
         let (n, p) = (size.unknowns, size.design);
         let pairs = p.div_ceil(2);
-        let mut room = Room::new(&mut self.numbers);
+        let mut room = BatchArena::new(&mut self.numbers);
         let mut bits = self.bits.chunks_mut(pairs.max(1));
-        core::array::from_fn(|_| Solved {
+        core::array::from_fn(|_| SampleBatch {
             design: room.take(p),
             coordinates: room.take(n),
             frequencies: room.take(size.modes),
@@ -114,7 +114,7 @@ impl Memory {
     }
 }
 
-impl Solved<'_> {
+impl SampleBatch<'_> {
     /// Eigenvalues of a member, 1/s, in the order of the nominal modes.
     pub(in crate::tolerance) fn eigenvalues(&self, member: usize) -> impl Iterator<Item = Complex> {
         let both = self.rates.iter().zip(&*self.frequencies);

@@ -1,6 +1,6 @@
 //! Takes several batches of samples through each stage together.
 
-use super::samples::Solved;
+use super::samples::SampleBatch;
 use super::statics::Statics;
 use super::{TaylorModel, equilibrium, modes, stages};
 use crate::batched::algebra::for_size_up_to;
@@ -16,7 +16,7 @@ pub(in crate::tolerance) const TOGETHER: usize = 4;
 
 impl<const N: usize> TaylorModel<'_, N> {
     /// Solves the members of several batches from their random bits.
-    pub(super) fn solve(&self, batches: &mut [Solved<'_>]) {
+    pub(super) fn solve(&self, batches: &mut [SampleBatch<'_>]) {
         self.instructions.run(Equilibria {
             prepared: self,
             batches,
@@ -47,7 +47,7 @@ impl<const N: usize> TaylorModel<'_, N> {
 /// Equilibria, and undamped modes if no others are wanted.
 struct Equilibria<'a, 'b, const N: usize> {
     prepared: &'a TaylorModel<'a, N>,
-    batches: &'a mut [Solved<'b>],
+    batches: &'a mut [SampleBatch<'b>],
 }
 
 impl<const N: usize> Task for Equilibria<'_, '_, N> {
@@ -59,16 +59,16 @@ impl<const N: usize> Task for Equilibria<'_, '_, N> {
         for_size_up_to::<N>(
             prepared.nominal.coordinates.len(),
             #[inline(always)]
-            |n| through::<V, N>(n, prepared, batches),
+            |n| solve_equilibria::<V, N>(n, prepared, batches),
         );
     }
 }
 
 #[inline(always)]
-fn through<V: Lanes, const N: usize>(
+fn solve_equilibria<V: Lanes, const N: usize>(
     n: usize,
     prepared: &TaylorModel<'_, N>,
-    batches: &mut [Solved<'_>],
+    batches: &mut [SampleBatch<'_>],
 ) {
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {
@@ -106,7 +106,7 @@ fn through<V: Lanes, const N: usize>(
         for batch in &mut *batches {
             if !batch.rests() {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    equilibrium::improve::<V, N>(n, prepared, batch, at);
+                    equilibrium::newton_step::<V, N>(n, prepared, batch, at);
                 }
             }
         }
@@ -128,7 +128,7 @@ fn through<V: Lanes, const N: usize>(
     }
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            let mut flag = equilibrium::held::<V, N>(n, prepared, batch, at);
+            let mut flag = equilibrium::continues_nominal::<V, N>(n, prepared, batch, at);
             if let (None, Statics::Potential(potential)) = (&prepared.reference, &prepared.statics)
             {
                 flag = modes::undamped::<V, N>(n, potential, batch, flag, at);
@@ -144,7 +144,7 @@ fn through<V: Lanes, const N: usize>(
 struct GeneralModes<'a, 'b, const N: usize> {
     prepared: &'a TaylorModel<'a, N>,
     reference: &'a Reference,
-    batches: &'a mut [Solved<'b>],
+    batches: &'a mut [SampleBatch<'b>],
 }
 
 impl<const N: usize> Task for GeneralModes<'_, '_, N> {

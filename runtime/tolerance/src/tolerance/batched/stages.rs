@@ -1,7 +1,7 @@
 //! The first stages of a sample: its design, and the prediction of its equilibrium.
 
 use super::nominal::FEW;
-use super::{Solved, TaylorModel};
+use super::{SampleBatch, TaylorModel};
 use crate::batched::algebra;
 use crate::kernels::Kernels;
 use crate::scalar::{Batch, Lanes, WIDTH};
@@ -11,7 +11,7 @@ use crate::tolerance::normal_sampling::standard_normal_pair;
 #[inline(always)]
 pub(super) fn draw<V: Lanes, const N: usize>(
     prepared: &TaylorModel<'_, N>,
-    batch: &mut Solved<'_>,
+    batch: &mut SampleBatch<'_>,
     at: usize,
 ) {
     let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
@@ -77,7 +77,7 @@ pub(super) fn possible<const N: usize>(
 pub(super) fn predict<V: Lanes, const N: usize>(
     n: usize,
     prepared: &TaylorModel<'_, N>,
-    batch: &mut Solved<'_>,
+    batch: &mut SampleBatch<'_>,
     at: usize,
 ) {
     let coordinates = &prepared.nominal.coordinates[..n];
