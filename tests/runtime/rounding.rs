@@ -6,16 +6,17 @@ use eigentol::kernels::Linear;
 use eigentol::modes::{modes, modes_of};
 use eigentol::summary::Doubt;
 use eigentol::{
-    Behaviour, DampingKind, Description, DesignVariable, Family, Input, Matrix, Policy, Real,
-    Shared, Stability, Study, Vector, mechanism,
+    Behaviour, Coordinate, DampingKind, Description, DesignVariable, Family, Input, Matrix, Policy,
+    Real, Shared, Stability, Study, Vector, mechanism,
 };
+use eigentol_interpreter::Interpreted;
 
 use crate::common::derived::{Derived, Model};
 use crate::common::models::Plate;
 use crate::common::pendulum::W;
 use crate::common::{METRE, STIFFNESS, close, coordinate, design, sizes};
 
-mechanism! {
+const BAR: &str = "
     mechanism Bar {
         input  omega: rad/s;
         design m = 3 kg +/- 0.03 kg;
@@ -26,7 +27,7 @@ mechanism! {
         joint spin:  revolute(z) from ground to shaft, driven at omega;
         joint theta: revolute(y) from shaft to bar;
     }
-}
+";
 
 mechanism! {
     /// Masses one behind the other, each held by a spring to the one before.
@@ -150,9 +151,11 @@ fn exact_lambda(omega: f64) -> f64 {
     (W - square) - omega.mul_add(omega, -square)
 }
 
-fn bar(omega: f64, start: f64) -> Study<Bar> {
-    let study = Study::new(Bar).input(Bar::omega, omega);
-    study.start(Bar::theta, start)
+fn bar(omega: f64, start: f64) -> Study<Interpreted> {
+    let study = Study::new(Interpreted::from_text(BAR).unwrap());
+    study
+        .input(Input::new(0), omega)
+        .start(Coordinate::new(0), start)
 }
 
 #[test]
@@ -213,7 +216,9 @@ fn beside_its_critical_speed_a_pendulum_is_stable_or_not() {
 /// A located critical state is neutral, whatever the last digits of its speed.
 #[test]
 fn a_critical_state_that_was_located_is_neutral() {
-    let found = bar(0.0, 0.0).critical_state(Bar::omega, 3.0, 5.0).unwrap();
+    let found = bar(0.0, 0.0)
+        .critical_state(Input::new(0), 3.0, 5.0)
+        .unwrap();
     close(found.value, W.sqrt(), 1e-12);
     let at = &found.equilibrium;
     assert_eq!(at.stability, Stability::Neutral { zero: 1 });
