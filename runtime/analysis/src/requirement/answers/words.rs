@@ -6,7 +6,7 @@ use crate::along::name_of;
 use crate::judge::chance;
 use crate::requirement::{Found, Requirement};
 use crate::{Description, Text, Unit};
-use eigentol_results::numbers::{given_in, number, percent, with_unit};
+use eigentol_results::numbers::{given, given_in, percent, with_unit};
 
 impl Requirement {
     /// In words, with the units of a mechanism: `frequency 1 at least 4 rad/s`.
@@ -38,7 +38,7 @@ impl Requirement {
                 let name = name_of(of, input);
                 let multiple = match order {
                     1.0 => name.to_owned(),
-                    order => format!("{} times {name}", number(order)),
+                    order => format!("{} times {name}", given(order)),
                 };
                 format!("away from {multiple} by {}", percent(fraction))
             }
