@@ -84,7 +84,10 @@ fn every_question_is_asked() {
             .collect()
     };
     for (files, asked) in [
-        (&["at_point"][..], names(at_one_state())),
+        (
+            &["at_point", "beyond_first_order"][..],
+            names(at_one_state()),
+        ),
         (&["over_input", "events"], names(along_an_input())),
         (&["propagation", "requirements"], names(of_chance())),
     ] {

@@ -98,9 +98,6 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
         }),
         ("second_order", |s, _| answered(s.second_order())),
         ("clusters", |s, _| answered(s.clusters())),
-        ("second_order_failure", |s, _| {
-            answered(s.second_order_failure(Requirement::at_most(growth(s), 1.0)));
-        }),
         ("monte_carlo", |s, _| answered(s.monte_carlo())),
         ("samples_between", |s, _| answered(s.samples_between(0..1))),
         ("sample_modes", |s, _| {
@@ -131,6 +128,9 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
         let _ = black_box(answer);
     }
     vec![
+        ("second_order_failure", |s, _| {
+            answered(s.second_order_failure(Requirement::at_most(growth(s), 1.0)));
+        }),
         ("propagate", |s, _| replied(s.propagate(&[growth(s)]))),
         ("sample_responses", |s, _| {
             let sampling = s.sampling().samples(SAMPLES);
