@@ -319,20 +319,19 @@ impl MotionKernels for Interpreted {
 impl Interpreted {
     /// [`MotionKernel::Linear`] column by column, as in compiled code for large mechanisms.
     fn linear_by_columns(&self, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
-        let [mass, damping, stiffness] = results else {
-            return;
-        };
+        let (mass, rest) = results.split_at_mut(1);
+        let (damping, stiffness) = rest.split_at_mut(1);
         let n = arguments[0].len();
         let mut column = vec![0.0; n];
         self.evaluate_motion(
             MotionKernel::Motion,
             &arguments[1..],
-            &mut [mass, &mut column],
+            &mut [&mut *mass[0], &mut column],
         );
         let tape = &self.shared.tapes.in_motion[MotionKernel::Residual as usize];
         let zeros = arguments.iter().map(|list| vec![0.0; list.len()]);
         let mut direction: Vec<_> = zeros.collect();
-        for (list, matrix) in [(1, damping), (2, stiffness)] {
+        for (list, matrix) in [(1, &mut damping[0]), (2, &mut stiffness[0])] {
             for k in 0..n {
                 direction[list][k] = 1.0;
                 let along: Vec<&[f64]> = direction.iter().map(Vec::as_slice).collect();

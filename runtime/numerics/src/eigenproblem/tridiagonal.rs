@@ -85,7 +85,7 @@ fn reduce(matrix: &mut [f64], [diagonal, beside, product]: [&mut [f64]; 3]) {
         let (size, end) = (v[..i - 1].iter().map(|x| x * x).sum::<f64>(), v[i - 1]);
         if size <= NEGLIGIBLE {
             beside[i - 1] = end;
-            v[i - 1] = 0.0;
+            v.fill(0.0);
             continue;
         }
         // The reflection 1 - v v^T / half turns the row towards its last element.
@@ -256,6 +256,49 @@ mod tests {
                         (a - b).abs() <= 1e-13 * size * n as f64,
                         "{n} {kind}: {a} {b}"
                     );
+                }
+            }
+        }
+    }
+
+    /// What is carried along are the eigenvectors: orthonormal, and `A v = lambda v`. Also where no reflection is needed
+    /// (diagonal and tridiagonal matrices), where elements are so small that their squares vanish, and where all
+    /// eigenvalues are equal.
+    #[test]
+    fn carried_vectors_diagonalise() {
+        for n in [1_usize, 2, 3, 8, 9, 40] {
+            for kind in 0..6 {
+                let element = |i: usize, j: usize| match kind {
+                    0 => ((i + 1) as f64 * (j + 1) as f64).sin(),
+                    1 if i.abs_diff(j) < 2 => (i + j) as f64 - 3.0,
+                    2 if i == j => i as f64 - 2.0,
+                    3 => 1.0,
+                    4 if i == j => 1.0 + i as f64,
+                    4 => [1e-140, 1e-150, 1e-162][(i + j) % 3],
+                    5 if i == j => 2.0,
+                    _ => 0.0,
+                };
+                let matrix: Vec<f64> = (0..n * n).map(|k| element(k / n, k % n)).collect();
+                let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let mut vectors = vec![0.0; n * n];
+                vectors.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
+                let (mut values, mut beside, mut product) =
+                    (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+                let room = [&mut values[..], &mut beside, &mut product];
+                assert!(decompose(&mut matrix.clone(), &mut vectors, room));
+                let rows = || vectors.chunks_exact(n);
+                for (r, (v, value)) in rows().zip(&values).enumerate() {
+                    for (s, w) in rows().enumerate() {
+                        let expected = if r == s { 1.0 } else { 0.0 };
+                        assert!((dot(v, w) - expected).abs() < 1e-14 * (n + 4) as f64);
+                    }
+                    for (row, x) in matrix.chunks_exact(n).zip(v) {
+                        let rest = dot(row, v) - value * x;
+                        assert!(
+                            rest.abs() <= 1e-14 * size * (n + 4) as f64,
+                            "{n} {kind}: {rest:e}"
+                        );
+                    }
                 }
             }
         }
