@@ -77,10 +77,11 @@ extern crate self as eigentol;
 pub use eigentol_contract::scalar;
 pub use eigentol_contract::{
     Any, Array, BodyInfo, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo,
-    DesignVariable, Dual, ElementInfo, Gradient, GradientOf, Input, InputInfo, JointInfo,
-    KernelInfo, Law, Linear, LinearPartials, LinkInfo, List, Mechanism, Output, OutputInfo,
-    PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, Role,
-    Shared, SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
+    DesignVariable, Dual, ElementInfo, ExcitationInfo, Forcing, ForcingOf, Gradient, GradientOf,
+    Input, InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo, List,
+    Mechanism, Output, OutputInfo, OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin,
+    Real, ResidualPartialsOf, RestParts, Role, Shared, SolidInfo, SolidKind, Square, Text,
+    ToleranceInfo, Unit, Violation, WheelInfo,
 };
 pub use eigentol_macros::mechanism;
 

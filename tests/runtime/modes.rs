@@ -18,6 +18,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     coordinates: Shared::Static(&[]),
     inputs: Shared::Static(&[]),
     design: Shared::Static(&[]),
+    excitations: Shared::Static(&[]),
     outputs: Shared::Static(&[]),
     symmetric_stiffness: true,
     free_directions: 0,

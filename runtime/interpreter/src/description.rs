@@ -1,8 +1,8 @@
 //! Converts the compiler's description of a mechanism to the runtime's types.
 
 use eigentol::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, Law, OutputInfo,
-    Role, Text, ToleranceInfo, Unit,
+    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
+    Law, OutputInfo, Role, Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::mechanics;
@@ -95,6 +95,16 @@ pub fn description(compilation: &Compilation) -> Description {
             unit: unit(&output.unit),
         })
         .collect();
+    let excitations: Vec<_> = functions
+        .excitations
+        .iter()
+        .map(|excitation| ExcitationInfo {
+            name: text(excitation.name.as_str()),
+            kind: text(excitation.kind),
+            with: excitation.with,
+            order: text(excitation.order.as_str()),
+        })
+        .collect();
     let kernels: Vec<_> = program
         .kernels
         .iter()
@@ -110,6 +120,7 @@ pub fn description(compilation: &Compilation) -> Description {
         inputs: inputs.into(),
         design: design.into(),
         outputs: outputs.into(),
+        excitations: excitations.into(),
         symmetric_stiffness: functions.properties.symmetric_stiffness,
         free_directions: functions.free.count,
         held: functions.held.clone().into(),

@@ -153,6 +153,7 @@ impl Kernels for Interpreted {
             inputs: description.inputs.len(),
             design: description.design.len(),
             outputs: description.outputs.len(),
+            excitations: description.excitations.len(),
         }
     }
 

@@ -45,6 +45,7 @@ impl Model for Twins {
             design("f", STIFFNESS, 0.0, 1.0),
             design("d", NUMBER, 0.0, 0.0),
         ]),
+        excitations: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         free_directions: 0,

@@ -29,6 +29,7 @@ macro_rules! law {
                     coordinates: Shared::Static(&COORDINATES),
                     inputs: Shared::Static(&INPUTS),
                     design: Shared::Static(&DESIGN),
+                    excitations: Shared::Static(&[]),
                     outputs: Shared::Static(&[]),
                     symmetric_stiffness: $symmetric,
                     free_directions: 0,

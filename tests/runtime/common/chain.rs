@@ -50,6 +50,7 @@ macro_rules! chain {
                     coordinates: Shared::Static(&COORDINATES),
                     inputs: Shared::Static(&[input("omega", SPEED)]),
                     design: Shared::Static(&DESIGN),
+                    excitations: Shared::Static(&[]),
                     outputs: Shared::Static(&[OutputInfo {
                         name: Shared::Static("tip_radius"),
                         unit: METRE,

@@ -125,6 +125,7 @@ impl<X: Model> Mechanism for Derived<X> {
     type Inputs<T: Copy> = X::Inputs<T>;
     type Design<T: Copy> = X::Design<T>;
     type Outputs<T: Copy> = X::Outputs<T>;
+    type Excitations<T: Copy> = [T; 0];
     type Picture<T: Copy> = [T; 0];
 
     const DESCRIPTION: Description = X::DESCRIPTION;

@@ -46,6 +46,7 @@ fn slopes<T: Real>(x: GradientOf<Pendulum, Dual<T>>) -> GradientOf<Pendulum, T> 
 
 impl Mechanism for Pendulum {
     sizes!(1, 1, 2, 1);
+    type Excitations<T: Copy> = [T; 0];
     type Picture<T: Copy> = [T; 0];
 
     const DESCRIPTION: Description = Description {
@@ -56,6 +57,7 @@ impl Mechanism for Pendulum {
             design("m", KILOGRAM, 3.0, 0.0),
             design("l", METRE, 1.0, 0.03),
         ]),
+        excitations: Shared::Static(&[]),
         outputs: Shared::Static(&[OutputInfo {
             name: Shared::Static("tip_radius"),
             unit: METRE,

@@ -27,6 +27,7 @@ const fn described(
         coordinates: Shared::Static(coordinates),
         inputs: Shared::Static(OMEGA),
         design: Shared::Static(design),
+        excitations: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,

@@ -52,6 +52,7 @@ impl Sizes {
             coordinates: all.into(),
             inputs: Shared::Static(&[]),
             design: Shared::Static(&[]),
+            excitations: Shared::Static(&[]),
             outputs: Shared::Static(&[]),
             symmetric_stiffness: false,
             free_directions: 0,

@@ -43,6 +43,7 @@ const fn described(
         coordinates: Shared::Static(coordinates),
         inputs: Shared::Static(AT_SPEED),
         design: Shared::Static(design),
+        excitations: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         free_directions: 0,

@@ -86,6 +86,7 @@ pub(crate) const fn described(
         coordinates: Shared::Static(coordinates),
         inputs: Shared::Static(inputs),
         design: Shared::Static(design),
+        excitations: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,

@@ -45,6 +45,7 @@ impl Model for Gears {
             design("k", NUMBER, VALUES[6], 0.0),
             design("p", NUMBER, VALUES[7], 0.0),
         ]),
+        excitations: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         free_directions: 0,

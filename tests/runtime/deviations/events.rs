@@ -168,6 +168,7 @@ impl Model for Fed {
         coordinates: Shared::Static(&[coordinate("q", METRE)]),
         inputs: Shared::Static(&[input("u", NUMBER)]),
         design: Shared::Static(&[design("d", NUMBER, 1.0, 0.0)]),
+        excitations: Shared::Static(&[]),
         outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         free_directions: 0,

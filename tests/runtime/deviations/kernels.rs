@@ -571,6 +571,7 @@ mod declared {
                 ),
             ]),
             design: Shared::Static(&[]),
+            excitations: Shared::Static(&[]),
             outputs: Shared::Static(&[]),
             symmetric_stiffness: true,
             free_directions: 0,

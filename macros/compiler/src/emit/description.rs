@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::tolerance;
-use crate::mechanics::{Damping, Functions, Role, Unknown};
+use crate::mechanics::{self, Damping, Functions, Role, Unknown};
 use crate::model::mechanism::{Mechanism, Unit};
 use crate::program::Program;
 
@@ -48,6 +48,22 @@ pub(super) fn description(
         let (name, unit) = (output.name.to_string(), unit(&output.unit));
         quote! { ::eigentol::OutputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
     });
+    let excitations = functions.excitations.iter().map(|excitation| {
+        let mechanics::Excitation {
+            name,
+            kind,
+            with,
+            order,
+        } = excitation;
+        quote! {
+            ::eigentol::ExcitationInfo {
+                name: ::eigentol::Shared::Static(#name),
+                kind: ::eigentol::Shared::Static(#kind),
+                with: #with,
+                order: ::eigentol::Shared::Static(#order),
+            }
+        }
+    });
     let symmetric = functions.properties.symmetric_stiffness;
     let free_directions = functions.free.count;
     let held = &functions.held;
@@ -71,6 +87,7 @@ pub(super) fn description(
             inputs: ::eigentol::Shared::Static(&[#(#inputs),*]),
             design: ::eigentol::Shared::Static(&[#(#design),*]),
             outputs: ::eigentol::Shared::Static(&[#(#outputs),*]),
+            excitations: ::eigentol::Shared::Static(&[#(#excitations),*]),
             symmetric_stiffness: #symmetric,
             free_directions: #free_directions,
             held: ::eigentol::Shared::Static(&[#(#held),*]),

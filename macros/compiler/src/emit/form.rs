@@ -26,13 +26,16 @@ pub(super) fn form(kernel: KernelName) -> Option<Form> {
         KernelName::Motion
         | KernelName::ResidualAndStiffness
         | KernelName::ResidualPartials
-        | KernelName::OutputPartials => Form::Tuple,
+        | KernelName::OutputPartials
+        | KernelName::OutputMotion => Form::Tuple,
+        KernelName::Forcing => Form::Record("Forcing", 3),
         KernelName::ResidualParts => Form::Record("RestParts", 1),
         KernelName::Linear | KernelName::MotionLinear => Form::Record("Linear", 1),
         KernelName::LinearPartials => Form::Partials,
-        KernelName::ModeGradient | KernelName::PencilGradient | KernelName::ResidualGradient => {
-            Form::Record("Gradient", 3)
-        }
+        KernelName::ModeGradient
+        | KernelName::PencilGradient
+        | KernelName::ResidualGradient
+        | KernelName::ForcedGradient => Form::Record("Gradient", 3),
         KernelName::Violation | KernelName::PoseMargin | KernelName::HeldValues => return None,
     })
 }

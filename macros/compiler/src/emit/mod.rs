@@ -94,6 +94,7 @@ pub fn emit<E: Debug>(
     let pictured = functions.picture.computed.len();
     let (coordinates, inputs) = (functions.unknowns.len(), mechanism.inputs.len());
     let (design, outputs) = (mechanism.design.len(), mechanism.outputs.len());
+    let excitations = mechanism.excitations.len();
     let conditions: Vec<_> = attributes
         .iter()
         .filter(|attribute| attribute.path().is_ident("cfg"))
@@ -123,6 +124,7 @@ pub fn emit<E: Debug>(
                 type Inputs<T: ::core::marker::Copy> = [T; #inputs];
                 type Design<T: ::core::marker::Copy> = [T; #design];
                 type Outputs<T: ::core::marker::Copy> = [T; #outputs];
+                type Excitations<T: ::core::marker::Copy> = [T; #excitations];
                 type Picture<T: ::core::marker::Copy> = [T; #pictured];
                 #description
                 #picture

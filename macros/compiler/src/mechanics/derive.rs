@@ -16,7 +16,7 @@ use super::functions::{Functions, Limits, Role, Unknown};
 use super::kernels::{held_values, kernels, picture, pose_margin, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
-use super::setup::{Context, Runs, Symbols, Values};
+use super::setup::{Context, Excited, Runs, Symbols, Values};
 
 /// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
 /// unless only the kernels are wanted, if a motion moves no mass or nothing balances a load: errors that only the
@@ -69,6 +69,7 @@ fn derived(
     let symbols = Symbols::new(g, mechanism, topology);
     let values = Values::new(g, mechanism, &symbols);
     let runs = Runs::new(g, mechanism, topology, &values, &symbols);
+    let at_peace = Excited::default();
     let unconstrained = Context {
         mechanism,
         topology,
@@ -76,6 +77,7 @@ fn derived(
         values: &values,
         runs: &runs,
         rows: &[],
+        excited: &at_peace,
     };
     let rows = constraint_rows(g, &unconstrained);
     let labels: Vec<String> = rows.iter().map(|row| row.label.replace('.', "_")).collect();
@@ -89,6 +91,7 @@ fn derived(
         values: &values,
         runs: &runs,
         rows: &rows,
+        excited: &at_peace,
     };
 
     require_steady_state(g, &context)?;
@@ -120,6 +123,7 @@ fn derived(
         undetermined,
         free,
         held,
+        excitations: Vec::new(),
     })
 }
 

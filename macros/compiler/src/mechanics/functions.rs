@@ -29,6 +29,21 @@ pub struct Functions {
     pub free: FreeDirections,
     /// Positions of the unknowns whose values select a steady motion, in the order of the kernel `held_values`.
     pub held: Vec<usize>,
+    /// The excitations in the order of the mechanism.
+    pub excitations: Vec<Excitation>,
+}
+
+/// What the derivation found out about an excitation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Excitation {
+    /// Declared name.
+    pub name: String,
+    /// The word it was declared with.
+    pub kind: &'static str,
+    /// The first excitation with the same frequency, or its negative.
+    pub with: usize,
+    /// The frequency as a sum of speeds, as in `2 spin`; empty if it has a value of its own.
+    pub order: String,
 }
 
 /// The directions in which nothing determines where a mechanism stands: it can be moved along them in every design.

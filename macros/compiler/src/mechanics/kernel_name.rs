@@ -52,6 +52,12 @@ kernel_names! {
     Outputs "outputs",
     /// Derivatives of the outputs.
     OutputPartials "output_partials",
+    /// The harmonic forces of the excitations.
+    Forcing "forcing",
+    /// Derivatives of the outputs by acceleration, velocity and position.
+    OutputMotion "output_motion",
+    /// Gradient of a weighted response without the matrices.
+    ForcedGradient "forced_gradient",
     /// The three matrices linearised along any motion.
     MotionLinear "motion_linear",
     /// Derivatives of the three matrices.

@@ -10,6 +10,7 @@
 use proc_macro2::Ident;
 
 pub use super::constraint::{Constraint, ConstraintLaw};
+pub use super::excitation::{Deviation, Excitation, ExcitationLaw, Frequency, ShakenBy};
 use super::expression::{Expr, Matrix, Vector};
 pub use super::shape::Shape;
 pub use super::tolerance::{Law, Tolerance};
@@ -53,6 +54,8 @@ pub struct Mechanism {
     pub points: Vec<Point>,
     /// Force elements.
     pub forces: Vec<Force>,
+    /// Harmonic excitations.
+    pub excitations: Vec<Excitation>,
     /// Constraints, besides those of joints that close loops.
     pub constraints: Vec<Constraint>,
     /// Values that select one of a family of steady motions.

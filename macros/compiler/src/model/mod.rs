@@ -3,6 +3,7 @@
 pub mod constraint;
 pub mod elements;
 pub mod evaluate;
+pub mod excitation;
 pub mod expression;
 pub mod inertia;
 pub mod mechanism;

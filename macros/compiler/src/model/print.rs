@@ -2,6 +2,7 @@
 
 mod constraint;
 mod elements;
+mod excitation;
 mod law;
 mod shape;
 
@@ -99,6 +100,10 @@ impl Display for Mechanism {
         for force in &self.forces {
             let word = if force.of_every { "every" } else { "force" };
             writeln!(f, "{word} {}: {}", force.name, names.law(&force.law))?;
+        }
+        for excitation in &self.excitations {
+            let law = names.excitation(excitation);
+            writeln!(f, "excitation {}: {law}", excitation.name)?;
         }
         for constraint in &self.constraints {
             let law = names.constraint(&constraint.law);

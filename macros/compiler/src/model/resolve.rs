@@ -11,6 +11,7 @@ mod coordinates;
 mod curves;
 mod directions;
 mod every;
+mod excitations;
 mod exerted;
 mod expected;
 mod forces;
@@ -41,7 +42,8 @@ use self::resolver::Resolver;
 use self::scope::Scope;
 use super::expression::Vector;
 use super::mechanism::{
-    Body, Constraint, DesignVariable, Force, Input, Joint, Mechanism, Output, Point, Steady,
+    Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output, Point,
+    Steady,
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
@@ -100,6 +102,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         coordinates: resolver.declared_coordinates,
         points: items.points,
         forces: items.forces,
+        excitations: items.excitations,
         constraints: items.constraints,
         steady: items.steady,
         outputs: items.outputs,
@@ -130,6 +133,7 @@ struct Items {
     joints: Vec<Joint>,
     points: Vec<Point>,
     forces: Vec<Force>,
+    excitations: Vec<Excitation>,
     constraints: Vec<Constraint>,
     steady: Vec<Steady>,
     outputs: Vec<Output>,
@@ -157,6 +161,7 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
     let points = resolver.points();
     let mut forces = resolver.forces();
     forces.extend(resolver.forces_of_every(&forces));
+    let excitations = resolver.excitations();
     let constraints = resolver.constraints();
     let steady = resolver.steady_values();
     let outputs = resolver.outputs();
@@ -169,6 +174,7 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
         joints,
         points,
         forces,
+        excitations,
         constraints,
         steady,
         outputs,
@@ -187,7 +193,8 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
             .iter()
             .filter(|force| !force.of_every)
             .count()
-            == count(ast, |kind| matches!(kind, ItemKind::Force(_)))
+            == count(ast, is_force)
+        && mechanism.excitations.len() == excitations::declared(ast)
         && mechanism.steady.len() == count(ast, |kind| matches!(kind, ItemKind::Steady(_)))
         && mechanism.outputs.len() == count(ast, |kind| matches!(kind, ItemKind::Output(_)))
         && is_connected(ast, mechanism)
@@ -200,6 +207,10 @@ fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
         && mechanism.joints.len() == count(ast, |kind| matches!(kind, ItemKind::Joint(_)))
         && mechanism.coordinates.len() == coordinates::declared(ast).len()
         && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
+}
+
+fn is_force(kind: &ItemKind) -> bool {
+    matches!(kind, ItemKind::Force(force) if !excitations::is_harmonic(force))
 }
 
 fn count(ast: &Ast, is: fn(&ItemKind) -> bool) -> usize {

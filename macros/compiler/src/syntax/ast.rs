@@ -34,9 +34,19 @@ pub struct Unread {
 impl Unread {
     /// Whether it may be a body, a joint or a constraint; false only if its keyword says otherwise.
     pub fn may_connect(&self) -> bool {
-        const OTHERS: [&str; 11] = [
-            "input", "design", "let", "curve", "gravity", "kernels", "point", "force", "every",
-            "steady", "output",
+        const OTHERS: [&str; 12] = [
+            "input",
+            "design",
+            "let",
+            "curve",
+            "gravity",
+            "kernels",
+            "point",
+            "force",
+            "every",
+            "unbalance",
+            "steady",
+            "output",
         ];
         !self.starts_with(&OTHERS)
     }
@@ -86,6 +96,8 @@ pub enum ItemKind {
     Force(Force),
     /// `every QUANTITY: LAW;`
     Every(Every),
+    /// `unbalance NAME: on BODY, ...;`
+    Unbalance(Unbalance),
     /// `constraint NAME: KIND(...);`
     Constraint(Constraint),
     /// `steady UNKNOWN = VALUE;`
@@ -110,6 +122,7 @@ impl ItemKind {
             ItemKind::Joint(joint) => Some(&joint.name),
             ItemKind::Point(point) => Some(&point.name),
             ItemKind::Force(force) => Some(&force.name),
+            ItemKind::Unbalance(unbalance) => Some(&unbalance.name),
             ItemKind::Constraint(constraint) => Some(&constraint.name),
         }
     }
@@ -312,6 +325,8 @@ pub struct Argument {
     pub name: Ident,
     /// Its value.
     pub value: Value,
+    /// `of DRIVE`: what an order is counted in.
+    pub of: Option<Ident>,
 }
 
 /// A joint.
@@ -354,6 +369,8 @@ pub enum JointClause {
     Drive(Drive),
     /// `COORDINATE coasting`.
     Coast(Coast),
+    /// `COORDINATE shaken(...)`.
+    Shake(Shake),
     /// `cut`.
     Cut(Extent),
 }
@@ -365,6 +382,15 @@ pub struct Coast {
     pub coordinate: Option<Ident>,
     /// The word `coasting`.
     pub keyword: Extent,
+}
+
+/// A coordinate that is shaken about zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shake {
+    /// Name of the coordinate; if absent, the joint's only one.
+    pub coordinate: Option<Ident>,
+    /// `shaken` with its arguments.
+    pub call: NamedCall,
 }
 
 /// A coordinate whose motion is prescribed.
@@ -407,6 +433,19 @@ pub struct Force {
     pub name: Ident,
     /// The law with its arguments.
     pub law: NamedCall,
+}
+
+/// A deviation of a turning body from symmetry about its axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unbalance {
+    /// Name.
+    pub name: Ident,
+    /// The body.
+    pub on: Ident,
+    /// `unbalance` with its named arguments.
+    pub call: NamedCall,
+    /// `at VECTOR` in the body's frame.
+    pub at: Option<Value>,
 }
 
 /// A force on every free coordinate of one kind.

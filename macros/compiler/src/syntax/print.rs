@@ -6,8 +6,9 @@ use std::fmt::Write as _;
 use quote::ToTokens as _;
 
 use super::ast::{
-    Ast, Body, Deviation, Deviations, Item, ItemKind, Joint, JointArgument, JointClause, LawKind,
-    Limits, Measure, NamedCall, Operator, Placement, Tolerance, Unit, UnitFactor, Value, ValueKind,
+    Argument, Ast, Body, Deviation, Deviations, Item, ItemKind, Joint, JointArgument, JointClause,
+    LawKind, Limits, Measure, NamedCall, Operator, Placement, Tolerance, Unit, UnitFactor, Value,
+    ValueKind,
 };
 
 /// The canonical text of a declaration.
@@ -93,6 +94,16 @@ fn item(kind: &ItemKind) -> String {
         ItemKind::KernelsOnly(_) => "kernels only".to_string(),
         ItemKind::Body(item) => body(item),
         ItemKind::Force(force) => format!("force {}: {}", force.name, call(&force.law)),
+        ItemKind::Unbalance(unbalance) => {
+            let mut text = format!("unbalance {}: on {}", unbalance.name, unbalance.on);
+            for each in unbalance.call.arguments.iter().flatten() {
+                let _ = write!(text, ", {}", argument(each));
+            }
+            if let Some(at) = &unbalance.at {
+                let _ = write!(text, ", at {}", value(at));
+            }
+            text
+        }
         ItemKind::Every(every) => format!("every {}: {}", every.quantity, call(&every.law)),
         ItemKind::Constraint(constraint) => {
             format!("constraint {}: {}", constraint.name, call(&constraint.law))
@@ -197,6 +208,12 @@ fn joint(joint: &Joint) -> String {
                 }
                 text.push_str(" coasting");
             }
+            JointClause::Shake(shake) => {
+                if let Some(coordinate) = &shake.coordinate {
+                    let _ = write!(text, " {coordinate}");
+                }
+                let _ = write!(text, " {}", call(&shake.call));
+            }
             JointClause::Cut(_) => text.push_str(" cut"),
         }
     }
@@ -229,11 +246,16 @@ fn call(call: &NamedCall) -> String {
     let Some(arguments) = &call.arguments else {
         return call.word.to_string();
     };
-    let arguments: Vec<String> = arguments
-        .iter()
-        .map(|argument| format!("{}: {}", argument.name, value(&argument.value)))
-        .collect();
+    let arguments: Vec<String> = arguments.iter().map(argument).collect();
     format!("{}({})", call.word, arguments.join(", "))
+}
+
+fn argument(argument: &Argument) -> String {
+    let of = match &argument.of {
+        Some(of) => format!(" of {of}"),
+        None => String::new(),
+    };
+    format!("{}: {}{of}", argument.name, value(&argument.value))
 }
 
 fn list(values: &[Value]) -> String {

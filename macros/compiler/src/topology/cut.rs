@@ -3,7 +3,7 @@
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::JointId;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{ConstraintLaw, ForceLaw, Mechanism, Motion};
+use crate::model::mechanism::{ConstraintLaw, ExcitationLaw, ForceLaw, Mechanism, Motion};
 
 /// The joints, by id, that must not be cut: their coordinates are used elsewhere in the declaration, are driven or
 /// coast, or they cannot be written as equations.
@@ -34,6 +34,11 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
             | ForceLaw::Bushing { .. }
             | ForceLaw::Load { .. }
             | ForceLaw::Drag { .. } => {}
+        }
+    }
+    for excitation in &mechanism.excitations {
+        if let ExcitationLaw::Generalized { coordinate, .. } = &excitation.law {
+            of_coordinate(*coordinate);
         }
     }
     for constraint in &mechanism.constraints {

@@ -19,6 +19,9 @@ pub struct Description {
     pub design: List<DesignInfo>,
     /// Outputs, in the order of [`Mechanism::outputs`](crate::Mechanism::outputs).
     pub outputs: List<OutputInfo>,
+    /// Harmonic excitations, in the order of [`Mechanism::forcing`](crate::Mechanism::forcing).
+    #[cfg_attr(feature = "serde", serde(default = "no_excitations"))]
+    pub excitations: List<ExcitationInfo>,
     /// `Khat` is symmetric for every design, input and position.
     pub symmetric_stiffness: bool,
     /// Number of directions in which nothing determines where the mechanism stands: null vectors of `Khat` that exist at
@@ -88,6 +91,11 @@ impl Description {
 
 #[cfg(feature = "serde")]
 const fn none() -> List<usize> {
+    List::Static(&[])
+}
+
+#[cfg(feature = "serde")]
+const fn no_excitations() -> List<ExcitationInfo> {
     List::Static(&[])
 }
 
@@ -230,6 +238,20 @@ pub struct OutputInfo {
     pub name: Text,
     /// SI unit of the value.
     pub unit: Unit,
+}
+
+/// A harmonic excitation.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ExcitationInfo {
+    /// Declared name.
+    pub name: Text,
+    /// The word it was declared with: `unbalance`, `harmonic` or `shaken`.
+    pub kind: Text,
+    /// Number of the first excitation with the same frequency, or its negative, in every design: these act together.
+    pub with: usize,
+    /// The frequency in terms of the speeds of running coordinates, as in `1 spin`; empty for a frequency of its own.
+    pub order: Text,
 }
 
 /// The cost of one generated function.

@@ -12,8 +12,8 @@ mod tolerance;
 
 pub use array::Array;
 pub use description::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, OutputInfo, Role,
-    Unit,
+    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
+    OutputInfo, Role, Unit,
 };
 pub use handles::{Any, Coordinate, DesignVariable, Input, Output};
 pub use picture::{
@@ -21,7 +21,7 @@ pub use picture::{
     WheelInfo,
 };
 pub use results::{
-    Gradient, Linear, LinearPartials, PoseMargin, RestParts, Sizes, Violation, Zeros,
+    Forcing, Gradient, Linear, LinearPartials, PoseMargin, RestParts, Sizes, Violation, Zeros,
 };
 pub use shared::{List, Shared, Text};
 pub use tolerance::{Law, ToleranceInfo};
@@ -49,7 +49,21 @@ pub type GradientOf<M, T> = Gradient<
     <M as Mechanism>::Design<T>,
 >;
 
-/// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
+/// [`Forcing`] of a mechanism.
+pub type ForcingOf<M, T> = Forcing<
+    <M as Mechanism>::Excitations<<M as Mechanism>::Coordinates<T>>,
+    <M as Mechanism>::Excitations<T>,
+    <M as Mechanism>::Excitations<<M as Mechanism>::Outputs<T>>,
+>;
+/// Derivatives of the outputs by acceleration, velocity and position, one row per output.
+pub type OutputMotionOf<M, T> = (
+    <M as Mechanism>::Outputs<<M as Mechanism>::Coordinates<T>>,
+    <M as Mechanism>::Outputs<<M as Mechanism>::Coordinates<T>>,
+    <M as Mechanism>::Outputs<<M as Mechanism>::Coordinates<T>>,
+);
+
+/// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables, `O` outputs and `E`
+/// excitations.
 ///
 /// Implemented by `mechanism!`. Every method is straight-line arithmetic over plain arrays: no allocation, no branch,
 /// no panic. All quantities are SI, angles in radians. Conventions for all methods:
@@ -70,6 +84,8 @@ pub trait Mechanism: Clone + Sync + Sized {
     type Design<T: Copy>: Array<T>;
     /// A number for each of the `O` outputs.
     type Outputs<T: Copy>: Array<T>;
+    /// A number for each of the `E` excitations.
+    type Excitations<T: Copy>: Array<T>;
     /// The numbers computed by [`Mechanism::picture`].
     type Picture<T: Copy>: Array<T>;
 
@@ -471,6 +487,108 @@ pub trait Mechanism: Clone + Sync + Sized {
             Array::from_fn(|o| slopes(&found.0.as_ref()[o])),
             Array::from_fn(|o| slopes(&found.1.as_ref()[o])),
             Array::from_fn(|o| slopes(&found.2.as_ref()[o])),
+        )
+    }
+
+    /// The harmonic forces of every excitation about a state of rest, their frequencies, and what they add to the outputs
+    /// directly. Zero, like the next two, without excitations.
+    fn forcing<T: Real>(
+        &self,
+        _q: &Self::Coordinates<T>,
+        _u: &Self::Inputs<T>,
+        _b: &Self::Design<T>,
+    ) -> ForcingOf<Self, T> {
+        Forcing {
+            cosine: Array::filled(zeros()),
+            frequency: zeros(),
+            direct_cosine: Array::filled(zeros()),
+            sine: Array::filled(zeros()),
+            direct_sine: Array::filled(zeros()),
+        }
+    }
+
+    /// Derivatives of the outputs, as functions of any motion, by acceleration, velocity and position, at rest.
+    fn output_motion<T: Real>(
+        &self,
+        _q: &Self::Coordinates<T>,
+        _u: &Self::Inputs<T>,
+        _b: &Self::Design<T>,
+    ) -> OutputMotionOf<Self, T> {
+        let none = Array::filled(zeros());
+        (none, none, none)
+    }
+
+    /// Gradient of all that a vibration forced by excitations depends on, apart from the matrices, with the arguments
+    /// after `b` held fixed, by reverse differentiation. With `output` weights on the outputs `o` and `share` weights on
+    /// the excitations `k`, it is the gradient of
+    ///
+    /// ```text
+    /// output . (o_qddot acceleration + o_qdot velocity + o_q position)
+    ///     + sum_k share_k (cosine . C_k + sine . S_k + direct_cosine . c_k + direct_sine . s_k) + frequency . w
+    /// ```
+    ///
+    /// where `C`, `S`, `c`, `s`, `w` are the fields of [`Mechanism::forcing`] and the factors have their names.
+    #[allow(clippy::too_many_arguments)]
+    fn forced_gradient<T: Real>(
+        &self,
+        _q: &Self::Coordinates<T>,
+        _u: &Self::Inputs<T>,
+        _b: &Self::Design<T>,
+        _output: &Self::Outputs<T>,
+        _acceleration: &Self::Coordinates<T>,
+        _velocity: &Self::Coordinates<T>,
+        _position: &Self::Coordinates<T>,
+        _share: &Self::Excitations<T>,
+        _cosine: &Self::Coordinates<T>,
+        _sine: &Self::Coordinates<T>,
+        _direct_cosine: &Self::Outputs<T>,
+        _direct_sine: &Self::Outputs<T>,
+        _frequency: &Self::Excitations<T>,
+    ) -> GradientOf<Self, T> {
+        Gradient {
+            coordinates: zeros(),
+            inputs: zeros(),
+            design: zeros(),
+        }
+    }
+
+    /// Directional derivative of [`Mechanism::forcing`] along (`dq`, `du`, `db`).
+    fn forcing_along<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        dq: &Self::Coordinates<T>,
+        du: &Self::Inputs<T>,
+        db: &Self::Design<T>,
+    ) -> ForcingOf<Self, T> {
+        let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
+        let forcing: ForcingOf<Self, Dual<T>> = self.forcing(&q, &u, &b);
+        Forcing {
+            cosine: Array::from_fn(|k| slopes(&forcing.cosine.as_ref()[k])),
+            frequency: slopes(&forcing.frequency),
+            direct_cosine: Array::from_fn(|k| slopes(&forcing.direct_cosine.as_ref()[k])),
+            sine: Array::from_fn(|k| slopes(&forcing.sine.as_ref()[k])),
+            direct_sine: Array::from_fn(|k| slopes(&forcing.direct_sine.as_ref()[k])),
+        }
+    }
+
+    /// Directional derivative of [`Mechanism::output_motion`] along (`dq`, `du`, `db`).
+    fn output_motion_along<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        dq: &Self::Coordinates<T>,
+        du: &Self::Inputs<T>,
+        db: &Self::Design<T>,
+    ) -> OutputMotionOf<Self, T> {
+        let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
+        let motion: OutputMotionOf<Self, Dual<T>> = self.output_motion(&q, &u, &b);
+        (
+            Array::from_fn(|o| slopes(&motion.0.as_ref()[o])),
+            Array::from_fn(|o| slopes(&motion.1.as_ref()[o])),
+            Array::from_fn(|o| slopes(&motion.2.as_ref()[o])),
         )
     }
 

@@ -82,7 +82,26 @@ pub struct Gradient<C, I = C, D = C> {
     pub design: D,
 }
 
-/// Numbers of unknowns, inputs, design variables and outputs.
+/// Harmonic excitations. Excitation `k` exerts `cosine[k] cos(w t) + sine[k] sin(w t)` on the equations of motion, with
+/// the sign of an applied force, and adds `direct_cosine[k] cos(w t) + direct_sine[k] sin(w t)` to the outputs of a
+/// mechanism that does not move, `w = frequency[k]`. Their complex amplitudes, `Re(F e^{i w t})`, are
+/// `F = cosine - i sine`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Forcing<V, F, D> {
+    /// By excitation: N or N m by unknown.
+    pub cosine: V,
+    /// By excitation: rad/s; negative if it turns against its drive's positive direction.
+    pub frequency: F,
+    /// By excitation: by output, in its unit.
+    pub direct_cosine: D,
+    /// By excitation: N or N m by unknown.
+    pub sine: V,
+    /// By excitation: by output, in its unit.
+    pub direct_sine: D,
+}
+
+/// Numbers of unknowns, inputs, design variables, outputs and excitations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
     /// Unknowns.
@@ -93,6 +112,8 @@ pub struct Sizes {
     pub design: usize,
     /// Outputs.
     pub outputs: usize,
+    /// Excitations.
+    pub excitations: usize,
 }
 
 /// A list of `n` numbers, or an `n` by `n` matrix, that is filled with zeros.

@@ -16,9 +16,10 @@ use super::{
 };
 use crate::algebra::Vector;
 use crate::mechanism::{
-    Array, Description, GradientOf, Mechanism, PartialsOf, PictureInfo, PoseMargin, Shared, Square,
-    Violation, few_partials,
+    Array, Description, ForcingOf, GradientOf, Mechanism, OutputMotionOf, PartialsOf, PictureInfo,
+    PoseMargin, Shared, Square, Violation, few_partials,
 };
+use crate::scalar::Dual;
 use crate::{Real, mechanism};
 
 /// Number of unknowns up to which two kernels in one function pay: the code grows long beyond that.
@@ -91,6 +92,43 @@ fn copy_output_partials<M: Mechanism>(from: &OutputPartials<M>, to: &mut [&mut [
     copy_rows(&from.2, to[2]);
 }
 
+fn copy_output_motion<M: Mechanism>(from: &OutputMotionOf<M, f64>, to: &mut [&mut [f64]]) {
+    copy_rows(&from.0, to[0]);
+    copy_rows(&from.1, to[1]);
+    copy_rows(&from.2, to[2]);
+}
+
+fn copy_forcing<M: Mechanism>(from: &ForcingOf<M, f64>, to: &mut [&mut [f64]]) {
+    copy_rows(&from.cosine, to[0]);
+    copy_array(&from.frequency, to[1]);
+    copy_rows(&from.direct_cosine, to[2]);
+    copy_rows(&from.sine, to[3]);
+    copy_rows(&from.direct_sine, to[4]);
+}
+
+/// [`Mechanism::forced_gradient`] of lists of numbers, or of duals.
+fn forced_gradient<M: Mechanism, T: Real>(mechanism: &M, lists: &[&[T]]) -> GradientOf<M, T> {
+    let coordinates = |k: usize| Array::view(lists[k]);
+    let outputs = |k: usize| Array::view(lists[k]);
+    let excitations = |k: usize| Array::view(lists[k]);
+    Mechanism::forced_gradient(
+        mechanism,
+        Array::view(lists[0]),
+        Array::view(lists[1]),
+        Array::view(lists[2]),
+        outputs(3),
+        coordinates(4),
+        coordinates(5),
+        coordinates(6),
+        excitations(7),
+        coordinates(8),
+        coordinates(9),
+        outputs(10),
+        outputs(11),
+        excitations(12),
+    )
+}
+
 /// Unknowns, inputs and design variables as the mechanism takes them.
 #[allow(clippy::type_complexity)]
 #[inline(always)]
@@ -147,6 +185,7 @@ impl<M: Mechanism> Kernels for M {
             inputs: M::Inputs::<f64>::LEN,
             design: M::Design::<f64>::LEN,
             outputs: M::Outputs::<f64>::LEN,
+            excitations: M::Excitations::<f64>::LEN,
         }
     }
 
@@ -205,6 +244,13 @@ impl<M: Mechanism> Kernels for M {
             Kernel::Outputs => copy_array(&Mechanism::outputs(self, q, u, b), results[0]),
             Kernel::OutputPartials => {
                 copy_output_partials::<M>(&Mechanism::output_partials(self, q, u, b), results);
+            }
+            Kernel::Forcing => copy_forcing::<M>(&Mechanism::forcing(self, q, u, b), results),
+            Kernel::OutputMotion => {
+                copy_output_motion::<M>(&Mechanism::output_motion(self, q, u, b), results);
+            }
+            Kernel::ForcedGradient => {
+                copy_gradient::<M>(&forced_gradient(self, arguments), results);
             }
         }
     }
@@ -407,6 +453,38 @@ impl<M: Mechanism> CurvatureKernels for M {
             Curvature::OutputPartials => {
                 let partials = Mechanism::output_partials_along(self, q, u, b, dq, du, db);
                 copy_output_partials::<M>(&partials, results);
+            }
+            Curvature::Forcing => {
+                let change = Mechanism::forcing_along(self, q, u, b, dq, du, db);
+                copy_forcing::<M>(&change, results);
+            }
+            Curvature::OutputMotion => {
+                let change = Mechanism::output_motion_along(self, q, u, b, dq, du, db);
+                copy_output_motion::<M>(&change, results);
+            }
+            Curvature::ForcedGradient => {
+                let moved: Vec<Vec<Dual<f64>>> = arguments
+                    .iter()
+                    .zip(direction)
+                    .map(|(values, slopes)| {
+                        let pairs = values.iter().zip(*slopes);
+                        pairs
+                            .map(|(&value, &slope)| Dual { value, slope })
+                            .collect()
+                    })
+                    .collect();
+                let moved: Vec<&[Dual<f64>]> = moved.iter().map(Vec::as_slice).collect();
+                let gradient = forced_gradient(self, &moved);
+                let parts = [
+                    gradient.coordinates.as_ref(),
+                    gradient.inputs.as_ref(),
+                    gradient.design.as_ref(),
+                ];
+                for (to, from) in results.iter_mut().zip(parts) {
+                    for (to, from) in to.iter_mut().zip(from) {
+                        *to = from.slope;
+                    }
+                }
             }
         }
     }

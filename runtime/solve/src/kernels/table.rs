@@ -15,11 +15,13 @@ pub enum Extent {
     Design,
     /// Outputs.
     Outputs,
+    /// Excitations.
+    Excitations,
     /// A number of entries.
     Fixed(usize),
 }
 
-use Extent::{Coordinates, Design, Fixed, Inputs, Outputs};
+use Extent::{Coordinates, Design, Excitations, Fixed, Inputs, Outputs};
 
 const ONE: Extent = Fixed(1);
 
@@ -99,6 +101,20 @@ kernels! {
         /// Derivatives of the outputs by unknowns, inputs and design variables.
         OutputPartials: "output_partials", [Coordinates, Inputs, Design]
             -> &[[Outputs, Coordinates], [Outputs, Inputs], [Outputs, Design]];
+        /// Harmonic forces of the excitations as cosine, frequency, direct cosine, sine, direct sine.
+        Forcing: "forcing", [Coordinates, Inputs, Design] -> &[
+            [Excitations, Coordinates], [Excitations, ONE], [Excitations, Outputs],
+            [Excitations, Coordinates], [Excitations, Outputs]
+        ];
+        /// Derivatives of the outputs by acceleration, velocity and position.
+        OutputMotion: "output_motion", [Coordinates, Inputs, Design] -> &[[Outputs, Coordinates]; 3];
+        /// Gradient of a weighted response without the matrices; then weights on the outputs; acceleration, velocity,
+        /// position; weights on the excitations; weights on their cosine, sine, direct cosine, direct sine; weights on
+        /// the frequencies.
+        ForcedGradient: "forced_gradient", [
+            Coordinates, Inputs, Design, Outputs, Coordinates, Coordinates, Coordinates, Excitations, Coordinates,
+            Coordinates, Outputs, Outputs, Excitations
+        ] -> GRADIENT;
     }
 
     /// Kernels of any motion: their arguments begin with acceleration and velocity, or velocity.
@@ -130,6 +146,12 @@ pub enum Curvature {
     PencilGradient,
     /// [`Kernel::OutputPartials`].
     OutputPartials,
+    /// [`Kernel::Forcing`].
+    Forcing,
+    /// [`Kernel::OutputMotion`].
+    OutputMotion,
+    /// [`Kernel::ForcedGradient`].
+    ForcedGradient,
 }
 
 impl From<Directional> for Kernel {
@@ -147,6 +169,9 @@ impl From<Curvature> for Kernel {
             Curvature::ModeGradient => Self::ModeGradient,
             Curvature::PencilGradient => Self::PencilGradient,
             Curvature::OutputPartials => Self::OutputPartials,
+            Curvature::Forcing => Self::Forcing,
+            Curvature::OutputMotion => Self::OutputMotion,
+            Curvature::ForcedGradient => Self::ForcedGradient,
         }
     }
 }

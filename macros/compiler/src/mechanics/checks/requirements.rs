@@ -11,8 +11,7 @@
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
 use crate::mechanics::functions::Requirement;
-use crate::mechanics::inertia::MassDistribution;
-use crate::mechanics::setup::Values;
+use crate::mechanics::setup::{MassDistribution, Values};
 use crate::model::inertia::is_inertia_of_a_body;
 use crate::model::mechanism::{Body, ConstraintLaw, CurveArgument, Mechanism};
 use crate::model::shape::{Reduced, Spread};

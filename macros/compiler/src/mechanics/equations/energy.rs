@@ -1,18 +1,17 @@
 //! Kinetic and potential energy, for outputs.
 
 use crate::algebra::Graph;
-use crate::base::ids::ExprId;
-use crate::mechanics::inertia::MassDistribution;
+use crate::base::ids::{BodyId, ExprId};
 use crate::mechanics::motion::Kinematics;
-use crate::mechanics::setup::Context;
+use crate::mechanics::setup::{Context, MassDistribution};
 use crate::model::mechanism::ForceLaw;
 
 /// `integral |v_O + omega x rho|^2 dm / 2` over all bodies.
 pub(crate) fn kinetic(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> ExprId {
     let mut twice = g.zero();
-    for (body, motion) in context.mechanism.bodies.iter().zip(&kinematics.bodies) {
+    for (index, motion) in kinematics.bodies.iter().enumerate() {
         let (v, omega) = (motion.frame.velocity, motion.frame.angular_velocity);
-        for piece in MassDistribution::of_body(g, context.values, body) {
+        for piece in MassDistribution::of(g, context, BodyId::new(index)) {
             let rates: Vec<_> = piece
                 .arms
                 .iter()
@@ -47,8 +46,8 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
     let values = context.values;
     let gravity = values.vector(g, &context.mechanism.gravity);
     let mut energy = g.zero();
-    for (body, motion) in context.mechanism.bodies.iter().zip(&kinematics.bodies) {
-        for piece in MassDistribution::of_body(g, values, body) {
+    for (index, motion) in kinematics.bodies.iter().enumerate() {
+        for piece in MassDistribution::of(g, context, BodyId::new(index)) {
             let mut first = motion.frame.position.scale(g, piece.mass);
             for arm in &piece.arms {
                 let (direction, _) = motion.frame.carry(g, arm.direction);

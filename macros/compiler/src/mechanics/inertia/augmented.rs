@@ -12,10 +12,8 @@ use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
 use crate::base::ids::{BodyId, ExprId};
 use crate::mechanics::motion::{BodyMotion, Kinematics};
-use crate::mechanics::setup::{Context, ForceSelection};
+use crate::mechanics::setup::{Context, ForceSelection, MassDistribution};
 use crate::model::mechanism::Frame;
-
-use super::mass_distribution::MassDistribution;
 
 /// A mass distribution about the origin of a body, in body axes: `integral rho dm = first` and
 /// `integral rho rho^T dm = isotropic 1 + second`.
@@ -28,7 +26,7 @@ pub(crate) struct AugmentedBody {
 }
 
 impl AugmentedBody {
-    fn empty(g: &mut Graph) -> Self {
+    pub(super) fn empty(g: &mut Graph) -> Self {
         let zero = g.zero();
         Self {
             mass: zero,
@@ -38,7 +36,7 @@ impl AugmentedBody {
         }
     }
 
-    fn add(&mut self, g: &mut Graph, piece: &MassDistribution) {
+    pub(super) fn add(&mut self, g: &mut Graph, piece: &MassDistribution) {
         self.mass = g.add(self.mass, piece.mass);
         self.isotropic = g.add(self.isotropic, piece.isotropic);
         for arm in &piece.arms {
@@ -86,10 +84,10 @@ pub(crate) fn augmented_bodies(
     selection: ForceSelection,
 ) -> Vec<AugmentedBody> {
     let mut bodies = Vec::new();
-    for (index, body) in context.mechanism.bodies.iter().enumerate() {
+    for id in (0..context.mechanism.bodies.len()).map(BodyId::new) {
         let mut augmented = AugmentedBody::empty(g);
-        if selection.gravity || selection.inertia.contains(BodyId::new(index)) {
-            for piece in MassDistribution::of_body(g, context.values, body) {
+        if selection.gravity || selection.inertia.contains(id) {
+            for piece in MassDistribution::of(g, context, id) {
                 augmented.add(g, &piece);
             }
         }

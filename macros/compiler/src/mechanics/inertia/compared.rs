@@ -3,7 +3,7 @@
 use crate::algebra::{Evaluator, Graph};
 use crate::base::ids::ExprId;
 use crate::mechanics::setup::{
-    Context, ForceSelection, Runs, Symbols, Values, columns, probe, vanish,
+    Context, Excited, ForceSelection, Runs, Symbols, Values, columns, probe, vanish,
 };
 use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
@@ -25,6 +25,7 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
         values: &values,
         runs: &runs,
         rows: &[],
+        excited: &Excited::default(),
     };
     let running = vec![g.zero(); symbols.running.ids.len()];
     let loads = inertial_at(g, &context, &running, ForceSelection::ALL);

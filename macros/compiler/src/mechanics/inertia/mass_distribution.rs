@@ -11,35 +11,26 @@
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
-use crate::base::ids::ExprId;
-use crate::mechanics::setup::Values;
+use crate::base::ids::{BodyId, ExprId};
+use crate::mechanics::setup::{Context, MassDistribution, Values};
 use crate::model::expression::Vector;
 use crate::model::mechanism::{Body, Placement, Shape};
 use crate::model::shape::{MeanSquare, Reduced, Spread};
 
-/// A mass distribution in terms of arms.
-#[derive(Clone, Debug)]
-pub(crate) struct MassDistribution {
-    /// Total mass, kg.
-    pub(crate) mass: ExprId,
-    /// Multiple of the identity in the second moment, kg m^2.
-    pub(crate) isotropic: ExprId,
-    /// The vectors in which the moments are written.
-    pub(crate) arms: Vec<Arm>,
-}
-
-/// One arm.
-#[derive(Clone, Debug)]
-pub(crate) struct Arm {
-    /// In the body frame.
-    pub(crate) direction: Vector3,
-    /// Weight in the first moment.
-    pub(crate) first: ExprId,
-    /// Weights in the second moment with each arm.
-    pub(crate) second: Vec<ExprId>,
-}
-
 impl MassDistribution {
+    /// The pieces of a body and, while excitations are derived, its deviations.
+    pub(crate) fn of(g: &mut Graph, context: &Context, id: BodyId) -> Vec<Self> {
+        let body = &context.mechanism.bodies[id.index()];
+        let mut pieces = Self::of_body(g, context.values, body);
+        let deviations = context.excited.deviations.iter();
+        pieces.extend(
+            deviations
+                .filter(|(body, _)| *body == id)
+                .map(|(_, deviation)| deviation.clone()),
+        );
+        pieces
+    }
+
     /// The pieces of a body, each about the body's origin; holes count negative.
     pub(crate) fn of_body(g: &mut Graph, values: &Values, body: &Body) -> Vec<Self> {
         let several = body.parts.len() > 1;
@@ -254,23 +245,6 @@ impl MassDistribution {
             }
         }
         body
-    }
-
-    fn add_arm(&mut self, g: &mut Graph, direction: Vector3, first: ExprId, second: ExprId) {
-        if direction.is_zero(g) {
-            return;
-        }
-        let zero = g.zero();
-        for arm in &mut self.arms {
-            arm.second.push(zero);
-        }
-        let mut row = vec![zero; self.arms.len()];
-        row.push(second);
-        self.arms.push(Arm {
-            direction,
-            first,
-            second: row,
-        });
     }
 }
 

@@ -4,6 +4,7 @@ mod augmented;
 #[cfg(test)]
 mod compared;
 mod composite;
+mod deviation;
 mod mass_distribution;
 mod momentum;
 mod newton_euler;
@@ -12,6 +13,6 @@ mod variation;
 #[cfg(test)]
 pub(crate) use compared::compared;
 pub(super) use composite::mass_matrix;
-pub(super) use mass_distribution::MassDistribution;
+pub(super) use deviation::{Direction, deviation, size};
 pub(super) use newton_euler::inertial_at;
 pub(super) use variation::{Variation, variation};

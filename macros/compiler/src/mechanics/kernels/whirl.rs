@@ -19,10 +19,9 @@
 
 use crate::algebra::{Array, Direction, Function, Graph, Vector3, derivatives_along};
 use crate::base::ids::ExprId;
-use crate::mechanics::inertia::MassDistribution;
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::in_common_frame_at_zero;
-use crate::mechanics::setup::{Context, SymbolList, Values, at_rest};
+use crate::mechanics::setup::{Context, MassDistribution, SymbolList, Values, at_rest};
 use crate::model::mechanism::Body;
 
 use super::parameters::parameter;

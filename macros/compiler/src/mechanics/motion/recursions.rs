@@ -95,6 +95,12 @@ fn motions(
             };
         }
     }
+    for (id, shaken) in &context.excited.shaken {
+        let coordinate = &mut coordinates[id.index()];
+        coordinate.position = g.add(coordinate.position, shaken.position);
+        coordinate.velocity = g.add(coordinate.velocity, shaken.velocity);
+        coordinate.acceleration = shaken.acceleration;
+    }
     let (free, driven) = (context.moving().0, context.topology.driven.len());
     for (k, id) in context.topology.coasting.iter().enumerate() {
         coordinates[id.index()] = CoordinateMotion {

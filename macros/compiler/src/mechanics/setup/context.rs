@@ -5,6 +5,7 @@ use crate::base::ids::{CoordinateId, ExprId};
 use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 
+use super::excited::Excited;
 use super::rows::{Row, Source};
 use super::runs::Runs;
 use super::symbols::Symbols;
@@ -20,6 +21,8 @@ pub(crate) struct Context<'a> {
     pub(crate) runs: &'a Runs,
     /// The equations of constraints.
     pub(crate) rows: &'a [Row],
+    /// What excitations add.
+    pub(crate) excited: &'a Excited,
 }
 
 impl Context<'_> {

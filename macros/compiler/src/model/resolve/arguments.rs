@@ -1,5 +1,7 @@
 //! Named arguments of shapes and force laws: each at most once, none unknown, none missing.
 
+use proc_macro2::Ident;
+
 use super::resolver::Resolver;
 use crate::base::nearest::suggestion;
 use crate::syntax::ast::{NamedCall, Value};
@@ -25,7 +27,11 @@ enum Choice {
 }
 
 /// Names of arguments in other tools; only arguments of the signature are ever suggested.
-const SYNONYMS: [(&str, &str); 47] = [
+const SYNONYMS: [(&str, &str); 51] = [
+    ("speed", "frequency"),
+    ("harmonic", "order"),
+    ("displacement", "amplitude"),
+    ("magnitude", "amount"),
     ("m", "mass"),
     ("weight", "mass"),
     ("rho", "density"),
@@ -153,6 +159,8 @@ impl<R: Copy> Signature<R> {
 /// The valid arguments of a call.
 pub(super) struct Arguments<'a> {
     given: Vec<(&'static str, &'a Value)>,
+    /// `of DRIVE` after an order.
+    pub(super) of: Option<&'a Ident>,
 }
 
 impl<'a> Arguments<'a> {
@@ -198,8 +206,17 @@ impl Resolver<'_> {
         let mut given: Vec<(&'static str, &'a Value)> = Vec::new();
         // A misspelt argument is not also missing, nor is the mass if a density was refused.
         let mut meant = Vec::new();
+        let mut of = None;
         for argument in call.arguments.iter().flatten() {
             let name = argument.name.to_string();
+            match &argument.of {
+                Some(drive) if name == "order" => of = Some(drive),
+                Some(drive) => {
+                    let message = format!("`{name}` has no `of`; an order is counted `of` a drive");
+                    self.diagnostics.error(drive, message);
+                }
+                None => {}
+            }
             let is_given = |name: &str| given.iter().any(|(given, _)| *given == name);
             match signature.names().find(|known| *known == name) {
                 Some(known) if is_given(known) => {
@@ -245,6 +262,6 @@ impl Resolver<'_> {
                 format!("write `{}`", signature.example),
             );
         }
-        Arguments { given }
+        Arguments { given, of }
     }
 }

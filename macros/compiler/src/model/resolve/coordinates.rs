@@ -95,6 +95,10 @@ fn motion(joint: &Joint, name: &Ident, is_only: bool) -> DeclaredMotion {
             let meant = drive.coordinate.as_ref().map_or(is_only, |own| own == name);
             meant.then_some(DeclaredMotion::Driven)
         }
+        JointClause::Shake(shake) => {
+            let meant = shake.coordinate.as_ref().map_or(is_only, |own| own == name);
+            meant.then_some(DeclaredMotion::Driven)
+        }
         JointClause::Coast(coast) => {
             let meant = coast.coordinate.as_ref().is_none_or(|own| own == name);
             meant.then_some(DeclaredMotion::Coasting)

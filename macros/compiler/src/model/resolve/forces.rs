@@ -23,8 +23,14 @@ use crate::syntax::ast::{self, ItemKind};
 const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
 const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
 
-/// A function that makes a law from its arguments.
-type Reader = fn(&mut Resolver<'_>, &Arguments<'_>) -> Option<ForceLaw>;
+/// How the arguments of a word are read.
+#[derive(Clone, Copy)]
+pub(super) enum Reader {
+    /// By a function that makes a law of them.
+    Law(fn(&mut Resolver<'_>, &Arguments<'_>) -> Option<ForceLaw>),
+    /// With the excitations.
+    Excitation,
+}
 
 pub(super) type Row = Signature<Reader>;
 
@@ -33,7 +39,7 @@ pub(super) const LAWS: &[Row] = &[
         "spring",
         &["on", "stiffness"],
         "spring(on: theta, stiffness: 10 N*m/rad)",
-        |resolver, arguments| resolver.spring(arguments),
+        Reader::Law(|resolver, arguments| resolver.spring(arguments)),
     )
     .optional(&["rest"])
     .refusing(&[
@@ -45,14 +51,14 @@ pub(super) const LAWS: &[Row] = &[
         "damper",
         &["on", "damping"],
         "damper(on: theta, damping: 0.1 N*m*s/rad)",
-        |resolver, arguments| resolver.damper(arguments),
+        Reader::Law(|resolver, arguments| resolver.damper(arguments)),
     )
     .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
     Row::new(
         "spring_damper",
         &["from", "to", "stiffness"],
         "spring_damper(from: p, to: q, stiffness: 100 N/m)",
-        |resolver, arguments| resolver.spring_damper(arguments),
+        Reader::Law(|resolver, arguments| resolver.spring_damper(arguments)),
     )
     .optional(&["damping", "length"])
     .refusing(&[("on", "on a coordinate there are `spring` and `damper`")]),
@@ -60,25 +66,25 @@ pub(super) const LAWS: &[Row] = &[
         "tension",
         &["from", "to", "law"],
         "tension(from: p, to: q, law: 100 N/m * (length - 1 m))",
-        |resolver, arguments| resolver.tension(arguments),
+        Reader::Law(|resolver, arguments| resolver.tension(arguments)),
     ),
     Row::new(
         "generalized",
         &["on", "value"],
         "generalized(on: theta, value: -1 N*m * sin(theta))",
-        |resolver, arguments| resolver.generalized(arguments),
+        Reader::Law(|resolver, arguments| resolver.generalized(arguments)),
     ),
     Row::new(
         "potential",
         &["energy"],
         "potential(energy: 1 J * cos(theta))",
-        |resolver, arguments| resolver.potential(arguments),
+        Reader::Law(|resolver, arguments| resolver.potential(arguments)),
     ),
     Row::new(
         "bushing",
         &["from", "to"],
         "bushing(from: p, to: q, stiffness: [1, 1, 1] kN/m)",
-        |resolver, arguments| resolver.bushing(arguments),
+        Reader::Law(|resolver, arguments| resolver.bushing(arguments)),
     )
     .at_least_one(&[
         "stiffness",
@@ -90,7 +96,7 @@ pub(super) const LAWS: &[Row] = &[
         "load",
         &["at"],
         "load(at: p, force: [0, 0, -1] N)",
-        |resolver, arguments| resolver.load(arguments, false),
+        Reader::Law(|resolver, arguments| resolver.load(arguments, false)),
     )
     .at_least_one(&["force", "moment"])
     .refusing(&ON_A_COORDINATE),
@@ -98,7 +104,7 @@ pub(super) const LAWS: &[Row] = &[
         "follower",
         &["at"],
         "follower(at: p, force: [0, 0, -1] N)",
-        |resolver, arguments| resolver.load(arguments, true),
+        Reader::Law(|resolver, arguments| resolver.load(arguments, true)),
     )
     .at_least_one(&["force", "moment"])
     .refusing(&ON_A_COORDINATE),
@@ -106,13 +112,23 @@ pub(super) const LAWS: &[Row] = &[
         "drag",
         &["at"],
         "drag(at: p, damping: 1 N*s/m)",
-        |resolver, arguments| resolver.drag(arguments),
+        Reader::Law(|resolver, arguments| resolver.drag(arguments)),
     )
     .at_least_one(&["damping", "turning_damping"]),
+    Row::new(
+        "harmonic",
+        &[],
+        "harmonic(at: p, force: [0, 0, 1] N, frequency: 50 Hz)",
+        Reader::Excitation,
+    )
+    .optional(&["at", "on", "force", "moment", "frequency", "order", "phase"]),
 ];
 
 /// Names of the laws in other tools.
-const SYNONYMS: [(&str, &str); 23] = [
+const SYNONYMS: [(&str, &str); 26] = [
+    ("shaker", "harmonic"),
+    ("excitation", "harmonic"),
+    ("sine", "harmonic"),
     ("torsion_spring", "spring"),
     ("torsional_spring", "spring"),
     ("rotational_spring", "spring"),
@@ -157,8 +173,11 @@ impl Resolver<'_> {
 
     fn law(&mut self, force: &ast::Force) -> Option<ForceLaw> {
         let signature = self.signature(&force.law, "force law", LAWS, &SYNONYMS)?;
+        let Reader::Law(read) = signature.read else {
+            return None;
+        };
         let arguments = self.arguments(&force.law, signature);
-        (signature.read)(self, &arguments)
+        read(self, &arguments)
     }
 
     /// A required argument. Its dimension is unknown if the coordinate is; then only the value is checked.
@@ -193,7 +212,7 @@ impl Resolver<'_> {
     }
 
     /// A vector; zero if not given.
-    fn vector_or_zero(
+    pub(super) fn vector_or_zero(
         &mut self,
         arguments: &Arguments,
         name: &str,

@@ -77,7 +77,7 @@ impl Resolver<'_> {
     }
 
     /// The coordinates of a joint, in order.
-    fn coordinates_of(&self, joint: JointId) -> Vec<CoordinateId> {
+    pub(super) fn coordinates_of(&self, joint: JointId) -> Vec<CoordinateId> {
         let ids = self.coordinates.iter().enumerate();
         ids.filter(|(_, coordinate)| coordinate.joint == joint)
             .map(|(index, _)| CoordinateId::new(index))

@@ -28,6 +28,7 @@ pub(super) enum Meaning {
     Coordinate(CoordinateId),
     Point(PointId),
     Force,
+    Unbalance,
     Constraint(ConstraintId),
     Output,
     /// Belongs to something that could not be read, or to several things: uses of the name are not checked.
@@ -52,6 +53,7 @@ impl Meaning {
             Meaning::Coordinate(_) => "a coordinate",
             Meaning::Point(_) => "a point",
             Meaning::Force => "a force",
+            Meaning::Unbalance => "an unbalance",
             Meaning::Constraint(_) => "a constraint",
             Meaning::Output => "an output",
             Meaning::Unclear => "something",
@@ -97,6 +99,7 @@ impl Scope {
                 }
                 ItemKind::Point(_) => Meaning::Point(PointId::new(next(5))),
                 ItemKind::Force(_) => Meaning::Force,
+                ItemKind::Unbalance(_) => Meaning::Unbalance,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
                 ItemKind::Gravity(_)

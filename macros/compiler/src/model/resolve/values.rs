@@ -136,14 +136,18 @@ impl Resolver<'_> {
             }
             // Already reported at its declaration.
             Meaning::Unclear => None,
-            Meaning::Body(_) | Meaning::Point(_) | Meaning::Force | Meaning::Constraint(_) => {
+            Meaning::Body(_)
+            | Meaning::Point(_)
+            | Meaning::Force
+            | Meaning::Unbalance
+            | Meaning::Constraint(_) => {
                 let help = match meaning {
                     Meaning::Constraint(_) => {
                         format!(
                             "what it exerts is an output: `reaction({text})` or `reaction_force({text})`"
                         )
                     }
-                    Meaning::Force => {
+                    Meaning::Force | Meaning::Unbalance => {
                         "repeat its expression, or name the shared part with `let`".to_string()
                     }
                     Meaning::Point(_) => {

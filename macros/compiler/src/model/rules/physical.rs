@@ -31,6 +31,9 @@ pub(crate) enum Demand {
     Finite,
     /// Numbers above zero.
     Positive(Dimension),
+    /// Numbers not below zero at the nominal design; within its tolerance, an amplitude below zero is one in the opposite
+    /// direction.
+    Amplitude(Dimension),
     /// A vector longer than zero.
     Direction,
     /// Given inertias that are possible for bodies welded together; the values are those about the centres of mass.
@@ -148,7 +151,8 @@ fn check_tolerance(
         let mut shifted: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
         shifted[index] += deviation;
         let values = Values::new(constants, inputs, &shifted);
-        for requirement in requirements {
+        let in_tolerance = |own: &&&Requirement| !matches!(own.demand, Demand::Amplitude(_));
+        for requirement in requirements.iter().filter(in_tolerance) {
             if let Some(Violation { what, problem, .. }) = violation(requirement, &values) {
                 let name = &variable.name;
                 let message = format!("within the tolerance of `{name}`, {what} {problem}");
@@ -183,6 +187,13 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
             let value = values.iter().find(|&&value| value <= 0.0)?;
             let (value, unit) = (rounded(*value), dimension.si_symbol());
             Some(format!("is {value} {unit}; it must be positive"))
+        }
+        (Demand::Amplitude(dimension), values) => {
+            let value = values.iter().find(|&&value| value < 0.0)?;
+            let (value, unit) = (rounded(*value), dimension.si_symbol());
+            Some(format!(
+                "is {value} {unit}; the opposite direction is a phase of 180 deg"
+            ))
         }
         (Demand::Direction, vector) if vector.iter().all(|&value| value == 0.0) => {
             Some("has no length".to_string())

@@ -53,10 +53,7 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
         if !content.peek_named() {
             return content.expected("a named argument such as `mass: 3 kg`");
         }
-        let name = content.name("an argument")?;
-        colon(&mut content)?;
-        let value = value(&mut content)?;
-        arguments.push(Argument { name, value });
+        arguments.push(argument(&mut content)?);
         if content.peek_decimal_comma() {
             let error = content.expected("a named argument");
             return error.map_err(|error| Box::new(error.with_help(DECIMAL_POINT)));
@@ -69,4 +66,16 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
         word,
         arguments: Some(arguments),
     })
+}
+
+/// Reads `NAME: VALUE` or `NAME: VALUE of DRIVE`.
+pub(super) fn argument(tokens: &mut Tokens) -> Parsed<Argument> {
+    let name = tokens.name("an argument")?;
+    colon(tokens)?;
+    let value = value(tokens)?;
+    let of = match tokens.word("of") {
+        Some(_) => Some(tokens.name("a driven or coasting coordinate")?),
+        None => None,
+    };
+    Ok(Argument { name, value, of })
 }

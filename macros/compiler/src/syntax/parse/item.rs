@@ -3,11 +3,12 @@
 use proc_macro2::Ident;
 
 use super::super::ast::{
-    Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Named, Point,
+    Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Named, NamedCall, Point,
+    Unbalance,
 };
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
-use super::body::{body, named_call};
+use super::body::{argument, body, named_call};
 use super::joint::joint;
 use super::names::{colon, declared_name};
 use super::placement::placement;
@@ -42,6 +43,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "point" => point,
         "force" => force,
         "every" => every,
+        "unbalance" => return unbalance(tokens),
         "constraint" => constraint,
         "steady" => |tokens| named(tokens).map(ItemKind::Steady),
         "output" => |tokens| named(tokens).map(ItemKind::Output),
@@ -160,6 +162,41 @@ fn every(tokens: &mut Tokens) -> Parsed<ItemKind> {
     colon(tokens).map_err(help)?;
     let law = named_call(tokens, "a law such as `spring`").map_err(help)?;
     Ok(ItemKind::Every(Every { quantity, law }))
+}
+
+const UNBALANCE: &str =
+    "write `unbalance u: on disk, amount: 20 g*mm, angle: 30 deg, at [0, 0, 10] mm;`";
+
+fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let help = |error: Box<Diagnostic>| Box::new(error.with_help(UNBALANCE));
+    let Some(word) = tokens.ident() else {
+        return tokens.expected("`unbalance`");
+    };
+    let name = declared_name(tokens)?;
+    colon(tokens).map_err(help)?;
+    tokens.expect_word("on").map_err(help)?;
+    let on = tokens.name("a body").map_err(help)?;
+    let (mut arguments, mut at) = (Vec::new(), None);
+    while tokens.sign(',').is_some() {
+        if at.is_none() && tokens.word("at").is_some() {
+            at = Some(value(tokens)?);
+        } else if tokens.peek_named() {
+            arguments.push(argument(tokens)?);
+        } else {
+            return tokens
+                .expected("`at` or a named argument such as `amount: 20 g*mm`")
+                .map_err(help);
+        }
+    }
+    Ok(ItemKind::Unbalance(Unbalance {
+        name,
+        on,
+        call: NamedCall {
+            word,
+            arguments: Some(arguments),
+        },
+        at,
+    }))
 }
 
 fn kernels_only(tokens: &mut Tokens) -> Parsed<ItemKind> {

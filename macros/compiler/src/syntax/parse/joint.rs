@@ -2,8 +2,9 @@
 
 use proc_macro2::Delimiter;
 
-use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClause};
+use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClause, Shake};
 use super::super::tokens::{Parsed, Tokens};
+use super::body::named_call;
 use super::names::{colon, declared_name};
 use super::placement::placement;
 use super::value::value;
@@ -29,7 +30,8 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
         match clause(tokens)? {
             Some(clause) => clauses.push(clause),
             None if comma => {
-                let error = tokens.expected("`at`, `rotated`, `driven`, `coasting` or `cut`");
+                let error =
+                    tokens.expected("`at`, `rotated`, `driven`, `coasting`, `shaken` or `cut`");
                 return error.map_err(|error| match decimal {
                     true => Box::new(error.with_help(DECIMAL_POINT)),
                     false => error,
@@ -77,8 +79,10 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
         return Ok(Some(JointClause::Placement { placement, on }));
     }
     let mut ahead = *tokens;
-    let is_named =
-        ahead.ident().is_some() && (ahead.peek_word("driven") || ahead.peek_word("coasting"));
+    let is_named = ahead.ident().is_some()
+        && ["driven", "coasting", "shaken"]
+            .iter()
+            .any(|word| ahead.peek_word(word));
     let coordinate = match is_named {
         true => Some(tokens.name("a coordinate")?),
         false => None,
@@ -89,6 +93,10 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
             keyword,
         };
         return Ok(Some(JointClause::Coast(coast)));
+    }
+    if tokens.peek_word("shaken") {
+        let call = named_call(tokens, "`shaken`")?;
+        return Ok(Some(JointClause::Shake(Shake { coordinate, call })));
     }
     if let Some(keyword) = tokens.word("cut") {
         return Ok(Some(JointClause::Cut(keyword)));

@@ -12,8 +12,8 @@ use crate::base::span::Extent;
 use crate::base::units;
 
 /// Words of the grammar that may follow a value and are therefore not units.
-const FOLLOWING: [&str; 9] = [
-    "along", "at", "on", "rotated", "driven", "coasting", "cut", "from", "to",
+const FOLLOWING: [&str; 11] = [
+    "along", "at", "on", "of", "rotated", "driven", "coasting", "shaken", "cut", "from", "to",
 ];
 
 /// Whether a factor's name may be misspelt or must be known.

@@ -3,7 +3,7 @@
 use crate::base::nearest::suggestion;
 
 /// The words that start an item.
-pub(super) const KEYWORDS: [&str; 14] = [
+pub(super) const KEYWORDS: [&str; 15] = [
     "input",
     "design",
     "let",
@@ -15,13 +15,16 @@ pub(super) const KEYWORDS: [&str; 14] = [
     "point",
     "force",
     "every",
+    "unbalance",
     "constraint",
     "steady",
     "output",
 ];
 
 /// Names of items in other tools and languages.
-const SYNONYMS: [(&str, &str); 26] = [
+const SYNONYMS: [(&str, &str); 28] = [
+    ("imbalance", "unbalance"),
+    ("eccentricity", "unbalance"),
     ("table", "curve"),
     ("lookup", "curve"),
     ("spline", "curve"),
@@ -85,6 +88,7 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
             "load",
             "follower",
             "drag",
+            "harmonic",
         ],
     ),
     (

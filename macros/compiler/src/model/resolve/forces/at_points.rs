@@ -34,7 +34,11 @@ impl Resolver<'_> {
     }
 
     /// A point of a body. A force at a point of the ground does nothing; `reason` explains this.
-    fn moving_point(&mut self, arguments: &Arguments, reason: &str) -> Option<PointId> {
+    pub(in crate::model::resolve) fn moving_point(
+        &mut self,
+        arguments: &Arguments,
+        reason: &str,
+    ) -> Option<PointId> {
         let point = self.point_argument(arguments, "at")?;
         if self.point_frame(point)? == "ground" {
             let value = arguments.get("at")?;

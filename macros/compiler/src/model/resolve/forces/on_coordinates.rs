@@ -45,7 +45,7 @@ impl Resolver<'_> {
 
     /// A free coordinate. A force on a driven coordinate changes no motion, because the drive supplies any force that
     /// it needs. A spring on a coasting coordinate has no steady state.
-    pub(super) fn free_coordinate(
+    pub(in crate::model::resolve) fn free_coordinate(
         &mut self,
         word: &str,
         arguments: &Arguments,

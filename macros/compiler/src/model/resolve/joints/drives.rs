@@ -10,8 +10,9 @@ use super::kinds::Kind;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::base::nearest::nearest;
 use crate::base::span::Extent;
+use crate::model::expression::Expr;
 use crate::model::mechanism::Motion;
-use crate::syntax::ast::{Coast, Drive, Joint, JointClause};
+use crate::syntax::ast::{Coast, Drive, Joint, JointClause, Shake};
 
 /// The coordinates of a joint while its clauses are read.
 struct Motions {
@@ -41,6 +42,7 @@ impl Resolver<'_> {
             let clause = match clause {
                 JointClause::Drive(drive) => self.drive(joint, kind, drive, &mut motions),
                 JointClause::Coast(coast) => self.coast(joint, kind, coast, &mut motions),
+                JointClause::Shake(shake) => self.shake(joint, kind, shake, &mut motions),
                 JointClause::Placement { .. } | JointClause::Cut(_) => Some(()),
             };
             right = right.and(clause);
@@ -55,7 +57,8 @@ impl Resolver<'_> {
         drive: &Drive,
         motions: &mut Motions,
     ) -> Option<()> {
-        let place = kind.and_then(|kind| self.driven_place(joint, kind, drive, &motions.ids));
+        let who = (drive.coordinate.as_ref(), drive.keyword);
+        let place = kind.and_then(|kind| self.driven_place(joint, kind, who, &motions.ids));
         let Some(place) = place else {
             // Its value may be wrong as well, so check it too.
             self.scalar(&drive.speed, ValueContext::Parameter);
@@ -130,16 +133,33 @@ impl Resolver<'_> {
         None
     }
 
-    /// The index within the joint of the coordinate that a clause drives.
+    /// A shaken coordinate is held at zero in the steady motion.
+    fn shake(
+        &mut self,
+        joint: &Joint,
+        kind: Option<&Kind>,
+        shake: &Shake,
+        motions: &mut Motions,
+    ) -> Option<()> {
+        let keyword = Extent::from(shake.call.word.span());
+        let who = (shake.coordinate.as_ref(), keyword);
+        let place = self.driven_place(joint, kind?, who, &motions.ids)?;
+        let name = shake.coordinate.as_ref();
+        self.say(motions, place, DeclaredMotion::Driven, name, keyword)?;
+        motions.motions[place] = Motion::Driven(Expr::Number(0.0));
+        Some(())
+    }
+
+    /// The index within the joint of the coordinate that a clause drives or shakes.
     fn driven_place(
         &mut self,
         joint: &Joint,
         kind: &Kind,
-        drive: &Drive,
+        (coordinate, keyword): (Option<&Ident>, Extent),
         ids: &[CoordinateId],
     ) -> Option<usize> {
-        self.has_motions(kind, "be driven", drive.keyword)?;
-        let place = match &drive.coordinate {
+        self.has_motions(kind, "be driven", keyword)?;
+        let place = match coordinate {
             Some(name) => self.place_named(name, ids)?,
             None if ids.len() == 1 => 0,
             None => {
@@ -147,14 +167,14 @@ impl Resolver<'_> {
                 // Without coordinates the axes are wrong, which has been reported.
                 let first = names.first()?;
                 self.diagnostics.error_with_help(
-                    drive.keyword,
+                    keyword,
                     format!("`{}` has the coordinates {quoted}", joint.name),
                     format!("say which one is driven: `{first} driven at ...`"),
                 );
                 return None;
             }
         };
-        self.is_not_cut(joint, "be driven", drive.keyword)?;
+        self.is_not_cut(joint, "be driven", keyword)?;
         Some(place)
     }
 

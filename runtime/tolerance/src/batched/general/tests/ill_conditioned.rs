@@ -11,6 +11,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     coordinates: Shared::Static(&[]),
     inputs: Shared::Static(&[]),
     design: Shared::Static(&[]),
+    excitations: Shared::Static(&[]),
     outputs: Shared::Static(&[]),
     symmetric_stiffness: false,
     free_directions: 0,
