@@ -123,6 +123,7 @@ impl Buffers {
             inputs,
             design,
             outputs,
+            excitations: _,
         } = sizes;
         let columns = [coordinates, inputs, design];
         Self {

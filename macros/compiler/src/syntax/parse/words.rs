@@ -3,7 +3,7 @@
 use crate::base::nearest::suggestion;
 
 /// The words that start an item.
-pub(super) const KEYWORDS: [&str; 15] = [
+pub(super) const KEYWORDS: [&str; 14] = [
     "input",
     "design",
     "let",
@@ -15,11 +15,13 @@ pub(super) const KEYWORDS: [&str; 15] = [
     "point",
     "force",
     "every",
-    "unbalance",
     "constraint",
     "steady",
     "output",
 ];
+
+/// A word that starts an item but may also be a name.
+const ALSO_A_NAME: &str = "unbalance";
 
 /// Names of items in other tools and languages.
 const SYNONYMS: [(&str, &str); 28] = [
@@ -107,12 +109,16 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
 /// The replacement for an unknown word at the start of an item.
 pub(super) fn instead_of(unknown: &str) -> String {
     let inside = INSIDE.iter().find(|(_, words)| words.contains(&unknown));
-    match (inside, suggestion(unknown, KEYWORDS, &SYNONYMS)) {
+    let known = KEYWORDS.into_iter().chain([ALSO_A_NAME]);
+    match (inside, suggestion(unknown, known, &SYNONYMS)) {
         (Some((keyword, _)), _) => {
             format!("a `{unknown}` is a {keyword}: write `{keyword} NAME: {unknown} ...;`")
         }
         (None, Some(known)) => format!("did you mean `{known}`?"),
-        (None, None) => format!("an item starts with one of {}", KEYWORDS.join(", ")),
+        (None, None) => format!(
+            "an item starts with one of {}, {ALSO_A_NAME}",
+            KEYWORDS.join(", ")
+        ),
     }
 }
 
