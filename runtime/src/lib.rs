@@ -91,7 +91,7 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    allocation, branches, campbell, campbell::Campbell, clusters, judge, motion, picture,
+    allocation, branches, campbell, campbell::Campbell, clusters, forced, judge, motion, picture,
     propagation, requirement, response, second_order, shapes, summary, sweep,
 };
 #[cfg(feature = "std")]

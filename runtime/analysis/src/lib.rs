@@ -8,6 +8,7 @@ pub mod branches;
 pub mod campbell;
 pub mod clusters;
 mod deviations;
+pub mod forced;
 pub mod judge;
 pub mod motion;
 pub mod picture;

@@ -2,11 +2,18 @@
 //! that shares no code with the compiler.
 
 use eigentol::{
-    Array, Description, Gradient, GradientOf, Linear, LinearPartials, Mechanism, PartialsOf, Real,
-    ResidualPartialsOf, RestParts, Square, Violation,
+    Array, Description, Forcing, Gradient, GradientOf, Linear, LinearPartials, Mechanism,
+    OutputMotionOf, PartialsOf, Real, ResidualPartialsOf, RestParts, Square, Violation,
 };
 
 use super::dual::Dual;
+
+/// What the excitations of a model exert.
+pub type Excited<X, T> = Forcing<
+    <X as Model>::Excitations<<X as Model>::Coordinates<T>>,
+    <X as Model>::Excitations<T>,
+    <X as Model>::Excitations<<X as Model>::Outputs<T>>,
+>;
 
 /// Equations of motion `g = inertia - applied`.
 pub trait Model: Clone + Sync {
@@ -14,6 +21,7 @@ pub trait Model: Clone + Sync {
     type Inputs<T: Copy>: Array<T>;
     type Design<T: Copy>: Array<T>;
     type Outputs<T: Copy>: Array<T>;
+    type Excitations<T: Copy>: Array<T>;
 
     const DESCRIPTION: Description;
 
@@ -50,6 +58,34 @@ pub trait Model: Clone + Sync {
         _: &Self::Design<T>,
     ) -> Self::Outputs<T> {
         Array::filled(T::constant(f64::NAN))
+    }
+
+    /// The outputs along any motion, for models in which they depend on more than the position.
+    fn moving_outputs<T: Real>(
+        &self,
+        _acceleration: &Self::Coordinates<T>,
+        _velocity: &Self::Coordinates<T>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Outputs<T> {
+        self.outputs(q, u, b)
+    }
+
+    /// What the excitations exert, for models that have any.
+    fn forcing<T: Real>(
+        &self,
+        _: &Self::Coordinates<T>,
+        _: &Self::Inputs<T>,
+        _: &Self::Design<T>,
+    ) -> Excited<Self, T> {
+        Forcing {
+            cosine: Array::filled(zeros()),
+            frequency: zeros(),
+            direct_cosine: Array::filled(zeros()),
+            sine: Array::filled(zeros()),
+            direct_sine: Array::filled(zeros()),
+        }
     }
 }
 
@@ -125,7 +161,7 @@ impl<X: Model> Mechanism for Derived<X> {
     type Inputs<T: Copy> = X::Inputs<T>;
     type Design<T: Copy> = X::Design<T>;
     type Outputs<T: Copy> = X::Outputs<T>;
-    type Excitations<T: Copy> = [T; 0];
+    type Excitations<T: Copy> = X::Excitations<T>;
     type Picture<T: Copy> = [T; 0];
 
     const DESCRIPTION: Description = X::DESCRIPTION;
@@ -434,5 +470,89 @@ impl<X: Model> Mechanism for Derived<X> {
             transpose(by_input.as_ref()),
             transpose(by_design.as_ref()),
         )
+    }
+
+    fn forcing<T: Real>(
+        &self,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> Excited<X, T> {
+        self.0.forcing(q, u, b)
+    }
+
+    fn output_motion<T: Real>(
+        &self,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> OutputMotionOf<Self, T> {
+        let (x, u, b) = (fixed(q), fixed(u), fixed(b));
+        let rest: X::Coordinates<T> = zeros();
+        let still: X::Coordinates<Dual<T>> = fixed(&rest);
+        let by = |place: usize| {
+            let columns: X::Coordinates<X::Outputs<T>> = Array::from_fn(|j| {
+                let (mut motion, moved) = ([still, still, x], [&rest, &rest, q][place]);
+                motion[place] = unit(moved, j);
+                let [acceleration, velocity, position] = &motion;
+                slopes(&(self.0).moving_outputs::<Dual<T>>(
+                    acceleration,
+                    velocity,
+                    position,
+                    &u,
+                    &b,
+                ))
+            });
+            transpose(columns.as_ref())
+        };
+        (by(0), by(1), by(2))
+    }
+
+    fn forced_gradient<T: Real>(
+        &self,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        output: &X::Outputs<T>,
+        acceleration: &X::Coordinates<T>,
+        velocity: &X::Coordinates<T>,
+        position: &X::Coordinates<T>,
+        share: &X::Excitations<T>,
+        cosine: &X::Coordinates<T>,
+        sine: &X::Coordinates<T>,
+        direct_cosine: &X::Outputs<T>,
+        direct_sine: &X::Outputs<T>,
+        frequency: &X::Excitations<T>,
+    ) -> GradientOf<Self, T> {
+        let functional = |q: &X::Coordinates<Dual<T>>,
+                          u: &X::Inputs<Dual<T>>,
+                          b: &X::Design<Dual<T>>| {
+            let [acceleration, velocity, position, cosine, sine] =
+                [acceleration, velocity, position, cosine, sine]
+                    .map(fixed::<T, X::Coordinates<Dual<T>>>);
+            let [output, direct_cosine, direct_sine] =
+                [output, direct_cosine, direct_sine].map(fixed::<T, X::Outputs<Dual<T>>>);
+            let [share, frequency] = [share, frequency].map(fixed::<T, X::Excitations<Dual<T>>>);
+            let (by_a, by_v, by_x) = Mechanism::output_motion::<Dual<T>>(self, q, u, b);
+            let mut sum = form(output.as_ref(), by_a.as_ref(), acceleration.as_ref())
+                + form(output.as_ref(), by_v.as_ref(), velocity.as_ref())
+                + form(output.as_ref(), by_x.as_ref(), position.as_ref());
+            let forces = self.0.forcing::<Dual<T>>(q, u, b);
+            sum = sum
+                + form(share.as_ref(), forces.cosine.as_ref(), cosine.as_ref())
+                + form(share.as_ref(), forces.sine.as_ref(), sine.as_ref())
+                + form(
+                    share.as_ref(),
+                    forces.direct_cosine.as_ref(),
+                    direct_cosine.as_ref(),
+                )
+                + form(
+                    share.as_ref(),
+                    forces.direct_sine.as_ref(),
+                    direct_sine.as_ref(),
+                );
+            sum + product(frequency.as_ref(), forces.frequency.as_ref())
+        };
+        gradient!(q, u, b, functional)
     }
 }

@@ -6,13 +6,17 @@
     reason = "each test uses some of it"
 )]
 
-/// The numbers of unknowns, inputs, design variables and outputs of a mechanism.
+/// The numbers of unknowns, inputs, design variables, outputs and excitations of a mechanism.
 macro_rules! sizes {
     ($n:literal, $u:literal, $p:literal, $o:literal) => {
+        sizes!($n, $u, $p, $o, 0);
+    };
+    ($n:literal, $u:literal, $p:literal, $o:literal, $e:literal) => {
         type Coordinates<T: Copy> = [T; $n];
         type Inputs<T: Copy> = [T; $u];
         type Design<T: Copy> = [T; $p];
         type Outputs<T: Copy> = [T; $o];
+        type Excitations<T: Copy> = [T; $e];
     };
 }
 pub(crate) use sizes;

@@ -46,7 +46,6 @@ fn slopes<T: Real>(x: GradientOf<Pendulum, Dual<T>>) -> GradientOf<Pendulum, T> 
 
 impl Mechanism for Pendulum {
     sizes!(1, 1, 2, 1);
-    type Excitations<T: Copy> = [T; 0];
     type Picture<T: Copy> = [T; 0];
 
     const DESCRIPTION: Description = Description {

@@ -15,6 +15,7 @@ pub(crate) trait Lagrangian: Clone + Sync {
     type Inputs<T: Copy>: Array<T>;
     type Design<T: Copy>: Array<T>;
     type Outputs<T: Copy>: Array<T>;
+    type Excitations<T: Copy>: Array<T>;
 
     const DESCRIPTION: Description;
 
@@ -38,6 +39,7 @@ impl<X: Lagrangian> Model for Bordered<X> {
     type Inputs<T: Copy> = X::Inputs<T>;
     type Design<T: Copy> = X::Design<T>;
     type Outputs<T: Copy> = X::Outputs<T>;
+    type Excitations<T: Copy> = X::Excitations<T>;
 
     const DESCRIPTION: Description = X::DESCRIPTION;
 

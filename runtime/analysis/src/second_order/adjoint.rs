@@ -7,7 +7,7 @@ use crate::sensitivity::{Direction, subtract};
 use crate::{Equilibrium, Error};
 
 /// Turns the partial derivatives of a scalar `y` into total ones: `dy - (dg)^T w`, `Khat^T w = dy/dq`.
-pub(super) struct Adjoint<'a> {
+pub(crate) struct Adjoint<'a> {
     mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,
     /// LU factors of `Khat^T`.
@@ -15,7 +15,7 @@ pub(super) struct Adjoint<'a> {
 }
 
 impl<'a> Adjoint<'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         mechanism: &'a dyn CurvatureKernels,
         at: &'a Equilibrium,
     ) -> Result<Self, Error> {
@@ -28,7 +28,7 @@ impl<'a> Adjoint<'a> {
     }
 
     /// Makes a gradient total and returns `w`.
-    pub(super) fn total(&self, gradient: &mut Gradient, room: &mut Gradient) -> Vector {
+    pub(crate) fn total(&self, gradient: &mut Gradient, room: &mut Gradient) -> Vector {
         let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
         let w = self.factors.solve(&gradient.coordinates);
         let kernels: &dyn Kernels = self.mechanism;
@@ -76,7 +76,7 @@ impl<'a> Adjoint<'a> {
 
     /// Turns the derivative of a partial gradient along a direction into that of the total gradient; `w` is the result
     /// of [`Self::total`].
-    pub(super) fn total_along(
+    pub(crate) fn total_along(
         &self,
         change: &mut Gradient,
         w: &[f64],

@@ -398,7 +398,7 @@ fn gradients(kernels: &(impl Kernels + ?Sized)) -> (ComplexGradient, Gradient) {
 }
 
 /// Combines real and imaginary parts into derivatives with respect to inputs and design variables.
-fn joined([re, im]: &ComplexGradient) -> Slopes<Complex> {
+pub(crate) fn joined([re, im]: &ComplexGradient) -> Slopes<Complex> {
     let join = |re: &Vector, im: &Vector| {
         let parts = re.iter().zip(im);
         parts.map(|(&re, &im)| Complex { re, im }).collect()

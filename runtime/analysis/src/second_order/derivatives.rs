@@ -23,7 +23,7 @@ pub struct SecondDerivatives<T> {
 }
 
 impl<T: Copy + Default> SecondDerivatives<T> {
-    pub(super) fn zeros(inputs: usize, design: usize) -> Self {
+    pub(crate) fn zeros(inputs: usize, design: usize) -> Self {
         Self {
             by_input: Matrix::zeros(inputs, inputs),
             by_input_and_design: Matrix::zeros(inputs, design),
@@ -34,7 +34,7 @@ impl<T: Copy + Default> SecondDerivatives<T> {
 
 impl<T: Copy> SecondDerivatives<T> {
     /// Combines each element with the two first derivatives of its row and column.
-    pub(super) fn combine<F: Copy, R: Copy + Default>(
+    pub(crate) fn combine<F: Copy, R: Copy + Default>(
         &self,
         first: &Slopes<F>,
         f: impl Fn(F, F, T) -> R,
@@ -52,14 +52,31 @@ impl<T: Copy> SecondDerivatives<T> {
         }
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = &T> {
+    /// The second derivatives of two numbers together.
+    pub(crate) fn zip<S: Copy>(&self, other: &SecondDerivatives<S>) -> SecondDerivatives<(T, S)>
+    where
+        (T, S): Default,
+    {
+        let pairs = |own: &Matrix<T>, other: &Matrix<S>| {
+            Matrix::from_fn(own.row_count(), own.column_count(), |i, j| {
+                (own[i][j], other[i][j])
+            })
+        };
+        SecondDerivatives {
+            by_input: pairs(&self.by_input, &other.by_input),
+            by_input_and_design: pairs(&self.by_input_and_design, &other.by_input_and_design),
+            by_design: pairs(&self.by_design, &other.by_design),
+        }
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &T> {
         let blocks = [&self.by_input, &self.by_input_and_design, &self.by_design];
         blocks.into_iter().flat_map(Matrix::as_flattened)
     }
 }
 
 /// Averages mirrored elements, and returns their largest relative difference; the first `inputs` rows belong to inputs.
-pub(super) fn symmetric<T>(
+pub(crate) fn symmetric<T>(
     rows: &[Slopes<T>],
     inputs: usize,
     size: impl Fn(T) -> f64,

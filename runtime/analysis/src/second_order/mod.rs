@@ -27,9 +27,12 @@ mod probability;
 mod quadratic;
 mod spread;
 
+pub(crate) use adjoint::Adjoint;
 pub use critical::critical_curvature;
+pub(crate) use curvature::joined;
 pub use curvature::{ModeCurvature, mode_curvature};
 pub use derivatives::SecondDerivatives;
+pub(crate) use derivatives::symmetric;
 pub use event::{EventCurvature, crossing_curvature};
 pub use margin::{Margin, MarginDerivatives, margin};
 pub use nonlinearity::Nonlinearity;

@@ -157,6 +157,28 @@ impl<T: Field> Lu<T> {
             x[i] = x[i] / factors[i * n + i];
         }
     }
+
+    /// Solves with the transposed matrix.
+    pub fn solve_transposed(&self, right: &[T]) -> Vector<T> {
+        let n = right.len();
+        let mut y = Vector::from(right);
+        for i in 0..n {
+            for k in 0..i {
+                y[i] = y[i] - self.factors[k][i] * y[k];
+            }
+            y[i] = y[i] / self.factors[i][i];
+        }
+        for i in (0..n).rev() {
+            for k in i + 1..n {
+                y[i] = y[i] - self.factors[k][i] * y[k];
+            }
+        }
+        let mut x = Vector::zeros(n);
+        for (&place, value) in self.order.iter().zip(y) {
+            x[place] = value;
+        }
+        x
+    }
 }
 
 /// `row - factor other`.
@@ -203,28 +225,6 @@ impl Lu<f64> {
         (0..self.order.len()).fold(self.odd, |negative, i| {
             negative != (self.factors[i][i] < 0.0)
         })
-    }
-
-    /// Solves with the transposed matrix.
-    pub fn solve_transposed(&self, right: &[f64]) -> Vector {
-        let n = right.len();
-        let mut y = Vector::from(right);
-        for i in 0..n {
-            for k in 0..i {
-                y[i] -= self.factors[k][i] * y[k];
-            }
-            y[i] /= self.factors[i][i];
-        }
-        for i in (0..n).rev() {
-            for k in i + 1..n {
-                y[i] -= self.factors[k][i] * y[k];
-            }
-        }
-        let mut x = Vector::zeros(n);
-        for (&place, value) in self.order.iter().zip(y) {
-            x[place] = value;
-        }
-        x
     }
 }
 

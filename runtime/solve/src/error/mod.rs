@@ -264,6 +264,38 @@ pub enum Error {
         /// Positions of the modes, from 0.
         modes: Vec<usize>,
     },
+    /// A forced vibration was requested of a mechanism that nothing excites.
+    #[error(
+        "`{mechanism}` has no excitation: declare an `unbalance`, a `harmonic` force or a `shaken` joint"
+    )]
+    NoExcitation {
+        /// Name of the mechanism.
+        mechanism: Text,
+    },
+    /// The frequency of an excitation is zero.
+    #[error(
+        "excitation `{excitation}` has the frequency zero: it does not shake but loads steadily. Give its frequency, or \
+         the speed that it follows, another value"
+    )]
+    NoFrequency {
+        /// Declared name of the excitation.
+        excitation: Text,
+    },
+    /// An excitation drives a vibration that nothing limits.
+    #[error(
+        "excitation `{excitation}` drives {} at {} rad/s without any resistance: there is no steady vibration. Add damping, \
+         or move the frequency",
+        resonant(*.mode), six_digits(*frequency)
+    )]
+    Resonance {
+        /// Declared name of the excitation.
+        excitation: Text,
+        /// Its frequency, rad/s.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+        frequency: f64,
+        /// Position of the mode with this natural frequency, from 0, if there is one.
+        mode: Option<usize>,
+    },
     /// No sign change was found in the range.
     #[error(
         "no {what} in the range {} to {} of input `{input}`",
@@ -447,6 +479,14 @@ fn ranges(all: &[core::ops::Range<u64>]) -> String {
         .map(|range| format!("{} to below {}", range.start, range.end))
         .collect();
     each.join(", ")
+}
+
+/// The mode in resonance, counted from 1 as in all messages.
+fn resonant(mode: Option<usize>) -> String {
+    match mode {
+        Some(mode) => format!("mode {} in resonance", mode + 1),
+        None => "a vibration".to_owned(),
+    }
 }
 
 /// The modes that have merged, counted from 1 as in all messages.

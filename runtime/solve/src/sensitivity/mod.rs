@@ -34,6 +34,8 @@ pub use outputs::{OutputSensitivities, output_sensitivities};
 pub use pencil::{
     BilinearForm, ComplexGradient, Direction, form_gradient, form_gradient_along, subtract,
 };
+#[doc(hidden)]
+pub use place::depends;
 pub use quantity::Quantity;
 #[doc(hidden)]
 pub use quantity::{eigenvalue_curvature, eigenvalue_slope};

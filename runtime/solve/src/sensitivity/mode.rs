@@ -34,7 +34,21 @@ impl<T: Copy + Default> Slopes<T> {
         }
     }
 
-    fn iter(&self) -> impl Iterator<Item = T> {
+    /// The derivatives of two numbers together.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn zip<S: Copy + Default>(&self, other: &Slopes<S>) -> Slopes<(T, S)> {
+        let pairs =
+            |own: &[T], other: &[S]| own.iter().copied().zip(other.iter().copied()).collect();
+        Slopes {
+            by_input: pairs(&self.by_input, &other.by_input),
+            by_design: pairs(&self.by_design, &other.by_design),
+        }
+    }
+
+    /// Those by inputs, then those by design variables.
+    #[doc(hidden)]
+    pub fn iter(&self) -> impl Iterator<Item = T> {
         self.by_input.iter().chain(&self.by_design).copied()
     }
 

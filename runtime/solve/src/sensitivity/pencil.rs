@@ -41,7 +41,9 @@ impl BilinearForm {
         Self::new([dleft, &acceleration, &velocity, dright])
     }
 
-    fn new(vectors: [&[Complex]; 4]) -> Self {
+    /// Of the left vector, acceleration, velocity and position.
+    #[doc(hidden)]
+    pub fn new(vectors: [&[Complex]; 4]) -> Self {
         Self {
             re: vectors.map(|vector| vector.map(|value| value.re)),
             im: vectors.map(|vector| vector.map(|value| value.im)),

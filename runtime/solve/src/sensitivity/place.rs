@@ -46,7 +46,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
 }
 
 /// Whether an output with these derivatives by the unknowns depends on the position along the free directions.
-pub(super) fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
+pub fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
     at.free.motions.iter().any(|z| {
         let terms = by_unknown
             .iter()

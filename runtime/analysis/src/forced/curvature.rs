@@ -1,0 +1,342 @@
+//! Total second derivatives of forced vibrations: the adjoint gradient, differentiated along the change of equilibrium,
+//! frequency, vibration and adjoint with each variable.
+
+use super::adjoint::{Factors, OutputAdjoint, Weights};
+use super::forces::{Forces, Seen};
+use super::measure::Measure;
+use super::response::{Solved, Vibration};
+use super::sensitivities::{ForcedSensitivities, first_derivatives, modulus_slope};
+use crate::algebra::{Vector, dot_complex, times_complex};
+use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_results};
+use crate::modes::{pencil_slope_times, pencil_times, transposed};
+use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
+use crate::sensitivity::{
+    Direction, Slopes, directions, form_gradient_along, outside_domain, subtract,
+};
+use crate::{Complex, Equilibrium, Error, Output};
+
+/// A forced response with its total first and second derivatives.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ForcedCurvature {
+    /// The response and its first derivatives.
+    pub first: ForcedSensitivities,
+    /// One entry for each harmonic.
+    pub harmonics: Vec<HarmonicCurvature>,
+    /// Largest difference between mirrored second derivatives of an output before averaging, relative to the largest
+    /// derivative: zero in exact arithmetic.
+    pub asymmetry: f64,
+}
+
+/// Total second derivatives of one harmonic.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct HarmonicCurvature {
+    /// Of the frequency, rad/s per SI units.
+    pub frequency: SecondDerivatives<f64>,
+    /// Of the complex amplitude of each output, SI; `None` as for the first derivatives.
+    pub outputs: Vec<Option<SecondDerivatives<Complex>>>,
+}
+
+impl HarmonicCurvature {
+    fn finite(&self) -> bool {
+        let mut all = (self.outputs.iter().flatten()).flat_map(SecondDerivatives::iter);
+        self.frequency.iter().all(|own| own.is_finite()) && all.all(|own| own.is_finite())
+    }
+}
+
+impl ForcedCurvature {
+    /// Second derivatives of the complex amplitude of an output of a harmonic, as a displacement, velocity or
+    /// acceleration; `None` if it has none.
+    #[must_use]
+    pub fn complex(
+        &self,
+        harmonic: usize,
+        output: Output,
+        measure: Measure,
+    ) -> Option<SecondDerivatives<Complex>> {
+        let (of, first) = self.first.pair(harmonic)?;
+        let second = self.harmonics.get(harmonic)?;
+        let o = output.index();
+        let slopes = first.frequency.zip(first.outputs.get(o)?.as_ref()?);
+        let value = (of.frequency, *of.outputs.get(o)?);
+        let both = second.frequency.zip(second.outputs.get(o)?.as_ref()?);
+        Some(both.combine(&slopes, |a, b, ab| measure.curvature(value, [a, b], ab)))
+    }
+
+    /// Second derivatives of the modulus `|y|`; `None` also where it is zero.
+    #[must_use]
+    pub fn modulus(
+        &self,
+        harmonic: usize,
+        output: Output,
+        measure: Measure,
+    ) -> Option<SecondDerivatives<f64>> {
+        let y = self.first.value(harmonic, output, measure)?;
+        let slopes = self.first.complex(harmonic, output, measure)?;
+        let second = self.complex(harmonic, output, measure)?;
+        Some(second.combine(&slopes, |a, b, ab| modulus_curvature(y, [a, b], ab)))
+    }
+
+    /// Second derivatives of the phase, rad; `None` also where the modulus is zero.
+    #[must_use]
+    pub fn phase(
+        &self,
+        harmonic: usize,
+        output: Output,
+        measure: Measure,
+    ) -> Option<SecondDerivatives<f64>> {
+        let y = self.first.value(harmonic, output, measure)?;
+        let slopes = self.first.complex(harmonic, output, measure)?;
+        let second = self.complex(harmonic, output, measure)?;
+        Some(second.combine(&slopes, |a, b, ab| (ab / y - a / y * (b / y)).im))
+    }
+}
+
+/// Second derivative of `|y|`.
+fn modulus_curvature(y: Complex, [a, b]: [Complex; 2], ab: Complex) -> f64 {
+    let [first, second] = [a, b].map(|own| modulus_slope(y, own));
+    ((a.conj() * b + y.conj() * ab).re - first * second) / y.norm()
+}
+
+/// The forced response with total first and second derivatives by every input and design variable.
+///
+/// # Errors
+/// Those of [`sensitivities`](super::sensitivities).
+pub fn second_derivatives(
+    mechanism: &dyn CurvatureKernels,
+    at: &Equilibrium,
+) -> Result<ForcedCurvature, Error> {
+    let solved = Solved::new(mechanism, at)?;
+    let first = first_derivatives(&solved)?;
+    let adjoint = Adjoint::new(mechanism, at)?;
+    let all: Vec<Along<'_>> = (directions(mechanism, at)?.enumerate())
+        .map(|(number, direction)| Along::new(mechanism, at, number, direction))
+        .collect();
+    let mut most = 0.0_f64;
+    let mut harmonics = Vec::new();
+    for (vibration, own) in solved.vibrations.iter().zip(&first.harmonics) {
+        let moved = all.iter().map(|along| along.of(vibration, &own.frequency));
+        let moved: Vec<Moved<'_>> = moved.collect();
+        let frequency = frequency_rows(mechanism, at, &adjoint, vibration, &all);
+        let of_output = |(o, slopes): (usize, &Option<Slopes<Complex>>)| {
+            slopes.as_ref()?;
+            let curved = Curved::new(&solved, &adjoint, vibration, o)?;
+            let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
+            let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
+            let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
+            most = most.max(asymmetry);
+            Some(second)
+        };
+        let own = HarmonicCurvature {
+            frequency: symmetric(&frequency, at.inputs.len(), f64::abs).0,
+            outputs: own.outputs.iter().enumerate().map(of_output).collect(),
+        };
+        if !own.finite() {
+            return Err(outside_domain(at));
+        }
+        harmonics.push(own);
+    }
+    Ok(ForcedCurvature {
+        first,
+        harmonics,
+        asymmetry: most,
+    })
+}
+
+/// A direction of one variable, and how everything that a vibration depends on changes along it.
+pub(super) struct Along<'a> {
+    at: &'a Equilibrium,
+    number: usize,
+    direction: Direction,
+    linear: Linear,
+    transposed: Linear,
+    forces: Forces,
+    seen: Seen,
+}
+
+impl<'a> Along<'a> {
+    pub(super) fn new(
+        mechanism: &dyn CurvatureKernels,
+        at: &'a Equilibrium,
+        number: usize,
+        direction: Direction,
+    ) -> Self {
+        let linear = direction.linear(mechanism, at);
+        Self {
+            at,
+            number,
+            transposed: transposed(&linear),
+            linear,
+            forces: Forces::along(mechanism, at, &direction),
+            seen: Seen::along(mechanism, at, &direction),
+            direction,
+        }
+    }
+
+    /// The change of a vibration, whose frequency has these derivatives.
+    pub(super) fn of(&self, vibration: &Vibration, frequency: &Slopes<f64>) -> Moved<'_> {
+        let harmonic = &vibration.harmonic;
+        let (s, z) = (harmonic.s(), &harmonic.unknowns);
+        let ds = Complex::new(0.0, frequency.iter().nth(self.number).unwrap_or(f64::NAN));
+        let slope = pencil_slope_times(&self.at.linear, s, z);
+        let change = pencil_times(&self.linear, s, z);
+        let mut right = Vector::from_fn(z.len(), |i| -change[i] - ds * slope[i]);
+        for share in &harmonic.shares {
+            let force = self.forces.force(share.excitation, share.turn());
+            right
+                .iter_mut()
+                .zip(&force)
+                .for_each(|(sum, own)| *sum += own);
+        }
+        Moved {
+            along: self,
+            ds,
+            dz: vibration.stiffness.solve(&right),
+        }
+    }
+}
+
+/// A vibration's change along a direction.
+pub(super) struct Moved<'a> {
+    along: &'a Along<'a>,
+    ds: Complex,
+    /// `None` if it is infinite.
+    dz: Option<Vector<Complex>>,
+}
+
+/// An output's adjoint gradient, prepared for differentiation.
+pub(super) struct Curved<'a> {
+    own: OutputAdjoint<'a>,
+    adjoint: &'a Adjoint<'a>,
+    /// `Khat^T w = -dh/dq`, real and imaginary part.
+    w: [Vector; 2],
+}
+
+impl<'a> Curved<'a> {
+    pub(super) fn new(
+        solved: &'a Solved<'a>,
+        adjoint: &'a Adjoint<'a>,
+        vibration: &'a Vibration,
+        output: usize,
+    ) -> Option<Self> {
+        let own = OutputAdjoint::new(solved, vibration, output)?;
+        let mut room = Gradient::zeros(solved.mechanism.sizes());
+        let w = (own.gradient().each_mut()).map(|part| adjoint.total(part, &mut room));
+        Some(Self { own, adjoint, w })
+    }
+
+    /// The derivatives of the total gradient along a direction; `None` if they are infinite.
+    pub(super) fn along(
+        &self,
+        mechanism: &dyn CurvatureKernels,
+        moved: &Moved<'_>,
+    ) -> Option<Slopes<Complex>> {
+        let (at, along) = (self.own.solved.at, moved.along);
+        let change = self.change(moved)?;
+        let zeros = || Gradient::zeros(mechanism.sizes());
+        let (mut total, mut room) = ([zeros(), zeros()], zeros());
+        let forms = (&self.own.factors.form(), &change.form());
+        form_gradient_along(
+            mechanism,
+            at,
+            forms,
+            &along.direction,
+            &mut room,
+            &mut total,
+        );
+        let weights = self.own.weights(&self.own.factors, 1.0);
+        let changes = self.own.weights(&change, 0.0);
+        for ((total, weights), changes) in total.iter_mut().zip(&weights).zip(&changes) {
+            for own in weights.iter().zip(changes) {
+                gradient_along(mechanism, at, own, &along.direction, &mut room);
+                subtract(total, &room);
+            }
+        }
+        for (part, w) in total.iter_mut().zip(&self.w) {
+            (self.adjoint).total_along(part, w, &along.direction, &mut room);
+        }
+        Some(joined(&total).map(|value| -value))
+    }
+
+    /// How the factors of `h` change.
+    fn change(&self, moved: &Moved<'_>) -> Option<Factors> {
+        let Moved { along, ds, dz } = moved;
+        let (dz, ds) = (dz.as_ref()?, *ds);
+        let (vibration, seen, o) = (self.own.vibration, &self.own.solved.seen, self.own.output);
+        let (s, z) = (vibration.harmonic.s(), &vibration.harmonic.unknowns);
+        let (p, linear) = (&self.own.factors.left, &self.own.solved.at.linear);
+        let n = z.len();
+        let (dc, slope) = (along.seen.row(o, s), seen.row_slope(o, s));
+        let of_matrices = pencil_times(&along.transposed, s, p);
+        let of_frequency = pencil_slope_times(&transposed(linear), s, p);
+        let dp = vibration
+            .stiffness
+            .solve_transposed(&Vector::from_fn(n, |i| {
+                dc[i] + ds * (slope[i] - of_frequency[i]) - of_matrices[i]
+            }))?;
+        let (dslope, bend) = (along.seen.row_slope(o, s), seen.row_curvature(o));
+        let dslope = Vector::from_fn(n, |i| dslope[i] + ds * bend[i]);
+        let inertia = times_complex(&linear.mass, z);
+        let moved = pencil_slope_times(&along.linear, s, z);
+        let moved = Vector::from_fn(n, |i| moved[i] + 2.0 * ds * inertia[i]);
+        let seen_change = dot_complex(&dslope, z) + dot_complex(&slope, dz);
+        let form_change = dot_complex(&of_frequency, dz)
+            + dot_complex(&dp, &pencil_slope_times(linear, s, z))
+            + dot_complex(p, &moved);
+        Some(Factors {
+            motion: [
+                Vector::from_fn(n, |i| s * (2.0 * ds * z[i] + s * dz[i])),
+                Vector::from_fn(n, |i| ds * z[i] + s * dz[i]),
+                dz.clone(),
+            ],
+            slope: Complex::I * (seen_change - form_change),
+            left: dp,
+        })
+    }
+}
+
+/// Derivative of a gradient along a direction in which its weights change.
+fn gradient_along(
+    mechanism: &dyn CurvatureKernels,
+    at: &Equilibrium,
+    (weights, change): (&Weights, &Weights),
+    direction: &Direction,
+    gradient: &mut Gradient,
+) {
+    let state: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
+    mechanism.evaluate_curvature(
+        Curvature::ForcedGradient,
+        &weights.after(state),
+        &change.after(direction.parts()),
+        &mut gradient_results(gradient),
+    );
+}
+
+/// The derivatives of the total gradient of a frequency along each direction.
+pub(super) fn frequency_rows(
+    mechanism: &dyn CurvatureKernels,
+    at: &Equilibrium,
+    adjoint: &Adjoint<'_>,
+    vibration: &Vibration,
+    all: &[Along<'_>],
+) -> Vec<Slopes<f64>> {
+    let sizes = mechanism.sizes();
+    let (mut partial, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
+    let weights = Weights::of_frequency(sizes, vibration);
+    weights.gradient_into(mechanism, at, &mut partial);
+    let w = adjoint.total(&mut partial, &mut room);
+    let still = Weights::zeros(sizes);
+    let row = |along: &Along<'_>| {
+        let own = (&weights, &still);
+        gradient_along(mechanism, at, own, &along.direction, &mut partial);
+        adjoint.total_along(&mut partial, &w, &along.direction, &mut room);
+        Slopes {
+            by_input: partial.inputs.clone(),
+            by_design: partial.design.clone(),
+        }
+    };
+    all.iter().map(row).collect()
+}

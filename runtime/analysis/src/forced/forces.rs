@@ -1,0 +1,130 @@
+//! The excitations at one state: what they exert, at which frequencies, and how the outputs see a vibration.
+
+use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
+use crate::kernels::{Curvature, CurvatureKernels, Kernel, Kernels, Sizes};
+use crate::sensitivity::Direction;
+use crate::{Complex, Equilibrium};
+use eigentol_contract::Forcing;
+
+/// Forces, frequencies and what both add to the outputs directly, or the derivatives of all these along a direction.
+pub(super) struct Forces(Forcing<Matrix, Vector, Matrix>);
+
+impl Forces {
+    pub(super) fn of(mechanism: &dyn Kernels, at: &Equilibrium) -> Self {
+        let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
+        Self::filled(mechanism.sizes(), |results| {
+            mechanism.evaluate(Kernel::Forcing, &arguments, results);
+        })
+    }
+
+    pub(super) fn along(
+        mechanism: &dyn CurvatureKernels,
+        at: &Equilibrium,
+        direction: &Direction,
+    ) -> Self {
+        let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
+        let (kernel, direction) = (Curvature::Forcing, direction.parts());
+        Self::filled(mechanism.sizes(), |results| {
+            mechanism.evaluate_curvature(kernel, &arguments, &direction, results);
+        })
+    }
+
+    fn filled(sizes: Sizes, evaluate: impl FnOnce(&mut [&mut [f64]])) -> Self {
+        let rows = |columns| Matrix::zeros(sizes.excitations, columns);
+        let mut own = Forcing {
+            cosine: rows(sizes.coordinates),
+            frequency: Vector::zeros(sizes.excitations),
+            direct_cosine: rows(sizes.outputs),
+            sine: rows(sizes.coordinates),
+            direct_sine: rows(sizes.outputs),
+        };
+        evaluate(&mut [
+            own.cosine.as_flattened_mut(),
+            &mut own.frequency,
+            own.direct_cosine.as_flattened_mut(),
+            own.sine.as_flattened_mut(),
+            own.direct_sine.as_flattened_mut(),
+        ]);
+        Self(own)
+    }
+
+    /// The declared frequency of an excitation, rad/s; it may be negative.
+    pub(super) fn frequency(&self, excitation: usize) -> f64 {
+        self.0.frequency[excitation]
+    }
+
+    /// The amplitude of the force of an excitation; `turn` is the sign of its frequency.
+    pub(super) fn force(&self, excitation: usize, turn: f64) -> Vector<Complex> {
+        amplitude(&self.0.cosine[excitation], &self.0.sine[excitation], turn)
+    }
+
+    /// What an excitation adds to the outputs directly.
+    pub(super) fn direct(&self, excitation: usize, turn: f64) -> Vector<Complex> {
+        let (cosine, sine) = (&self.0.direct_cosine, &self.0.direct_sine);
+        amplitude(&cosine[excitation], &sine[excitation], turn)
+    }
+
+    pub(super) fn finite(&self) -> bool {
+        let own = &self.0;
+        let parts = [&own.cosine, &own.sine, &own.direct_cosine, &own.direct_sine];
+        all_finite(&own.frequency) && parts.into_iter().all(all_finite_matrix)
+    }
+}
+
+/// `cosine - i turn sine`.
+fn amplitude(cosine: &[f64], sine: &[f64], turn: f64) -> Vector<Complex> {
+    Vector::from_fn(cosine.len(), |i| Complex::new(cosine[i], -turn * sine[i]))
+}
+
+/// Derivatives of the outputs by acceleration, velocity and position, or the derivatives of these along a direction.
+pub(super) struct Seen([Matrix; 3]);
+
+impl Seen {
+    pub(super) fn of(mechanism: &dyn Kernels, at: &Equilibrium) -> Self {
+        let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
+        Self::filled(mechanism.sizes(), |results| {
+            mechanism.evaluate(Kernel::OutputMotion, &arguments, results);
+        })
+    }
+
+    pub(super) fn along(
+        mechanism: &dyn CurvatureKernels,
+        at: &Equilibrium,
+        direction: &Direction,
+    ) -> Self {
+        let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
+        let (kernel, direction) = (Curvature::OutputMotion, direction.parts());
+        Self::filled(mechanism.sizes(), |results| {
+            mechanism.evaluate_curvature(kernel, &arguments, &direction, results);
+        })
+    }
+
+    fn filled(sizes: Sizes, evaluate: impl FnOnce(&mut [&mut [f64]])) -> Self {
+        let mut own = [(); 3].map(|()| Matrix::zeros(sizes.outputs, sizes.coordinates));
+        evaluate(&mut own.each_mut().map(Matrix::as_flattened_mut));
+        Self(own)
+    }
+
+    /// `c = s^2 o_qddot + s o_qdot + o_q`, with which an output sees the vibration `z e^{s t}`.
+    pub(super) fn row(&self, output: usize, s: Complex) -> Vector<Complex> {
+        self.combined(output, [s * s, s, Complex::ONE])
+    }
+
+    /// `dc/ds`.
+    pub(super) fn row_slope(&self, output: usize, s: Complex) -> Vector<Complex> {
+        self.combined(output, [2.0 * s, Complex::ONE, Complex::ZERO])
+    }
+
+    /// `d2c/ds2`.
+    pub(super) fn row_curvature(&self, output: usize) -> Vector<Complex> {
+        self.combined(output, [2.0.into(), Complex::ZERO, Complex::ZERO])
+    }
+
+    fn combined(&self, output: usize, [a, v, x]: [Complex; 3]) -> Vector<Complex> {
+        let [acceleration, velocity, position] = &self.0;
+        let rows = [&acceleration[output], &velocity[output], &position[output]];
+        Vector::from_fn(rows[0].len(), |i| {
+            a * rows[0][i] + v * rows[1][i] + x * rows[2][i]
+        })
+    }
+}

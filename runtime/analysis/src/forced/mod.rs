@@ -1,0 +1,14 @@
+//! Forced vibration: the steady response to harmonic excitations about an equilibrium, its derivatives, and its peaks.
+
+mod adjoint;
+mod curvature;
+mod dynamic_stiffness;
+mod forces;
+mod measure;
+mod response;
+mod sensitivities;
+
+pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
+pub use measure::Measure;
+pub use response::{ForcedResponse, Harmonic, Share, response};
+pub use sensitivities::{ForcedSensitivities, HarmonicSensitivity, sensitivities};
