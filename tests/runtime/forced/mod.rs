@@ -1,0 +1,4 @@
+//! Forced vibration: against closed forms, direct solutions and differences.
+
+mod models;
+mod truth;
