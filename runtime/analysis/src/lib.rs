@@ -4,6 +4,7 @@
 
 pub mod allocation;
 mod along;
+pub mod bode;
 pub mod branches;
 pub mod campbell;
 pub mod clusters;

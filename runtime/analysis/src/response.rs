@@ -4,16 +4,18 @@
 use crate::algebra::Vector;
 use crate::along::name_of;
 use crate::clusters::common_slopes;
-use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::forced::{self, ForcedResponse, Measure};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::modes::Family;
 use crate::scalar::Instructions;
-use crate::sensitivity::{Quantity, eigenvalue_slope, output_sensitivities, sensitivities};
+use crate::second_order::SecondDerivatives;
+use crate::sensitivity::{Quantity, Slopes, eigenvalue_slope, output_sensitivities, sensitivities};
 use crate::sweep::{
     Change, Condition, CriticalState, Crossing, Following, Range, critical_sensitivity,
     critical_state, crossing_sensitivity, first_crossing, meeting,
 };
 use crate::tolerance::{Outcome, Solution};
-use crate::{Complex, Description, Equilibrium, Error, Modes, Output, Unit, Watch};
+use crate::{Complex, Description, Equilibrium, Error, Modes, Output, Text, Unit, Watch};
 
 /// A scalar that depends on the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +32,8 @@ pub enum Response {
     },
     /// An output, SI.
     Output(Output),
+    /// The amplitude, 0 to peak, with which an output vibrates under excitations, SI.
+    Vibration(Vibration),
     /// The first value (SI) of an input in a range at which the branch that is stable at the low end loses its
     /// stiffness ([`critical_state`]).
     Critical(Range),
@@ -46,10 +50,96 @@ pub enum Response {
     },
 }
 
+/// The vibration of an output under all excitations that have one frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Vibration {
+    /// The output.
+    pub output: Output,
+    /// The position of one of the excitations.
+    pub excitation: usize,
+    /// What is measured.
+    pub measure: Measure,
+}
+
+impl Vibration {
+    /// The amplitude in a response.
+    pub(crate) fn of(&self, response: &ForcedResponse) -> Option<f64> {
+        let harmonic = self.place(&response.description)?;
+        let amplitude = response
+            .harmonics
+            .get(harmonic)?
+            .amplitude(self.output, self.measure)?;
+        Some(amplitude.norm()).filter(|value| value.is_finite())
+    }
+
+    /// The amplitude with its total first and second derivatives; `None` where it has none.
+    #[expect(clippy::type_complexity, reason = "a value and its derivatives")]
+    pub(crate) fn quadratic(
+        &self,
+        mechanism: &dyn CurvatureKernels,
+        at: &Equilibrium,
+    ) -> Result<Option<((f64, Slopes<f64>), SecondDerivatives<f64>)>, Error> {
+        let all = forced::second_derivatives(mechanism, at)?;
+        let found = || {
+            let (place, output) = (self.place(&at.description)?, self.output);
+            let value = self.of(&all.first.response)?;
+            let first = all.first.modulus(place, output, self.measure)?;
+            let second = all.modulus(place, output, self.measure)?;
+            Some(((value, first), second))
+        };
+        Ok(found())
+    }
+
+    /// The position of its harmonic.
+    pub(crate) fn place(&self, of: &Description) -> Option<usize> {
+        let with = of.excitations.get(self.excitation)?.with;
+        let firsts = of.excitations.iter().enumerate().take(with + 1);
+        firsts
+            .filter(|(k, info)| info.with == *k)
+            .count()
+            .checked_sub(1)
+    }
+
+    fn name(&self, of: &Description) -> String {
+        let output = of.outputs.get(self.output.index());
+        let output = output.map_or("?", |info| &*info.name);
+        let with = of.excitations.get(self.excitation).map(|info| info.with);
+        let members = of.excitations.iter().filter(|info| Some(info.with) == with);
+        let names: Vec<&str> = members.map(|info| &*info.name).collect();
+        let measure = match self.measure {
+            Measure::Displacement => "",
+            Measure::Velocity => "rate of ",
+            Measure::Acceleration => "acceleration of ",
+        };
+        format!("{measure}{output} under {}", names.join(", "))
+    }
+
+    fn unit(&self, of: &Description) -> Option<Unit> {
+        let unit = &of.outputs.get(self.output.index())?.unit;
+        let per = match self.measure {
+            Measure::Displacement => return Some(unit.clone()),
+            Measure::Velocity => "/s",
+            Measure::Acceleration => "/s^2",
+        };
+        let symbol = match &*unit.symbol {
+            "" => format!("1{per}"),
+            symbol => format!("{symbol}{per}"),
+        };
+        Some(Unit {
+            symbol: Text::from(symbol),
+            scale: unit.scale,
+        })
+    }
+}
+
 impl Response {
     /// Whether it describes the state at the operating point: a mode or an output, which only a stable equilibrium has.
     pub(crate) fn of_state(self) -> bool {
-        matches!(self, Self::Mode { .. } | Self::Output(_))
+        matches!(
+            self,
+            Self::Mode { .. } | Self::Output(_) | Self::Vibration(_)
+        )
     }
 
     /// Its name in texts and tables, for example `frequency 1` or `critical speed`.
@@ -64,6 +154,7 @@ impl Response {
                 let info = of.outputs.get(output.index());
                 info.map_or("?", |info| &*info.name).to_owned()
             }
+            Self::Vibration(vibration) => vibration.name(of),
             Self::Critical(range) => format!("critical {}", name_of(of, range.input)),
             Self::Crossing {
                 mode,
@@ -89,6 +180,10 @@ impl Response {
         let declared = match self {
             Self::Mode { quantity, .. } => return quantity.unit(),
             Self::Output(output) => of.outputs.get(output.index()).map(|info| &info.unit),
+            Self::Vibration(vibration) => {
+                let unit = vibration.unit(of);
+                return unit.unwrap_or_else(|| Quantity::DampingRatio.unit());
+            }
             Self::Critical(range) | Self::Crossing { range, .. } => {
                 of.inputs.get(range.input.index()).map(|info| &info.unit)
             }
@@ -145,11 +240,13 @@ impl<'a> Responses<'a> {
         for response in &wanted {
             match response {
                 Response::Mode { mode, .. } => check_mode(*mode, modes)?,
-                Response::Output(output) => {
-                    let (index, count) = (output.index(), description.outputs.len());
+                Response::Output(output) => check_output(*output, description)?,
+                Response::Vibration(vibration) => {
+                    check_output(vibration.output, description)?;
+                    let (index, count) = (vibration.excitation, description.excitations.len());
                     if index >= count {
                         return Err(Error::UnknownHandle {
-                            kind: "output",
+                            kind: "excitation",
                             index,
                             mechanism: description.name.clone(),
                             count,
@@ -241,7 +338,7 @@ impl<'a> Responses<'a> {
     pub(crate) fn price(&self) -> u64 {
         let steps = self.wanted.iter().map(|response| match response {
             Response::Critical(range) | Response::Crossing { range, .. } => range.steps as u64,
-            Response::Mode { .. } | Response::Output(_) => 0,
+            Response::Mode { .. } | Response::Output(_) | Response::Vibration(_) => 0,
         });
         steps.fold(1, u64::saturating_add)
     }
@@ -335,6 +432,18 @@ impl<'a> Responses<'a> {
                     });
                     (value, gradient)
                 }
+                Response::Vibration(vibration) => {
+                    let state = &solved.state;
+                    let found = own.of_vibrations(self.mechanism, solved);
+                    let value = found.and_then(|found| vibration.of(found));
+                    let gradient = value.filter(|_| slopes).and_then(|_| {
+                        let all = forced::sensitivities(self.mechanism, state).ok()?;
+                        let place = vibration.place(&state.description)?;
+                        let slopes = all.modulus(place, vibration.output, vibration.measure)?;
+                        Some(slopes.by_design)
+                    });
+                    (value, gradient)
+                }
                 Response::Output(output) => {
                     let k = output.index();
                     let state = &solved.state;
@@ -416,6 +525,19 @@ fn tells_stability(response: &Response) -> bool {
     matches!(quantity, Quantity::DampingRatio | Quantity::Growth)
 }
 
+fn check_output(output: Output, description: &Description) -> Result<(), Error> {
+    let (index, count) = (output.index(), description.outputs.len());
+    if index < count {
+        return Ok(());
+    }
+    Err(Error::UnknownHandle {
+        kind: "output",
+        index,
+        mechanism: description.name.clone(),
+        count,
+    })
+}
+
 fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {
     let count = modes.modes.len();
     match mode < count {
@@ -429,6 +551,7 @@ fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {
 struct Own {
     modes: Option<Option<crate::Sensitivities>>,
     outputs: Option<Option<crate::sensitivity::OutputSensitivities>>,
+    vibrations: Option<Option<ForcedResponse>>,
 }
 
 impl Own {
@@ -439,6 +562,15 @@ impl Own {
     ) -> Option<&crate::Sensitivities> {
         let found = || sensitivities(mechanism, &solved.state, solved.modes()).ok();
         self.modes.get_or_insert_with(found).as_ref()
+    }
+
+    fn of_vibrations(
+        &mut self,
+        mechanism: &dyn Kernels,
+        solved: &Solution,
+    ) -> Option<&ForcedResponse> {
+        let found = || forced::response(mechanism, &solved.state).ok();
+        self.vibrations.get_or_insert_with(found).as_ref()
     }
 
     fn of_outputs(

@@ -12,6 +12,7 @@ pub(crate) trait Kernels: Copy + 'static {
     type Inputs<T: Copy>: Array<T>;
     type Design<T: Copy>: Array<T>;
     type Outputs<T: Copy>: Array<T>;
+    type Excitations<T: Copy>: Array<T>;
     type Picture<T: Copy>: Array<T>;
 
     const DESCRIPTION: Description;

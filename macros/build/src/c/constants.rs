@@ -20,6 +20,9 @@ pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
     list.size("INPUTS", "inputs `u`", mechanism.inputs.len());
     list.size("DESIGN", "design variables `b`", mechanism.design.len());
     list.size("OUTPUTS", "outputs", mechanism.outputs.len());
+    if !mechanism.excitations.is_empty() {
+        list.size("EXCITATIONS", "excitations", mechanism.excitations.len());
+    }
     for (k, unknown) in unknowns.iter().enumerate() {
         // Reactions have labels, not names.
         if let Role::Position(id) | Role::Speed(id) = unknown.role {
@@ -35,6 +38,9 @@ pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
     }
     for (k, output) in mechanism.outputs.iter().enumerate() {
         list.place("OUTPUT", &output.name, &output.docs, &si(&output.unit), k);
+    }
+    for (k, excitation) in mechanism.excitations.iter().enumerate() {
+        list.place("EXCITATION", &excitation.name, &[], "SI", k);
     }
     list.text + "\n"
 }

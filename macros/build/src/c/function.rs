@@ -6,13 +6,14 @@ use eigentol_compiler::Compilation;
 
 use super::Names;
 
-/// Numbers of unknowns, inputs, design variables and outputs.
+/// Numbers of unknowns, inputs, design variables, outputs and excitations.
 #[derive(Clone, Copy)]
 pub(super) struct Sizes {
     coordinates: usize,
     inputs: usize,
     design: usize,
     outputs: usize,
+    excitations: usize,
 }
 
 /// The length of an array along one of its indices.
@@ -26,6 +27,8 @@ pub(super) enum Size {
     P,
     /// Outputs.
     O,
+    /// Excitations.
+    E,
     /// A fixed number.
     Exactly(usize),
 }
@@ -38,6 +41,7 @@ impl Sizes {
             inputs: mechanism.inputs.len(),
             design: mechanism.design.len(),
             outputs: mechanism.outputs.len(),
+            excitations: mechanism.excitations.len(),
         }
     }
 
@@ -47,6 +51,7 @@ impl Sizes {
             Size::U => self.inputs,
             Size::P => self.design,
             Size::O => self.outputs,
+            Size::E => self.excitations,
             Size::Exactly(number) => number,
         }
     }

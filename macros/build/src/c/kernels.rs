@@ -5,7 +5,7 @@ use eigentol_compiler::Compilation;
 use super::function::{Answer, Argument, Function, Part, Size};
 use Argument::{Array, Number};
 use Part::{Matrices, Slice};
-use Size::{Exactly, N, O, P, U};
+use Size::{E, Exactly, N, O, P, U};
 
 const STATE: [Argument; 3] = [Array("q", N), Array("u", U), Array("b", P)];
 
@@ -219,5 +219,44 @@ pub(super) fn kernels(compilation: &Compilation) -> Vec<Function> {
             ],
         ),
     ]);
+    if has("forcing") {
+        functions.extend([
+            function(
+                "forcing",
+                "Harmonic excitations: forces `cosine cos(w t) + sine sin(w t)` on the equations of motion and directly on the outputs,\n\
+                 and `w`, rad/s.",
+                [&[], &[]],
+                &[
+                    answer("cosine", &[E, N], Slice("result.cosine.as_flattened()")),
+                    answer("frequency", &[E], Slice("&result.frequency")),
+                    answer(
+                        "direct_cosine",
+                        &[E, O],
+                        Slice("result.direct_cosine.as_flattened()"),
+                    ),
+                    answer("sine", &[E, N], Slice("result.sine.as_flattened()")),
+                    answer(
+                        "direct_sine",
+                        &[E, O],
+                        Slice("result.direct_sine.as_flattened()"),
+                    ),
+                ],
+            ),
+            function(
+                "output_motion",
+                "Derivatives of the outputs along any motion by accelerations, velocities and coordinates, at rest.",
+                [&[], &[]],
+                &[
+                    answer(
+                        "by_acceleration",
+                        &[O, N],
+                        Slice("result.0.as_flattened()"),
+                    ),
+                    answer("by_velocity", &[O, N], Slice("result.1.as_flattened()")),
+                    answer("by_position", &[O, N], Slice("result.2.as_flattened()")),
+                ],
+            ),
+        ]);
+    }
     functions
 }

@@ -8,12 +8,14 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, poses, properties, require_determinate_motion, require_steady_state,
-    requirements,
+    Unsteady, free_directions, poses, properties, require_determinate_motion, require_harmonic,
+    require_steady_state, requirements,
 };
-use super::equations::Equations;
+use super::equations::{Equations, excited};
 use super::functions::{Functions, Limits, Role, Unknown};
-use super::kernels::{held_values, kernels, picture, pose_margin, violation, whirl};
+use super::kernels::{
+    Excitations, forced, held_values, kernels, picture, pose_margin, violation, whirl,
+};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::setup::{Context, Excited, Runs, Symbols, Values};
@@ -95,13 +97,17 @@ fn derived(
     };
 
     require_steady_state(g, &context)?;
+    let responses = excited(g, &context);
+    let turning = require_harmonic(g, &context, &responses)?;
     let equations = Equations::new(g, &context);
     let jacobians = Jacobians::new(g, &context, &equations);
     let undetermined = require_determinate_motion(g, &context, &jacobians)?;
     let free = free_directions(g, &context, &equations, &jacobians)?;
     let properties = properties(g, &context, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, &context);
+    let excitations = Excitations::new(g, &context, &responses, &turning);
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
+    functions.extend(forced(g, &context, &equations, &excitations));
     functions.extend(whirl(g, &context));
     let (function, picture) = picture(g, &context);
     functions.push(function);
@@ -123,7 +129,7 @@ fn derived(
         undetermined,
         free,
         held,
-        excitations: Vec::new(),
+        excitations: excitations.facts,
     })
 }
 

@@ -53,6 +53,7 @@ impl<'a> Values<'a> {
             | Expr::LengthRate
             | Expr::Reaction(..)
             | Expr::ConstraintReaction(..)
+            | Expr::Exerted(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => f64::NAN,
             Expr::Negate(a) => -part(a),

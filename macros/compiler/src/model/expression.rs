@@ -5,7 +5,7 @@ use std::rc::Rc;
 use rustc_hash::FxHashSet;
 
 use crate::base::ids::{
-    ConstantId, ConstraintId, CoordinateId, DesignId, InputId, JointId, PointId,
+    ConstantId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId,
 };
 pub use crate::base::operators::Unary as Function;
 
@@ -40,6 +40,9 @@ pub enum Expr {
     /// (normal cross forward) and along the normal; for a ball, forward is the axis of `on` farthest from the normal,
     /// made perpendicular to it, so that with z as the normal these are the components along x, y and z of `on`.
     ConstraintReaction(ConstraintId, usize),
+    /// Component of what a force element exerts (in outputs). Bushing: 0 to 2 the force and 3 to 5 the moment of `from` on
+    /// `to`, in the axes of `from`. Between two points along their line: 0 the tension.
+    Exerted(ForceId, usize),
     /// Kinetic energy in steady motion (in outputs).
     KineticEnergy,
     /// Energy of gravity, springs and potentials, zero at the ground's origin and at free lengths (in outputs).

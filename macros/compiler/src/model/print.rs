@@ -151,6 +151,10 @@ impl Names<'_> {
                 let name = &self.0.constraints[id.index()].name;
                 format!("reaction({name}).{component}")
             }
+            Expr::Exerted(id, component) => {
+                let name = &self.0.forces[id.index()].name;
+                format!("exerted({name}).{component}")
+            }
             Expr::KineticEnergy => "kinetic_energy()".to_owned(),
             Expr::PotentialEnergy => "potential_energy()".to_owned(),
             Expr::Negate(a) => format!("-{}", self.scalar(a)),

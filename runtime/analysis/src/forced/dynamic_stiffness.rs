@@ -108,7 +108,7 @@ impl DynamicStiffness {
 }
 
 /// Powers of two that bring the largest element of every row and column near one.
-fn scales(terms: &Matrix) -> (Vector, Vector) {
+pub(super) fn scales(terms: &Matrix) -> (Vector, Vector) {
     let n = terms.row_count();
     let (mut rows, mut columns) = (Vector::filled(n, 1.0), Vector::filled(n, 1.0));
     let root = |most: f64| match most > 0.0 && most.is_finite() {
@@ -129,7 +129,7 @@ fn scales(terms: &Matrix) -> (Vector, Vector) {
 }
 
 /// Factors of a matrix; if elimination finds it singular, of one that differs by rounding.
-fn factored(matrix: &Matrix<Complex>) -> Option<(Lu<Complex>, bool)> {
+pub(super) fn factored(matrix: &Matrix<Complex>) -> Option<(Lu<Complex>, bool)> {
     if let Some(factors) = Lu::new(matrix) {
         return Some((factors, true));
     }

@@ -11,9 +11,12 @@ pub(super) struct Forces(Forcing<Matrix, Vector, Matrix>);
 
 impl Forces {
     pub(super) fn of(mechanism: &dyn Kernels, at: &Equilibrium) -> Self {
-        let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
+        Self::at(mechanism, &at.coordinates, &at.inputs, &at.design)
+    }
+
+    pub(super) fn at(mechanism: &dyn Kernels, q: &[f64], u: &[f64], b: &[f64]) -> Self {
         Self::filled(mechanism.sizes(), |results| {
-            mechanism.evaluate(Kernel::Forcing, &arguments, results);
+            mechanism.evaluate(Kernel::Forcing, &[q, u, b], results);
         })
     }
 

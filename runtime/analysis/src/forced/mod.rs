@@ -5,10 +5,12 @@ mod curvature;
 mod dynamic_stiffness;
 mod forces;
 mod measure;
+mod resolvent;
 mod response;
 mod sensitivities;
 
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
 pub use measure::Measure;
+pub(crate) use resolvent::Resolvent;
 pub use response::{ForcedResponse, Harmonic, Share, response};
 pub use sensitivities::{ForcedSensitivities, HarmonicSensitivity, sensitivities};

@@ -63,6 +63,11 @@ pub(super) fn expansions(
                     let found = output_curvature(mechanism, at, output);
                     found.ok().map(|found| found.second.by_design)
                 }
+                Response::Vibration(vibration) => vibration
+                    .quadratic(mechanism, at)
+                    .ok()
+                    .flatten()
+                    .map(|(_, second)| second.by_design),
                 Response::Critical(range) => {
                     let state = responses.critical_state(&at.design, range);
                     let found = state.map(|state| critical_curvature(mechanism, &state));

@@ -4,6 +4,7 @@
 //! | method | cost | result |
 //! | --- | --- | --- |
 //! | [`sampled`] | a few thousand designs, for any distribution and response | everything, including failure counts |
+//! | [`vibrations`] | samples of a model of forced vibration that stays right at a resonance | everything, for the model |
 //! | [`controlled`] | random samples with the Taylor model as control | mean and sigma, each sample worth many plain ones |
 //! | [`quadrature`] | few designs if few variables vary | mean, sigma, skewness, covariance |
 //! | [`first_order`], [`second_order`] | derivatives at the nominal design | everything, for the model; an estimate of its error |
@@ -25,6 +26,7 @@ mod result;
 mod sampled;
 mod space;
 mod taylor;
+mod vibrations;
 mod worst_case;
 
 pub use choice::{SOLUTIONS, propagate};
@@ -36,4 +38,5 @@ pub use quadrature::quadrature;
 pub use result::{Estimated, Method, Propagation, QUANTILES, Quantile, ResponseSpread};
 pub use sampled::{Samples, sampled};
 pub use taylor::{first_order, second_order};
+pub use vibrations::{VibrationCheck, check_vibrations, vibrations};
 pub use worst_case::{Extreme, MissingCorner, ResponseLimits, WorstCase, worst_case};

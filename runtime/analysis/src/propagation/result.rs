@@ -99,6 +99,8 @@ pub enum Method {
     SecondOrder,
     /// [`sampled`](super::sampled).
     Sampled(Points),
+    /// [`vibrations`](super::vibrations).
+    Resolvent(Points),
     /// [`quadrature`](super::quadrature) on the tensor product of one rule per variable.
     Tensor {
         /// Nodes per variable.
@@ -119,6 +121,7 @@ impl fmt::Display for Method {
             Self::Sampled(Points::Random) => f.write_str("random samples"),
             Self::Sampled(Points::LatinHypercube) => f.write_str("Latin hypercube samples"),
             Self::Sampled(Points::Sobol) => f.write_str("samples at scrambled Sobol' points"),
+            Self::Resolvent(_) => f.write_str("samples of the resolvent near the nominal design"),
             Self::Tensor { nodes } => write!(f, "quadrature with {nodes} nodes for each variable"),
             Self::Sparse { level } => write!(f, "quadrature on a sparse grid of level {level}"),
         }

@@ -6,13 +6,14 @@ use super::gather::{Gathered, Task};
 use super::model::Designs;
 use super::result::{Method, Propagation};
 use super::space::Space;
-use crate::Error;
-use crate::algebra::Matrix;
+use crate::algebra::{Matrix, Vector};
 use crate::response::{Response, Responses};
 #[cfg(feature = "serde")]
 use crate::tolerance::Outcome;
 use crate::tolerance::run::{Format, Run};
 use crate::tolerance::{Counts, Fingerprint, Points, Sampling, Tolerances};
+use crate::{Description, Error, Shared};
+use eigentol_statistics::summary::Partial;
 
 /// Statistics of a set of samples. Parts of a run merge to the same bits as the whole, however it was split.
 ///
@@ -172,34 +173,51 @@ impl Samples {
     /// # Errors
     /// Those of the sample statistics; none is known to occur.
     pub fn propagation(&self) -> Result<Propagation, Error> {
-        let (responses, gathered) = (self.wanted.len(), Gathered(&self.run.parts));
-        let mut spreads = Vec::new();
-        let mut covariance = Matrix::zeros(responses, responses);
-        let mut with_design = Matrix::from_fn(responses, self.variables.1, |_, _| Some(0.0));
-        for i in 0..responses {
-            spreads.push(gathered.spread(i, self.nominal[i])?);
-            for j in 0..responses {
-                covariance[i][j] = gathered.covariance(i, j)?;
-            }
-            for (k, &variable) in self.variables.0.iter().enumerate() {
-                with_design[i][variable] = gathered.covariance(i, responses + k)?;
-            }
-        }
-        let counts = self.counts();
-        Ok(Propagation {
-            method: Method::Sampled(self.points),
-            reason: String::new(),
-            wanted: self.wanted.clone(),
-            doubts: vec![Vec::new(); spreads.len()],
-            spreads,
-            covariance,
-            with_design,
-            evaluations: counts.total() as u64,
-            counts,
-            inputs: self.run.inputs.clone(),
-            description: self.run.description.clone(),
-        })
+        propagation_of(
+            Method::Sampled(self.points),
+            &self.run.parts,
+            (&self.wanted, &self.nominal),
+            (&self.variables.0, self.variables.1),
+            (&self.run.inputs, &self.run.description),
+        )
     }
+}
+
+/// The spreads of responses over samples; `variables` are those that vary, and the number of all.
+pub(super) fn propagation_of(
+    method: Method,
+    parts: &[Partial],
+    (wanted, nominal): (&[Response], &[Option<f64>]),
+    (variables, all): (&[usize], usize),
+    (inputs, description): (&Vector, &Shared<Description>),
+) -> Result<Propagation, Error> {
+    let (responses, gathered) = (wanted.len(), Gathered(parts));
+    let mut spreads = Vec::new();
+    let mut covariance = Matrix::zeros(responses, responses);
+    let mut with_design = Matrix::from_fn(responses, all, |_, _| Some(0.0));
+    for i in 0..responses {
+        spreads.push(gathered.spread(i, nominal[i])?);
+        for j in 0..responses {
+            covariance[i][j] = gathered.covariance(i, j)?;
+        }
+        for (k, &variable) in variables.iter().enumerate() {
+            with_design[i][variable] = gathered.covariance(i, responses + k)?;
+        }
+    }
+    let counts = Counts::of_parts(parts);
+    Ok(Propagation {
+        method,
+        reason: String::new(),
+        wanted: wanted.to_vec(),
+        doubts: vec![Vec::new(); spreads.len()],
+        spreads,
+        covariance,
+        with_design,
+        evaluations: counts.total() as u64,
+        counts,
+        inputs: inputs.clone(),
+        description: description.clone(),
+    })
 }
 
 /// [`Samples`] as read, before validation.

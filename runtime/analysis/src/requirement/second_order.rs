@@ -186,6 +186,18 @@ impl Model {
                     by_input: Some((own.first.by_input, own.second.by_input_and_design)),
                 });
             }
+            Response::Vibration(vibration) => {
+                let found = vibration.quadratic(mechanism, at)?;
+                let ((value, first), second) = found.ok_or(missing)?;
+                return Ok(Self {
+                    quadratic: Quadratic {
+                        value,
+                        slopes: first.by_design,
+                        curvature: second.by_design,
+                    },
+                    by_input: Some((first.by_input, second.by_input_and_design)),
+                });
+            }
             Response::Critical(range) => {
                 let state = responses.critical_state(&at.design, range).ok_or(missing)?;
                 critical_curvature(mechanism, &state)?

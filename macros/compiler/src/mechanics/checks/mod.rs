@@ -8,6 +8,7 @@
 
 mod determinacy;
 mod freedom;
+mod harmonic;
 mod poses;
 mod properties;
 mod requirements;
@@ -15,6 +16,7 @@ mod steady_state;
 
 pub(super) use determinacy::require_determinate_motion;
 pub(super) use freedom::free_directions;
+pub(super) use harmonic::{Turning, require_harmonic};
 pub(super) use poses::poses;
 pub(super) use properties::properties;
 pub(super) use requirements::requirements;

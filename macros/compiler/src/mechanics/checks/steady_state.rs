@@ -8,6 +8,8 @@ use crate::mechanics::motion::{Kinematics, in_common_frame};
 use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};
 use crate::model::mechanism::Motion;
 
+const INERTIA: &str = "the inertia of";
+const UNBALANCE: &str = "; an eccentric centre or a skew axis of a symmetric body is an `unbalance`; what has unequal moments of inertia across the axis makes the equations of vibration periodic (theory of Floquet), which is not supported";
 const GRAVITY: &str = "gravity is not parallel to its axis";
 
 /// Why there is no steady state.
@@ -66,7 +68,11 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
                     [only] if only == GRAVITY => format!(
                         "let gravity act along the axis of the {drive}, for example `gravity 9.81 m/s^2 along -z;`, or hold the axis upright"
                     ),
-                    _ => format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it"),
+                    causes => {
+                        let inertia = causes.iter().any(|cause| cause.starts_with(INERTIA));
+                        let of_bodies = if inertia { UNBALANCE } else { "" };
+                        format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it{of_bodies}")
+                    }
                 },
             );
         }
@@ -134,7 +140,7 @@ fn causes(g: &mut Graph, context: &Context, kinematics: &Kinematics, symbol: Sym
                 inertia: Selection::One(BodyId::new(index)),
                 ..none
             },
-            format!("the inertia of `{}` changes with it", body.name),
+            format!("{INERTIA} `{}` changes with it", body.name),
         ));
     }
     candidates.retain(|(selection, _)| {

@@ -3,7 +3,7 @@
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{ConstraintId, ExprId, JointId};
 use crate::mechanics::inertia::inertial_at;
-use crate::mechanics::loads::{ForceContext, held, transmitted};
+use crate::mechanics::loads::{ForceContext, exerted, held, transmitted};
 use crate::mechanics::motion::{Kinematics, Wrench};
 use crate::mechanics::setup::{Context, ForceSelection, Source, State};
 use crate::model::expression::Expr;
@@ -22,6 +22,7 @@ pub(crate) fn outputs(
         kinematics,
         reactions: reactions(g, context, running, kinematics),
         constraints: constraint_reactions(g, context, kinematics),
+        exerted: exerted_by_forces(g, context, kinematics),
         kinetic: kinetic(g, context, kinematics),
         potential: potential(g, context, kinematics),
     };
@@ -40,6 +41,8 @@ struct Everything<'a> {
     reactions: Vec<[Vector3; 2]>,
     /// By constraint id.
     constraints: Vec<[ExprId; 6]>,
+    /// By force id.
+    exerted: Vec<[ExprId; 6]>,
     kinetic: ExprId,
     potential: ExprId,
 }
@@ -55,6 +58,7 @@ impl State for Everything<'_> {
         match leaf {
             Expr::Reaction(joint, component) => self.reaction(*joint, *component),
             Expr::ConstraintReaction(id, component) => self.constraints[id.index()][*component],
+            Expr::Exerted(force, component) => self.exerted[force.index()][*component],
             Expr::KineticEnergy => self.kinetic,
             Expr::PotentialEnergy => self.potential,
             _ => self.kinematics.leaf(leaf),
@@ -161,4 +165,26 @@ fn constraint_reactions(
         }
     })
     .collect()
+}
+
+/// What each force element exerts; only where an output asks for it, zeros elsewhere.
+fn exerted_by_forces(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+) -> Vec<[ExprId; 6]> {
+    let mechanism = context.mechanism;
+    let mut all = vec![[g.zero(); 6]; mechanism.forces.len()];
+    let force_context = ForceContext::new(context, kinematics);
+    let leaves = mechanism
+        .outputs
+        .iter()
+        .flat_map(|output| output.value.leaves());
+    for leaf in leaves {
+        if let Expr::Exerted(id, _) = leaf {
+            let force = &mechanism.forces[id.index()];
+            all[id.index()] = exerted(g, &force_context, force);
+        }
+    }
+    all
 }

@@ -24,6 +24,8 @@ pub(crate) struct Equations {
     pub(crate) rest_inertia: Vec<ExprId>,
     /// The part of `rest` due to applied forces, with the sign of a force: `rest = rest_inertia - rest_applied`.
     pub(crate) rest_applied: Vec<ExprId>,
+    /// Outputs along any motion.
+    pub(crate) outputs_in_motion: Vec<ExprId>,
     /// Outputs at rest.
     pub(crate) outputs: Vec<ExprId>,
 }
@@ -42,7 +44,7 @@ impl Equations {
             .total(g, context);
         let applied = Residual::new(g, context, &running, &kinematics, ForceSelection::APPLIED)
             .total(g, context);
-        let outputs = outputs(g, context, &running, &kinematics);
+        let outputs_in_motion = outputs(g, context, &running, &kinematics);
         let without: Vec<_> = symbols.velocity.with(&zeros).collect();
         let without_velocity = substitute(g, &motion, &without);
         let rest = at_rest(g, symbols, &motion);
@@ -52,7 +54,7 @@ impl Equations {
             .into_iter()
             .map(|force| g.neg(force))
             .collect();
-        let outputs = at_rest(g, symbols, &outputs);
+        let outputs = at_rest(g, symbols, &outputs_in_motion);
         Self {
             motion,
             parts,
@@ -61,6 +63,7 @@ impl Equations {
             rest,
             rest_inertia,
             rest_applied,
+            outputs_in_motion,
             outputs,
         }
     }

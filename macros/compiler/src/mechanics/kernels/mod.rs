@@ -10,6 +10,7 @@
 mod adjoint;
 mod conditions;
 mod contract;
+mod forced;
 mod held_values;
 mod parameters;
 mod picture;
@@ -17,6 +18,7 @@ mod whirl;
 
 pub(super) use conditions::{pose_margin, violation};
 pub(super) use contract::kernels;
+pub(super) use forced::{Excitations, forced};
 pub(super) use held_values::held_values;
 pub(super) use picture::picture;
 pub(super) use whirl::whirl;

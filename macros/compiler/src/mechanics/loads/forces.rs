@@ -84,40 +84,15 @@ impl AppliedForces {
                     *slot = g.sub(*slot, slope);
                 }
             }
-            // tension = stiffness (distance - length) + damping d(distance)/dt
-            ForceLaw::SpringDamper {
-                from,
-                to,
-                stiffness,
-                damping,
-                length,
-            } => {
-                let line = Line::new(g, force_context, *from, *to, &name);
-                let [stiffness, damping, length] =
-                    [stiffness, damping, length].map(|value| values.scalar(g, value));
-                let stretch = g.sub(line.distance, length);
-                let (elastic, viscous) = (g.mul(stiffness, stretch), g.mul(damping, line.rate));
-                let tension = g.add(elastic, viscous);
-                self.pull(g, force_context, &line, tension, &name);
+            ForceLaw::SpringDamper { .. } | ForceLaw::Tension { .. } => {
+                if let Some((line, tension)) = tension(g, force_context, force) {
+                    self.pull(g, force_context, &line, tension, &name);
+                }
             }
-            ForceLaw::Tension { from, to, tension } => {
-                let line = Line::new(g, force_context, *from, *to, &name);
-                let tension = values.scalar_at(g, tension, &line);
-                self.pull(g, force_context, &line, tension, &name);
-            }
-            ForceLaw::Bushing {
-                from,
-                to,
-                stiffness,
-                damping,
-                turning_stiffness,
-                turning_damping,
-            } => {
-                let [stiffness, damping, turning_stiffness, turning_damping] =
-                    [stiffness, damping, turning_stiffness, turning_damping]
-                        .map(|value| values.matrix(g, value));
-                let laws = [(stiffness, damping), (turning_stiffness, turning_damping)];
-                self.bushing(g, force_context, (*from, *to), laws, &name);
+            ForceLaw::Bushing { from, to, .. } => {
+                if let Some(Wrench { force, moment }) = resistance(g, force_context, force) {
+                    self.bushing(g, force_context, (*from, *to), [force, moment], &name);
+                }
             }
             ForceLaw::Load {
                 point,
@@ -181,50 +156,22 @@ impl AppliedForces {
         self.apply(g, force_context, line.to, push, line.closing);
     }
 
-    /// Force and moment from the displacement and rotation of `to` relative to `from`, in the axes of `from`; the
-    /// opposite acts on `from` at the place of `to`.
+    /// The resistance of a bushing on `to`, and the opposite on `from` at the place of `to`.
     fn bushing(
         &mut self,
         g: &mut Graph,
         force_context: &ForceContext,
         (from, to): (PointId, PointId),
-        [(stiffness, damping), (turning_stiffness, turning_damping)]: [(Rows, Rows); 2],
+        resistance: [Vector3; 2],
         name: &str,
     ) {
         let [start, end] = [from, to].map(|id| force_context.point(id));
         let frames = [from, to].map(|id| force_context.frame(id));
         let closing = force_context.tree.common_ancestor(frames[0], frames[1]);
-        let to_axes = start.axes.transpose();
         let gap = end.position.sub(g, start.position);
-        let displacement = to_axes.apply(g, gap);
-        // Seen from `from`, the point of its body at the place of `to` is at rest.
-        let [(carrier, carrier_turn), (own, own_turn)] =
-            frames.map(|frame| force_context.velocity(g, frame, end.position, closing));
-        let velocity = own.sub(g, carrier);
-        let velocity = to_axes.apply(g, velocity);
-        let turning = own_turn.sub(g, carrier_turn);
-        let turning = to_axes.apply(g, turning);
-        let relative = to_axes.multiply(g, end.axes);
-        let rotation = half_antisymmetric(g, relative);
-        let rotation_rate = half_antisymmetric_rate(g, relative, turning);
-
-        let mut law = |stiffness: Rows, x: Vector3, damping: Rows, rate: Vector3| {
-            Vector3(std::array::from_fn(|i| {
-                let elastic = stiffness[i].dot(g, x);
-                let viscous = damping[i].dot(g, rate);
-                g.add(elastic, viscous)
-            }))
-        };
-        let force = law(stiffness, displacement, damping, velocity);
-        let moment = law(turning_stiffness, rotation, turning_damping, rotation_rate);
-        let force = start
-            .axes
-            .apply(g, force)
-            .set_name(g, &format!("{name}_force"));
-        let moment = start
-            .axes
-            .apply(g, moment)
-            .set_name(g, &format!("{name}_moment"));
+        let [force, moment] = resistance.map(|vector| start.axes.apply(g, vector));
+        let force = force.set_name(g, &format!("{name}_force"));
+        let moment = moment.set_name(g, &format!("{name}_moment"));
         // At the place of `to`, seen from the origin of `from`, the force on `from` adds a moment.
         let lever = gap.cross(g, force);
         let on_from = Wrench {
@@ -235,6 +182,96 @@ impl AppliedForces {
         let on_to = Wrench { force, moment }.neg(g);
         self.apply(g, force_context, to, on_to, closing);
     }
+}
+
+/// What a force element exerts; see [`Expr::Exerted`].
+pub(crate) fn exerted(g: &mut Graph, force_context: &ForceContext, force: &Force) -> [ExprId; 6] {
+    let zero = g.zero();
+    if let Some((_, tension)) = tension(g, force_context, force) {
+        return [tension, zero, zero, zero, zero, zero];
+    }
+    let Some(resistance) = resistance(g, force_context, force) else {
+        return [zero; 6];
+    };
+    let Wrench { force, moment } = resistance.neg(g);
+    let ([a, b, c], [d, e, f]) = (force.0, moment.0);
+    [a, b, c, d, e, f]
+}
+
+/// The tension between two points: of a spring damper, `stiffness (distance - length) + damping d(distance)/dt`.
+fn tension(g: &mut Graph, force_context: &ForceContext, force: &Force) -> Option<(Line, ExprId)> {
+    let values = force_context.context.values;
+    let name = force.name.to_string();
+    match &force.law {
+        ForceLaw::SpringDamper {
+            from,
+            to,
+            stiffness,
+            damping,
+            length,
+        } => {
+            let line = Line::new(g, force_context, *from, *to, &name);
+            let [stiffness, damping, length] =
+                [stiffness, damping, length].map(|value| values.scalar(g, value));
+            let stretch = g.sub(line.distance, length);
+            let (elastic, viscous) = (g.mul(stiffness, stretch), g.mul(damping, line.rate));
+            let tension = g.add(elastic, viscous);
+            Some((line, tension))
+        }
+        ForceLaw::Tension { from, to, tension } => {
+            let line = Line::new(g, force_context, *from, *to, &name);
+            let tension = values.scalar_at(g, tension, &line);
+            Some((line, tension))
+        }
+        _ => None,
+    }
+}
+
+/// Force and moment with which a bushing resists the displacement and rotation of `to` relative to `from`, in the axes
+/// of `from`.
+fn resistance(g: &mut Graph, force_context: &ForceContext, force: &Force) -> Option<Wrench> {
+    let ForceLaw::Bushing {
+        from,
+        to,
+        stiffness,
+        damping,
+        turning_stiffness,
+        turning_damping,
+    } = &force.law
+    else {
+        return None;
+    };
+    let values = force_context.context.values;
+    let [stiffness, damping, turning_stiffness, turning_damping] =
+        [stiffness, damping, turning_stiffness, turning_damping]
+            .map(|value| values.matrix(g, value));
+    let [start, end] = [*from, *to].map(|id| force_context.point(id));
+    let frames = [*from, *to].map(|id| force_context.frame(id));
+    let closing = force_context.tree.common_ancestor(frames[0], frames[1]);
+    let to_axes = start.axes.transpose();
+    let gap = end.position.sub(g, start.position);
+    let displacement = to_axes.apply(g, gap);
+    // Seen from `from`, the point of its body at the place of `to` is at rest.
+    let [(carrier, carrier_turn), (own, own_turn)] =
+        frames.map(|frame| force_context.velocity(g, frame, end.position, closing));
+    let velocity = own.sub(g, carrier);
+    let velocity = to_axes.apply(g, velocity);
+    let turning = own_turn.sub(g, carrier_turn);
+    let turning = to_axes.apply(g, turning);
+    let relative = to_axes.multiply(g, end.axes);
+    let rotation = half_antisymmetric(g, relative);
+    let rotation_rate = half_antisymmetric_rate(g, relative, turning);
+    let mut law = |stiffness: Rows, x: Vector3, damping: Rows, rate: Vector3| {
+        Vector3(std::array::from_fn(|i| {
+            let elastic = stiffness[i].dot(g, x);
+            let viscous = damping[i].dot(g, rate);
+            g.add(elastic, viscous)
+        }))
+    };
+    Some(Wrench {
+        force: law(stiffness, displacement, damping, velocity),
+        moment: law(turning_stiffness, rotation, turning_damping, rotation_rate),
+    })
 }
 
 /// A matrix by rows.

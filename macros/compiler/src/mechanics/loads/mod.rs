@@ -13,4 +13,5 @@ mod transmitted;
 
 pub(super) use constraints::{constraint_rows, held};
 pub(super) use force_context::ForceContext;
+pub(super) use forces::exerted;
 pub(super) use transmitted::transmitted;

@@ -113,6 +113,7 @@ impl<'a> Values<'a> {
             | Expr::LengthRate
             | Expr::Reaction(..)
             | Expr::ConstraintReaction(..)
+            | Expr::Exerted(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => state.leaf(value),
             Expr::Add(a, b) => binary(g, Operator::Add, a, b),

@@ -5,8 +5,11 @@ use std::collections::BTreeMap;
 use proc_macro2::Ident;
 
 use super::coordinates::Declared;
+use super::excitations::is_harmonic;
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{BodyId, ConstraintId, CoordinateId, DesignId, InputId, JointId, PointId};
+use crate::base::ids::{
+    BodyId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId,
+};
 use crate::base::nearest::nearest;
 use crate::syntax::ast::{Ast, ItemKind};
 
@@ -27,8 +30,8 @@ pub(super) enum Meaning {
     /// One of several coordinates of a joint.
     Coordinate(CoordinateId),
     Point(PointId),
-    Force,
-    Unbalance,
+    Force(ForceId),
+    Excitation,
     Constraint(ConstraintId),
     Output,
     /// Belongs to something that could not be read, or to several things: uses of the name are not checked.
@@ -52,8 +55,8 @@ impl Meaning {
             Meaning::Joint(_) | Meaning::OnlyCoordinate(_) => "a joint",
             Meaning::Coordinate(_) => "a coordinate",
             Meaning::Point(_) => "a point",
-            Meaning::Force => "a force",
-            Meaning::Unbalance => "an unbalance",
+            Meaning::Force(_) => "a force",
+            Meaning::Excitation => "an excitation",
             Meaning::Constraint(_) => "a constraint",
             Meaning::Output => "an output",
             Meaning::Unclear => "something",
@@ -80,7 +83,7 @@ impl Scope {
         diagnostics: &mut Diagnostics,
     ) -> Self {
         let mut scope = Self::default();
-        let mut counts = [0; 8];
+        let mut counts = [0; 9];
         let mut next = |table: usize| {
             counts[table] += 1;
             counts[table] - 1
@@ -98,8 +101,9 @@ impl Scope {
                     continue;
                 }
                 ItemKind::Point(_) => Meaning::Point(PointId::new(next(5))),
-                ItemKind::Force(_) => Meaning::Force,
-                ItemKind::Unbalance(_) => Meaning::Unbalance,
+                ItemKind::Force(force) if is_harmonic(force) => Meaning::Excitation,
+                ItemKind::Force(_) => Meaning::Force(ForceId::new(next(8))),
+                ItemKind::Unbalance(_) => Meaning::Excitation,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
                 ItemKind::Gravity(_)

@@ -138,8 +138,8 @@ impl Resolver<'_> {
             Meaning::Unclear => None,
             Meaning::Body(_)
             | Meaning::Point(_)
-            | Meaning::Force
-            | Meaning::Unbalance
+            | Meaning::Force(_)
+            | Meaning::Excitation
             | Meaning::Constraint(_) => {
                 let help = match meaning {
                     Meaning::Constraint(_) => {
@@ -147,7 +147,7 @@ impl Resolver<'_> {
                             "what it exerts is an output: `reaction({text})` or `reaction_force({text})`"
                         )
                     }
-                    Meaning::Force | Meaning::Unbalance => {
+                    Meaning::Force(_) | Meaning::Excitation => {
                         "repeat its expression, or name the shared part with `let`".to_string()
                     }
                     Meaning::Point(_) => {

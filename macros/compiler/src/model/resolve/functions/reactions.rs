@@ -2,14 +2,15 @@
 
 use proc_macro2::Ident;
 
+use super::super::excitations::is_harmonic;
 use super::super::exerted::Exerted;
 use super::super::resolver::Resolver;
 use super::super::scope::Meaning;
 use super::super::typed::{Quantity, Typed};
 use crate::base::dimension::Dimension;
-use crate::base::ids::ConstraintId;
+use crate::base::ids::{ConstraintId, ForceId};
 use crate::model::expression::Expr;
-use crate::syntax::ast::Value;
+use crate::syntax::ast::{ItemKind, Value};
 
 const KIND: &str = "joint or constraint";
 
@@ -37,6 +38,9 @@ impl Resolver<'_> {
                 }
                 components.map(|component| Expr::ConstraintReaction(id, component))
             }
+            Some(Meaning::Force(id)) if self.law_word(id) == Some("bushing") => {
+                components.map(|component| Expr::Exerted(id, component))
+            }
             _ => {
                 let joint = self.joint_named(name, KIND)?;
                 components.map(|component| Expr::Reaction(joint, component))
@@ -58,6 +62,10 @@ impl Resolver<'_> {
                 let value = Expr::ConstraintReaction(id, 0);
                 Some(Typed::Scalar(value, Quantity::Of(dimension)))
             }
+            Some(Meaning::Force(id)) if self.is_tension(id) => {
+                let value = Expr::Exerted(id, 0);
+                Some(Typed::Scalar(value, Quantity::Of(Dimension::FORCE)))
+            }
             Some(Meaning::Joint(_) | Meaning::OnlyCoordinate(_)) => {
                 self.diagnostics.error_with_help(
                     name,
@@ -72,6 +80,22 @@ impl Resolver<'_> {
                 None
             }
         }
+    }
+
+    /// The word of a force law.
+    fn law_word(&self, id: ForceId) -> Option<&'static str> {
+        let mut forces = self.ast.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Force(force) if !is_harmonic(force) => Some(force),
+            _ => None,
+        });
+        let word = forces.nth(id.index())?.law.word.to_string();
+        ["bushing", "spring_damper", "tension"]
+            .into_iter()
+            .find(|known| *known == word)
+    }
+
+    fn is_tension(&self, id: ForceId) -> bool {
+        matches!(self.law_word(id), Some("spring_damper" | "tension"))
     }
 
     /// The reaction of a constraint; `None` if the constraint is wrong.

@@ -1,0 +1,226 @@
+//! The equations with their excitations: how the residual and the outputs change with each.
+//!
+//! Every excitation has one to three small parameters: two perpendicular directions of an unbalance, the size of a load,
+//! displacement, velocity and acceleration of a shaken coordinate. Its forces are the derivatives of the whole residual
+//! by them, so nothing is typed in: an unbalance brings its weight, a shaken joint the inertia of what it carries. They
+//! are derived with the running coordinates as symbols, which shows whether they are harmonic.
+
+use std::rc::Rc;
+
+use crate::algebra::{Graph, Stage, Vector3, substitute};
+use crate::base::ids::{BodyId, CoordinateId, DesignId, ExprId};
+use crate::mechanics::inertia::{Direction, deviation};
+use crate::mechanics::motion::{Kinematics, in_common_frame, in_common_frame_at_zero};
+use crate::mechanics::setup::{
+    Context, CoordinateMotion, Excited, ForceSelection, SymbolList, Symbols, Values, at_rest,
+    by_symbol,
+};
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::{Excitation, ExcitationLaw, Force, ForceLaw, Frame, Mechanism};
+
+use super::outputs::outputs;
+use super::residual::Residual;
+
+/// How the residual and the outputs change with the parameters of one excitation.
+pub(crate) struct Response {
+    /// By parameter: derivatives of the residual, followed by those of the outputs, at rest.
+    pub(crate) by: Vec<Vec<ExprId>>,
+}
+
+/// The responses to all excitations, with the running coordinates as symbols.
+pub(crate) fn excited(g: &mut Graph, context: &Context) -> Vec<Response> {
+    let mechanism = context.mechanism;
+    if mechanism.excitations.is_empty() {
+        return Vec::new();
+    }
+    let mut symbols = context.symbols.clone();
+    let parameters: Vec<SymbolList> = mechanism
+        .excitations
+        .iter()
+        .map(|excitation| parameters(g, excitation, &mut symbols))
+        .collect();
+    let excited = additions(g, context, &parameters);
+    let mechanism = with_loads(mechanism, &parameters, context.symbols.b.ids.len());
+    let values = Values::new(g, &mechanism, &symbols);
+    let context = &Context {
+        mechanism: &mechanism,
+        symbols: &symbols,
+        values: &values,
+        excited: &excited,
+        ..*context
+    };
+    let running = &symbols.running.values;
+    let kinematics = in_common_frame(g, context, running);
+    let mut all =
+        Residual::new(g, context, running, &kinematics, ForceSelection::ALL).total(g, context);
+    all.extend(outputs(g, context, running, &kinematics));
+    let zero = g.zero();
+    let none: Vec<_> = parameters
+        .iter()
+        .flat_map(|list| list.ids.iter().map(|&id| (id, zero)))
+        .collect();
+    parameters
+        .iter()
+        .map(|list| Response {
+            by: list
+                .ids
+                .iter()
+                .map(|&symbol| {
+                    let change = by_symbol(g, &all, symbol);
+                    let change = substitute(g, &change, &none);
+                    at_rest(g, &symbols, &change)
+                })
+                .collect(),
+        })
+        .collect()
+}
+
+/// The parameters of an excitation. They follow the design variables, so that a value can refer to them.
+fn parameters(g: &mut Graph, excitation: &Excitation, symbols: &mut Symbols) -> SymbolList {
+    let names: &[&str] = match excitation.law {
+        ExcitationLaw::Unbalance { .. } => &["", "_across"],
+        ExcitationLaw::Load { .. } | ExcitationLaw::Generalized { .. } => &[""],
+        ExcitationLaw::Shaken { .. } => &["_displacement", "_velocity", "_acceleration"],
+    };
+    let mut list = SymbolList::default();
+    for name in names {
+        let (id, value) = g.symbol(format!("{}{name}", excitation.name), Stage::Design);
+        list.ids.push(id);
+        list.values.push(value);
+        symbols.b.ids.push(id);
+        symbols.b.values.push(value);
+    }
+    list
+}
+
+/// Deviations of bodies and motions of shaken coordinates.
+fn additions(g: &mut Graph, context: &Context, parameters: &[SymbolList]) -> Excited {
+    let kinematics = in_common_frame_at_zero(g, context);
+    let mut excited = Excited::default();
+    for (excitation, list) in context.mechanism.excitations.iter().zip(parameters) {
+        match &excitation.law {
+            ExcitationLaw::Unbalance {
+                body,
+                at,
+                deviation: kind,
+            } => {
+                let directions = across(g, context, &kinematics, *body);
+                for (along, &amount) in directions.into_iter().flatten().zip(&list.values) {
+                    let direction = Direction { along, amount };
+                    let change = deviation(g, context, *body, (at, kind), &direction);
+                    excited.deviations.push((*body, change));
+                }
+            }
+            ExcitationLaw::Shaken { coordinate, .. } => {
+                let motion = CoordinateMotion {
+                    position: list.values[0],
+                    velocity: list.values[1],
+                    acceleration: list.values[2],
+                };
+                excited.shaken.push((*coordinate, motion));
+            }
+            ExcitationLaw::Load { .. } | ExcitationLaw::Generalized { .. } => {}
+        }
+    }
+    excited
+}
+
+/// Two perpendicular directions across the axis about which a body is turned by the nearest running coordinate, in the
+/// body's frame: along x if that is across, otherwise along y for an axis along x; the second is a quarter of a turn
+/// ahead. `None` if nothing turns the body.
+fn across(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    body: BodyId,
+) -> Option<[Vector3; 2]> {
+    let axis = axis(g, context, kinematics, body)?;
+    let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;
+    let along = |g: &Graph, k: usize| (0..3).all(|i| i == k || g.is(axis.0[i], 0.0));
+    let first = match () {
+        () if along(g, 2) => unit[0],
+        () if along(g, 0) => unit[1],
+        () if along(g, 1) => unit[2],
+        () => {
+            let part = axis.scale(g, axis.0[0]);
+            let across = unit[0].sub(g, part);
+            let length = across.norm(g);
+            Vector3(across.0.map(|component| g.div(component, length)))
+        }
+    };
+    Some([first, axis.cross(g, first)])
+}
+
+/// The axis of the nearest running coordinate that turns a body, in the body's frame.
+fn axis(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    body: BodyId,
+) -> Option<Vector3> {
+    let runs = |id: CoordinateId| context.mechanism.coordinates[id.index()].motion.runs();
+    let mut carrier = body;
+    loop {
+        let motion = kinematics.of(carrier);
+        let step = motion
+            .steps
+            .iter()
+            .rev()
+            .find(|step| step.turn.is_some() && runs(step.coordinate));
+        if let Some(step) = step {
+            if carrier == body {
+                return Some(step.own_axis);
+            }
+            let axes = kinematics.of(body).frame.orientation.axes.transpose();
+            let axis = axes.apply(g, step.turn?);
+            let zeros = vec![g.zero(); context.symbols.q.ids.len()];
+            let straight: Vec<_> = context.symbols.q.with(&zeros).collect();
+            let axis = substitute(g, &axis.0, &straight);
+            return Some(Vector3([axis[0], axis[1], axis[2]]));
+        }
+        let branch = context
+            .topology
+            .branches
+            .iter()
+            .find(|branch| branch.body == carrier)?;
+        let Frame::Body(parent) = branch.parent else {
+            return None;
+        };
+        carrier = parent;
+    }
+}
+
+/// The mechanism with the loads of its excitations as forces, each times its parameter.
+fn with_loads(mechanism: &Mechanism, parameters: &[SymbolList], design: usize) -> Mechanism {
+    let mut mechanism = mechanism.clone();
+    let mut place = design;
+    for (excitation, list) in mechanism.excitations.clone().iter().zip(parameters) {
+        let parameter = Rc::new(Expr::Design(DesignId::new(place)));
+        place += list.ids.len();
+        let times = |value: &Expr| Expr::Multiply(parameter.clone(), Rc::new(value.clone()));
+        let vector = |vector: &Vector| vector.each_ref().map(times);
+        let law = match &excitation.law {
+            ExcitationLaw::Load {
+                point,
+                force,
+                moment,
+            } => ForceLaw::Load {
+                point: *point,
+                force: vector(force),
+                moment: vector(moment),
+                following: false,
+            },
+            ExcitationLaw::Generalized { coordinate, value } => ForceLaw::Generalized {
+                coordinate: *coordinate,
+                value: times(value),
+            },
+            ExcitationLaw::Unbalance { .. } | ExcitationLaw::Shaken { .. } => continue,
+        };
+        mechanism.forces.push(Force {
+            name: excitation.name.clone(),
+            law,
+            of_every: false,
+        });
+    }
+    mechanism
+}

@@ -1,0 +1,217 @@
+//! Forced vibration along an input as text and tables.
+
+use eigentol_results::numbers::{given, number, percent, short};
+use eigentol_results::relevance::{EVERYTHING, shown};
+use eigentol_results::title::title_along;
+use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+
+use super::{Bands, Bode};
+use crate::along::{not_reached, varied};
+use crate::forced::Harmonic;
+use crate::propagation::{ResponseSpread, VibrationCheck};
+use crate::response::{Response, Vibration};
+use crate::{Complex, Description, Error};
+
+/// What every amplitude and phase means.
+const CONVENTIONS: &str =
+    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.";
+/// An error of a model's spread that is worth a word.
+const WORTH_SAYING: f64 = 0.01;
+
+/// `forced vibration`: a row for each output of each harmonic at each value of the input; `bands`, if there are any: a
+/// row for each vibration at each value.
+impl Answer for Bode {
+    const KIND: &'static str = "forced vibration along an input";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::along(&self.description, &self.inputs, self.input))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let title = title_along(d, &self.inputs, self.input);
+        let mut said = Findings::titled(format!("{title}: forced vibration"));
+        not_reached(&mut said, self.unreached);
+        let points = shown(self.points.len());
+        let rows = self.rows();
+        let mut table = Columns::new("forced vibration", &rows);
+        let places = rows.iter().enumerate();
+        let visible = places.filter(|(_, row)| points.contains(&row.point));
+        table.show_rows(visible.map(|(k, _)| k).collect());
+        varied(&mut table, d, self.input, given, &|row| row.value);
+        table
+            .number("frequency", "rad/s", &|row| Some(row.found?.0.frequency))
+            .digits(number);
+        table
+            .words("output", &|row| Some(row.name(d)?.to_owned()))
+            .shown();
+        table
+            .words("unit", &|row| Some(row.unit(d)?.to_owned()))
+            .shown();
+        table
+            .number("amplitude", "", &|row| Some(row.amplitude()?.norm()))
+            .digits(number);
+        table
+            .number("phase", "deg", &|row| {
+                Some(row.amplitude()?.arg().to_degrees())
+            })
+            .digits(short);
+        table.number("Re", "", &|row| Some(row.amplitude()?.re));
+        table.number("Im", "", &|row| Some(row.amplitude()?.im));
+        table.words("error", &|row| row.error.map(ToString::to_string));
+        said.columns(table);
+        self.bands(&mut said, &points);
+        let (few, all) = (points.len(), self.points.len());
+        if few < all {
+            said.note(format!("{few} of {all} points are shown: {EVERYTHING}."));
+        }
+        if let Some(error) = self
+            .points
+            .iter()
+            .find_map(|own| own.vibration.as_ref().err())
+        {
+            let failed = self.points.iter().filter(|own| own.vibration.is_err());
+            let failed = failed.count();
+            said.note(format!(
+                "{failed} of {all} points have no vibration; the first: {error}."
+            ));
+        }
+        said.note(CONVENTIONS);
+        said
+    }
+}
+
+displayed!(Bode);
+
+/// An output of a harmonic at a value of the input, or the reason why there is none.
+struct Row<'a> {
+    point: usize,
+    value: f64,
+    found: Option<(&'a Harmonic, usize)>,
+    error: Option<&'a Error>,
+}
+
+impl Row<'_> {
+    fn amplitude(&self) -> Option<Complex> {
+        let (harmonic, output) = self.found?;
+        harmonic.outputs.get(output).copied()
+    }
+
+    fn name<'d>(&self, d: &'d Description) -> Option<&'d str> {
+        Some(&d.outputs.get(self.found?.1)?.name)
+    }
+
+    fn unit<'d>(&self, d: &'d Description) -> Option<&'d str> {
+        Some(&d.outputs.get(self.found?.1)?.unit.symbol)
+    }
+}
+
+/// The band of a vibration at a value of the input.
+struct Band<'a> {
+    point: usize,
+    value: f64,
+    vibration: &'a Vibration,
+    spread: Option<&'a ResponseSpread>,
+    check: Option<&'a VibrationCheck>,
+}
+
+impl Band<'_> {
+    fn quantile(&self, place: usize) -> Option<f64> {
+        Some(self.spread?.quantiles.get(place)?.value)
+    }
+}
+
+impl Bode {
+    fn rows(&self) -> Vec<Row<'_>> {
+        let mut rows = Vec::new();
+        for (point, own) in self.points.iter().enumerate() {
+            let value = own.value;
+            let row = |found, error| Row {
+                point,
+                value,
+                found,
+                error,
+            };
+            match &own.vibration {
+                Ok(found) => {
+                    for harmonic in &found.response.harmonics {
+                        let outputs = 0..harmonic.outputs.len();
+                        rows.extend(outputs.map(|output| row(Some((harmonic, output)), None)));
+                    }
+                }
+                Err(error) => rows.push(row(None, Some(error))),
+            }
+        }
+        rows
+    }
+
+    fn bands(&self, said: &mut Findings, points: &[usize]) {
+        let d = &self.description;
+        let mut rows = Vec::new();
+        for (point, own) in self.points.iter().enumerate() {
+            let Some(Bands { spread, checks }) = &own.bands else {
+                continue;
+            };
+            for (k, vibration) in self.banded.iter().enumerate() {
+                rows.push(Band {
+                    point,
+                    value: own.value,
+                    vibration,
+                    spread: spread.spreads.get(k).and_then(Option::as_ref),
+                    check: checks.get(k).and_then(Option::as_ref),
+                });
+            }
+        }
+        if rows.is_empty() {
+            return;
+        }
+        let mut table = Columns::new("bands", &rows);
+        let places = rows.iter().enumerate();
+        let visible = places.filter(|(_, row)| points.contains(&row.point));
+        table.show_rows(visible.map(|(k, _)| k).collect());
+        varied(&mut table, d, self.input, given, &|row| row.value);
+        let named = |row: &Band<'_>| Response::Vibration(*row.vibration);
+        table
+            .words("amplitude of", &|row| Some(named(row).name(d)))
+            .shown();
+        table
+            .words("unit", &|row| Some(named(row).unit(d).symbol.to_string()))
+            .shown();
+        table
+            .number("nominal", "", &|row| row.spread?.nominal)
+            .digits(number);
+        table
+            .number("mean", "", &|row| Some(row.spread?.mean.value))
+            .digits(number);
+        table
+            .number("sigma", "", &|row| Some(row.spread?.sigma?.value))
+            .digits(short);
+        for (place, name) in [(1, "2.3 %"), (3, "50 %"), (5, "97.7 %"), (6, "99.9 %")] {
+            table
+                .number(name, "", &|row| row.quantile(place))
+                .digits(number);
+        }
+        table.whole("designs solved anew", &|row| {
+            usize::try_from(row.check?.samples).ok()
+        });
+        table.number("error of sigma", "", &|row| Some(row.check?.sigma));
+        table.number("error of 97.7 %", "", &|row| Some(row.check?.upper));
+        said.columns(table);
+        let checks = || rows.iter().filter_map(|row| row.check);
+        let worst = checks().map(|own| own.sigma.abs().max(own.upper.abs()));
+        let Some(worst) = worst.reduce(f64::max) else {
+            return;
+        };
+        let number = checks().map(|own| own.samples).max().unwrap_or_default();
+        said.note(match worst > WORTH_SAYING {
+            true => format!(
+                "Solving {number} designs anew at each point shows the bands up to {} off.",
+                percent(worst)
+            ),
+            false => format!(
+                "Solving {number} designs anew at each point confirms the bands within {}.",
+                percent(WORTH_SAYING)
+            ),
+        });
+    }
+}

@@ -1,0 +1,156 @@
+//! Forced vibration along an input: amplitude and phase with their derivatives, and bands of the amplitudes under
+//! tolerances.
+
+mod answer;
+
+use core::ops::ControlFlow;
+
+use crate::algebra::Vector;
+use crate::forced::{self, ForcedSensitivities};
+use crate::kernels::SummaryKernels;
+use crate::propagation::{Propagation, VibrationCheck, check_vibrations, vibrations};
+use crate::response::{Response, Responses, Vibration};
+use crate::sweep::{Following, SweepPoint, sweep_each};
+use crate::tolerance::{Sampling, Tolerances};
+use crate::{Description, Error, Input, Shared};
+
+/// Forced vibration along an input.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Bode {
+    /// The varied input.
+    pub input: Input,
+    /// A point for each of its values.
+    pub points: Vec<BodePoint>,
+    /// The vibrations that have bands.
+    pub banded: Vec<Vibration>,
+    /// Number of values not reached because the run was stopped.
+    pub unreached: usize,
+    /// The inputs, SI; all but the varied one keep their values.
+    pub inputs: Vector,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+/// Forced vibration at one value of an input.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct BodePoint {
+    /// The value, SI.
+    pub value: f64,
+    /// The vibration with its derivatives, or why there is none.
+    pub vibration: Result<ForcedSensitivities, Error>,
+    /// The spreads of the amplitudes, if they were asked for and exist.
+    pub bands: Option<Bands>,
+}
+
+/// Spreads of amplitudes at one value of an input, and how far they can be trusted.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Bands {
+    /// The spreads, in the order of [`Bode::banded`].
+    pub spread: Propagation,
+    /// Comparisons with designs solved anew; empty if none was asked for.
+    pub checks: Vec<Option<VibrationCheck>>,
+}
+
+/// What bands to compute.
+#[derive(Clone)]
+pub struct Banded<'a> {
+    /// The vibrations.
+    pub wanted: Vec<Vibration>,
+    /// The tolerances of the design.
+    pub tolerances: &'a Tolerances,
+    /// How to sample the model.
+    pub sampling: Sampling<'a>,
+    /// Number of designs solved anew at each point; none if zero.
+    pub checked: usize,
+}
+
+/// Forced vibration at each of `values` of one input, SI, with bands if they are asked for.
+///
+/// # Errors
+/// [`Error::UnknownHandle`], [`Error::NoExcitation`]; a point that fails carries its own error.
+pub fn bode(
+    mechanism: &dyn SummaryKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
+    following: impl Into<Following>,
+    (input, values): (Input, &[f64]),
+    banded: Option<&Banded<'_>>,
+) -> Result<Bode, Error> {
+    let description = mechanism.description();
+    if description.excitations.is_empty() {
+        return Err(Error::NoExcitation {
+            mechanism: description.name.clone(),
+        });
+    }
+    let mut points = Vec::with_capacity(values.len());
+    let mut failed = None;
+    let swept = sweep_each(
+        mechanism,
+        (u, b),
+        start,
+        following,
+        (input, values),
+        |at| match point(mechanism, at, banded) {
+            Ok(point) => {
+                points.push(point);
+                ControlFlow::Continue(())
+            }
+            Err(error) => {
+                failed = Some(error);
+                ControlFlow::Break(())
+            }
+        },
+    )?;
+    if let Some(error) = failed {
+        return Err(error);
+    }
+    Ok(Bode {
+        input,
+        points,
+        banded: banded.map_or(Vec::new(), |banded| banded.wanted.clone()),
+        unreached: swept.unreached,
+        inputs: swept.inputs,
+        description,
+    })
+}
+
+/// Errors of settings end the whole; those of the state belong to the point.
+fn point(
+    mechanism: &dyn SummaryKernels,
+    at: &SweepPoint,
+    banded: Option<&Banded<'_>>,
+) -> Result<BodePoint, Error> {
+    let value = at.value;
+    let vibration = match &at.equilibrium {
+        Ok(equilibrium) => forced::sensitivities(mechanism, equilibrium),
+        Err(error) => Err(error.clone()),
+    };
+    let mut bands = None;
+    if let (Some(banded), Ok(equilibrium), Ok(modes), Ok(_)) =
+        (banded, &at.equilibrium, &at.modes, &vibration)
+    {
+        let wanted = banded.wanted.iter().copied().map(Response::Vibration);
+        let responses = Responses::new(mechanism, equilibrium, modes, wanted.collect())?;
+        let (tolerances, sampling) = (banded.tolerances, &banded.sampling);
+        let spread = vibrations(mechanism, &responses, tolerances, sampling)?;
+        let checks = match banded.checked {
+            0 => Vec::new(),
+            number => {
+                let fewer = sampling.clone().samples(number);
+                check_vibrations(mechanism, &responses, tolerances, &fewer)?
+            }
+        };
+        bands = Some(Bands { spread, checks });
+    }
+    Ok(BodePoint {
+        value,
+        vibration,
+        bands,
+    })
+}

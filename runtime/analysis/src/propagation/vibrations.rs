@@ -1,0 +1,247 @@
+//! Spreads of forced vibrations, right at a resonance too: the condensed resolvent in place of the mechanism.
+
+use super::gather::{Gathered, Task};
+use super::model::{DesignRoom, Designs, Evaluated, Model, Take};
+use super::result::{Method, Propagation, ResponseSpread};
+use super::sampled::propagation_of;
+use super::space::Space;
+use crate::algebra::Vector;
+use crate::forced::Resolvent;
+use crate::kernels::CurvatureKernels;
+use crate::response::{Response, Responses, Vibration};
+use crate::tolerance::{Outcome, Sampling, Tolerances};
+use crate::{Equilibrium, Error};
+
+/// Models of several vibrations, one resolvent for each harmonic.
+struct Vibrations<'a> {
+    harmonics: Vec<(usize, Resolvent<'a>)>,
+    wanted: Vec<(usize, Vibration)>,
+    space: &'a Space<'a>,
+}
+
+impl<'a> Vibrations<'a> {
+    fn new(
+        mechanism: &'a dyn CurvatureKernels,
+        at: &'a Equilibrium,
+        wanted: &[Response],
+        space: &'a Space<'a>,
+    ) -> Result<Self, Error> {
+        let mut own = Self {
+            harmonics: Vec::new(),
+            wanted: Vec::new(),
+            space,
+        };
+        for response in wanted {
+            let Response::Vibration(vibration) = response else {
+                return Err(Error::Setting {
+                    setting: "responses",
+                    reason: "only vibrations have this model".to_owned(),
+                });
+            };
+            let with = at.description.excitations[vibration.excitation].with;
+            let known = own.harmonics.iter().position(|(first, _)| *first == with);
+            let place = match known {
+                Some(place) => place,
+                None => {
+                    let model = Resolvent::new(mechanism, at, with, space.variables())?;
+                    own.harmonics.push((with, model));
+                    own.harmonics.len() - 1
+                }
+            };
+            own.wanted.push((place, *vibration));
+        }
+        Ok(own)
+    }
+}
+
+impl Model for Vibrations<'_> {
+    type Room = (Vector, Vec<Option<f64>>);
+
+    fn room(&self) -> Self::Room {
+        (self.space.nominal.into(), vec![None; self.wanted.len()])
+    }
+
+    fn evaluate(
+        &self,
+        (design, values): &mut Self::Room,
+        points: &[Vector],
+        take: &mut Take<'_>,
+    ) -> Result<(), Error> {
+        for (k, z) in points.iter().enumerate() {
+            self.space.design(z, design);
+            let harmonics = self.harmonics.iter();
+            let found: Vec<_> = harmonics
+                .map(|(_, model)| model.amplitudes(design))
+                .collect();
+            for (value, (place, vibration)) in values.iter_mut().zip(&self.wanted) {
+                *value = found[*place].as_ref().and_then(|(frequency, outputs)| {
+                    let y = outputs.get(vibration.output.index())?;
+                    Some(vibration.measure.of(*frequency, *y).norm())
+                });
+            }
+            let outcome = Outcome::Stable;
+            take(
+                k,
+                Evaluated {
+                    design,
+                    outcome,
+                    values,
+                },
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Spreads of amplitudes of forced vibrations from many samples of a model that is cheap and stays right at a resonance,
+/// where the amplitude to first order fails: the inverse of the dynamic stiffness, condensed to the directions in which
+/// it nearly vanishes, with total derivatives, and exact forces. [`sampled`](super::sampled) solves every design anew and
+/// says how good the model is.
+///
+/// # Errors
+/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for responses that are no vibrations
+/// and for invalid settings, those of the shift of the equilibrium, [`Error::Threads`].
+pub fn vibrations(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    sampling: &Sampling<'_>,
+) -> Result<Propagation, Error> {
+    let at = responses.nominal();
+    let space = Space::new(at, tolerances)?;
+    let model = Vibrations::new(mechanism, at, responses.wanted(), &space)?;
+    let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
+    let slopes = nominal.gradients.iter().map(Option::as_deref);
+    let scales = nominal.values.iter().zip(slopes);
+    let task = Task {
+        model: &model,
+        scales: scales
+            .map(|(value, slopes)| tolerances.scale(*value, slopes))
+            .collect(),
+        unknowns: at.coordinates.len(),
+        space: &space,
+    };
+    let parts = task.gather(sampling)?;
+    propagation_of(
+        Method::Resolvent(sampling.points),
+        &parts,
+        (responses.wanted(), &nominal.values),
+        (&space.variables(), at.design.len()),
+        (&at.inputs, &at.description),
+    )
+}
+
+/// How far the spread by the model of [`vibrations`] is from that of the same designs solved anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct VibrationCheck {
+    /// Number of designs solved anew that have the vibration.
+    pub samples: u64,
+    /// Relative error of the model's standard deviation.
+    pub sigma: f64,
+    /// Relative error of the value below which 97.7 % of the designs lie.
+    pub upper: f64,
+}
+
+/// Solves some designs anew and compares the spreads of the amplitudes with those of [`vibrations`] over the same
+/// designs, so that the scatter of sampling cancels. `None` for a response that fewer than two of them have.
+///
+/// # Errors
+/// As [`vibrations`].
+pub fn check_vibrations(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    sampling: &Sampling<'_>,
+) -> Result<Vec<Option<VibrationCheck>>, Error> {
+    let at = responses.nominal();
+    let space = Space::new(at, tolerances)?;
+    let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
+    let slopes = nominal.gradients.iter().map(Option::as_deref);
+    let scales = nominal.values.iter().zip(slopes);
+    let scales: Vec<_> = scales
+        .map(|(value, slopes)| tolerances.scale(*value, slopes))
+        .collect();
+    let both = Both {
+        designs: Designs::new(responses, &space),
+        model: Vibrations::new(mechanism, at, responses.wanted(), &space)?,
+    };
+    let task = Task {
+        model: &both,
+        scales: [&scales[..], &scales].concat(),
+        unknowns: at.coordinates.len(),
+        space: &space,
+    };
+    let parts = task.gather(sampling)?;
+    let (gathered, count) = (Gathered(&parts), scales.len());
+    let compared = |k: usize| {
+        let exact = gathered.spread(k, None)?;
+        let model = gathered.spread(count + k, None)?;
+        let samples = gathered.count(k)?;
+        Ok(exact.zip(model).and_then(|(exact, model)| {
+            let (right, own) = (exact.sigma?.value, model.sigma?.value);
+            let upper = |of: &ResponseSpread| Some(of.quantiles.get(UPPER)?.value);
+            let (right_upper, own_upper) = (upper(&exact)?, upper(&model)?);
+            let relative = |own: f64, right: f64| match right == own {
+                true => 0.0,
+                false => own / right - 1.0,
+            };
+            Some(VibrationCheck {
+                samples,
+                sigma: relative(own, right),
+                upper: relative(own_upper, right_upper),
+            })
+        }))
+    };
+    (0..count).map(compared).collect()
+}
+
+/// Position of the quantile for two standard deviations above in [`QUANTILES`](super::QUANTILES).
+const UPPER: usize = 5;
+
+/// The mechanism and the model, at the same designs; designs that fail have neither value.
+struct Both<'a> {
+    designs: Designs<'a>,
+    model: Vibrations<'a>,
+}
+
+impl Model for Both<'_> {
+    type Room = (DesignRoom, <Vibrations<'static> as Model>::Room);
+
+    fn room(&self) -> Self::Room {
+        (self.designs.room(), self.model.room())
+    }
+
+    fn evaluate(
+        &self,
+        (exact, model): &mut Self::Room,
+        points: &[Vector],
+        take: &mut Take<'_>,
+    ) -> Result<(), Error> {
+        for (k, z) in points.iter().enumerate() {
+            let one = std::slice::from_ref(z);
+            let mut values: Vec<Option<f64>> = Vec::new();
+            let mut outcome = Outcome::Stable;
+            self.designs.evaluate(exact, one, &mut |_, found| {
+                values = found.values.to_vec();
+                outcome = found.outcome;
+                Ok(())
+            })?;
+            self.model.evaluate(model, one, &mut |_, found| {
+                let exact = values.clone();
+                let alike = found.values.iter().zip(exact);
+                values.extend(alike.map(|(own, exact)| exact.and(*own)));
+                take(
+                    k,
+                    Evaluated {
+                        design: found.design,
+                        outcome,
+                        values: &values,
+                    },
+                )
+            })?;
+        }
+        Ok(())
+    }
+}
