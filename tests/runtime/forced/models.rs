@@ -23,9 +23,16 @@ pub(super) const fn output(name: &'static str, unit: Unit) -> OutputInfo {
     }
 }
 
-/// A description; the coordinates, inputs, design variables, outputs and excitations follow its name.
+/// A description; the coordinates, inputs, design variables, outputs and excitations follow its name, then whether the
+/// stiffness is symmetric and the number of free directions.
 macro_rules! described {
-    ($name:expr, $coordinates:expr, $inputs:expr, $design:expr, $outputs:expr, $excitations:expr $(,)?) => {
+    ($name:expr, $($lists:expr),* $(,)?) => {
+        described!($name, $($lists),*; true, 0)
+    };
+    (
+        $name:expr, $coordinates:expr, $inputs:expr, $design:expr, $outputs:expr, $excitations:expr;
+        $symmetric:expr, $free:expr
+    ) => {
         eigentol::Description {
             name: Shared::Static($name),
             coordinates: Shared::Static(&$coordinates),
@@ -33,8 +40,8 @@ macro_rules! described {
             design: Shared::Static(&$design),
             outputs: Shared::Static(&$outputs),
             excitations: Shared::Static(&$excitations),
-            symmetric_stiffness: true,
-            free_directions: 0,
+            symmetric_stiffness: $symmetric,
+            free_directions: $free,
             held: Shared::Static(&[]),
             length: 1.0,
             damping: eigentol::DampingKind::General,
