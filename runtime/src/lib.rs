@@ -77,11 +77,11 @@ extern crate self as eigentol;
 pub use eigentol_contract::scalar;
 pub use eigentol_contract::{
     Any, Array, BodyInfo, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo,
-    DesignVariable, Dual, ElementInfo, ExcitationInfo, Forcing, ForcingOf, Gradient, GradientOf,
-    Input, InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo, List,
-    Mechanism, Output, OutputInfo, OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin,
-    Real, ResidualPartialsOf, RestParts, Role, Shared, SolidInfo, SolidKind, Square, Text,
-    ToleranceInfo, Unit, Violation, WheelInfo,
+    DesignVariable, Dual, ElementInfo, Excitation, ExcitationInfo, Forcing, ForcingOf, Gradient,
+    GradientOf, Input, InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo,
+    List, Mechanism, Output, OutputInfo, OutputMotionOf, PartialsOf, PictureInfo, PointInfo,
+    PoseMargin, Real, ResidualPartialsOf, RestParts, Role, Shared, SolidInfo, SolidKind, Square,
+    Text, ToleranceInfo, Unit, Violation, WheelInfo,
 };
 pub use eigentol_macros::mechanism;
 
@@ -91,8 +91,8 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    allocation, branches, campbell, campbell::Campbell, clusters, forced, judge, motion, picture,
-    propagation, requirement, response, second_order, shapes, summary, sweep,
+    allocation, bode, branches, campbell, campbell::Campbell, clusters, forced, judge, motion,
+    picture, propagation, requirement, response, second_order, shapes, summary, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]

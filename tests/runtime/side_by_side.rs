@@ -1,11 +1,11 @@
 //! Monte Carlo in vectors against the solvers for one state: the same outcome for every sample, the same numbers up to
 //! rounding, the same bits with every instruction set and any number of threads.
 
-use eigentol::equilibrium::equilibrium;
+use eigentol::equilibrium::{Branch, equilibrium};
 use eigentol::kernels::{BatchKernels, Kernels};
 use eigentol::modes::{Family, modes};
 use eigentol::scalar::Instructions;
-use eigentol::tolerance::{Counts, Sampling, monte_carlo};
+use eigentol::tolerance::{Counts, Outcome, Sampling, monte_carlo};
 use eigentol::{MonteCarlo, Policy, Stability, Tolerances, Vector, mechanism};
 
 mechanism! {
@@ -115,6 +115,13 @@ fn compare_at(
     let (Some(own), Some(other)) = (&first.all, &alone.all) else {
         panic!("samples were asked for")
     };
+    let branch = Branch::of(m, &state);
+    let stable = other.iter().filter(|own| own.outcome == Outcome::Stable);
+    let left = stable.filter(|own| {
+        let q = own.coordinates.as_ref().expect("an equilibrium");
+        !branch.holds(&own.design, q)
+    });
+    assert_eq!(left.count(), alone.left_nominal_branch);
     assert_eq!(own.len(), other.len());
     for (own, other) in own.iter().zip(other) {
         assert_eq!(own.design, other.design);

@@ -24,8 +24,8 @@ mod variables;
 
 use eigentol_contract::scalar;
 use eigentol_contract::{
-    Any, DampingKind, Description, Input, Output, PictureInfo, Role, Shared, SolidInfo, SolidKind,
-    Text, Unit,
+    Any, DampingKind, Description, Excitation, Input, Output, PictureInfo, Role, Shared, SolidInfo,
+    SolidKind, Text, Unit,
 };
 use eigentol_numerics::algebra::Vector;
 use eigentol_numerics::{Complex, algebra, eigenproblem};

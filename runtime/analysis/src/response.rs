@@ -15,7 +15,9 @@ use crate::sweep::{
     critical_state, crossing_sensitivity, first_crossing, meeting,
 };
 use crate::tolerance::{Outcome, Solution};
-use crate::{Complex, Description, Equilibrium, Error, Modes, Output, Text, Unit, Watch};
+use crate::{
+    Complex, Description, Equilibrium, Error, Excitation, Modes, Output, Text, Unit, Watch,
+};
 
 /// A scalar that depends on the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,13 +58,29 @@ pub enum Response {
 pub struct Vibration {
     /// The output.
     pub output: Output,
-    /// The position of one of the excitations.
-    pub excitation: usize,
+    /// One of the excitations.
+    pub excitation: Excitation,
     /// What is measured.
     pub measure: Measure,
 }
 
 impl Vibration {
+    /// The output as a displacement.
+    #[must_use]
+    pub fn new<M>(output: Output<M>, excitation: Excitation<M>) -> Self {
+        Self {
+            output: output.any(),
+            excitation: excitation.any(),
+            measure: Measure::Displacement,
+        }
+    }
+
+    /// The output as a velocity or an acceleration.
+    #[must_use]
+    pub fn measure(self, measure: Measure) -> Self {
+        Self { measure, ..self }
+    }
+
     /// The amplitude in a response.
     pub(crate) fn of(&self, response: &ForcedResponse) -> Option<f64> {
         let harmonic = self.place(&response.description)?;
@@ -93,7 +111,7 @@ impl Vibration {
 
     /// The position of its harmonic.
     pub(crate) fn place(&self, of: &Description) -> Option<usize> {
-        let with = of.excitations.get(self.excitation)?.with;
+        let with = of.excitations.get(self.excitation.index())?.with;
         let firsts = of.excitations.iter().enumerate().take(with + 1);
         firsts
             .filter(|(k, info)| info.with == *k)
@@ -104,7 +122,10 @@ impl Vibration {
     fn name(&self, of: &Description) -> String {
         let output = of.outputs.get(self.output.index());
         let output = output.map_or("?", |info| &*info.name);
-        let with = of.excitations.get(self.excitation).map(|info| info.with);
+        let with = of
+            .excitations
+            .get(self.excitation.index())
+            .map(|info| info.with);
         let members = of.excitations.iter().filter(|info| Some(info.with) == with);
         let names: Vec<&str> = members.map(|info| &*info.name).collect();
         let measure = match self.measure {
@@ -243,7 +264,8 @@ impl<'a> Responses<'a> {
                 Response::Output(output) => check_output(*output, description)?,
                 Response::Vibration(vibration) => {
                     check_output(vibration.output, description)?;
-                    let (index, count) = (vibration.excitation, description.excitations.len());
+                    let index = vibration.excitation.index();
+                    let count = description.excitations.len();
                     if index >= count {
                         return Err(Error::UnknownHandle {
                             kind: "excitation",

@@ -13,7 +13,8 @@ use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{
-    Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Law, Matrix, Output, Text,
+    Coordinate, Description, DesignVariable, Equilibrium, Error, Excitation, Input, Law, Matrix,
+    Output, Text,
 };
 
 /// A mechanism at one operating point, with tolerances and settings.
@@ -401,6 +402,16 @@ impl<M: Kernels> Study<M> {
     pub fn find_output(&self, name: &str) -> Result<Output<M>, Error> {
         let names = self.description().outputs.iter().map(|info| &info.name);
         self.find("output", name, names).map(Output::new)
+    }
+
+    /// Looks up an excitation by name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], which lists the names that exist.
+    pub fn find_excitation(&self, name: &str) -> Result<Excitation<M>, Error> {
+        let names = self.description().excitations.iter();
+        self.find("excitation", name, names.map(|info| &info.name))
+            .map(Excitation::new)
     }
 
     fn find<'a>(

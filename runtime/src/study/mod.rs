@@ -14,6 +14,8 @@ mod deviating;
 #[cfg(feature = "analysis")]
 mod events;
 #[cfg(feature = "analysis")]
+mod forced;
+#[cfg(feature = "analysis")]
 mod over_input;
 mod parameter;
 #[cfg(feature = "analysis")]

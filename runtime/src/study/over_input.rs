@@ -328,7 +328,7 @@ impl Along<'_> {
 }
 
 /// The first of some values.
-fn first_of(values: &[f64]) -> f64 {
+pub(super) fn first_of(values: &[f64]) -> f64 {
     values.first().copied().unwrap_or(f64::NAN)
 }
 

@@ -141,6 +141,14 @@ pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStre
         let doc = with_docs(&output.docs, format!("Output, {}.", shown(&output.unit)));
         handles.extend(handle(&output.name, "Output", index, doc));
     }
+    let excitations = mechanism.excitations.iter().zip(&functions.excitations);
+    for (index, (excitation, facts)) in excitations.enumerate() {
+        let doc = match facts.order.as_str() {
+            "" => format!("Excitation: {}.", facts.kind),
+            order => format!("Excitation: {}, order {order}.", facts.kind),
+        };
+        handles.extend(handle(&excitation.name, "Excitation", index, doc));
+    }
     handles
 }
 

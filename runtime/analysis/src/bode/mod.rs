@@ -12,7 +12,7 @@ use crate::propagation::{Propagation, VibrationCheck, check_vibrations, vibratio
 use crate::response::{Response, Responses, Vibration};
 use crate::sweep::{Following, SweepPoint, sweep_each};
 use crate::tolerance::{Sampling, Tolerances};
-use crate::{Description, Error, Input, Shared};
+use crate::{Description, Error, Input, Shared, Watch};
 
 /// Forced vibration along an input.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,7 +70,7 @@ pub struct Banded<'a> {
     pub checked: usize,
 }
 
-/// Forced vibration at each of `values` of one input, SI, with bands if they are asked for.
+/// Forced vibration at each of `values` of one input, SI, with bands if they are asked for. Progress counts values.
 ///
 /// # Errors
 /// [`Error::UnknownHandle`], [`Error::NoExcitation`]; a point that fails carries its own error.
@@ -80,7 +80,7 @@ pub fn bode(
     start: &[f64],
     following: impl Into<Following>,
     (input, values): (Input, &[f64]),
-    banded: Option<&Banded<'_>>,
+    (banded, watch): (Option<&Banded<'_>>, Watch<'_>),
 ) -> Result<Bode, Error> {
     let description = mechanism.description();
     if description.excitations.is_empty() {
@@ -99,7 +99,11 @@ pub fn bode(
         |at| match point(mechanism, at, banded) {
             Ok(point) => {
                 points.push(point);
-                ControlFlow::Continue(())
+                watch.advance(1);
+                match watch.stopped() {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
             }
             Err(error) => {
                 failed = Some(error);

@@ -38,7 +38,7 @@ impl<'a> Vibrations<'a> {
                     reason: "only vibrations have this model".to_owned(),
                 });
             };
-            let with = at.description.excitations[vibration.excitation].with;
+            let with = at.description.excitations[vibration.excitation.index()].with;
             let known = own.harmonics.iter().position(|(first, _)| *first == with);
             let place = match known {
                 Some(place) => place,

@@ -74,3 +74,7 @@ handle! {
     /// An output.
     Output
 }
+handle! {
+    /// A harmonic excitation.
+    Excitation
+}

@@ -15,7 +15,7 @@ pub use description::{
     CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
     OutputInfo, Role, Unit,
 };
-pub use handles::{Any, Coordinate, DesignVariable, Input, Output};
+pub use handles::{Any, Coordinate, DesignVariable, Excitation, Input, Output};
 pub use picture::{
     BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind,
     WheelInfo,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Coordinate, DesignVariable, Input, List, Output, Shared, Text};
+use super::{Coordinate, DesignVariable, Excitation, Input, List, Output, Shared, Text};
 
 impl<T: Serialize + ?Sized> Serialize for Shared<T> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -46,4 +46,4 @@ macro_rules! handles {
     };
 }
 
-handles!(Coordinate, Input, DesignVariable, Output);
+handles!(Coordinate, Input, DesignVariable, Output, Excitation);

@@ -54,13 +54,13 @@ pub(super) fn finish(
         design: point.design.into(),
         stability: Stability::Undecided,
         rounding: 0.0,
+        free: FreeDirections::of(&linear.stiffness, point.free()),
         linear,
         residual: found.residual,
         relative_residual: relative,
         iterations: found.iterations,
         pose: None,
         constraints,
-        free: FreeDirections::default(),
         left_unstable_region: found.left_unstable_region,
         kept: false,
         notes: Vec::new(),
@@ -75,7 +75,6 @@ pub(crate) fn judge(
     point: &OperatingPoint<'_>,
     state: &mut Equilibrium,
 ) -> Result<Vec<Mode>, Failure> {
-    state.free = FreeDirections::of(&state.linear.stiffness, point.free());
     let verdict = if state.constraints.singular {
         Verdict::undecided()
     } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {

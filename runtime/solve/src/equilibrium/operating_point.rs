@@ -68,6 +68,7 @@ impl<'a> OperatingPoint<'a> {
 
     /// Skips the checks: inputs and design variables must be validated.
     #[doc(hidden)]
+    #[inline]
     pub fn unchecked(mechanism: &'a dyn Kernels, inputs: &'a [f64], design: &'a [f64]) -> Self {
         let description = mechanism.description();
         Self {
@@ -87,29 +88,30 @@ impl<'a> OperatingPoint<'a> {
     /// This point with the unknowns whose start values are given, and those by which a member of a family is to be held.
     /// Unknowns with declared values follow, unless they are held at another one.
     #[doc(hidden)]
-    pub fn asked(self, named: &'a [bool], mut held: Vec<Held>) -> Self {
+    #[inline]
+    pub fn asked(mut self, named: &'a [bool], held: Vec<Held>) -> Self {
         let mut declared = declared(self.mechanism, self.inputs, self.design);
         declared.retain(|own| held.iter().all(|other| other.unknown != own.unknown));
-        held.append(&mut declared);
-        Self {
-            named,
-            held,
-            ..self
-        }
+        self.named = named;
+        self.held = held;
+        self.held.append(&mut declared);
+        self
     }
 
     /// This point, held as a steady motion of another design is: declared values are those of this design.
     #[doc(hidden)]
-    pub fn held_like(self, other: &FreeDirections) -> Self {
-        self.held_by_these(&other.held)
+    #[inline]
+    pub fn held_like(mut self, other: &FreeDirections) -> Self {
+        self.held = self.at_declared_values(&other.held);
+        self
     }
 
     /// This point held by these unknowns and by those with declared values.
     #[doc(hidden)]
+    #[inline]
     pub fn held_by(self, held: &[Held]) -> Self {
-        let point = self.held_by_these(held);
-        let held = point.held.clone();
-        point.asked(&[], held)
+        let held = self.at_declared_values(held);
+        self.asked(&[], held)
     }
 
     /// Whether it is held as a member of a family of steady motions.
@@ -118,7 +120,8 @@ impl<'a> OperatingPoint<'a> {
         !self.held.is_empty()
     }
 
-    fn held_by_these(self, held: &[Held]) -> Self {
+    /// Held unknowns, those with declared values at the values of this design.
+    fn at_declared_values(&self, held: &[Held]) -> Vec<Held> {
         let mut held = held.to_vec();
         if held.iter().any(|own| own.declared.is_some()) {
             let declared = declared(self.mechanism, self.inputs, self.design);
@@ -128,7 +131,7 @@ impl<'a> OperatingPoint<'a> {
                 }
             }
         }
-        Self { held, ..self }
+        held
     }
 
     /// The coordinates and speeds whose start values are given.
@@ -138,11 +141,10 @@ impl<'a> OperatingPoint<'a> {
 
     /// This point with the modes of a nearby state.
     #[doc(hidden)]
-    pub fn near(self, modes: &'a Modes) -> Self {
-        Self {
-            nearby: modes.general(),
-            ..self
-        }
+    #[inline]
+    pub fn near(mut self, modes: &'a Modes) -> Self {
+        self.nearby = modes.general();
+        self
     }
 
     /// Number of unknowns.

@@ -216,17 +216,17 @@ pub(crate) fn pairs(
     count: usize,
     pairs: &mut Pairs,
 ) -> Result<(), EigenproblemError> {
+    if count == 0 {
+        return symmetric::solve_into(stiffness, mass, pairs);
+    }
     let n = mass.row_count();
-    let linear = || Linear {
+    let linear = Linear {
         mass: mass.clone(),
         damping: Matrix::zeros(n, n),
         stiffness: stiffness.clone(),
     };
-    let own = (count > 0).then(linear);
-    let split = own.as_ref().and_then(|own| Split::new(own, count));
-    let deflated =
-        (own.as_ref().zip(split)).and_then(|(own, split)| Deflated::new(own, split.drifting));
-    let Some(deflated) = deflated else {
+    let split = Split::new(&linear, count);
+    let Some(deflated) = split.and_then(|split| Deflated::new(&linear, split.drifting)) else {
         return symmetric::solve_into(stiffness, mass, pairs);
     };
     let pencil = deflated.pencil();

@@ -51,11 +51,13 @@ pub(crate) fn for_size_up_to<const N: usize>(n: usize, mut work: impl FnMut(usiz
 /// The smallest array size, for which code is compiled for each number of unknowns except the largest.
 const SMALLEST: usize = 4;
 
-/// Converts a matrix to one of small fixed size.
-pub(crate) fn small<const N: usize>(matrix: &Matrix) -> Square<f64, N> {
+/// Converts an `n` by `n` matrix to one of small fixed size.
+#[inline(always)]
+pub(crate) fn small<const N: usize>(n: usize, matrix: &Matrix) -> Square<f64, N> {
+    let entries = &matrix.as_flattened()[..n * n];
     let mut rows = [[0.0; N]; N];
-    for (to, from) in rows.iter_mut().zip(matrix.iter()) {
-        to[..from.len()].copy_from_slice(from);
+    for i in 0..n {
+        rows[i][..n].copy_from_slice(&entries[i * n..(i + 1) * n]);
     }
     rows
 }

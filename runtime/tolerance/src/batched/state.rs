@@ -80,7 +80,7 @@ impl Task for State<'_, '_> {
         } = self;
         let one = V::constant(1.0);
         for_size!(block.coordinates.len(), |n, N| {
-            let shapes: &Square<f64, N> = &small(shapes);
+            let shapes: &Square<f64, N> = &small(n, shapes);
             for at in (0..WIDTH).step_by(V::WIDTH) {
                 let q: Row<V, N> = algebra::load(n, block.coordinates, at);
                 let inertia = algebra::load(n, parts.inertia, at);

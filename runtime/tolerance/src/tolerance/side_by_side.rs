@@ -12,6 +12,7 @@ use crate::{Complex, Equilibrium, Error, Modes};
 #[doc(hidden)]
 pub struct SideBySide<'a> {
     prepared: Prepared<'a>,
+    vectors: Instructions,
     size: Size,
 }
 
@@ -34,7 +35,8 @@ impl<'a> SideBySide<'a> {
         vectors: Instructions,
     ) -> Option<Self> {
         Some(Self {
-            prepared: Prepared::new(mechanism, (nominal, modes), tolerances, vectors)?,
+            prepared: Prepared::new(mechanism, (nominal, modes), tolerances)?,
+            vectors,
             size: Size::of(nominal, modes),
         })
     }
@@ -65,7 +67,7 @@ impl<'a> SideBySide<'a> {
                 }
             }
         }
-        self.prepared.solve(&mut together[..count]);
+        self.prepared.solve(self.vectors, &mut together[..count]);
         let mut design = Vector::zeros(self.size.design);
         let mut eigenvalues = vec![Complex::ZERO; self.size.modes];
         for (k, row) in rows.iter().enumerate() {

@@ -37,6 +37,8 @@ pub(super) struct SampleSolver<'a> {
     /// Seed and stream.
     pub(super) sequence: (u64, u64),
     pub(super) keep_samples: bool,
+    vectors: Option<Instructions>,
+    /// The neighbourhood of the nominal state, if the mechanism is of a kind that is solved in vectors.
     prepared: Option<Prepared<'a>>,
 }
 
@@ -49,8 +51,6 @@ impl<'a> SampleSolver<'a> {
         sequence: (u64, u64),
         keep_samples: bool,
     ) -> Self {
-        let prepared = vectors
-            .and_then(|vectors| Prepared::new(mechanism, (nominal, modes), tolerances, vectors));
         Self {
             mechanism,
             nominal,
@@ -58,12 +58,18 @@ impl<'a> SampleSolver<'a> {
             tolerances,
             sequence,
             keep_samples,
-            prepared,
+            vectors,
+            prepared: Prepared::new(mechanism, (nominal, modes), tolerances),
         }
     }
 
     pub(super) fn side_by_side(&self) -> bool {
-        self.prepared.is_some()
+        self.in_vectors().is_some()
+    }
+
+    /// What solves samples side by side, if that is wanted and possible.
+    fn in_vectors(&self) -> Option<(&Prepared<'a>, Instructions)> {
+        self.prepared.as_ref().zip(self.vectors)
     }
 
     /// What is gathered: the frequency of each nominal mode, and its damping ratio if modes can be damped; the
@@ -89,7 +95,7 @@ impl<'a> SampleSolver<'a> {
     }
 
     pub(super) fn room(&self) -> SampleWorkspace {
-        let count = self.prepared.as_ref().map_or(0, |_| TOGETHER);
+        let count = if self.side_by_side() { TOGETHER } else { 0 };
         SampleWorkspace {
             together: Memory::new(count, Size::of(self.nominal, self.modes)),
             alone: Solution::about(self.nominal, self.modes),
@@ -102,8 +108,8 @@ impl<'a> SampleSolver<'a> {
         room: &mut SampleWorkspace,
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
-        if let Some(prepared) = &self.prepared {
-            return self.solve_batched(prepared, room, part);
+        if let Some(vectors) = self.in_vectors() {
+            return self.solve_batched(vectors, room, part);
         }
         let (nominal, samples) = (&self.nominal.design, part.samples.clone());
         let mut draw = Draw::starting(self.sequence, samples.start, nominal, self.tolerances);
@@ -116,7 +122,7 @@ impl<'a> SampleSolver<'a> {
     /// Solves samples in batches; those that fail a check are solved one by one.
     fn solve_batched(
         &self,
-        prepared: &Prepared<'_>,
+        (prepared, vectors): (&Prepared<'_>, Instructions),
         room: &mut SampleWorkspace,
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
@@ -134,7 +140,7 @@ impl<'a> SampleSolver<'a> {
                 left -= batch.members;
                 draw.next(batch.bits);
             }
-            prepared.solve(batches);
+            prepared.solve(vectors, batches);
             for batch in &*batches {
                 self.record_batch((next, batch), &mut room.alone, part)?;
                 next += batch.members as u64;
@@ -185,9 +191,13 @@ impl<'a> SampleSolver<'a> {
         Ok(())
     }
 
-    /// Whether an equilibrium lies on the nominal branch.
-    fn is_on_nominal_branch(&self, design: &[f64], q: &[f64]) -> bool {
-        Branch::of(self.mechanism, self.nominal).holds(design, q)
+    /// Whether an equilibrium lies on the nominal branch. Newton's method is asked only where the neighbourhood of the
+    /// nominal equilibrium, by which samples side by side are judged, does not tell.
+    fn is_on_nominal_branch(&self, design: &[f64], found: &Equilibrium) -> bool {
+        let q = &found.coordinates;
+        let near = |own: &Prepared<'_>| own.is_continued_by(q, &found.linear.stiffness);
+        self.prepared.as_ref().is_some_and(near)
+            || Branch::of(self.mechanism, self.nominal).holds(design, q)
     }
 
     /// Solves a sample on its own.
@@ -201,7 +211,7 @@ impl<'a> SampleSolver<'a> {
         chunk.count(solved.outcome as usize, 1)?;
         let count = self.modes.modes.len();
         if solved.continues(self.nominal) {
-            let left = !self.is_on_nominal_branch(design, &solved.state.coordinates);
+            let left = !self.is_on_nominal_branch(design, &solved.state);
             chunk.count(LEFT_NOMINAL_BRANCH, u64::from(left))?;
             for r in 0..count {
                 let Some(mode) = solved.mode(r) else { continue };

@@ -1,13 +1,16 @@
 //! The equilibrium of a sample: the steps to it, and the check that it continues the nominal equilibrium.
 
-use super::statics::{Forces, Potential, Statics};
+use super::statics::{Forces, Potential, Statics, row};
 use super::{SampleBatch, TaylorModel};
+use crate::algebra::Matrix;
 use crate::batched::POSITIVE;
-use crate::batched::algebra::{self, Row, Square, congruent, keep, load_matrix};
+use crate::batched::algebra::{
+    self, Row, Square, congruent, for_size_up_to, keep, load_matrix, small,
+};
 use crate::batched::closed::{self, FactoredMatrix};
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
-use crate::kernels::BatchPoint;
-use crate::scalar::Lanes;
+use crate::kernels::{BatchPoint, Kernels};
+use crate::scalar::{Instructions, Lanes};
 
 /// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last. It uses the
 /// nominal change of the stiffness, so that the remainder is a share of it comparable to that of the tolerances.
@@ -55,6 +58,7 @@ pub(super) fn newton_step<V: Lanes, const N: usize>(
 /// The stiffness of the nominal design at the equilibrium of a sample, where no derivative of it is known.
 pub(super) fn nominal_stiffness<const N: usize>(
     prepared: &TaylorModel<'_, N>,
+    instructions: Instructions,
     batch: &mut SampleBatch<'_>,
 ) {
     let point = BatchPoint {
@@ -63,7 +67,7 @@ pub(super) fn nominal_stiffness<const N: usize>(
         b: &prepared.design,
     };
     prepared.kernels.residual_and_stiffness_batch(
-        prepared.instructions,
+        instructions,
         point,
         batch.residual,
         batch.stiffness,
@@ -83,12 +87,8 @@ pub(super) fn continues_nominal<V: Lanes, const N: usize>(
     let q: Row<V, N> = algebra::load(n, batch.coordinates, at);
     let at_rest = one.at_most(V::load(&batch.resting, at));
     let mut flag = keep(V::load(&batch.flags, at), at_rest);
-    let mut displacement = [V::constant(0.0); N];
-    for k in 0..prepared.motions.min(n) {
-        displacement[k] = q[k] - V::constant(prepared.nominal.coordinates[k]);
-        let far = V::constant(FAR * prepared.reach[k]);
-        flag = keep(flag, displacement[k].abs().at_most(far));
-    }
+    let (displacement, near) = prepared.displacement(n, &q);
+    flag = keep(flag, one.at_most(near));
     let regular = match &prepared.statics {
         Statics::Potential(potential) => {
             let stiffness = load_matrix(n, batch.stiffness, at);
@@ -96,12 +96,52 @@ pub(super) fn continues_nominal<V: Lanes, const N: usize>(
         }
         Statics::Forces(forces) => {
             let stiffness = load_matrix(n, batch.linear.stiffness, at);
-            let nominal = load_matrix(n, batch.stiffness, at);
-            let (_, regular) = forces.relative(n, &stiffness);
-            keep(regular, one.at_most(forces.relative(n, &nominal).1))
+            forces.both_regular(n, &stiffness, &load_matrix(n, batch.stiffness, at))
         }
     };
     keep(flag, one.at_most(regular))
+}
+
+impl<const N: usize> TaylorModel<'_, N> {
+    /// [`continues_nominal`] for one equilibrium that is known, with its stiffness.
+    pub(super) fn is_continued_by(&self, q: &[f64], stiffness: &Matrix) -> bool {
+        let mut continues = false;
+        for_size_up_to::<N>(
+            q.len(),
+            #[inline(always)]
+            |n| {
+                let (displacement, near) = self.displacement::<f64>(n, &row(q));
+                let stiffness = small(n, stiffness);
+                let regular = match &self.statics {
+                    Statics::Potential(potential) => {
+                        let stiffness = congruent(n, &stiffness, &potential.shapes);
+                        potential.definite_all_the_way(n, &stiffness, &displacement)
+                    }
+                    Statics::Forces(forces) => {
+                        let kernels: &dyn Kernels = self.kernels;
+                        let (u, b) = (&self.nominal.inputs, &self.nominal.design);
+                        let (_, nominal) = kernels.residual_and_stiffness(q, u, b);
+                        forces.both_regular(n, &stiffness, &small(n, &nominal))
+                    }
+                };
+                continues = near >= 1.0 && regular >= 1.0;
+            },
+        );
+        continues
+    }
+
+    /// The displacement from the nominal equilibrium, and whether it is within reach of the tolerances.
+    #[inline(always)]
+    fn displacement<V: Lanes>(&self, n: usize, q: &Row<V, N>) -> (Row<V, N>, V) {
+        let mut displacement = [V::constant(0.0); N];
+        let mut near = V::constant(1.0);
+        for k in 0..self.motions.min(n) {
+            displacement[k] = q[k] - V::constant(self.nominal.coordinates[k]);
+            let far = V::constant(FAR * self.reach[k]);
+            near = keep(near, displacement[k].abs().at_most(far));
+        }
+        (displacement, near)
+    }
 }
 
 /// Mass and stiffness at the equilibrium, in the basis of the undamped nominal modes.
@@ -227,6 +267,19 @@ impl<const N: usize> Forces<N> {
             last = keep(last, step[i].abs().at_most(scale));
         }
         (step, last, regular)
+    }
+
+    /// Whether the stiffness, and that of the nominal design at the same place, are close to the nominal one.
+    #[inline(always)]
+    fn both_regular<V: Lanes>(
+        &self,
+        n: usize,
+        stiffness: &Square<V, N>,
+        of_nominal_design: &Square<V, N>,
+    ) -> V {
+        let (_, regular) = self.relative(n, stiffness);
+        let (_, nominal) = self.relative(n, of_nominal_design);
+        keep(regular, V::constant(1.0).at_most(nominal))
     }
 
     /// The nominal inverse times a stiffness, in units of the coordinates, and whether the product is near the

@@ -2,6 +2,7 @@
 
 use super::samples::SampleBatch;
 use super::taylor_model::TaylorModel;
+use crate::algebra::Matrix;
 use crate::constraints::Structure;
 use crate::kernels::BatchKernels;
 use crate::modes::Family;
@@ -28,7 +29,6 @@ impl<'a> Prepared<'a> {
         kernels: &'a dyn BatchKernels,
         (nominal, modes): (&'a Equilibrium, &Modes),
         tolerances: &'a Tolerances,
-        instructions: Instructions,
     ) -> Option<Self> {
         if !possible(&nominal.description, modes.family) {
             return None;
@@ -36,26 +36,40 @@ impl<'a> Prepared<'a> {
         let state = (nominal, modes);
         match nominal.coordinates.len() {
             0..=4 => {
-                let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
+                let model = TaylorModel::new(kernels, state, tolerances)?;
                 Some(Self::Four(Box::new(model)))
             }
             5..=8 => {
-                let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
+                let model = TaylorModel::new(kernels, state, tolerances)?;
                 Some(Self::Eight(Box::new(model)))
             }
             _ => {
-                let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
+                let model = TaylorModel::new(kernels, state, tolerances)?;
                 Some(Self::Sixteen(Box::new(model)))
             }
         }
     }
 
-    /// Solves the members of several batches from their random bits.
-    pub(in crate::tolerance) fn solve(&self, batches: &mut [SampleBatch<'_>]) {
+    /// Whether an equilibrium with this stiffness continues the nominal one: each is in the basin of the other. Where this
+    /// is not clear, false.
+    pub(in crate::tolerance) fn is_continued_by(&self, q: &[f64], stiffness: &Matrix) -> bool {
         match self {
-            Self::Four(model) => model.solve(batches),
-            Self::Eight(model) => model.solve(batches),
-            Self::Sixteen(model) => model.solve(batches),
+            Self::Four(model) => model.is_continued_by(q, stiffness),
+            Self::Eight(model) => model.is_continued_by(q, stiffness),
+            Self::Sixteen(model) => model.is_continued_by(q, stiffness),
+        }
+    }
+
+    /// Solves the members of several batches from their random bits.
+    pub(in crate::tolerance) fn solve(
+        &self,
+        instructions: Instructions,
+        batches: &mut [SampleBatch<'_>],
+    ) {
+        match self {
+            Self::Four(model) => model.solve(instructions, batches),
+            Self::Eight(model) => model.solve(instructions, batches),
+            Self::Sixteen(model) => model.solve(instructions, batches),
         }
     }
 }

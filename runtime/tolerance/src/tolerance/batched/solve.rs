@@ -6,7 +6,7 @@ use super::{TaylorModel, equilibrium, modes, stages};
 use crate::batched::algebra::for_size_up_to;
 use crate::eigenproblem::Reference;
 use crate::kernels::BatchPoint;
-use crate::scalar::{Batch, Lanes, Task, WIDTH};
+use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
 /// Maximum number of Newton steps; one is enough if second derivatives predict the equilibrium well.
 const STEPS: usize = 6;
@@ -16,13 +16,14 @@ pub(in crate::tolerance) const TOGETHER: usize = 4;
 
 impl<const N: usize> TaylorModel<'_, N> {
     /// Solves the members of several batches from their random bits.
-    pub(super) fn solve(&self, batches: &mut [SampleBatch<'_>]) {
-        self.instructions.run(Equilibria {
+    pub(super) fn solve(&self, instructions: Instructions, batches: &mut [SampleBatch<'_>]) {
+        instructions.run(Equilibria {
             prepared: self,
+            instructions,
             batches,
         });
         if let Some(reference) = &self.reference {
-            self.instructions.run(GeneralModes {
+            instructions.run(GeneralModes {
                 prepared: self,
                 reference,
                 batches,
@@ -47,6 +48,7 @@ impl<const N: usize> TaylorModel<'_, N> {
 /// Equilibria, and undamped modes if no others are wanted.
 struct Equilibria<'a, 'b, const N: usize> {
     prepared: &'a TaylorModel<'a, N>,
+    instructions: Instructions,
     batches: &'a mut [SampleBatch<'b>],
 }
 
@@ -55,11 +57,15 @@ impl<const N: usize> Task for Equilibria<'_, '_, N> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { prepared, batches } = self;
+        let Self {
+            prepared,
+            instructions,
+            batches,
+        } = self;
         for_size_up_to::<N>(
             prepared.nominal.coordinates.len(),
             #[inline(always)]
-            |n| solve_equilibria::<V, N>(n, prepared, batches),
+            |n| solve_equilibria::<V, N>(n, (prepared, instructions), batches),
         );
     }
 }
@@ -67,7 +73,7 @@ impl<const N: usize> Task for Equilibria<'_, '_, N> {
 #[inline(always)]
 fn solve_equilibria<V: Lanes, const N: usize>(
     n: usize,
-    prepared: &TaylorModel<'_, N>,
+    (prepared, instructions): (&TaylorModel<'_, N>, Instructions),
     batches: &mut [SampleBatch<'_>],
 ) {
     for batch in &mut *batches {
@@ -93,7 +99,7 @@ fn solve_equilibria<V: Lanes, const N: usize>(
                 moving = true;
                 let point = prepared.point(batch.coordinates, batch.design);
                 prepared.kernels.residual_and_stiffness_batch(
-                    prepared.instructions,
+                    instructions,
                     point,
                     batch.residual,
                     batch.stiffness,
@@ -114,16 +120,14 @@ fn solve_equilibria<V: Lanes, const N: usize>(
     for batch in &mut *batches {
         let point = prepared.point(batch.coordinates, batch.design);
         let linear = &mut batch.linear;
-        prepared
-            .kernels
-            .linear_batch(prepared.instructions, point, linear);
+        prepared.kernels.linear_batch(instructions, point, linear);
         match &prepared.statics {
             Statics::Potential(potential) => {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
                     equilibrium::between_modes::<V, N>(n, potential, batch, at);
                 }
             }
-            Statics::Forces(_) => equilibrium::nominal_stiffness(prepared, batch),
+            Statics::Forces(_) => equilibrium::nominal_stiffness(prepared, instructions, batch),
         }
     }
     for batch in &mut *batches {

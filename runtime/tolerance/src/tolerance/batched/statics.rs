@@ -45,7 +45,7 @@ impl<const N: usize> Statics<N> {
         (modes, reference): (&Modes, Option<&Reference>),
         reach: &[f64],
     ) -> Option<Self> {
-        let state = nominal.state;
+        let (state, n) = (nominal.state, reach.len());
         if !nominal.potential {
             return Some(Self::Forces(Forces::new(state, &reference?.units)?));
         }
@@ -67,9 +67,9 @@ impl<const N: usize> Statics<N> {
             curvature: slopes.iter().enumerate().map(quadratic_terms).collect(),
             stiffening: slopes
                 .iter()
-                .map(|slope| small(&between(slope, &shapes)))
+                .map(|slope| small(n, &between(slope, &shapes)))
                 .collect(),
-            shapes: small(&shapes),
+            shapes: small(n, &shapes),
             lambda: row(&lambda),
         }))
     }
@@ -86,7 +86,7 @@ impl<const N: usize> Forces<N> {
         let columns: Vec<Vector> = columns.collect();
         let inverse = Matrix::from_fn(n, n, |i, j| columns[j][i] / units[i]);
         Some(Self {
-            inverse: small(&inverse),
+            inverse: small(n, &inverse),
             units: row(units),
         })
     }
@@ -114,7 +114,7 @@ fn well_conditioned(nominal: &Equilibrium, shapes: &Matrix, lambda: &[f64]) -> b
 
 /// `1/2 dKhat/dq_k`, with row `j < k` also standing for row `k` of `j`.
 fn quadratic_terms<const N: usize>((k, slope): (usize, &Matrix)) -> Square<f64, N> {
-    let mut terms = small(slope);
+    let mut terms = small(slope.row_count(), slope);
     for (j, row) in terms.iter_mut().enumerate() {
         let share = if j == k { 0.5 } else { 1.0 };
         row.iter_mut().for_each(|slope| *slope *= share);

@@ -10,7 +10,7 @@ use crate::constraints::Structure;
 use crate::eigenproblem::Reference;
 use crate::kernels::BatchKernels;
 use crate::modes::{Family, equal_groups};
-use crate::scalar::{Batch, Instructions};
+use crate::scalar::Batch;
 use crate::tolerance::Tolerances;
 use crate::tolerance::normal_sampling::GREATEST_NORMAL;
 use crate::{Equilibrium, Mode, Modes, Stability};
@@ -18,7 +18,6 @@ use crate::{Equilibrium, Mode, Modes, Stability};
 /// The nominal state in the form that samples need.
 pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
     pub(super) kernels: &'a dyn BatchKernels,
-    pub(super) instructions: Instructions,
     pub(super) nominal: &'a Equilibrium,
     /// For values that are not normal: functions of one standard normal number each, and offsets to be added.
     pub(super) joint: Option<(&'a Joint, Vector)>,
@@ -62,7 +61,6 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
         kernels: &'a dyn BatchKernels,
         (nominal, modes): (&'a Equilibrium, &Modes),
         tolerances: &'a Tolerances,
-        instructions: Instructions,
     ) -> Option<Self> {
         let n = nominal.coordinates.len();
         if nominal.stability != Stability::Stable {
@@ -121,7 +119,6 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
         });
         Some(Self {
             kernels,
-            instructions,
             nominal,
             inputs: nominal.inputs.map(Batch::all),
             design: nominal.design.map(Batch::all),

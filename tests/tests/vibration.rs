@@ -1,0 +1,5 @@
+//! Forced vibration of declared machines: closed forms, bands against designs solved anew.
+
+mod vibration {
+    mod bands;
+}
