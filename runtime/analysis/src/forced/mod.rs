@@ -1,6 +1,7 @@
 //! Forced vibration: the steady response to harmonic excitations about an equilibrium, its derivatives, and its peaks.
 
 mod adjoint;
+mod answer;
 mod curvature;
 mod dynamic_stiffness;
 mod forces;

@@ -79,12 +79,12 @@ impl Answer for EventCurvature {
 }
 
 /// Two of some variables, and their places among them.
-struct Pair<'a> {
+pub(crate) struct Pair<'a> {
     places: [usize; 2],
     variables: [Variable<'a>; 2],
 }
 
-fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
+pub(crate) fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
     let each = all.iter().copied().enumerate();
     let pair = |(i, first), (j, second)| Pair {
         places: [i, j],
@@ -97,7 +97,7 @@ fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
 
 impl Pair<'_> {
     /// The second derivative with respect to both, inputs first, SI.
-    fn of<T: Copy>(&self, own: &SecondDerivatives<T>, inputs: usize) -> Option<T> {
+    pub(crate) fn of<T: Copy>(&self, own: &SecondDerivatives<T>, inputs: usize) -> Option<T> {
         let [i, j] = self.places;
         match (i.checked_sub(inputs), j.checked_sub(inputs)) {
             (None, None) => entry(&own.by_input, i, j),
@@ -108,14 +108,14 @@ impl Pair<'_> {
     }
 
     /// A second derivative per declared units.
-    fn scaled(&self, value: f64) -> f64 {
+    pub(crate) fn scaled(&self, value: f64) -> f64 {
         let [first, second] = self.variables;
         value * first.unit.scale * second.unit.scale
     }
 }
 
 /// The names and units of both variables.
-fn names(table: &mut Columns<'_, Pair<'_>>) {
+pub(crate) fn names(table: &mut Columns<'_, Pair<'_>>) {
     for (k, title) in ["by", "and by"].into_iter().enumerate() {
         table.words(title, &|pair| Some(pair.variables[k].name.to_string()));
         table.words("unit", &|pair| {

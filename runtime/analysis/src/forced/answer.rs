@@ -1,0 +1,265 @@
+//! Forced vibration at one operating point as text and tables.
+
+use eigentol_results::numbers::{converted, number, short};
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+
+use super::{ForcedCurvature, ForcedResponse, ForcedSensitivities, Harmonic, Measure, Share};
+use crate::second_order::{Pair, names, pairs};
+use crate::sensitivity::Slopes;
+use crate::sensitivity::derivatives::{Derived, data, say, variables};
+use crate::{Complex, Description, Output, Text, Unit};
+
+displayed!(ForcedResponse, ForcedSensitivities);
+
+/// What every amplitude and phase means.
+pub(crate) const CONVENTIONS: &str =
+    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.";
+
+const fn unit(symbol: &'static str) -> Unit {
+    Unit {
+        symbol: Text::Static(symbol),
+        scale: 1.0,
+    }
+}
+
+/// `forced response`: a row for each output of each harmonic; `shares`: a row for each excitation besides; `vibration of
+/// unknowns`: a row for each unknown of each harmonic.
+impl Answer for ForcedResponse {
+    const KIND: &'static str = "forced response";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &self.inputs))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let mut said = Findings::titled(format!("{}: forced vibration", title(d, &self.inputs)));
+        let rows = self.rows();
+        let mut table = Columns::new("forced response", &rows);
+        of_harmonic(&mut table, d, &|row| row.harmonic);
+        of_output(&mut table, d, &|row| row.output, &|row| row.amplitude());
+        said.columns(table);
+        let rows: Vec<(&Row<'_>, usize)> = (rows.iter())
+            .flat_map(|row| (0..row.harmonic.shares.len()).map(move |share| (row, share)))
+            .collect();
+        let mut table = Columns::new("shares", &rows);
+        let excitation =
+            |row: &_| Some(d.excitations.get(share(row)?.excitation)?.name.to_string());
+        table.words("excitation", &excitation).shown();
+        of_output(&mut table, d, &|row| row.0.output, &|row| {
+            share(row)?.outputs.get(row.0.output).copied()
+        });
+        match self.harmonics.iter().any(|own| own.shares.len() > 1) {
+            true => said.columns(table),
+            false => said.data(table.finish().0),
+        }
+        self.unknowns(&mut said);
+        said.note(CONVENTIONS);
+        said
+    }
+}
+
+impl ForcedResponse {
+    fn rows(&self) -> Vec<Row<'_>> {
+        let harmonics = self.harmonics.iter().enumerate();
+        harmonics
+            .flat_map(|(place, harmonic)| {
+                (0..harmonic.outputs.len()).map(move |output| Row {
+                    place,
+                    harmonic,
+                    output,
+                })
+            })
+            .collect()
+    }
+
+    fn unknowns(&self, said: &mut Findings) {
+        let d = &self.description;
+        let harmonics = self.harmonics.iter();
+        let rows: Vec<(&Harmonic, usize)> = harmonics
+            .flat_map(|own| (0..own.unknowns.len()).map(move |i| (own, i)))
+            .collect();
+        let mut table = Columns::new("vibration of unknowns", &rows);
+        table.number("frequency", "rad/s", &|row| Some(row.0.frequency));
+        let info = |row: &(&Harmonic, usize)| d.coordinates.get(row.1);
+        table.words("unknown", &|row| Some(info(row)?.name.to_string()));
+        table.words("unit", &|row| Some(info(row)?.unit.symbol.to_string()));
+        let value = |row: &(&Harmonic, usize), part: fn(Complex) -> f64| {
+            Some(converted(
+                part(*row.0.unknowns.get(row.1)?),
+                &info(row)?.unit,
+            ))
+        };
+        table.number("Re", "", &|row| value(row, |own| own.re));
+        table.number("Im", "", &|row| value(row, |own| own.im));
+        said.data(table.finish().0);
+    }
+}
+
+/// One of the excitations that act on an output.
+fn share<'a>((row, share): &(&'a Row<'_>, usize)) -> Option<&'a Share> {
+    row.harmonic.shares.get(*share)
+}
+
+/// An output of a harmonic.
+struct Row<'a> {
+    place: usize,
+    harmonic: &'a Harmonic,
+    output: usize,
+}
+
+impl Row<'_> {
+    fn amplitude(&self) -> Option<Complex> {
+        self.harmonic.outputs.get(self.output).copied()
+    }
+
+    /// `x at 380.0 rad/s`, or only the output if there is one harmonic.
+    fn name(&self, of: &ForcedResponse) -> String {
+        let info = of.description.outputs.get(self.output);
+        let name = info.map_or("?", |info| &*info.name);
+        match of.harmonics.len() {
+            1 => name.to_owned(),
+            _ => format!("{name} at {} rad/s", short(self.harmonic.frequency)),
+        }
+    }
+
+    fn unit(&self, of: &Description) -> Unit {
+        let info = of.outputs.get(self.output);
+        info.map_or(unit(""), |info| info.unit.clone())
+    }
+}
+
+/// Columns of the excitations and the frequency of a harmonic.
+fn of_harmonic<R>(table: &mut Columns<'_, R>, d: &Description, of: &dyn Fn(&R) -> &Harmonic) {
+    let excitations = |row: &R| {
+        let shares = of(row).shares.iter();
+        let infos = shares.filter_map(|share| d.excitations.get(share.excitation));
+        let names: Vec<&str> = infos.map(|info| &*info.name).collect();
+        Some(names.join(", "))
+    };
+    table.words("excitations", &excitations).shown();
+    table
+        .number("frequency", "rad/s", &|row| Some(of(row).frequency))
+        .digits(number);
+}
+
+/// Columns of an output and its amplitude, in the text too.
+fn of_output<R>(
+    table: &mut Columns<'_, R>,
+    d: &Description,
+    output: &dyn Fn(&R) -> usize,
+    of: &dyn Fn(&R) -> Option<Complex>,
+) {
+    table
+        .words("output", &|row| {
+            Some(d.outputs.get(output(row))?.name.to_string())
+        })
+        .shown();
+    table
+        .words("unit", &|row| {
+            Some(d.outputs.get(output(row))?.unit.symbol.to_string())
+        })
+        .shown();
+    let value = |row: &R, part: fn(Complex) -> f64| {
+        Some(converted(part(of(row)?), &d.outputs.get(output(row))?.unit))
+    };
+    table
+        .number("amplitude", "", &|row| value(row, |own| own.norm()))
+        .digits(number);
+    let phase = |row: &R| {
+        of(row)
+            .filter(|own| *own != Complex::ZERO)
+            .map(|own| own.arg().to_degrees())
+    };
+    table.number("phase", "deg", &phase).digits(short);
+    table.number("Re", "", &|row| value(row, |own| own.re));
+    table.number("Im", "", &|row| value(row, |own| own.im));
+}
+
+/// The tables of the response; `derivatives of forced vibration`: a row for each amplitude, phase and frequency and each
+/// variable.
+impl Answer for ForcedSensitivities {
+    const KIND: &'static str = "forced sensitivities";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Answer::subject(&self.response)
+    }
+
+    fn findings(&self) -> Findings {
+        let mut said = self.response.findings();
+        let of = &self.response;
+        let variables = variables(&of.description, &of.inputs);
+        let rows = of.rows();
+        let list =
+            |slopes: Option<Slopes<f64>>| slopes.map_or(Vec::new(), |own| own.iter().collect());
+        let derived = |name: String, unit: Unit, slopes: Option<Slopes<f64>>| Derived {
+            name,
+            unit,
+            clustered: false,
+            slopes: list(slopes),
+        };
+        let (mut amplitudes, mut others) = (Vec::new(), Vec::new());
+        for row in &rows {
+            let (output, measure) = (Output::new(row.output), Measure::Displacement);
+            let name = |what: &str| format!("{what} of {}", row.name(of));
+            let modulus = self.modulus(row.place, output, measure);
+            amplitudes.push(derived(
+                name("amplitude"),
+                row.unit(&of.description),
+                modulus,
+            ));
+            let phase = self.phase(row.place, output, measure);
+            others.push(derived(name("phase"), unit("rad"), phase));
+        }
+        for (harmonic, own) in of.harmonics.iter().zip(&self.harmonics) {
+            let name = format!("frequency {}", short(harmonic.frequency));
+            others.push(derived(name, unit("rad/s"), Some(own.frequency.clone())));
+        }
+        say(&mut said, &variables, &amplitudes);
+        amplitudes.append(&mut others);
+        let table = "derivatives of forced vibration";
+        said.data(data(table, "quantity", &variables, &amplitudes));
+        said
+    }
+}
+
+/// `second derivatives`: a row for each output of each harmonic and each pair of variables, derivatives of the complex
+/// amplitude and of its modulus per `unit` of the first and `unit 2` of the second.
+impl Answer for ForcedCurvature {
+    const KIND: &'static str = "second derivatives of forced vibration";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Answer::subject(&self.first.response)
+    }
+
+    fn findings(&self) -> Findings {
+        let of = &self.first.response;
+        let d = &of.description;
+        let title = title(d, &of.inputs);
+        let mut said = Findings::titled(format!("{title}: second derivatives of forced vibration"));
+        let pairs = pairs(&crate::variables::variables(d));
+        for row in of.rows() {
+            let (output, measure) = (Output::new(row.output), Measure::Displacement);
+            let mut table = Columns::new("second derivatives", &pairs);
+            table.words("output", &|_| Some(row.name(of)));
+            names(&mut table);
+            let unit = row.unit(d);
+            let units = format!("{} per units", unit.symbol);
+            let inputs = d.inputs.len();
+            let scaled = |pair: &Pair<'_>, value: f64| Some(converted(pair.scaled(value), &unit));
+            let complex = self.complex(row.place, output, measure);
+            let part = |pair: &Pair<'_>, part: fn(Complex) -> f64| {
+                scaled(pair, part(pair.of(complex.as_ref()?, inputs)?))
+            };
+            table.number("Re", &units, &|pair| part(pair, |own| own.re));
+            table.number("Im", &units, &|pair| part(pair, |own| own.im));
+            let modulus = self.modulus(row.place, output, measure);
+            table.number("amplitude", &units, &|pair| {
+                scaled(pair, pair.of(modulus.as_ref()?, inputs)?)
+            });
+            said.columns(table);
+        }
+        said
+    }
+}
