@@ -9,8 +9,10 @@ mod measure;
 mod resolvent;
 mod response;
 mod sensitivities;
+mod unknown_phases;
 
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
+pub use eigentol_statistics::random_phases::RandomPhases;
 pub use measure::Measure;
 pub(crate) use resolvent::Resolvent;
 pub use response::{ForcedResponse, Harmonic, Share, response};
