@@ -11,9 +11,11 @@ mod orbit;
 mod resolvent;
 mod response;
 mod sensitivities;
+mod unknown_phases;
 
 pub(crate) use answer::CONVENTIONS;
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
+pub use eigentol_statistics::random_phases::RandomPhases;
 pub(crate) use line::{Line, along_input};
 pub use measure::Measure;
 pub use orbit::{Orbit, Turning};
