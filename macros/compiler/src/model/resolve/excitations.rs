@@ -9,7 +9,6 @@ use super::placements::zero;
 use super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::base::ids::{CoordinateId, JointId};
-use crate::base::span::Extent;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{
     CoordinateQuantity, Deviation, Excitation, ExcitationLaw, Frame, Frequency, ShakenBy,
@@ -354,7 +353,7 @@ impl Resolver<'_> {
             what: what.to_string(),
             values: vec![expr.clone()],
             demand,
-            extent: Extent::from(value.extent),
+            extent: value.extent,
         });
         Some(expr)
     }
