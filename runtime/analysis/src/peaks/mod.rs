@@ -6,7 +6,10 @@
 
 mod answer;
 mod scan;
+mod separation;
 mod state;
+
+pub use separation::{Separation, SeparationMargin};
 
 use scan::{Scan, scan};
 use state::{Along, State};
@@ -100,6 +103,23 @@ pub struct Moving {
 }
 
 impl Moving {
+    /// `value`, which moves `slope` times as far.
+    fn scaled(&self, slope: f64, value: f64) -> Self {
+        let by_design: Vector = self.by_design.map(|own| slope * own);
+        let spread = self.spread.clone().map(|mut own| {
+            own.mean = value + slope * (own.mean - self.value);
+            own.sigma *= slope.abs();
+            own.band *= slope.abs();
+            own.by_design = by_design.clone();
+            own
+        });
+        Self {
+            value,
+            by_design,
+            spread,
+        }
+    }
+
     fn new(value: f64, by_design: Vector, tolerances: Option<&Tolerances>) -> Self {
         let spread = tolerances.map(|own| Spread::new(value, by_design.clone(), own));
         Self {

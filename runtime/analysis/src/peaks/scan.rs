@@ -33,11 +33,11 @@ pub(super) struct Scan {
 pub(super) fn scan(along: &Along<'_>, range: &Range, start: &[f64]) -> Result<Scan, Error> {
     let mut scan = Scan::default();
     let value = |k: usize| range.low + (range.high - range.low) * k as f64 / range.steps as f64;
-    let mut last = End::new(along, value(0), start);
+    let mut last = End::new(along, value(0), start)?;
     scan.begin(&mut last);
     for k in 1..=range.steps {
         let from = last.coordinates(start);
-        let next = End::new(along, value(k), &from);
+        let next = End::new(along, value(k), &from)?;
         last = scan.divide(along, last, next, DIVISIONS)?;
     }
     Ok(scan)
@@ -52,10 +52,11 @@ enum End {
 }
 
 impl End {
-    fn new(along: &Along<'_>, value: f64, from: &[f64]) -> Self {
+    fn new(along: &Along<'_>, value: f64, from: &[f64]) -> Result<Self, Error> {
         match along.state(value, from) {
-            Ok(state) => Self::Found(state.into()),
-            Err(error) => Self::Missing(value, error),
+            Ok(state) => Ok(Self::Found(state.into())),
+            Err(error @ Error::Resonance { .. }) => Err(error),
+            Err(error) => Ok(Self::Missing(value, error)),
         }
     }
 
@@ -125,7 +126,7 @@ impl Scan {
         }
         let middle = 0.5 * (a.value() + b.value());
         let from = a.coordinates(&b.coordinates(&[]));
-        let middle = End::new(along, middle, &from);
+        let middle = End::new(along, middle, &from)?;
         let middle = self.divide(along, a, middle, left - 1)?;
         self.divide(along, middle, b, left - 1)
     }
