@@ -1,7 +1,6 @@
 //! Forced vibration along an input: amplitude and phase, and the path of the complex amplitude.
 
 use eigentol::bode::{Bode, BodePoint};
-use eigentol::forced::{ForcedResponse, Harmonic};
 use eigentol::peaks::{HalfPower, Moving, Peak, Peaks};
 use eigentol::propagation::ResponseSpread;
 use eigentol::response::{Response, Vibration};
@@ -15,6 +14,8 @@ use crate::style::Style;
 
 /// Ends of the bands: two standard deviations to either side of a normal distribution.
 const BAND: [f64; 2] = [0.02, 0.98];
+/// Error of an angle relative to an eighth of a turn.
+const ROUNDING: f64 = 1e-9;
 /// Number of stretches between the marked values of a polar plot.
 const STRETCHES: usize = 8;
 
@@ -69,7 +70,9 @@ pub fn bode(
     upper.fit();
     upper.y.range = [0.0, style.top().unwrap_or(upper.y.range[1])];
     let mut lower = Panel::new(course.axis(), Axis::new("phase", "deg"));
-    lower.curve(Curve::new("", Colour::Series(0), course.phases()));
+    let phases = course.phases();
+    lower.y.range = eighths(phases.iter().flatten().map(|own| own[1]));
+    lower.curve(Curve::new("", Colour::Series(0), phases));
     if upper.bands.is_empty() && lines.is_empty() {
         for curve in &mut upper.curves {
             curve.label.clear();
@@ -167,6 +170,16 @@ pub fn polar(
     Ok(Figure::new(style.titled(title), caption, vec![panel]))
 }
 
+/// The whole eighths of a turn about angles, deg, and a little more.
+fn eighths(angles: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] = ends(angles);
+    let [low, high] = [
+        (low / 45.0 + ROUNDING).floor(),
+        (high / 45.0 - ROUNDING).ceil(),
+    ];
+    [45.0 * low - 5.0, 45.0 * high + 5.0]
+}
+
 /// First, last, and between them those after each further share of the length of the path.
 fn spaced(path: &[(f64, Point)]) -> Vec<(f64, Point)> {
     let steps = path
@@ -193,16 +206,6 @@ fn spaced(path: &[(f64, Point)]) -> Vec<(f64, Point)> {
     found
 }
 
-/// The harmonic of a response that has these excitations.
-pub(super) fn harmonic(response: &ForcedResponse, excitation: usize) -> Option<&Harmonic> {
-    let acts = |own: &&Harmonic| {
-        own.shares
-            .iter()
-            .any(|share| share.excitation == excitation)
-    };
-    response.harmonics.iter().find(acts)
-}
-
 /// A vibration at the values of an input.
 struct Course<'a> {
     result: &'a Bode,
@@ -219,7 +222,7 @@ impl<'a> Course<'a> {
         let unit = input_unit(d, result.input);
         let amplitude = |point: &BodePoint| {
             let response = &point.vibration.as_ref().ok()?.response;
-            let own = harmonic(response, vibration.excitation.index())?;
+            let own = response.harmonic(vibration.excitation)?;
             own.amplitude(vibration.output, vibration.measure)
         };
         let values: Vec<(f64, Option<Complex>)> = (result.points.iter())

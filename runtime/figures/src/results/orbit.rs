@@ -7,7 +7,6 @@ use eigentol::response::{Response, Vibration};
 use eigentol::{Complex, Excitation, Output, Unit};
 
 use super::along::with_notes;
-use super::bode::harmonic;
 use crate::Error;
 use crate::caption::{in_unit, number, operating_point, with_unit};
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point, Shape};
@@ -30,7 +29,7 @@ pub fn orbit<M>(
     style: &Style,
 ) -> Result<Figure, Error> {
     let d = &*result.description;
-    let found = harmonic(result, excitation.index());
+    let found = result.harmonic(excitation);
     let pair = [x, y].map(|output| d.outputs.get(output.index()));
     let (Some(found), [Some(first), Some(second)]) = (found, pair) else {
         return Err(Error::nothing("there is no such vibration"));
