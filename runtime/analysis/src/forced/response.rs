@@ -9,7 +9,7 @@ use crate::algebra::{Vector, dot_complex};
 use crate::kernels::Kernels;
 use crate::modes::modes;
 use crate::sensitivity::check_state;
-use crate::{Complex, Description, Equilibrium, Error, Output, Shared};
+use crate::{Complex, Description, Equilibrium, Error, Excitation, Output, Shared};
 
 /// The steady vibration under all excitations: of each output and unknown, `Re(y e^{i w t})`, by harmonic.
 ///
@@ -60,6 +60,15 @@ impl Share {
     /// The sign of the declared frequency.
     pub(super) fn turn(&self) -> f64 {
         if self.reversed { -1.0 } else { 1.0 }
+    }
+}
+
+impl ForcedResponse {
+    /// The harmonic of an excitation; `None` for one of another mechanism.
+    #[must_use]
+    pub fn harmonic<M>(&self, excitation: Excitation<M>) -> Option<&Harmonic> {
+        let drives = |own: &Share| own.excitation == excitation.index();
+        self.harmonics.iter().find(|own| own.shares.iter().any(drives))
     }
 }
 
