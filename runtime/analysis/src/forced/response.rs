@@ -68,7 +68,9 @@ impl ForcedResponse {
     #[must_use]
     pub fn harmonic<M>(&self, excitation: Excitation<M>) -> Option<&Harmonic> {
         let drives = |own: &Share| own.excitation == excitation.index();
-        self.harmonics.iter().find(|own| own.shares.iter().any(drives))
+        self.harmonics
+            .iter()
+            .find(|own| own.shares.iter().any(drives))
     }
 }
 
@@ -212,7 +214,7 @@ fn superposed(mechanism: &dyn Kernels, frequency: f64, shares: Vec<Share>) -> Ha
     }
 }
 
-fn add(sum: &mut [Complex], values: &[Complex]) {
+pub(super) fn add(sum: &mut [Complex], values: &[Complex]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += value;
     }
