@@ -47,7 +47,7 @@
 //! | Where does it stay, and what moves that position? | [`equilibrium`](Study::equilibrium), [`equilibria`](Study::equilibria), [`equilibrium_shift`](Study::equilibrium_shift) | [`equilibrium::equilibrium`], [`equilibrium::find_equilibria`], [`sensitivity::equilibrium_shift`] |
 //! | Which branches of equilibria are there, and where do they fold and fork? | [`branches`](Study::branches), [`branches_with`](Study::branches_with) | [`branches::branches`] |
 //! | How does it vibrate, is it stable, and which way does it whirl? | [`modes`](Study::modes), [`whirls`](Study::whirls) | [`modes::modes`], [`modes::whirls`] |
-//! | What does it look like, at rest and in its modes? | [`picture`](Study::picture), [`mode_pictures`](Study::mode_pictures) | [`picture::scene`], [`picture::mode_pictures`] |
+//! | What does it look like, at rest, in its modes and in forced vibration? | [`picture`](Study::picture), [`mode_pictures`](Study::mode_pictures), [`vibration_pictures`](Study::vibration_pictures) | [`picture::scene`], [`picture::mode_pictures`], [`picture::vibration_pictures`] |
 //! | What changes frequencies, damping, outputs and shapes? | [`sensitivities`](Study::sensitivities), [`outputs`](Study::outputs), [`shape_sensitivity`](Study::shape_sensitivity) | [`sensitivity::sensitivities`], [`sensitivity::output_sensitivities`], [`shapes::shape_sensitivity`] |
 //! | ... to second order? | [`mode_curvature`](Study::mode_curvature), [`output_curvature`](Study::output_curvature) | [`second_order::mode_curvature`], [`second_order::output_curvature`] |
 //! | How do equal frequencies split? | [`directional_derivatives`](Study::directional_derivatives) | [`clusters::directional_derivatives`] |

@@ -236,7 +236,7 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         && !own.stable
         && stated.into_iter().all(Option::is_none)
     {
-        return vibration(study, name, own);
+        return vibration(study, name, own).map(Response::Vibration);
     }
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {
         _ if own.stable || own.vibration.is_some() => {}
@@ -266,7 +266,23 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
 }
 
 /// The amplitude of an output under one of the excitations.
-fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Response, Failure> {
+/// The vibration written as `shake` or `shake under u`.
+pub(crate) fn named_vibration(
+    study: &Study<Interpreted>,
+    text: &str,
+) -> Result<Vibration, Failure> {
+    let (name, under) = match text.split_once(" under ") {
+        Some((name, under)) => (name, Some(under.trim().to_owned())),
+        None => (text, None),
+    };
+    let own = Require {
+        under,
+        ..Require::default()
+    };
+    vibration(study, name.trim(), &own)
+}
+
+fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Vibration, Failure> {
     let Response::Output(of) = output(study, name)? else {
         return Err(Failure::usage("an output vibrates", HELP));
     };
@@ -295,11 +311,11 @@ fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Re
         Some(study_file::Measure::Velocity) => Measure::Velocity,
         Some(study_file::Measure::Acceleration) => Measure::Acceleration,
     };
-    Ok(Response::Vibration(Vibration {
+    Ok(Vibration {
         output: of,
         excitation: excitation.any(),
         measure,
-    }))
+    })
 }
 
 fn output(study: &Study<Interpreted>, name: &str) -> Result<Response, Failure> {

@@ -1,11 +1,11 @@
-// The mechanism with its modes: a small picture of each to choose from, and a large one that moves and can be turned.
+// The mechanism with its modes and forced vibrations: a small picture of each to choose from, and a large one that moves and can be turned.
 
 const SECONDS = 2;
 const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["from the side", 0, 0], ["from above", -Math.PI / 2, Math.PI / 2]];
 
-function showMechanism({ scene, up, modes }, parent) {
+function showMechanism({ scene, up, motions }, parent) {
   const model = new Model(scene, up);
-  const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...modes.map((mode) => stateOf(mode, scene.bodies.length))];
+  const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...motions.map((motion) => stateOf(motion, scene.bodies.length))];
   new Player(model, states, parent);
 }
 

@@ -1,4 +1,4 @@
-// A mechanism in space, drawn from the back to the front on a canvas: at its equilibrium, or along a mode.
+// A mechanism in space, drawn from the back to the front on a canvas: at its equilibrium, or in motion.
 
 const BODY_COLOURS = ["#4d9fd1", "#e8b04a", "#5cc2a0", "#d98a5b", "#b08ac0", "#9ccff0", "#c9c06a", "#8fa3ad"];
 const LIGHT = unit([0.35, 0.55, 0.75]);

@@ -13,6 +13,7 @@ use eigentol::{
 use eigentol_figures::Style;
 
 use crate::Report;
+use crate::forced::Forced;
 use crate::pictures::Pictures;
 
 /// All the content of a page.
@@ -31,6 +32,8 @@ pub(crate) struct Content {
     pub(crate) outputs: Result<OutputTolerances, Error>,
     /// `None` if nothing has a tolerance.
     pub(crate) spread: Option<Spreads>,
+    /// `None` without excitations.
+    pub(crate) forced: Option<Forced>,
     /// `None` if no input is swept.
     pub(crate) along: Option<Along>,
 }
@@ -91,9 +94,17 @@ impl Content {
                 monte_carlo: Err(error.clone()),
             }),
         };
-        let along = report.along.as_ref();
-        let along = along.map(|(input, values)| Along::of(study, *input, values, &report.orders));
         let description = study.description().clone();
+        let swept = match &report.along {
+            Some((input, values)) => Some((*input, values_si(study, *input, values)?)),
+            None => None,
+        };
+        let swept = swept.as_ref().map(|(input, values)| (*input, &values[..]));
+        let forced = match description.excitations.is_empty() {
+            true => None,
+            false => Some(Forced::of(study, swept, varies)?),
+        };
+        let along = swept.map(|along| Along::of(study, along, &report.orders));
         Ok(Self {
             title: (report.title.clone()).unwrap_or_else(|| description.name.to_string()),
             declaration: report.declaration.clone(),
@@ -106,6 +117,7 @@ impl Content {
             modes,
             outputs,
             spread,
+            forced,
             along: along.transpose()?,
         })
     }
@@ -133,21 +145,10 @@ impl Setup {
 impl Along {
     fn of<M: SummaryKernels>(
         study: &Study<M>,
-        input: Input<M>,
-        values: &[Value],
+        (input, values): (Input<M>, &[f64]),
         orders: &[f64],
     ) -> Result<Self, Error> {
-        let si = |value: &Value| Ok(study.continuation(input, *value, *value)?.low);
-        let values = values.iter().map(si).collect::<Result<Vec<f64>, Error>>()?;
-        if let Some(value) = values.iter().copied().find(|value| !value.is_finite()) {
-            let info = study.description().inputs.get(input.index());
-            return Err(Error::NotFinite {
-                kind: "input",
-                name: info.map_or(Text::Static("?"), |info| info.name.clone()),
-                value,
-            });
-        }
-        let campbell = answer(study.campbell(input, &values, orders))?;
+        let campbell = answer(study.campbell(input, values, orders))?;
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         Ok(Self {
@@ -158,8 +159,27 @@ impl Along {
     }
 }
 
+/// Values of an input, SI.
+fn values_si<M: SummaryKernels>(
+    study: &Study<M>,
+    input: Input<M>,
+    values: &[Value],
+) -> Result<Vec<f64>, Error> {
+    let si = |value: &Value| Ok(study.continuation(input, *value, *value)?.low);
+    let values = values.iter().map(si).collect::<Result<Vec<f64>, Error>>()?;
+    if let Some(value) = values.iter().copied().find(|value| !value.is_finite()) {
+        let info = study.description().inputs.get(input.index());
+        return Err(Error::NotFinite {
+            kind: "input",
+            name: info.map_or(Text::Static("?"), |info| info.name.clone()),
+            value,
+        });
+    }
+    Ok(values)
+}
+
 /// Separates errors of the caller from refusals of an analysis, which are answers.
-fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Error> {
+pub(crate) fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Error> {
     match found {
         Err(
             mistake @ (Error::Setting { .. }

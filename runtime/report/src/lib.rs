@@ -3,6 +3,7 @@
 mod charts;
 mod content;
 mod error;
+mod forced;
 mod html;
 mod page;
 mod pictures;

@@ -1,23 +1,26 @@
-//! The pictures of a report: the mechanism at rest, and as many animated modes as a file of moderate size holds.
+//! The pictures of a report: the mechanism at rest, and as many animated forced vibrations and modes as a file of moderate
+//! size holds.
 
 use eigentol::kernels::PictureKernels;
-use eigentol::picture::{ModePictures, Scene};
-use eigentol::{Error, Study};
+use eigentol::picture::{ModePictures, Scene, VibrationPictures};
+use eigentol::{Error, Excitation, Study};
 
-/// Maximum number of poses over all modes; they make up most of the file.
+use crate::forced::harmonics;
+
+/// Maximum number of poses over all modes and vibrations; they make up most of the file.
 const POSES: usize = 14_000;
 /// Number of poses per period. The view interpolates linearly between them.
 const MOST_FRAMES: usize = 24;
 const LEAST_FRAMES: usize = 8;
 
-/// Largest displacement in a mode, as a fraction of the size of the mechanism.
+/// Largest displacement in a mode or a vibration, as a fraction of the size of the mechanism.
 pub(crate) const AMPLITUDE: f64 = 0.12;
 
-/// The number of animated modes, and the number of poses of every body in each.
-fn frames(bodies: usize, modes: usize) -> (usize, usize) {
+/// The number of animated motions, and the number of poses of every body in each.
+fn frames(bodies: usize, motions: usize) -> (usize, usize) {
     let poses = POSES / bodies.max(1);
-    let frames = (poses / modes.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
-    (modes.min(poses / frames), frames)
+    let frames = (poses / motions.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
+    (motions.min(poses / frames), frames)
 }
 
 /// Data for the pictures.
@@ -25,15 +28,25 @@ pub(crate) struct Pictures {
     pub(crate) scene: Scene,
     /// The first modes only, for large mechanisms.
     pub(crate) modes: Vec<Result<ModePictures, Error>>,
+    /// Of each harmonic, unless the mechanism is large.
+    pub(crate) vibrations: Vec<Result<VibrationPictures, Error>>,
 }
 
 impl Pictures {
     pub(crate) fn of<M: PictureKernels>(study: &Study<M>) -> Result<Self, Error> {
         let scene = study.picture()?;
-        let (modes, phases) = frames(scene.bodies.len(), study.modes()?.modes.len());
-        let modes = (0..modes).map(|mode| study.mode_pictures(mode, phases, AMPLITUDE));
+        let harmonics = harmonics(study.description());
+        let motions = harmonics.len() + study.modes()?.modes.len();
+        let (shown, phases) = frames(scene.bodies.len(), motions);
+        let vibrations = harmonics.into_iter().take(shown).map(|excitation| {
+            study.vibration_pictures(Excitation::new(excitation), phases, AMPLITUDE)
+        });
+        let vibrations: Vec<_> = vibrations.collect();
+        let modes = 0..shown - vibrations.len();
+        let modes = modes.map(|mode| study.mode_pictures(mode, phases, AMPLITUDE));
         Ok(Self {
             modes: modes.collect(),
+            vibrations,
             scene,
         })
     }
@@ -42,6 +55,7 @@ impl Pictures {
         Self {
             scene,
             modes: Vec::new(),
+            vibrations: Vec::new(),
         }
     }
 }

@@ -1,22 +1,24 @@
-//! Data for the 3-D view: a scene, and the poses of each mode over one period.
+//! Data for the 3-D view: a scene, and the poses of each mode and each forced vibration over one period.
 
 use std::f64::consts::TAU;
 
-use eigentol::picture::{ModePictures, Pose, Scene};
-use eigentol::{Mode, Modes};
+use eigentol::picture::{ModePictures, Pose, Scene, VibrationPictures};
+use eigentol::{Description, Mode, Modes};
 use eigentol_figures::Style;
 use serde::Serialize;
 
+use crate::forced::{excitations, harmonics};
 use crate::pictures::Pictures;
-use crate::words::{capital, number};
+use crate::words::{capital, digits, number};
 
-/// A scene with its modes, passed to the script.
+/// A scene with its motions, passed to the script.
 #[derive(Serialize)]
 pub(crate) struct View<'a> {
     scene: &'a Scene,
     /// The upward direction.
     up: [f64; 3],
-    modes: Vec<Motion>,
+    /// Modes, then forced vibrations.
+    motions: Vec<Motion>,
 }
 
 #[derive(Serialize)]
@@ -28,7 +30,12 @@ struct Motion {
 }
 
 impl<'a> View<'a> {
-    pub(crate) fn new(pictures: &'a Pictures, modes: Option<&Modes>, style: &Style) -> Self {
+    pub(crate) fn new(
+        pictures: &'a Pictures,
+        d: &Description,
+        modes: Option<&Modes>,
+        style: &Style,
+    ) -> Self {
         let scene = &pictures.scene;
         let size = scene.size();
         let motion = |own: &ModePictures| {
@@ -40,10 +47,22 @@ impl<'a> View<'a> {
                 frames: frames.collect(),
             })
         };
+        let vibrations = harmonics(d).into_iter().zip(&pictures.vibrations);
+        let forced = vibrations.filter_map(|(excitation, own)| {
+            let own = own.as_ref().ok()?;
+            let (scale, unit) = style.frequency(None);
+            let frequency = number(scale * own.frequency);
+            Some(Motion {
+                title: format!("Under {}: {frequency} {unit}", excitations(d, excitation)),
+                about: enlarged(own),
+                frames: own.frames.iter().map(|poses| flat(poses, size)).collect(),
+            })
+        });
+        let modes = pictures.modes.iter().flatten().filter_map(motion);
         Self {
             scene,
             up: scene.up(),
-            modes: pictures.modes.iter().flatten().filter_map(motion).collect(),
+            motions: modes.chain(forced).collect(),
         }
     }
 }
@@ -76,6 +95,16 @@ fn title(mode: &Mode, style: &Style) -> String {
     match mode.frequency() {
         Some(omega) => format!("{name}: {} {unit}", number(scale * omega)),
         None => format!("{name}: {}", mode.behaviour),
+    }
+}
+
+fn enlarged(own: &VibrationPictures) -> String {
+    match own.enlargement {
+        0.0 => "forced vibration; it moves no body".to_owned(),
+        factor => format!(
+            "forced vibration, enlarged {} times, not in real time",
+            digits(factor, 3)
+        ),
     }
 }
 

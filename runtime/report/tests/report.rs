@@ -163,7 +163,7 @@ fn modes_are_called_and_measured_as_the_user_says() {
         "{hertz}"
     );
     let scene = &data(&named, "scene")[0];
-    let title = scene["modes"][0]["title"].as_str().unwrap();
+    let title = scene["motions"][0]["title"].as_str().unwrap();
     assert!(
         title.starts_with(&format!("Swing: {hertz}")) && title.ends_with(" Hz"),
         "{title}"
@@ -194,7 +194,7 @@ fn the_view_in_3d_has_every_body_and_the_poses_of_every_mode() {
         .map(|own| own["name"].as_str().unwrap())
         .collect();
     assert_eq!(names, ["shaft", "bar"]);
-    let frames = view["modes"][0]["frames"].as_array().unwrap();
+    let frames = view["motions"][0]["frames"].as_array().unwrap();
     let expected = study.mode_pictures(0, frames.len(), 0.12).unwrap();
     for (frame, poses) in frames.iter().zip(&expected.frames) {
         let numbers: Vec<f64> = frame
@@ -700,7 +700,12 @@ fn figures_and_tables_of_each_mode_are_its_own() {
     }
     assert!(html.contains("<p class=\"subject\">Bars at omega = 20 rpm</p>"));
     let scene = &data(&html, "scene")[0];
-    for (shown, mode) in scene["modes"].as_array().unwrap().iter().zip(&modes.modes) {
+    for (shown, mode) in scene["motions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(&modes.modes)
+    {
         let omega = mode.frequency().unwrap();
         let title = numbers(shown["title"].as_str().unwrap());
         let about = numbers(shown["about"].as_str().unwrap());

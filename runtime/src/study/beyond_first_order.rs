@@ -3,12 +3,13 @@
 use super::Study;
 use super::deviating::Toleranced;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
+use crate::forced;
 use crate::kernels::{CurvatureKernels, DirectionalKernels, PictureKernels, SummaryKernels};
-use crate::picture::{self, ModePictures, Scene};
+use crate::picture::{self, ModePictures, Scene, VibrationPictures};
 use crate::second_order::{self, ModeCurvature, OutputCurvature, SecondOrder};
 use crate::shapes::{self, ShapeSensitivity};
 use crate::summary::{self, BUDGET, Summary};
-use crate::{Equilibrium, Error, Output};
+use crate::{Equilibrium, Error, Excitation, Output};
 
 impl<M: PictureKernels> Study<M> {
     /// The visible scene at the equilibrium: poses and shapes of the bodies ([`picture::scene`]).
@@ -46,6 +47,32 @@ impl<M: PictureKernels> Study<M> {
     ) -> Result<ModePictures, Error> {
         let (state, modes) = self.solved()?;
         picture::mode_pictures(&self.mechanism, state, modes, mode, phases, amplitude)
+    }
+
+    /// Poses of all bodies over one period of the vibration with the frequency of an excitation, at `phases` evenly
+    /// spaced phases: the operating deflection shape, enlarged as modes are ([`picture::vibration_pictures`]).
+    #[doc = include_str!("shaken.txt")]
+    /// let moved = study.vibration_pictures(Rotor::u, 24, 0.1)?;
+    /// println!("{} times as far", moved.enlargement);
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`forced::response`] and [`Study::equilibrium`]; [`Error::UnknownHandle`], [`Error::Setting`].
+    pub fn vibration_pictures(
+        &self,
+        excitation: Excitation<M>,
+        phases: usize,
+        amplitude: f64,
+    ) -> Result<VibrationPictures, Error> {
+        let state = self.settings.regular(&self.mechanism)?;
+        let found = forced::response(&self.mechanism, state)?;
+        let harmonic = found.harmonic(excitation);
+        let harmonic = harmonic.ok_or_else(|| Error::UnknownHandle {
+            kind: "excitation",
+            index: excitation.index(),
+            mechanism: found.description.name.clone(),
+            count: found.description.excitations.len(),
+        })?;
+        picture::vibration_pictures(&self.mechanism, state, harmonic, phases, amplitude)
     }
 }
 

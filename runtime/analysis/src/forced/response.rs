@@ -10,7 +10,7 @@ use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::modes::modes;
 use crate::sensitivity::check_state;
-use crate::{Complex, Description, Equilibrium, Error, Output, Shared};
+use crate::{Complex, Description, Equilibrium, Error, Excitation, Output, Shared};
 
 /// The steady vibration under all excitations: of each output and unknown, `Re(y e^{i w t})`, by harmonic.
 ///
@@ -61,6 +61,17 @@ impl Share {
     /// The sign of the declared frequency.
     pub(super) fn turn(&self) -> f64 {
         if self.reversed { -1.0 } else { 1.0 }
+    }
+}
+
+impl ForcedResponse {
+    /// The harmonic of an excitation; `None` for one of another mechanism.
+    #[must_use]
+    pub fn harmonic<M>(&self, excitation: Excitation<M>) -> Option<&Harmonic> {
+        let drives = |own: &Share| own.excitation == excitation.index();
+        self.harmonics
+            .iter()
+            .find(|own| own.shares.iter().any(drives))
     }
 }
 
@@ -244,7 +255,7 @@ fn superposed(mechanism: &dyn Kernels, frequency: f64, shares: Vec<Share>) -> Ha
     }
 }
 
-fn add(sum: &mut [Complex], values: &[Complex]) {
+pub(super) fn add(sum: &mut [Complex], values: &[Complex]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += value;
     }

@@ -1,4 +1,5 @@
-//! The appearance of a mechanism, at rest and in its modes: positions and shapes of bodies, joints, points and forces.
+//! The appearance of a mechanism, at rest, in its modes and in forced vibration: positions and shapes of bodies, joints,
+//! points and forces.
 
 mod ellipsoid;
 mod extent;
@@ -8,6 +9,7 @@ mod vibration;
 
 pub use read::scene;
 pub use scene::{
-    Body, Element, Joint, Link, ModePictures, Point, Pose, Scene, Seat, Shape, Solid, Wheel,
+    Body, Element, Joint, Link, ModePictures, Point, Pose, Scene, Seat, Shape, Solid,
+    VibrationPictures, Wheel,
 };
-pub use vibration::mode_pictures;
+pub use vibration::{mode_pictures, vibration_pictures};

@@ -286,3 +286,16 @@ pub struct ModePictures {
     /// The poses of all bodies at evenly spaced phases, the first at phase 0.
     pub frames: Vec<Vec<Pose>>,
 }
+
+/// A forced vibration as poses over one period.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct VibrationPictures {
+    /// `w`, rad/s.
+    pub frequency: f64,
+    /// The factor between the displacements shown and those of the vibration; zero if it moves no body.
+    pub enlargement: f64,
+    /// The poses of all bodies at evenly spaced phases, the first at phase 0.
+    pub frames: Vec<Vec<Pose>>,
+}

@@ -1,10 +1,11 @@
-//! Modes as poses over one period.
+//! Modes and forced vibrations as poses over one period.
 
 use super::extent::dot;
 use super::read::{poses, scene};
-use super::scene::{ModePictures, Pose, Scene};
+use super::scene::{ModePictures, Pose, Scene, VibrationPictures};
 use crate::constraints::Structure;
 use crate::equilibrium::assemble;
+use crate::forced::Harmonic;
 use crate::kernels::PictureKernels;
 use crate::{Complex, Equilibrium, Error, Modes};
 
@@ -41,6 +42,44 @@ pub fn mode_pictures(
             count: modes.modes.len(),
         });
     };
+    let (amplitude, frames) = over_a_period(mechanism, at, &found.shape, phases, amplitude)?;
+    Ok(ModePictures {
+        mode,
+        amplitude,
+        frames,
+    })
+}
+
+/// Poses of all bodies over one period of a forced vibration: the operating deflection shape, at
+/// `q* + a Re(z e^(i theta))` with the amplitudes `z` of its coordinates, enlarged or reduced by the factor `a` as modes
+/// are ([`mode_pictures`]).
+///
+/// # Errors
+/// As [`mode_pictures`].
+pub fn vibration_pictures(
+    mechanism: &dyn PictureKernels,
+    at: &Equilibrium,
+    harmonic: &Harmonic,
+    phases: usize,
+    amplitude: f64,
+) -> Result<VibrationPictures, Error> {
+    let shape = &harmonic.unknowns;
+    let (enlargement, frames) = over_a_period(mechanism, at, shape, phases, amplitude)?;
+    Ok(VibrationPictures {
+        frequency: harmonic.frequency,
+        enlargement,
+        frames,
+    })
+}
+
+/// The factor of a shape and the poses over one period of its motion.
+fn over_a_period(
+    mechanism: &dyn PictureKernels,
+    at: &Equilibrium,
+    shape: &[Complex],
+    phases: usize,
+    amplitude: f64,
+) -> Result<(f64, Vec<Vec<Pose>>), Error> {
     if !(amplitude >= 0.0 && amplitude.is_finite()) {
         return Err(Error::Setting {
             setting: "amplitude",
@@ -48,7 +87,7 @@ pub fn mode_pictures(
         });
     }
     let structure = Structure::of(&mechanism.description());
-    let shape: Vec<Complex> = (found.shape.iter().enumerate())
+    let shape: Vec<Complex> = (shape.iter().enumerate())
         .map(|(k, &value)| match k < structure.coordinates {
             true => value,
             false => Complex::ZERO,
@@ -59,16 +98,12 @@ pub fn mode_pictures(
         at,
         closes: structure.position_constraints > 0,
     };
-    let amplitude = motion.factor(&shape, amplitude)?;
+    let factor = motion.factor(&shape, amplitude)?;
     let frames = (0..phases).map(|k| {
         let angle = core::f64::consts::TAU * k as f64 / phases as f64;
-        motion.poses(&shape, Complex::from_polar(amplitude, angle))
+        motion.poses(&shape, Complex::from_polar(factor, angle))
     });
-    Ok(ModePictures {
-        mode,
-        amplitude,
-        frames: frames.collect::<Result<_, _>>()?,
-    })
+    Ok((factor, frames.collect::<Result<_, _>>()?))
 }
 
 /// States about an equilibrium.

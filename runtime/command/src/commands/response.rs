@@ -1,14 +1,18 @@
 //! Forced vibration.
 
 use clap::Args;
+use eigentol::bode::Bode;
 use eigentol::response::Vibration;
 use eigentol::{Excitation, Output as DeclaredOutput, Study};
+use eigentol_figures as figures;
 use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::point::{Point, samples, whole};
+use crate::picture::Picture;
+use crate::point::{Point, Question, samples, whole};
 use crate::progress;
+use crate::requirements::named_vibration;
 use crate::sweep::{Points, Range, Sweep, range};
 use crate::verdict::Verdict;
 
@@ -34,23 +38,37 @@ pub(crate) struct Response {
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true, requires = "bands")]
     checked: Option<usize>,
     /// The peaks of every amplitude in the range of `--sweep`, with their half-power points and spreads
-    #[arg(long, conflicts_with = "bands")]
+    #[arg(long, conflicts_with_all = ["bands", "figure"])]
     peaks: bool,
     /// Speeds of operation, for separation margins in the manner of API 617: `speed=4000..6000rpm`
     #[arg(long, value_name = "NAME=FROM..TO", requires = "peaks")]
     operating: Option<String>,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    picture: Picture,
+    /// Vibration in the figure: `shake`, or `shake under u` [default: the first output under the first excitation]
+    #[arg(long, value_name = "VIBRATION", requires = "figure")]
+    draw: Option<String>,
 }
 
 impl Response {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
+        self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let wanted = vibrations(&question.study);
         let number = samples(self.samples, &question.file)?;
         question.study = question.study.samples(number);
+        let drawn = self.drawn(&question.study, &wanted)?;
         let Some(range) = self.sweep.range_if_any(&question)? else {
+            if self.picture.is_wanted() {
+                let message = "the figure is a Bode plot, which needs values of an input";
+                return Err(Failure::usage(
+                    message,
+                    "give a range: `--sweep speed=0..6000rpm`",
+                ));
+            }
             return self.at_point(&question.study, &wanted);
         };
         if self.peaks {
@@ -65,6 +83,7 @@ impl Response {
             false => study.bode(input, &values)?,
         };
         bar.finish_and_clear();
+        self.figure(&question, &range, &found, drawn)?;
         let mut answer = self.output.answer();
         answer.add(&found)?;
         self.output.write(&answer)?;
@@ -111,6 +130,35 @@ impl Response {
             0 => Ok(Verdict::No("no amplitude has a peak".to_owned())),
             _ => Ok(Verdict::Yes),
         }
+    }
+
+    /// The vibration in the figure; `None` without outputs or excitations, which the analysis refuses.
+    fn drawn(
+        &self,
+        study: &Study<Interpreted>,
+        wanted: &[Vibration],
+    ) -> Result<Option<Vibration>, Failure> {
+        match &self.draw {
+            Some(text) => named_vibration(study, text).map(Some),
+            None => Ok(wanted.first().copied()),
+        }
+    }
+
+    fn figure(
+        &self,
+        question: &Question,
+        range: &Range,
+        found: &Bode,
+        drawn: Option<Vibration>,
+    ) -> Result<(), Failure> {
+        self.picture.draw(|| {
+            let none = || figures::Error::Nothing("the mechanism has no output".to_owned());
+            let drawn = drawn.ok_or_else(none)?;
+            let peaks = (question.study).peaks(drawn, range.input, range.low, range.high);
+            // Without damping a peak is infinite, and the curves say so.
+            let peaks: Vec<_> = peaks.into_iter().collect();
+            figures::bode(found, drawn, &peaks, &self.picture.plain_style(question))
+        })
     }
 
     fn at_point(

@@ -28,10 +28,18 @@ pub use self::save::Form;
 use plotters::prelude::DrawingBackend;
 
 use self::area::{Area, Outcome, words};
-use self::layout::{CAPTION_HEIGHT, Layout, TITLE_HEIGHT, WIDTH, px};
+use self::layout::{CAPTION_HEIGHT, Frame, Layout, TITLE_HEIGHT, WIDTH, px};
 use self::pen::{Anchor, Pen};
 use crate::Figure;
-use crate::figure::Colour;
+use crate::figure::{Colour, Panel};
+
+/// A panel with the same scale along both axes of a frame.
+fn equalised(panel: &Panel, frame: &Frame) -> Panel {
+    let mut panel = panel.clone();
+    let (wide, high) = (frame.right - frame.left, frame.bottom - frame.top);
+    panel.equalise(f64::from(wide) / f64::from(high));
+    panel
+}
 
 /// Draws a figure onto an area of the size its layout requires.
 fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> Outcome {
@@ -42,7 +50,10 @@ fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> 
     pen.fitted(&figure.title, title, 22, Anchor::Middle, px(WIDTH - 48))?;
     legend::draw(&pen, layout)?;
     for (own, frame) in figure.panels.iter().zip(&layout.panels) {
-        panel::draw(&pen, own, frame)?;
+        match own.equal_scales {
+            true => panel::draw(&pen, &equalised(own, frame), frame)?,
+            false => panel::draw(&pen, own, frame)?,
+        }
     }
     for (k, line) in layout.caption.iter().enumerate() {
         let y = layout.caption_top + px(CAPTION_HEIGHT) * k as i32 + px(CAPTION_HEIGHT) / 2;

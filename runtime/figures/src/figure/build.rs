@@ -199,6 +199,17 @@ impl Panel {
         }
     }
 
+    /// Widens one range about its middle until both axes have the same scale in a frame of these proportions, width over
+    /// height.
+    pub fn equalise(&mut self, proportions: f64) {
+        let [wide, high] = [&self.x, &self.y].map(|axis| axis.range[1] - axis.range[0]);
+        if wide < proportions * high {
+            self.x.widen(proportions * high);
+        } else {
+            self.y.widen(wide / proportions);
+        }
+    }
+
     /// Whether the panel has any content besides axes and marks.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -244,6 +255,11 @@ impl Figure {
 impl Axis {
     fn has_range(&self) -> bool {
         self.range[0] < self.range[1]
+    }
+
+    fn widen(&mut self, length: f64) {
+        let middle = f64::midpoint(self.range[0], self.range[1]);
+        self.range = [middle - 0.5 * length, middle + 0.5 * length];
     }
 }
 

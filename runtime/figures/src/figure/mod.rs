@@ -52,4 +52,6 @@ pub struct Panel {
     pub markers: Vec<Markers>,
     /// Texts beside points.
     pub labels: Vec<Label>,
+    /// A unit is equally long along both axes: where it is drawn, one of the ranges is widened.
+    pub equal_scales: bool,
 }

@@ -167,11 +167,7 @@ impl<'a> Course<'a> {
     /// The horizontal axis, from the first to the last value.
     pub(crate) fn axis(&self) -> Axis {
         let mut axis = input_axis(self.description, self.input);
-        let values = self.stations.iter().map(|own| own.value);
-        let values = values.filter(|value| value.is_finite());
-        axis.range = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-            [low.min(value), high.max(value)]
-        });
+        axis.range = ends(self.stations.iter().map(|own| own.value));
         axis
     }
 
@@ -214,6 +210,14 @@ pub(crate) fn input_axis(d: &Description, input: Input) -> Axis {
         Some(info) => Axis::new(&*info.name, &*info.unit.symbol),
         None => Axis::default(),
     }
+}
+
+/// The least and the greatest of the finite values.
+pub(crate) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let finite = values.filter(|value| value.is_finite());
+    finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [low.min(value), high.max(value)]
+    })
 }
 
 /// The unit of an input; a pure number if the input is unknown.

@@ -1,6 +1,7 @@
 //! Figures of the results of the library, one file for each kind.
 
 mod along;
+mod bode;
 mod branches;
 mod campbell;
 mod damping;
@@ -10,6 +11,7 @@ mod equilibria;
 mod events;
 mod frequencies;
 mod histogram;
+mod orbit;
 mod scale;
 mod shapes;
 mod shares;
@@ -17,6 +19,7 @@ mod spreads;
 mod tracks;
 
 pub use along::Along;
+pub use bode::{bode, polar};
 pub use branches::branches;
 pub use campbell::campbell;
 pub use damping::damping_ratios;
@@ -24,6 +27,7 @@ pub use eigenvalues::{eigenvalues, root_locus};
 pub use equilibria::equilibria;
 pub use frequencies::frequencies;
 pub use histogram::{Histogram, second_order_failure};
+pub use orbit::orbit;
 pub use shapes::{mode_shapes, participation};
 pub use shares::{shares, shares_of_all};
 pub use spreads::Spreads;

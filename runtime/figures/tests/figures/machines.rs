@@ -83,6 +83,30 @@ mechanism! {
     }
 }
 
+mechanism! {
+    /// A disk with a residual unbalance on springs of different stiffness: it whirls backward between its resonances.
+    pub(crate) mechanism Unbalanced {
+        input speed: rpm;
+        design kx = 40 kN/m +/- 5%;
+        design ky = 70 kN/m +/- 5%;
+        design c = 30 N*s/m +/- 20%;
+        body across: massless;
+        body plate: massless;
+        body disk: cylinder(mass: 4 kg, radius: 0.1 m, length: 0.02 m, axis: z);
+        joint x: prismatic(x) from ground to across;
+        joint y: prismatic(y) from across to plate;
+        joint spin: revolute(z) from plate to disk, driven at speed;
+        force sideways: spring(on: x, stiffness: kx);
+        force upwards: spring(on: y, stiffness: ky);
+        force damp_x: damper(on: x, damping: c);
+        force damp_y: damper(on: y, damping: c);
+        unbalance residual: on disk, amount: 20 g*mm;
+        output right = x;
+        output up = y;
+        output turned = x / 1 m;
+    }
+}
+
 /// Evenly spaced values from `low` to `high`.
 pub(crate) fn values(low: f64, high: f64, count: usize) -> Vec<f64> {
     let step = (high - low) / (count.max(2) - 1) as f64;

@@ -3,6 +3,7 @@
 mod along;
 mod degenerate;
 mod drawing;
+mod forced;
 mod machines;
 mod paper;
 mod point;

@@ -11,6 +11,7 @@ mod parts;
 mod shares;
 mod variables;
 mod verdicts;
+mod vibration;
 
 use crate::Error;
 use crate::content::Content;
@@ -18,11 +19,12 @@ use crate::html::Html;
 use crate::words::sentence;
 
 /// Anchors and headings of the sections, in order.
-pub(crate) const HEADINGS: [(&str, &str); 8] = [
+pub(crate) const HEADINGS: [(&str, &str); 9] = [
     ("brief", "In short"),
     ("mechanism", "Mechanism"),
     ("equilibrium", "Equilibrium"),
     ("modes", "Modes"),
+    ("vibration", "Forced vibration"),
     ("verdicts", "Tolerances"),
     ("shares", "Contributions"),
     ("distributions", "Distributions"),
@@ -32,11 +34,12 @@ pub(crate) const HEADINGS: [(&str, &str); 8] = [
 /// Writes a section.
 type Section = fn(&mut Html, &Content) -> Result<(), Error>;
 
-const SECTIONS: [Section; 8] = [
+const SECTIONS: [Section; 9] = [
     brief::section,
     mechanism::section,
     equilibrium::section,
     modes::section,
+    vibration::section,
     verdicts::section,
     shares::section,
     distributions::section,

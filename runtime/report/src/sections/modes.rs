@@ -56,7 +56,12 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 /// The 3-D view of the mechanism.
 fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), Error> {
     let modes = content.modes.as_ref().ok();
-    let json = serde_json::to_string(&View::new(pictures, modes, &content.brief_style))?;
+    let json = serde_json::to_string(&View::new(
+        pictures,
+        &content.description,
+        modes,
+        &content.brief_style,
+    ))?;
     html.element("div", &[("class", "mechanism")], |html| {
         html.leaf("div", &[("class", "drawing")], "");
         html.data("scene", &json);

@@ -1,0 +1,88 @@
+//! Forced vibration at the operating point and along an input.
+
+use eigentol::bode::Bode;
+use eigentol::forced::ForcedResponse;
+use eigentol::kernels::SummaryKernels;
+use eigentol::peaks::Peaks;
+use eigentol::propagation::Propagation;
+use eigentol::response::Vibration;
+use eigentol::{Description, Error, Excitation, Input, Output, Study};
+
+use crate::content::answer;
+
+/// Number of designs solved anew to check each band.
+const CHECKED: usize = 16;
+
+/// The vibration of every output under every harmonic.
+pub(crate) struct Forced {
+    pub(crate) response: Result<ForcedResponse, Error>,
+    /// How tolerances spread the amplitudes; `None` if nothing has a tolerance, or nothing vibrates.
+    pub(crate) spread: Option<Result<Propagation, Error>>,
+    /// `None` if no input is swept.
+    pub(crate) along: Option<ForcedAlong>,
+}
+
+/// Forced vibration along an input.
+pub(crate) struct ForcedAlong {
+    pub(crate) bode: Result<Bode, Error>,
+    /// One entry for each vibration.
+    pub(crate) peaks: Vec<(Vibration, Result<Peaks, Error>)>,
+}
+
+impl Forced {
+    pub(crate) fn of<M: SummaryKernels>(
+        study: &Study<M>,
+        along: Option<(Input<M>, &[f64])>,
+        varies: bool,
+    ) -> Result<Self, Error> {
+        let response = answer(study.forced_response())?;
+        let wanted = vibrations(study.description());
+        let spread = varies && response.is_ok() && !wanted.is_empty();
+        let spread = spread.then(|| answer(study.vibration_spread(&wanted)));
+        let along = along.map(|(input, values)| {
+            let bode = match varies {
+                true => study.bode_bands(input, values, &wanted, CHECKED),
+                false => study.bode(input, values),
+            };
+            let ends = (values.first(), values.last());
+            let peaks = match ends {
+                (Some(&first), Some(&last)) if first != last => (wanted.iter())
+                    .map(|own| (*own, study.peaks(*own, input, first, last)))
+                    .collect(),
+                _ => Vec::new(),
+            };
+            ForcedAlong { bode, peaks }
+        });
+        Ok(Self {
+            response,
+            spread: spread.transpose()?,
+            along,
+        })
+    }
+}
+
+/// The first excitation of each harmonic.
+pub(crate) fn harmonics(d: &Description) -> Vec<usize> {
+    let all = d.excitations.iter().enumerate();
+    let firsts = all.filter(|(k, info)| info.with == *k);
+    firsts.map(|(k, _)| k).collect()
+}
+
+/// The names of all excitations of the harmonic of one.
+pub(crate) fn excitations(d: &Description, harmonic: usize) -> String {
+    let all = d.excitations.iter().filter(|info| info.with == harmonic);
+    let names: Vec<&str> = all.map(|info| &*info.name).collect();
+    names.join(", ")
+}
+
+/// Every output under every harmonic.
+pub(crate) fn vibrations(d: &Description) -> Vec<Vibration> {
+    let outputs = 0..d.outputs.len();
+    let under = |excitation: usize| {
+        outputs.clone().map(move |output| {
+            let (output, excitation) = (Output::<()>::new(output), Excitation::new(excitation));
+            Vibration::new(output, excitation)
+        })
+    };
+    harmonics(d).into_iter().flat_map(under).collect()
+}

@@ -1,0 +1,125 @@
+//! Forced vibration: amplitudes at the operating point and along the swept input.
+
+use eigentol_figures::bode;
+use eigentol_tables::Answer as _;
+
+use super::{MODES, refused};
+use crate::Error;
+use crate::charts::chart;
+use crate::content::Content;
+use crate::forced::{Forced, ForcedAlong, vibrations};
+use crate::html::Html;
+use crate::tables::table;
+use crate::words::capital;
+
+pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
+    let Some(forced) = &content.forced else {
+        html.leaf("p", &[("class", "refused")], "Nothing excites a vibration.");
+        return Ok(());
+    };
+    at_point(html, content, forced)?;
+    match &forced.along {
+        Some(along) => along_input(html, content, along),
+        None => Ok(()),
+    }
+}
+
+fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), Error> {
+    let found = match &forced.response {
+        Ok(found) => found,
+        Err(error) => {
+            refused(html, "there is no steady vibration", error);
+            return Ok(());
+        }
+    };
+    html.paragraph(
+        "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.",
+    );
+    motion(html, content);
+    let several = found.harmonics.iter().any(|own| own.shares.len() > 1);
+    for own in found.tables() {
+        match &*own.name {
+            "forced response" => table(html, "Vibration at the operating point", &own, &[])?,
+            "shares" if several => table(html, "What each excitation contributes", &own, &[])?,
+            _ => {}
+        }
+    }
+    match &forced.spread {
+        Some(Ok(spread)) => {
+            let columns = ["response", "unit", "nominal", "mean", "sigma", "skewness"];
+            for own in spread.tables() {
+                if own.name == "spreads" {
+                    table(html, "How tolerances spread the amplitudes", &own, &columns)?;
+                }
+            }
+        }
+        Some(Err(error)) => refused(html, "amplitudes have no spread", error),
+        None => {}
+    }
+    Ok(())
+}
+
+/// States which vibrations are seen in motion, and why others are not.
+fn motion(html: &mut Html, content: &Content) {
+    let Ok(pictures) = &content.pictures else {
+        return;
+    };
+    if pictures.vibrations.iter().any(Result::is_ok) {
+        html.paragraph("The view of the modes in 3-D shows the vibration of the whole mechanism too, about the equilibrium: what turns with a drive is seen standing still.");
+    }
+    for error in pictures
+        .vibrations
+        .iter()
+        .filter_map(|own| own.as_ref().err())
+    {
+        refused(html, "a vibration is not shown in motion", error);
+    }
+}
+
+fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Result<(), Error> {
+    let found = match &along.bode {
+        Ok(found) => found,
+        Err(error) => {
+            refused(html, "vibration along the input is not known", error);
+            return Ok(());
+        }
+    };
+    let failed = found
+        .points
+        .iter()
+        .filter(|own| own.vibration.is_err())
+        .count();
+    if failed > 0 {
+        let all = found.points.len();
+        let text =
+            format!("At {failed} of {all} values there is no vibration: the table says why.");
+        html.leaf("p", &[("class", "refused")], &text);
+    }
+    let wanted = vibrations(&content.description);
+    let peaks = along.peaks.iter().filter_map(|own| own.1.as_ref().ok());
+    let peaks: Vec<_> = peaks.cloned().collect();
+    for &vibration in wanted.iter().take(MODES) {
+        let name = eigentol::response::Response::Vibration(vibration).name(&content.description);
+        let style = content.style.clone().title(capital(&name));
+        chart(html, &bode(found, vibration, &peaks, &style))?;
+    }
+    if wanted.len() > MODES {
+        let more = wanted.len() - MODES;
+        html.paragraph(&format!("The other {more} vibrations are in the table."));
+    }
+    for (_, error) in along
+        .peaks
+        .iter()
+        .filter_map(|(own, found)| Some((own, found.as_ref().err()?)))
+    {
+        refused(html, "peaks are not known", error);
+    }
+    for own in found.tables() {
+        let caption = match &*own.name {
+            "bands" => "How tolerances spread the amplitudes along the input",
+            _ => "Vibration along the input",
+        };
+        table(html, caption, &own, &[])?;
+    }
+    Ok(())
+}
