@@ -45,8 +45,8 @@ impl Dense {
     ) -> [T; 3] {
         [0, 1, 2].map(|i| {
             let mut sum = T::constant(size) * x[i];
-            for j in 0..3 {
-                sum = sum + T::constant(0.4) * self.varied(what, 3 * i + j, q, u, b) * x[j];
+            for (j, x) in x.iter().enumerate() {
+                sum = sum + T::constant(0.4) * self.varied(what, 3 * i + j, q, u, b) * *x;
             }
             sum
         })
