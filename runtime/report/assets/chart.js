@@ -125,6 +125,11 @@ class Chart {
   draw() {
     this.inner.left = leftMargin(this.panel.y, this.view[1]);
     const { left, right, top, bottom } = this.inner;
+    if (this.panel.equal_scales) {
+      const all = this.view === this.whole;
+      this.view = equalised(this.view, (right - left) / (bottom - top));
+      if (all) this.whole = this.view;
+    }
     this.x = scale(this.view[0], [left, right]);
     this.y = scale(this.view[1], [bottom, top]);
     this.svg.replaceChildren();

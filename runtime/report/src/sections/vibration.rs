@@ -1,6 +1,6 @@
 //! Forced vibration: amplitudes at the operating point and along the swept input.
 
-use eigentol_figures::bode;
+use eigentol_figures::{bode, polar};
 use eigentol_tables::Answer as _;
 
 use super::{MODES, refused};
@@ -14,7 +14,6 @@ use crate::words::capital;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let Some(forced) = &content.forced else {
-        html.leaf("p", &[("class", "refused")], "Nothing excites a vibration.");
         return Ok(());
     };
     at_point(html, content, forced)?;
@@ -102,6 +101,9 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
         let name = eigentol::response::Response::Vibration(vibration).name(&content.description);
         let style = content.style.clone().title(capital(&name));
         chart(html, &bode(found, vibration, &peaks, &style))?;
+        let style = content.brief_style.clone();
+        let style = style.title(format!("Polar plot of {name}"));
+        chart(html, &polar(found, vibration, &peaks, &style))?;
     }
     if wanted.len() > MODES {
         let more = wanted.len() - MODES;
