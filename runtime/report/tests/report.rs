@@ -439,7 +439,9 @@ fn forced_vibration_is_listed_drawn_and_moved() {
     }
     let figures = data(&html, "figure");
     let titled = |title: &str| figures.iter().find(|own| own["title"] == title).unwrap();
-    let panels = titled("Right under residual")["panels"].as_array().unwrap();
+    let panels = titled("Bode plot of right under residual")["panels"]
+        .as_array()
+        .unwrap();
     assert_eq!(panels.len(), 2);
     assert_eq!(panels[0]["bands"][0]["edges"].as_array().unwrap().len(), 5);
     assert_eq!(panels[0]["error_bars"][0]["label"], "peak");

@@ -113,6 +113,11 @@ fn bands_and_peaks_are_those_of_the_results() {
     let edge = upper.bands[0].edges[10];
     assert_eq!(edge[1..], [quantiles[1].value, quantiles[5].value]);
     assert_eq!(upper.error_bars[0].bars.len(), 1);
+    // The line goes through the peak.
+    let top = upper.error_bars[0].bars[0].at;
+    let through = |own: &Point| own[0] == top[0] && (own[1] / top[1] - 1.0).abs() < 1e-12;
+    assert!(line(upper).iter().any(through));
+    assert_eq!(line(upper).len(), 22);
     let bar = upper.error_bars[0].bars[0];
     let own = &peaks.peaks[0];
     assert!((bar.at[0] * RPM / own.place.value - 1.0).abs() < 1e-12);
