@@ -45,8 +45,8 @@ const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 /// The crates of the product, in order: each may depend on those named here, and has at most this many lines outside its
 /// tests. Whoever needs more decides so here.
 const CRATES: [(&str, &[&str], usize); 19] = [
-    ("runtime/contract", &[], 3_000),
-    ("runtime/statistics", &[], 9_800),
+    ("runtime/contract", &[], 3_250),
+    ("runtime/statistics", &[], 10_200),
     (
         "runtime/numerics",
         &["eigentol-contract", "eigentol-statistics"],
@@ -61,7 +61,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        15_250,
+        15_750,
     ),
     (
         "runtime/tolerance",
@@ -72,7 +72,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-solve",
             "eigentol-statistics",
         ],
-        7_750,
+        8_000,
     ),
     (
         "runtime/analysis",
@@ -84,7 +84,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        24_500,
+        29_500,
     ),
     (
         "runtime",
@@ -97,10 +97,10 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-solve",
             "eigentol-tolerance",
         ],
-        2_750,
+        3_100,
     ),
     ("macros/symbolic", &[], 3_600),
-    ("macros/compiler", &["eigentol-symbolic"], 25_300),
+    ("macros/compiler", &["eigentol-symbolic"], 27_500),
     ("macros", &["eigentol-compiler"], 14),
     ("macros/build", &["eigentol-compiler"], 1_100),
     ("macros/urdf", &["eigentol-compiler"], 2_400),
@@ -131,7 +131,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        4_300,
+        4_600,
     ),
     (
         "runtime/python",
@@ -182,11 +182,14 @@ const CRATE_ROOMS: [(&str, &[&str]); 6] = [
             "sweep",
             "shapes",
             "clusters",
+            "second_order",
+            "forced",
             "response",
             "deviations",
             "judge",
-            "second_order",
             "propagation",
+            "bode",
+            "peaks",
             "requirement",
             "allocation",
             "summary",
@@ -202,7 +205,14 @@ const TYPE_FILES: [(&str, &[&str]); 12] = [
     ("compiler/src/syntax/ast.rs", &[]),
     (
         "compiler/src/model/mechanism.rs",
-        &["constraint", "expression", "shape", "tolerance", "unit"],
+        &[
+            "constraint",
+            "excitation",
+            "expression",
+            "shape",
+            "tolerance",
+            "unit",
+        ],
     ),
     ("compiler/src/model/shape.rs", &["expression"]),
     ("compiler/src/model/constraint.rs", &["expression", "unit"]),

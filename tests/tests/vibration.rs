@@ -2,4 +2,5 @@
 
 mod vibration {
     mod bands;
+    mod closed_forms;
 }

@@ -23,6 +23,7 @@ const TERMS: usize = 4000;
 /// # Ok::<(), eigentol_statistics::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RandomPhases {
     /// Lengths above zero, longest first.
     lengths: Vec<f64>,

@@ -247,8 +247,8 @@ fn a_free_direction_does_not_stand_in_the_way() {
     assert!((second.by_design[0][0] - bend).norm() < 1e-11 * bend.norm());
 }
 
-/// Two masses on springs, tied together twice by the same constraint; a harmonic force on the first. Outputs: the second
-/// position, the force that ties the masses.
+/// Two masses on springs, tied together twice by the same constraint; a harmonic force on the first. The length of the
+/// tie is `shaken`, of one of the two constraints alone if `torn`. Outputs: the second position, the force in the tie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tied;
 
@@ -261,7 +261,7 @@ const fn reaction(name: &'static str) -> CoordinateInfo {
 }
 
 impl Model for Tied {
-    sizes!(4, 1, 2, 2, 1);
+    sizes!(4, 1, 4, 2, 1);
 
     const DESCRIPTION: Description = described!(
         "Tied",
@@ -274,7 +274,9 @@ impl Model for Tied {
         [input("w", SPEED)],
         [
             design("m", NUMBER, 2.0, 0.0),
-            design("k", NUMBER, 30.0, 0.0)
+            design("k", NUMBER, 30.0, 0.0),
+            design("shaken", NUMBER, 0.0, 0.0),
+            design("torn", NUMBER, 0.0, 0.0),
         ],
         [output("y", NUMBER), output("tie", NUMBER)],
         [excitation("force", 0)],
@@ -286,14 +288,14 @@ impl Model for Tied {
         _: &[T; 4],
         q: &[T; 4],
         _: &[T; 1],
-        b: &[T; 2],
+        b: &[T; 4],
     ) -> [T; 4] {
         let none = T::constant(0.0);
         let gap = q[0] - q[1];
         [b[0] * a[0], a[1], gap + none, T::constant(3.0) * gap]
     }
 
-    fn applied<T: Real>(&self, v: &[T; 4], q: &[T; 4], _: &[T; 1], b: &[T; 2]) -> [T; 4] {
+    fn applied<T: Real>(&self, v: &[T; 4], q: &[T; 4], _: &[T; 1], b: &[T; 4]) -> [T; 4] {
         let none = T::constant(0.0);
         let tie = q[2] + T::constant(3.0) * q[3];
         let damper = T::constant(0.7) * v[1];
@@ -305,14 +307,14 @@ impl Model for Tied {
         ]
     }
 
-    fn outputs<T: Real>(&self, q: &[T; 4], _: &[T; 1], _: &[T; 2]) -> [T; 2] {
+    fn outputs<T: Real>(&self, q: &[T; 4], _: &[T; 1], _: &[T; 4]) -> [T; 2] {
         [q[1], q[2] + T::constant(3.0) * q[3]]
     }
 
-    fn forcing<T: Real>(&self, _: &[T; 4], u: &[T; 1], _: &[T; 2]) -> Excited<Self, T> {
+    fn forcing<T: Real>(&self, _: &[T; 4], u: &[T; 1], b: &[T; 4]) -> Excited<Self, T> {
         let none = T::constant(0.0);
         Forcing {
-            cosine: [[T::constant(2.0), none, none, none]],
+            cosine: [[T::constant(2.0), none, b[2] + b[3], T::constant(3.0) * b[2]]],
             frequency: [u[0]],
             direct_cosine: [[none; 2]],
             sine: [[none; 4]],
@@ -325,7 +327,7 @@ impl Model for Tied {
 fn redundant_constraints_share_their_reaction() {
     let model = Derived(Tied);
     let (w, m, k) = (2.5, 2.0, 30.0);
-    let at = equilibrium(&model, &[w], &[m, k], &[0.0; 4], Policy::Stable).unwrap();
+    let at = equilibrium(&model, &[w], &[m, k, 0.0, 0.0], &[0.0; 4], Policy::Stable).unwrap();
     assert_eq!(at.constraints.redundant, 1);
     let of = second_derivatives(&model, &at).unwrap();
     let stiffness = Complex::new(k + 5.0 - (m + 1.0) * w * w, 0.7 * w);
@@ -344,4 +346,32 @@ fn redundant_constraints_share_their_reaction() {
         .complex(0, Output::new(0), Measure::Displacement)
         .unwrap();
     assert!((second.by_design[1][1] - 2.0 * y / (stiffness * stiffness)).norm() < 1e-12 * y.norm());
+}
+
+#[test]
+fn redundant_constraints_are_shaken_together() {
+    let model = Derived(Tied);
+    let (w, m, k) = (2.5, 2.0, 30.0);
+    let found = |shaken: f64, torn: f64| {
+        let at = equilibrium(
+            &model,
+            &[w],
+            &[m, k, shaken, torn],
+            &[0.0; 4],
+            Policy::Stable,
+        );
+        sensitivities(&model, &at.unwrap())
+    };
+    let first = found(0.1, 0.0).unwrap();
+    let stiffness = Complex::new(k + 5.0 - (m + 1.0) * w * w, 0.7 * w);
+    let y = (2.0 - (k - m * w * w) * 0.1) / stiffness;
+    assert!((first.response.harmonics[0].outputs[0] - y).norm() < 1e-13 * y.norm());
+    let slopes = first
+        .complex(0, Output::new(0), Measure::Displacement)
+        .unwrap();
+    let slope = -(k - m * w * w) / stiffness;
+    assert!((slopes.by_design[2] - slope).norm() < 1e-12 * slope.norm());
+    let error = found(0.1, 0.01).unwrap_err();
+    assert!(matches!(error, Error::ClosesHereOnly { .. }), "{error}");
+    assert!(error.to_string().contains("`force`"));
 }

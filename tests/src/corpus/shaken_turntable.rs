@@ -22,7 +22,8 @@ machine! {
         force drive: harmonic(on: swing, moment: 0.02 N*m, order: factor of spin);
         point tip: bob;
         output height = position(tip).z;
-        output holding = reaction_force(heave).z;
+        output holding = reaction_moment(swing).x;
+        output lifting = reaction_force(heave).z * position(tip).z;
         output torque = reaction_moment(spin).z;
     }
 }

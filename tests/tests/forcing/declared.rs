@@ -113,12 +113,8 @@ pub(crate) struct Machine {
 /// Directions across an axis: of angle zero, and a quarter of a turn ahead.
 pub(crate) fn across(axis: V) -> [V; 2] {
     let axis = axis.normalize();
-    let along = |k: usize| (0..3).all(|i| i == k || axis[i] == 0.0);
-    let first = match () {
-        () if along(0) => V::y(),
-        () if along(1) => V::z(),
-        () => (V::x() - axis * axis.x).normalize(),
-    };
+    let reference = [V::y(), V::z(), V::x()][axis.iamax()];
+    let first = (reference - axis * axis.dot(&reference)).normalize();
     let quarter = Rotation3::from_axis_angle(&Unit::new_normalize(axis), 90_f64.to_radians());
     [first, quarter * first]
 }

@@ -50,6 +50,8 @@ fn operation(name: &str) -> Option<Operation> {
             &[("crank_angle", 1.6), ("elbow", -1.4), ("rocker_angle", 1.8)],
         ),
         "geared_rotors" | "geared_coasting" => (&[120.0], &[("run", -72.0)]),
+        "geared_unbalance" => (&[100.0], &[("slow", -40.0)]),
+        "shaken_linkage" => (&[30.0], &[("a", 0.3), ("b", -0.3), ("d", 0.2)]),
         "geared_motor" => (&[2.0], &[("run_in", 90.0), ("run_out", -54.0)]),
         "caster" => (&[3.0], &[("spin", 37.0)]),
         "disk" => (&[8.0], &[("forward", 2.0)]),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Types that cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 29] = [
+const NOT_WRITTEN: [(&str, &str); 33] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
@@ -26,6 +26,9 @@ const NOT_WRITTEN: [(&str, &str); 29] = [
     ("Interval", "a scalar of kernels"),
     ("Output", "written by hand"),
     ("Excitation", "written by hand"),
+    ("Banded", "settings"),
+    ("Derived", "derivatives on their way to a text"),
+    ("Variable", "a name and a unit for texts"),
     ("PartialMatrices", "an intermediate result of kernels"),
     ("Requirements", "borrows a mechanism"),
     ("Responses", "borrows a mechanism"),

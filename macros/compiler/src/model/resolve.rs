@@ -210,7 +210,7 @@ fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
 }
 
 fn is_force(kind: &ItemKind) -> bool {
-    matches!(kind, ItemKind::Force(force) if !excitations::is_harmonic(force))
+    matches!(kind, ItemKind::Force(force) if !force.is_harmonic())
 }
 
 fn count(ast: &Ast, is: fn(&ItemKind) -> bool) -> usize {

@@ -435,6 +435,13 @@ pub struct Force {
     pub law: NamedCall,
 }
 
+impl Force {
+    /// Whether it is an excitation.
+    pub fn is_harmonic(&self) -> bool {
+        self.law.word == "harmonic"
+    }
+}
+
 /// A deviation of a turning body from symmetry about its axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unbalance {

@@ -93,13 +93,13 @@ impl<'a> OutputAdjoint<'a> {
                     let mut own = Weights::zeros(sizes);
                     let members = shares.iter().filter(|share| share.turn() == turn);
                     members.for_each(|share| own.share[share.excitation] = fixed);
-                    own.cosine = factors.left.map(|p| part(p));
+                    own.cosine = factors.left.map(part);
                     own.sine = factors.left.map(|p| turn * part(Complex::new(p.im, -p.re)));
                     own.direct_cosine[self.output] = fixed * part(Complex::ONE);
                     own.direct_sine[self.output] = fixed * turn * part(-Complex::I);
                     if k == 0 {
                         own.output[self.output] = fixed;
-                        own.motion = (factors.motion.each_ref()).map(|x| x.map(|x| part(x)));
+                        own.motion = (factors.motion.each_ref()).map(|x| x.map(part));
                         let first = &shares[0];
                         own.frequency[first.excitation] = first.turn() * part(factors.slope);
                     }

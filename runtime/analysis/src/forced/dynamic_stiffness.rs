@@ -40,17 +40,16 @@ struct Vanishing {
 impl DynamicStiffness {
     /// At `s = i w`; `None` if it is singular beyond what single modes explain.
     pub(super) fn new(linear: &Linear, s: Complex) -> Option<Self> {
-        let (k, c, m) = (&linear.stiffness, &linear.damping, &linear.mass);
-        let (n, w) = (k.row_count(), s.norm());
-        let terms = Matrix::from_fn(n, n, |i, j| {
-            k[i][j].abs() + w * (c[i][j].abs() + w * m[i][j].abs())
+        let (c, m) = (&linear.damping, &linear.mass);
+        let Scaled {
+            rows,
+            columns,
+            mut matrix,
+        } = Scaled::new(linear, s);
+        let n = rows.len();
+        let slope = Matrix::from_fn(n, n, |i, j| {
+            (2.0 * s * m[i][j] + c[i][j]) * (rows[i] * columns[j])
         });
-        let (rows, columns) = scales(&terms);
-        let scaled = |value: &dyn Fn(usize, usize) -> Complex| {
-            Matrix::from_fn(n, n, |i, j| value(i, j) * (rows[i] * columns[j]))
-        };
-        let slope = scaled(&|i, j| 2.0 * s * m[i][j] + c[i][j]);
-        let mut matrix = scaled(&|i, j| s * (s * m[i][j] + c[i][j]) + k[i][j]);
         let mut vanishing = Vec::new();
         for _ in 0..=n {
             let (factors, regular) = factored(&matrix)?;
@@ -107,8 +106,35 @@ impl DynamicStiffness {
     }
 }
 
+/// The dynamic stiffness with scaled rows and columns.
+pub(super) struct Scaled {
+    /// Powers of two.
+    pub(super) rows: Vector,
+    pub(super) columns: Vector,
+    pub(super) matrix: Matrix<Complex>,
+}
+
+impl Scaled {
+    pub(super) fn new(linear: &Linear, s: Complex) -> Self {
+        let (k, c, m) = (&linear.stiffness, &linear.damping, &linear.mass);
+        let (n, w) = (k.row_count(), s.norm());
+        let terms = Matrix::from_fn(n, n, |i, j| {
+            k[i][j].abs() + w * (c[i][j].abs() + w * m[i][j].abs())
+        });
+        let (rows, columns) = scales(&terms);
+        let matrix = Matrix::from_fn(n, n, |i, j| {
+            (s * (s * m[i][j] + c[i][j]) + k[i][j]) * (rows[i] * columns[j])
+        });
+        Self {
+            rows,
+            columns,
+            matrix,
+        }
+    }
+}
+
 /// Powers of two that bring the largest element of every row and column near one.
-pub(super) fn scales(terms: &Matrix) -> (Vector, Vector) {
+fn scales(terms: &Matrix) -> (Vector, Vector) {
     let n = terms.row_count();
     let (mut rows, mut columns) = (Vector::filled(n, 1.0), Vector::filled(n, 1.0));
     let root = |most: f64| match most > 0.0 && most.is_finite() {
@@ -173,7 +199,7 @@ fn refined(
     Vector::from_fn(x.len(), |i| x[i] + correction[i])
 }
 
-fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
+pub(super) fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
     let row = |row: &[Complex]| row.iter().zip(x).map(|(a, x)| a * x).sum();
     matrix.iter().map(row).collect()
 }

@@ -16,8 +16,9 @@
 //! residues to first order amount to the same, but here equal modes need no care, and with as many vectors as unknowns
 //! `E` is `D`.
 
-use super::dynamic_stiffness::{factored, scales};
+use super::dynamic_stiffness::{Scaled, factored, times};
 use super::forces::{Forces, Seen};
+use super::response::add;
 use crate::algebra::{Lu, Matrix, Vector};
 use crate::kernels::{CurvatureKernels, Linear};
 use crate::sensitivity::{Direction, equilibrium_shift, outside_domain};
@@ -85,7 +86,7 @@ impl<'a> Resolvent<'a> {
             });
         }
         let scaled = Scaled::new(&at.linear, s);
-        let bordered = Bordered::new(&scaled.stiffness).ok_or_else(|| outside_domain(at))?;
+        let bordered = Bordered::new(&scaled.matrix).ok_or_else(|| outside_domain(at))?;
         let seen = Seen::of(mechanism, at);
         let outputs = mechanism.sizes().outputs;
         let rows = |row: &dyn Fn(usize) -> Vector<Complex>| scaled.outputs(outputs, row);
@@ -178,31 +179,7 @@ impl<'a> Resolvent<'a> {
     }
 }
 
-/// `D` and what acts on it, scaled.
-struct Scaled {
-    rows: Vector,
-    columns: Vector,
-    stiffness: Matrix<Complex>,
-}
-
 impl Scaled {
-    fn new(linear: &Linear, s: Complex) -> Self {
-        let (k, c, m) = (&linear.stiffness, &linear.damping, &linear.mass);
-        let (n, w) = (k.row_count(), s.norm());
-        let terms = Matrix::from_fn(n, n, |i, j| {
-            k[i][j].abs() + w * (c[i][j].abs() + w * m[i][j].abs())
-        });
-        let (rows, columns) = scales(&terms);
-        let stiffness = Matrix::from_fn(n, n, |i, j| {
-            (s * (s * m[i][j] + c[i][j]) + k[i][j]) * (rows[i] * columns[j])
-        });
-        Self {
-            rows,
-            columns,
-            stiffness,
-        }
-    }
-
     /// The change of `D` with the matrices and with `s`.
     fn change(&self, linear: &Linear, by: &Linear, s: Complex, ds: Complex) -> Matrix<Complex> {
         let n = self.rows.len();
@@ -329,11 +306,6 @@ fn product(a: &Matrix<Complex>, b: &Matrix<Complex>) -> Matrix<Complex> {
     product
 }
 
-fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
-    let row = |row: &[Complex]| row.iter().zip(x).map(|(a, x)| a * x).sum();
-    matrix.iter().map(row).collect()
-}
-
 fn negated(mut matrix: Matrix<Complex>) -> Matrix<Complex> {
     let entries = matrix.as_flattened_mut().iter_mut();
     entries.for_each(|entry| *entry = -*entry);
@@ -346,10 +318,4 @@ fn difference(mut a: Matrix<Complex>, b: &Matrix<Complex>) -> Matrix<Complex> {
         *entry -= other;
     }
     a
-}
-
-fn add(sum: &mut [Complex], values: &[Complex]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += value;
-    }
 }

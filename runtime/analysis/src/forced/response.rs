@@ -5,7 +5,8 @@ use std::rc::Rc;
 use super::dynamic_stiffness::DynamicStiffness;
 use super::forces::{Forces, Seen};
 use super::measure::Measure;
-use crate::algebra::{Vector, dot_complex};
+use crate::algebra::{Vector, dot_complex, largest};
+use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::modes::modes;
 use crate::sensitivity::check_state;
@@ -68,7 +69,9 @@ impl ForcedResponse {
     #[must_use]
     pub fn harmonic<M>(&self, excitation: Excitation<M>) -> Option<&Harmonic> {
         let drives = |own: &Share| own.excitation == excitation.index();
-        self.harmonics.iter().find(|own| own.shares.iter().any(drives))
+        self.harmonics
+            .iter()
+            .find(|own| own.shares.iter().any(drives))
     }
 }
 
@@ -92,7 +95,8 @@ impl Harmonic {
 /// # Errors
 /// [`Error::NoExcitation`], [`Error::NoFrequency`] for an excitation that stands still, [`Error::Resonance`] if an
 /// excitation drives a mode without damping at its natural frequency, [`Error::OutsideDomain`] if a force is not finite,
-/// [`Error::SingularConfiguration`].
+/// [`Error::SingularConfiguration`], [`Error::ClosesHereOnly`] if redundant constraints contradict each other while they
+/// are shaken.
 pub fn response(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<ForcedResponse, Error> {
     Ok(Solved::new(mechanism, at)?.response())
 }
@@ -129,6 +133,7 @@ impl<'a> Solved<'a> {
                 coordinates: at.coordinates.to_vec(),
             });
         }
+        closes(at, &forces)?;
         let seen = Seen::of(mechanism, at);
         let mut vibrations: Vec<Vibration> = Vec::new();
         for first in (0..infos.len()).filter(|&k| infos[k].with == k) {
@@ -173,6 +178,44 @@ impl<'a> Solved<'a> {
     }
 }
 
+/// Share of a gap that redundant constraints may disagree by: rounding.
+const ROUNDING: f64 = 1e-9;
+/// Share of a null vector below which a constraint takes no part in it.
+const TAKES_PART: f64 = 1e-10;
+
+/// Checks that redundant constraints agree while they are shaken: with `n` a left null vector of the constraints on
+/// positions and velocities, the gaps that an excitation opens cancel, those of positions as velocities.
+fn closes(at: &Equilibrium, forces: &Forces) -> Result<(), Error> {
+    if at.constraints.redundant == 0 {
+        return Ok(());
+    }
+    let structure = Structure::of(&at.description);
+    let tangent = Tangent::new(&at.linear, structure);
+    for n in (0..tangent.redundant()).map(|k| tangent.null_left(k)) {
+        for (excitation, info) in at.description.excitations.iter().enumerate() {
+            let s = Complex::new(0.0, forces.frequency(excitation));
+            let gaps = forces.force(excitation, 1.0);
+            let opened = |i: usize| match structure.position_rows().contains(&i) {
+                true => s * n[i] * gaps[i],
+                false => n[i] * gaps[i],
+            };
+            let takes_part = |i: &usize| n[*i].abs() > TAKES_PART * largest(&n);
+            let rows = (structure.motions()..n.len()).filter(takes_part);
+            let all: Complex = rows.clone().map(opened).sum();
+            let size = rows.clone().map(|i| opened(i).norm()).sum::<f64>();
+            if all.norm() > ROUNDING * size {
+                let most = |a: &usize, b: &usize| opened(*a).norm().total_cmp(&opened(*b).norm());
+                let constraint = rows.max_by(most).unwrap_or_default();
+                return Err(Error::ClosesHereOnly {
+                    constraint: at.description.unknown_name(constraint),
+                    variable: info.name.clone(),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
 /// The response to one excitation.
 fn share(
     at: &Equilibrium,
@@ -212,7 +255,7 @@ fn superposed(mechanism: &dyn Kernels, frequency: f64, shares: Vec<Share>) -> Ha
     }
 }
 
-fn add(sum: &mut [Complex], values: &[Complex]) {
+pub(super) fn add(sum: &mut [Complex], values: &[Complex]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += value;
     }

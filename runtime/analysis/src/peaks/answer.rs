@@ -12,6 +12,9 @@ use crate::{Text, Unit};
 
 displayed!(Peaks);
 
+/// A number of a peak.
+type Part = fn(&Peak) -> Option<&Moving>;
+
 /// `peaks`: a row for each; `derivatives of peaks`: a row for each quantity of each peak and each design variable, in its
 /// unit per `unit` of the variable.
 impl Answer for Peaks {
@@ -33,11 +36,11 @@ impl Answer for Peaks {
         let mut table = Columns::new("peaks", &self.peaks);
         varied(&mut table, d, input, number, &|peak| peak.place.value);
         let half = |peak: &Peak, k: usize| Some(peak.half_power[k].place()?.value);
-        let columns: [(&str, &Unit, &dyn Fn(&Peak) -> Option<&Moving>); 4] = [
-            ("place", &units[0], &|peak| Some(&peak.place)),
-            ("frequency", &units[1], &|peak| Some(&peak.frequency)),
-            ("height", &units[2], &|peak| Some(&peak.height)),
-            ("amplification", &units[3], &|peak| {
+        let columns: [(&str, &Unit, Part); 4] = [
+            ("place", &units[0], |peak| Some(&peak.place)),
+            ("frequency", &units[1], |peak| Some(&peak.frequency)),
+            ("height", &units[2], |peak| Some(&peak.height)),
+            ("amplification", &units[3], |peak| {
                 peak.amplification.as_ref()
             }),
         ];

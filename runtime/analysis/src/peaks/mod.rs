@@ -71,7 +71,7 @@ pub struct Peak {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HalfPower {
     /// The value of the input, SI.
-    At(Moving),
+    At(Box<Moving>),
     /// The range, or the stretch without gaps, ends before.
     EndOfRange,
     /// The amplitude rises again before.
@@ -293,7 +293,7 @@ impl Search<'_> {
         };
         let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
         let half_power = [before, after].map(|found| match found {
-            Ok(half) => HalfPower::At(half.place),
+            Ok(half) => HalfPower::At(half.place.into()),
             Err(missing) => missing,
         });
         Ok(Peak {

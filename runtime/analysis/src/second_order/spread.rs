@@ -5,10 +5,10 @@ use super::curvature::{ModeCurvature, mode_curvatures};
 use super::nonlinearity::Nonlinearity;
 use super::quadratic::{ModelMoments, Quadratic};
 use crate::algebra::Vector;
-use crate::judge::Doubt;
 use crate::kernels::CurvatureKernels;
 use crate::modes::Family;
 use crate::sensitivity::{Quantity, sensitivities};
+use crate::tolerance::Doubt;
 use crate::tolerance::{Tolerances, first_order};
 use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
 

@@ -71,12 +71,14 @@ impl Tangent {
     }
 
     /// Number of constraints that follow from the others.
-    pub(crate) fn redundant(&self) -> usize {
+    #[doc(hidden)]
+    pub fn redundant(&self) -> usize {
         self.all.dependent()
     }
 
     /// Left null vector `k` of all constraints, at the positions of their rows: `n^T [[H, 0], [A_q, A_v]] = 0`.
-    pub(crate) fn null_left(&self, k: usize) -> Vector {
+    #[doc(hidden)]
+    pub fn null_left(&self, k: usize) -> Vector {
         placed(self.structure, &self.all.null_left(k))
     }
 

@@ -126,8 +126,8 @@ fn additions(g: &mut Graph, context: &Context, parameters: &[SymbolList]) -> Exc
 }
 
 /// Two perpendicular directions across the axis about which a body is turned by the nearest running coordinate, in the
-/// body's frame: along x if that is across, otherwise along y for an axis along x; the second is a quarter of a turn
-/// ahead. `None` if nothing turns the body.
+/// body's frame: along x for an axis along z, y for x, z for y, and for any other axis along the part across it of the
+/// one that belongs to the nearest of these. The second is a quarter of a turn ahead. `None` if nothing turns the body.
 fn across(
     g: &mut Graph,
     context: &Context,
@@ -136,15 +136,16 @@ fn across(
 ) -> Option<[Vector3; 2]> {
     let axis = axis(g, context, kinematics, body)?;
     let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;
+    let size = |k: usize| context.nominal(g, axis.0[k]).abs();
+    let nearest = (1..3).fold(0, |best, k| if size(k) > size(best) { k } else { best });
+    let reference = (nearest + 1) % 3;
     let zero = vanish(g, context, &axis.0);
-    let along = |k: usize| (0..3).all(|i| i == k || zero[i]);
-    let first = match () {
-        () if along(2) => unit[0],
-        () if along(0) => unit[1],
-        () if along(1) => unit[2],
-        () => {
-            let part = axis.scale(g, axis.0[0]);
-            let across = unit[0].sub(g, part);
+    let exactly = (0..3).all(|k| k == nearest || zero[k]);
+    let first = match exactly {
+        true => unit[reference],
+        false => {
+            let part = axis.scale(g, axis.0[reference]);
+            let across = unit[reference].sub(g, part);
             let length = across.norm(g);
             Vector3(across.0.map(|component| g.div(component, length)))
         }

@@ -9,7 +9,6 @@ use super::placements::zero;
 use super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::base::ids::{CoordinateId, JointId};
-use crate::base::span::Extent;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{
     CoordinateQuantity, Deviation, Excitation, ExcitationLaw, Frame, Frequency, ShakenBy,
@@ -46,11 +45,6 @@ const SHAKEN: &[Signature<()>] = &[Signature::new(
 .optional(&["frequency", "order", "phase"])
 .exactly_one(&["amplitude", "velocity", "acceleration"])];
 
-/// Whether a force is an excitation.
-pub(super) fn is_harmonic(force: &Force) -> bool {
-    force.law.word == "harmonic"
-}
-
 fn shakes(joint: &Joint) -> impl Iterator<Item = &Shake> {
     joint.clauses.iter().filter_map(|clause| match clause {
         JointClause::Shake(shake) => Some(shake),
@@ -62,7 +56,7 @@ fn shakes(joint: &Joint) -> impl Iterator<Item = &Shake> {
 pub(super) fn declared(ast: &Ast) -> usize {
     let of = |item: &ast::Item| match &item.kind {
         ItemKind::Unbalance(_) => 1,
-        ItemKind::Force(force) => usize::from(is_harmonic(force)),
+        ItemKind::Force(force) => usize::from(force.is_harmonic()),
         ItemKind::Joint(joint) => shakes(joint).count(),
         _ => 0,
     };
@@ -76,7 +70,7 @@ impl Resolver<'_> {
         for item in &self.ast.items {
             match &item.kind {
                 ItemKind::Unbalance(unbalance) => excitations.extend(self.unbalance(unbalance)),
-                ItemKind::Force(force) if is_harmonic(force) => {
+                ItemKind::Force(force) if force.is_harmonic() => {
                     excitations.extend(self.harmonic(force));
                 }
                 ItemKind::Joint(joint) => {
@@ -359,7 +353,7 @@ impl Resolver<'_> {
             what: what.to_string(),
             values: vec![expr.clone()],
             demand,
-            extent: Extent::from(value.extent),
+            extent: value.extent,
         });
         Some(expr)
     }

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use proc_macro2::Ident;
 
 use super::coordinates::Declared;
-use super::excitations::is_harmonic;
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{
     BodyId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId,
@@ -101,7 +100,7 @@ impl Scope {
                     continue;
                 }
                 ItemKind::Point(_) => Meaning::Point(PointId::new(next(5))),
-                ItemKind::Force(force) if is_harmonic(force) => Meaning::Excitation,
+                ItemKind::Force(force) if force.is_harmonic() => Meaning::Excitation,
                 ItemKind::Force(_) => Meaning::Force(ForceId::new(next(8))),
                 ItemKind::Unbalance(_) => Meaning::Excitation,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),

@@ -199,7 +199,7 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
             let value = values.iter().find(|&&value| value < 0.0)?;
             let value = in_unit(*value, *dimension);
             Some(format!(
-                "is {value}; the opposite direction is a phase of 180 deg"
+                "is {value}; the opposite direction is a phase or an angle of 180 deg"
             ))
         }
         (Demand::Direction, vector) if vector.iter().all(|&value| value == 0.0) => {

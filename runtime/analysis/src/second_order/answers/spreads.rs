@@ -4,8 +4,8 @@ use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use crate::Error;
-use crate::judge::Doubt;
 use crate::second_order::{ModeSecondOrder, ModelMoments, SecondOrder, SecondOrderSpread};
+use crate::tolerance::Doubt;
 use crate::tolerance::{doubted, joined};
 
 /// `second-order tolerances`: a row for each mode, empty and with the reason if the mode has no second-order result.

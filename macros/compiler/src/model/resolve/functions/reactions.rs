@@ -2,7 +2,6 @@
 
 use proc_macro2::Ident;
 
-use super::super::excitations::is_harmonic;
 use super::super::exerted::Exerted;
 use super::super::resolver::Resolver;
 use super::super::scope::Meaning;
@@ -85,7 +84,7 @@ impl Resolver<'_> {
     /// The word of a force law.
     fn law_word(&self, id: ForceId) -> Option<&'static str> {
         let mut forces = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Force(force) if !is_harmonic(force) => Some(force),
+            ItemKind::Force(force) if !force.is_harmonic() => Some(force),
             _ => None,
         });
         let word = forces.nth(id.index())?.law.word.to_string();
