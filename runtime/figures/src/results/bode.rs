@@ -129,8 +129,10 @@ pub fn polar(
         path.iter().map(|own| own.1),
     ));
     panel.markers("", Colour::Grey, Shape::Cross, [[0.0, 0.0]]);
+    let is_peak = |value: f64| course.places().any(|place| place == value);
     let known: Vec<(f64, Point)> = (path.iter())
         .filter_map(|(value, point)| Some((*value, (*point)?)))
+        .filter(|(value, _)| !is_peak(*value))
         .collect();
     let axis = input_axis(&result.description, result.input);
     let words = |value: f64| match axis.unit.is_empty() {
@@ -339,6 +341,13 @@ impl<'a> Course<'a> {
             }
         }
         panel.band("", Colour::Series(0), edges);
+    }
+
+    /// Where the peaks are, in the unit of the input.
+    fn places(&self) -> impl Iterator<Item = f64> {
+        let unit = input_unit(&self.result.description, self.result.input);
+        let each = self.peaks.iter();
+        each.map(move |peak| in_unit(peak.place.value, &unit))
     }
 
     /// Draws the peaks, and returns a caption line for each.
