@@ -22,12 +22,14 @@ use crate::words::sentence;
 pub(crate) struct Section {
     pub(crate) id: &'static str,
     pub(crate) heading: &'static str,
-    write: fn(&mut Html, &Content) -> Result<(), Error>,
+    write: Write,
 }
+
+type Write = fn(&mut Html, &Content) -> Result<(), Error>;
 
 /// The sections, in order. What nothing excites has none about forced vibration.
 pub(crate) fn of(content: &Content) -> Vec<Section> {
-    let all: [(_, _, fn(&mut Html, &Content) -> Result<(), Error>); 9] = [
+    let all: [(_, _, Write); 9] = [
         ("brief", "In short", brief::section),
         ("mechanism", "Mechanism", mechanism::section),
         ("equilibrium", "Equilibrium", equilibrium::section),
