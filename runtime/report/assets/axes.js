@@ -14,11 +14,19 @@ function proper([low, high]) {
   return [low - half, low + half];
 }
 
-// Round numbers within a range, about so many.
-function ticks([low, high], count) {
+// Both ranges with the same scale in a frame of these proportions, width over height: one is widened about its middle.
+function equalised([x, y], proportions) {
+  const widened = ([low, high], length) => [(low + high - length) / 2, (low + high + length) / 2];
+  const [wide, tall] = [x[1] - x[0], y[1] - y[0]];
+  return wide < proportions * tall ? [widened(x, proportions * tall), y] : [x, widened(y, wide / proportions)];
+}
+
+// Round numbers within a range, about so many; of wide angles such as divide a turn.
+function ticks([low, high], count, unit) {
   const rough = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * [1, 2, 5, 10].find((factor) => power * factor >= rough * 0.999);
+  const turns = unit === "deg" && rough > 10 ? [15, 30, 45, 90, 180] : [];
+  const step = [...turns, ...[1, 2, 5, 10].map((factor) => power * factor)].find((own) => own >= rough * 0.999);
   const found = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) {
     found.push(Number((k * step).toPrecision(12)));
@@ -36,7 +44,7 @@ function marksOf(axis, range, count) {
     const all = axis.categories.map((name, place) => [place, name]);
     return all.filter(([place]) => place >= range[0] && place <= range[1]);
   }
-  return ticks(range, count).map((value) => [value, numberText(value)]);
+  return ticks(range, count, axis.unit).map((value) => [value, numberText(value)]);
 }
 
 function shortened(text, letters) {

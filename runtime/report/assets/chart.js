@@ -12,7 +12,9 @@ const LABEL_RISES = [-6, 14, 4, -20, 28, -34, 42, -48, 56];
 const DASHES = { solid: "", dashed: "8 5", dotted: "2 4", dash_dotted: "9 4 2 4" };
 
 function drawFigure(figure, parent) {
-  figure.panels.forEach((panel) => new Chart(panel, parent, figure.title));
+  // Panels over one axis stand exactly one below the other.
+  const room = Math.max(...figure.panels.map(({ y }) => leftMargin(y, proper(y.range))));
+  figure.panels.forEach((panel) => new Chart(panel, parent, figure.title, room));
 }
 
 // Everything of a panel that can be pointed at or hidden, whatever it is, in the order in which it is painted.
@@ -73,8 +75,9 @@ function barLines(x, y, [left, right, low, high]) {
 class Chart {
   static count = 0;
 
-  constructor(panel, parent, title) {
+  constructor(panel, parent, title, room) {
     this.panel = panel;
+    this.room = room;
     this.series = seriesOf(panel);
     for (const one of this.series) one.points = pointsOf(one, panel);
     this.whole = [proper(panel.x.range), proper(panel.y.range)];
@@ -83,7 +86,7 @@ class Chart {
     this.size = [wide, Math.round(Math.max(250, 0.46 * wide))];
     this.id = `clip${(Chart.count += 1)}`;
     const letters = (axis) => Math.max(0, ...axis.categories.map((name) => name.length));
-    const left = leftMargin(panel.y, this.whole[1]);
+    const left = room;
     // Names that do not fit beside each other stand aslant.
     this.slant = 7.4 * letters(panel.x) > (wide - 18 - left) / Math.max(1, panel.x.categories.length);
     const under = this.slant ? 44 + 4.6 * Math.min(18, letters(panel.x)) : 48;
@@ -123,8 +126,13 @@ class Chart {
   }
 
   draw() {
-    this.inner.left = leftMargin(this.panel.y, this.view[1]);
+    this.inner.left = Math.max(this.room, leftMargin(this.panel.y, this.view[1]));
     const { left, right, top, bottom } = this.inner;
+    if (this.panel.equal_scales) {
+      const all = this.view === this.whole;
+      this.view = equalised(this.view, (right - left) / (bottom - top));
+      if (all) this.whole = this.view;
+    }
     this.x = scale(this.view[0], [left, right]);
     this.y = scale(this.view[1], [bottom, top]);
     this.svg.replaceChildren();

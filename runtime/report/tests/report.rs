@@ -401,6 +401,68 @@ fn texts(table: &Value, name: &str) -> Vec<String> {
         .collect()
 }
 
+const UNBALANCED: &str = "mechanism Unbalanced {
+    input speed: rpm;
+    design kx = 40 kN/m +/- 5%;
+    body across: massless;
+    body plate: massless;
+    body disk: cylinder(mass: 4 kg, radius: 0.1 m, length: 0.02 m, axis: z);
+    joint x: prismatic(x) from ground to across;
+    joint y: prismatic(y) from across to plate;
+    joint spin: revolute(z) from plate to disk, driven at speed;
+    force sideways: spring(on: x, stiffness: kx);
+    force upwards: spring(on: y, stiffness: 70 kN/m);
+    force damp_x: damper(on: x, damping: 30 N*s/m);
+    force damp_y: damper(on: y, damping: 30 N*s/m);
+    unbalance residual: on disk, amount: 20 g*mm;
+    output right = x;
+}";
+
+#[test]
+fn forced_vibration_is_listed_drawn_and_moved() {
+    let input = eigentol::Input::new(0);
+    let study = Study::new(Interpreted::from_text(UNBALANCED).unwrap())
+        .input(input, InDeclaredUnit(1100.0))
+        .samples(200);
+    let speeds = [800.0, 900.0, 950.0, 1000.0, 1100.0].map(InDeclaredUnit);
+    let html = Report::new(&study).sweep(input, &speeds).html().unwrap();
+    let found = study.forced_response().unwrap();
+    let y = found.harmonics[0].outputs[0];
+    let response = table(&html, "forced response");
+    assert_eq!(column(&response, "amplitude"), [Some(y.norm())]);
+    let spreads: Vec<_> = data(&html, "table")
+        .into_iter()
+        .map(|own| own["name"].to_string())
+        .collect();
+    for name in ["\"spreads\"", "\"bands\"", "\"forced vibration\""] {
+        assert!(spreads.iter().any(|own| own == name), "{spreads:?}");
+    }
+    let figures = data(&html, "figure");
+    let titled = |title: &str| figures.iter().find(|own| own["title"] == title).unwrap();
+    let panels = titled("Bode plot of right under residual")["panels"]
+        .as_array()
+        .unwrap();
+    assert_eq!(panels.len(), 2);
+    assert_eq!(panels[0]["bands"][0]["edges"].as_array().unwrap().len(), 5);
+    assert_eq!(panels[0]["error_bars"][0]["label"], "peak");
+    assert_eq!(
+        titled("Polar plot of right under residual")["panels"][0]["equal_scales"],
+        true
+    );
+    let motions = &data(&html, "scene")[0]["motions"];
+    let last = motions.as_array().unwrap().last().unwrap();
+    assert_eq!(last["title"], "Under residual: 115.192 rad/s");
+    assert!(
+        last["about"].as_str().unwrap().contains("enlarged"),
+        "{last}"
+    );
+    assert!(last["frames"].as_array().unwrap().len() >= 8);
+    assert!(words(&html).contains("from 0 to peak"));
+    // What nothing excites has no such section.
+    let html = Report::new(&swinging()).html().unwrap();
+    assert!(!html.contains("Forced vibration"));
+}
+
 /// Gravity, drives, springs and torques on coordinates, bushings, loads and curves: everything that exerts a force.
 #[test]
 fn everything_that_acts_is_listed() {

@@ -1,7 +1,7 @@
 //! Modes as sequences of poses: position, amplitude, and closed loops.
 
 use eigentol::picture::{ModePictures, Pose, Scene, scene};
-use eigentol::{Error, Input, Study};
+use eigentol::{Error, Excitation, Input, Study};
 use eigentol_interpreter::Interpreted;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::loops::SliderCrank;
@@ -181,6 +181,60 @@ fn modes_of_speeds_alone_stand_still() {
     let mut all: Vec<Vec<bool>> = (0..modes.modes.len()).map(moved).collect();
     all.sort();
     assert_eq!(all, [[false, false], [false, true]]);
+}
+
+/// The operating deflection shape is the vibration itself, enlarged so that it moves as far as a mode does.
+#[test]
+fn a_forced_vibration_moves_as_its_response_says() {
+    let machine = Interpreted::from_text(
+        "mechanism Rotor {
+            input speed: rad/s;
+            body across: massless;
+            body plate: massless;
+            body disk: cylinder(mass: 4 kg, radius: 0.1 m, length: 0.02 m, axis: z);
+            joint x: prismatic(x) from ground to across;
+            joint y: prismatic(y) from across to plate;
+            joint spin: revolute(z) from plate to disk, driven at speed;
+            force sideways: spring(on: x, stiffness: 40 kN/m);
+            force upwards: spring(on: y, stiffness: 70 kN/m);
+            force damp_x: damper(on: x, damping: 30 N*s/m);
+            unbalance u: on disk, amount: 20 g*mm;
+        }",
+    );
+    let study = Study::new(machine.expect("a declaration")).input(Input::new(0), 115.0);
+    let response = study.forced_response().expect("a vibration");
+    let unknowns = &response.harmonics[0].unknowns;
+    let moved = study
+        .vibration_pictures(Excitation::new(0), 12, 0.1)
+        .expect("a picture");
+    assert_eq!(moved.frequency, 115.0);
+    let size = study.picture().expect("a picture").size();
+    let mut farthest = 0.0_f64;
+    for (k, frame) in moved.frames.iter().enumerate() {
+        let angle = std::f64::consts::TAU * k as f64 / 12.0;
+        let turn = eigentol::Complex::from_polar(moved.enlargement, angle);
+        for axis in 0..2 {
+            let expected = (turn * unknowns[axis]).re;
+            let there = frame[2].position[axis];
+            assert!(
+                (there - expected).abs() < 1e-14,
+                "frame {k}: {there} {expected}"
+            );
+        }
+        farthest = farthest.max(norm(frame[2].position));
+    }
+    assert!(
+        farthest < 0.1 * size * (1.0 + 1e-6) && farthest > 0.09 * size,
+        "{farthest} {size}"
+    );
+    let error = study
+        .vibration_pictures(Excitation::new(1), 12, 0.1)
+        .unwrap_err();
+    assert!(matches!(error, Error::UnknownHandle { .. }), "{error}");
+    let error = study
+        .vibration_pictures(Excitation::new(0), 12, -0.1)
+        .unwrap_err();
+    assert!(matches!(error, Error::Setting { .. }), "{error}");
 }
 
 #[test]

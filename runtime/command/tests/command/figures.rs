@@ -1,6 +1,7 @@
 //! Figures written alongside answers.
 
 use std::fs;
+use std::path::Path;
 
 use crate::program::{answer, folder, pendulum, run};
 
@@ -11,6 +12,7 @@ fn every_command_draws_its_figure_beside_the_same_answer() {
     let rotating = "rotating_pendulum.mechanism";
     let campbell = ["campbell", rotating, "--points", "5"];
     let branches = ["branches", rotating];
+    let shaken = shaken(&folder);
     for (name, arguments, words) in [
         ("modes", pendulum("modes", &[]), "mode shapes"),
         (
@@ -24,6 +26,21 @@ fn every_command_draws_its_figure_beside_the_same_answer() {
             "Campbell diagram",
         ),
         ("branches", [&branches[..], &sweep].concat(), "theta [rad]"),
+        (
+            "response",
+            vec![
+                "response",
+                &shaken,
+                "--sweep",
+                "omega=60..140",
+                "--points",
+                "9",
+                "--bands",
+                "--samples",
+                "100",
+            ],
+            "shake under u",
+        ),
     ] {
         let path = folder.join(format!("{name}.svg"));
         let place = path.display().to_string();
@@ -33,6 +50,42 @@ fn every_command_draws_its_figure_beside_the_same_answer() {
         assert!(text.starts_with("<svg") && text.contains(words), "{name}");
         assert!(!text.contains("NaN"), "{name}");
     }
+}
+
+/// The file of a machine with two outputs that an unbalance shakes.
+fn shaken(folder: &Path) -> String {
+    let path = folder.join("shaken.mechanism");
+    let text =
+        "mechanism Shaken { input omega: rad/s; design k = 40 kN/m +/- 5%; body plate: massless;
+        body disk: cylinder(mass: 4 kg, radius: 0.1 m, length: 0.02 m, axis: z);
+        joint x: prismatic(x) from ground to plate;
+        joint spin: revolute(z) from plate to disk, driven at omega;
+        force spring: spring(on: x, stiffness: k); force damper: damper(on: x, damping: 30 N*s/m);
+        unbalance u: on disk, amount: 20 g*mm; output shake = x; output twice = 2 * x; }";
+    fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn a_bode_plot_is_of_the_vibration_asked_for() {
+    let folder = folder("bode");
+    let file = shaken(&folder);
+    let path = folder.join("bode.svg").display().to_string();
+    let figure = ["--figure", &path, "--draw", "twice under u"];
+    let sweep = ["--sweep", "omega=60..140", "--points", "5"];
+    answer(&[&["response", &file][..], &sweep, &figure].concat());
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("twice under u") && text.contains("half power"));
+    let still = run(&[&["response", &file, "--set", "omega=100"][..], &figure].concat());
+    assert_eq!(still.code, 2);
+    assert!(still.err.contains("--sweep"), "{}", still.err);
+    let wrong = ["--figure", &path, "--draw", "thrice"];
+    let wrong = run(&[&["response", &file][..], &sweep, &wrong].concat());
+    assert!(
+        wrong.code == 2 && wrong.err.contains("twice"),
+        "{}",
+        wrong.err
+    );
 }
 
 #[test]

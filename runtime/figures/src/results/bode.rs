@@ -60,13 +60,13 @@ pub fn bode(
     peaks: &[Peaks],
     style: &Style,
 ) -> Result<Figure, Error> {
-    let course = Course::of(result, vibration)?;
+    let course = Course::of(result, vibration, peaks)?;
     let name = "nominal design";
     let mut upper = Panel::new(course.axis(), Axis::new("amplitude", &*course.unit.symbol));
     let moduli = course.curve(|own| Some(in_unit(own.norm(), &course.unit)));
     upper.curve(Curve::new(name, Colour::Series(0), moduli));
     course.bands(&mut upper);
-    let lines = course.peaks(&mut upper, peaks);
+    let lines = course.draw_peaks(&mut upper);
     upper.fit();
     upper.y.range = [0.0, style.top().unwrap_or(upper.y.range[1])];
     let mut lower = Panel::new(course.axis(), Axis::new("phase", "deg"));
@@ -83,6 +83,14 @@ pub fn bode(
         let [low, high] = course.quantiles().unwrap_or(BAND).map(|p| 100.0 * p);
         caption.push(format!(
             "Shaded: from {low:.1} to {high:.1} % of the designs within tolerances."
+        ));
+    }
+    let bars = upper.error_bars.iter().flat_map(|own| &own.bars);
+    let wide = bars.into_iter().any(|bar| bar.low != bar.high);
+    let sigmas = peaks.iter().find_map(|own| own.sigma_level);
+    if let Some(sigmas) = sigmas.filter(|_| wide) {
+        caption.push(format!(
+            "Bars at peaks: {sigmas} standard deviations to either side."
         ));
     }
     let caption = course.finished(caption, lines, style);
@@ -108,7 +116,7 @@ pub fn polar(
     peaks: &[Peaks],
     style: &Style,
 ) -> Result<Figure, Error> {
-    let course = Course::of(result, vibration)?;
+    let course = Course::of(result, vibration, peaks)?;
     let symbol = &*course.unit.symbol;
     let mut panel = Panel::new(Axis::new("Re", symbol), Axis::new("Im", symbol));
     panel.equal_scales = true;
@@ -121,8 +129,10 @@ pub fn polar(
         path.iter().map(|own| own.1),
     ));
     panel.markers("", Colour::Grey, Shape::Cross, [[0.0, 0.0]]);
+    let is_peak = |value: f64| course.places().any(|place| place == value);
     let known: Vec<(f64, Point)> = (path.iter())
         .filter_map(|(value, point)| Some((*value, (*point)?)))
+        .filter(|(value, _)| !is_peak(*value))
         .collect();
     let axis = input_axis(&result.description, result.input);
     let words = |value: f64| match axis.unit.is_empty() {
@@ -144,7 +154,7 @@ pub fn polar(
         panel.markers(label, Colour::Black, shape, [point]);
     }
     let mut lines = Vec::new();
-    for (k, peak) in course.own(peaks).enumerate() {
+    for (k, peak) in course.peaks.iter().enumerate() {
         let at = course.point(Complex::from_polar(peak.height.value, peak.phase));
         let label = if k == 0 { "peak" } else { "" };
         panel.markers(label, Colour::Series(1), Shape::Diamond, [at]);
@@ -210,14 +220,16 @@ fn spaced(path: &[(f64, Point)]) -> Vec<(f64, Point)> {
 struct Course<'a> {
     result: &'a Bode,
     vibration: Vibration,
+    /// The peaks of this vibration.
+    peaks: Vec<&'a Peak>,
     /// Of the amplitude.
     unit: Unit,
-    /// Values of the input in its unit, with the complex amplitudes, SI.
+    /// Values of the input in its unit, those of the peaks among them, with the complex amplitudes, SI.
     values: Vec<(f64, Option<Complex>)>,
 }
 
 impl<'a> Course<'a> {
-    fn of(result: &'a Bode, vibration: Vibration) -> Result<Self, Error> {
+    fn of(result: &'a Bode, vibration: Vibration, peaks: &'a [Peaks]) -> Result<Self, Error> {
         let d = &*result.description;
         let unit = input_unit(d, result.input);
         let amplitude = |point: &BodePoint| {
@@ -225,7 +237,7 @@ impl<'a> Course<'a> {
             let own = response.harmonic(vibration.excitation)?;
             own.amplitude(vibration.output, vibration.measure)
         };
-        let values: Vec<(f64, Option<Complex>)> = (result.points.iter())
+        let mut values: Vec<(f64, Option<Complex>)> = (result.points.iter())
             .map(|point| (in_unit(point.value, &unit), amplitude(point)))
             .collect();
         if values.iter().all(|own| own.1.is_none()) {
@@ -233,9 +245,19 @@ impl<'a> Course<'a> {
                 "there is no such vibration at any of the values",
             ));
         }
+        let own =
+            |found: &&Peaks| found.vibration == vibration && found.range.input == result.input;
+        let peaks: Vec<&Peak> = (peaks.iter().filter(own))
+            .flat_map(|found| &found.peaks)
+            .collect();
+        for peak in &peaks {
+            let amplitude = Complex::from_polar(peak.height.value, peak.phase);
+            insert(&mut values, in_unit(peak.place.value, &unit), amplitude);
+        }
         Ok(Self {
             result,
             vibration,
+            peaks,
             unit: Response::Vibration(vibration).unit(d),
             values,
         })
@@ -282,8 +304,11 @@ impl<'a> Course<'a> {
             let all = &point.bands.as_ref()?.spread.spreads;
             all.get(place?)?.as_ref()
         };
-        let points = self.result.points.iter().map(spread);
-        self.values.iter().map(|own| own.0).zip(points).collect()
+        let unit = input_unit(&self.result.description, self.result.input);
+        let points = self.result.points.iter();
+        points
+            .map(|point| (in_unit(point.value, &unit), spread(point)))
+            .collect()
     }
 
     /// The probabilities at the ends of the bands.
@@ -318,32 +343,30 @@ impl<'a> Course<'a> {
         panel.band("", Colour::Series(0), edges);
     }
 
-    /// The peaks of this vibration.
-    fn own<'b>(&self, peaks: &'b [Peaks]) -> impl Iterator<Item = &'b Peak> {
-        let (vibration, input) = (self.vibration, self.result.input);
-        let own = move |found: &&Peaks| found.vibration == vibration && found.range.input == input;
-        let low_to_high = peaks.iter().filter(own);
-        low_to_high.flat_map(|found| &found.peaks)
+    /// Where the peaks are, in the unit of the input.
+    fn places(&self) -> impl Iterator<Item = f64> {
+        let unit = input_unit(&self.result.description, self.result.input);
+        let each = self.peaks.iter();
+        each.map(move |peak| in_unit(peak.place.value, &unit))
     }
 
     /// Draws the peaks, and returns a caption line for each.
-    fn peaks(&self, panel: &mut Panel, peaks: &[Peaks]) -> Vec<String> {
+    fn draw_peaks(&self, panel: &mut Panel) -> Vec<String> {
         let unit = input_unit(&self.result.description, self.result.input);
         let height = |peak: &Peak| in_unit(peak.height.value, &self.unit);
         let place = |own: &Moving| in_unit(own.value, &unit);
-        let own: Vec<&Peak> = self.own(peaks).collect();
-        let bars = own.iter().map(|peak| {
+        let bars = self.peaks.iter().map(|peak| {
             let spread = peak.place.spread.as_ref();
             let half = spread.map_or(0.0, |own| in_unit(own.band, &unit));
             ErrorBar::level([place(&peak.place), height(peak)], half)
         });
         panel.error_bars("peak", Colour::Series(1), Shape::Diamond, bars);
-        let sides = own.iter().flat_map(|peak| {
+        let sides = self.peaks.iter().flat_map(|peak| {
             let places = peak.half_power.iter().filter_map(HalfPower::place);
             places.map(|own| [place(own), height(peak) / std::f64::consts::SQRT_2])
         });
         panel.markers("half power", Colour::Series(1), Shape::Cross, sides);
-        let each = own.iter().enumerate();
+        let each = self.peaks.iter().enumerate();
         each.map(|(k, peak)| {
             let at = [place(&peak.place), height(peak)];
             panel.label(at, format!("({})", k + 1));
@@ -388,6 +411,19 @@ impl<'a> Course<'a> {
         let mut caption = with_notes(caption, style, &self.result.description);
         caption.extend(lines);
         caption
+    }
+}
+
+/// Inserts a known amplitude between two values that both have one.
+fn insert(values: &mut Vec<(f64, Option<Complex>)>, value: f64, amplitude: Complex) {
+    let between = |pair: &[(f64, Option<Complex>)]| {
+        let [(a, before), (b, after)] = pair else {
+            return false;
+        };
+        (value - a) * (value - b) < 0.0 && before.is_some() && after.is_some()
+    };
+    if let Some(place) = values.windows(2).position(between) {
+        values.insert(place + 1, (value, Some(amplitude)));
     }
 }
 

@@ -29,7 +29,8 @@ fn swept(count: usize) -> Bode {
         .iter()
         .map(|own| own * RPM)
         .collect();
-    study().bode(Unbalanced::speed, &speeds).unwrap()
+    let found = study().bode(Unbalanced::speed, &speeds);
+    found.expect("it vibrates at every speed")
 }
 
 /// `m e w^2 / (k - m w^2 + i w c)` in mm; the unbalance starts along x.
@@ -102,19 +103,25 @@ fn bands_and_peaks_are_those_of_the_results() {
     let result = study()
         .bode_bands(Unbalanced::speed, &speeds, &[right()], 0)
         .unwrap();
-    let peaks = study()
+    let found = study()
         .peaks(right(), Unbalanced::speed, 400.0 * RPM, 1800.0 * RPM)
         .unwrap();
+    let peaks = [found];
     let style = Style::of(&study()).mark(1100.0, "running speed");
-    let figure = bode(&result, right(), &[peaks.clone()], &style).unwrap();
+    let figure = bode(&result, right(), &peaks, &style).unwrap();
     let upper = &figure.panels[0];
     let bands = result.points[10].bands.as_ref().unwrap();
     let quantiles = &bands.spread.spreads[0].as_ref().unwrap().quantiles;
     let edge = upper.bands[0].edges[10];
     assert_eq!(edge[1..], [quantiles[1].value, quantiles[5].value]);
     assert_eq!(upper.error_bars[0].bars.len(), 1);
+    // The line goes through the peak.
+    let top = upper.error_bars[0].bars[0].at;
+    let through = |own: &Point| own[0] == top[0] && (own[1] / top[1] - 1.0).abs() < 1e-12;
+    assert!(line(upper).iter().any(through));
+    assert_eq!(line(upper).len(), 22);
     let bar = upper.error_bars[0].bars[0];
-    let own = &peaks.peaks[0];
+    let own = &peaks[0].peaks[0];
     assert!((bar.at[0] * RPM / own.place.value - 1.0).abs() < 1e-12);
     assert_eq!(bar.at[1], own.height.value);
     let half = own.place.spread.as_ref().unwrap().band / RPM;
@@ -136,7 +143,7 @@ fn bands_and_peaks_are_those_of_the_results() {
         figure.caption
     );
     save(&figure, "bode_bands");
-    let figure = polar(&swept(281), right(), &[peaks.clone()], &style).unwrap();
+    let figure = polar(&swept(281), right(), &peaks, &style).unwrap();
     assert!(figure.panels[0].equal_scales);
     assert!(
         figure
@@ -147,7 +154,7 @@ fn bands_and_peaks_are_those_of_the_results() {
     save(&figure, "polar");
     // Those of another vibration do not belong here.
     let up = Vibration::new(Unbalanced::up, Unbalanced::residual);
-    let other = bode(&result, up, &[peaks], &style).unwrap();
+    let other = bode(&result, up, &peaks, &style).unwrap();
     assert!(other.panels[0].error_bars.is_empty() && other.panels[0].bands.is_empty());
 }
 

@@ -18,44 +18,45 @@ use crate::content::Content;
 use crate::html::Html;
 use crate::words::sentence;
 
-/// Anchors and headings of the sections, in order.
-pub(crate) const HEADINGS: [(&str, &str); 9] = [
-    ("brief", "In short"),
-    ("mechanism", "Mechanism"),
-    ("equilibrium", "Equilibrium"),
-    ("modes", "Modes"),
-    ("vibration", "Forced vibration"),
-    ("verdicts", "Tolerances"),
-    ("shares", "Contributions"),
-    ("distributions", "Distributions"),
-    ("along", "Along an input"),
-];
+/// A question: anchor, heading, and what writes the answer.
+pub(crate) struct Section {
+    pub(crate) id: &'static str,
+    pub(crate) heading: &'static str,
+    write: Write,
+}
 
-/// Writes a section.
-type Section = fn(&mut Html, &Content) -> Result<(), Error>;
+type Write = fn(&mut Html, &Content) -> Result<(), Error>;
 
-const SECTIONS: [Section; 9] = [
-    brief::section,
-    mechanism::section,
-    equilibrium::section,
-    modes::section,
-    vibration::section,
-    verdicts::section,
-    shares::section,
-    distributions::section,
-    along::section,
-];
+/// The sections, in order. What nothing excites has none about forced vibration.
+pub(crate) fn of(content: &Content) -> Vec<Section> {
+    let all: [(_, _, Write); 9] = [
+        ("brief", "In short", brief::section),
+        ("mechanism", "Mechanism", mechanism::section),
+        ("equilibrium", "Equilibrium", equilibrium::section),
+        ("modes", "Modes", modes::section),
+        ("vibration", "Forced vibration", vibration::section),
+        ("verdicts", "Tolerances", verdicts::section),
+        ("shares", "Contributions", shares::section),
+        ("distributions", "Distributions", distributions::section),
+        ("along", "Along an input", along::section),
+    ];
+    let all = all
+        .into_iter()
+        .map(|(id, heading, write)| Section { id, heading, write });
+    all.filter(|own| own.id != "vibration" || content.forced.is_some())
+        .collect()
+}
 
 /// Writes all sections.
 ///
 /// # Errors
 /// [`Error::Data`].
 pub(crate) fn all(html: &mut Html, content: &Content) -> Result<(), Error> {
-    for ((id, heading), section) in HEADINGS.into_iter().zip(SECTIONS) {
+    for Section { id, heading, write } in of(content) {
         let mut written = Ok(());
         html.element("section", &[("id", id)], |html| {
             html.leaf("h2", &[], heading);
-            written = section(html, content);
+            written = write(html, content);
         });
         html.constant("\n");
         written?;

@@ -1,7 +1,8 @@
 //! Forced vibration: amplitudes at the operating point and along the swept input.
 
-use eigentol_figures::bode;
-use eigentol_tables::Answer as _;
+use eigentol::response::Response;
+use eigentol_figures::{bode, polar};
+use eigentol_tables::{Answer as _, Table};
 
 use super::{MODES, refused};
 use crate::Error;
@@ -10,11 +11,9 @@ use crate::content::Content;
 use crate::forced::{Forced, ForcedAlong, vibrations};
 use crate::html::Html;
 use crate::tables::table;
-use crate::words::capital;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let Some(forced) = &content.forced else {
-        html.leaf("p", &[("class", "refused")], "Nothing excites a vibration.");
         return Ok(());
     };
     at_point(html, content, forced)?;
@@ -39,7 +38,17 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
     let several = found.harmonics.iter().any(|own| own.shares.len() > 1);
     for own in found.tables() {
         match &*own.name {
-            "forced response" => table(html, "Vibration at the operating point", &own, &[])?,
+            "forced response" => {
+                let columns = [
+                    "excitations",
+                    "frequency",
+                    "output",
+                    "unit",
+                    "amplitude",
+                    "phase",
+                ];
+                table(html, "Vibration at the operating point", &own, &columns)?;
+            }
             "shares" if several => table(html, "What each excitation contributes", &own, &[])?,
             _ => {}
         }
@@ -99,9 +108,13 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
     let peaks = along.peaks.iter().filter_map(|own| own.1.as_ref().ok());
     let peaks: Vec<_> = peaks.cloned().collect();
     for &vibration in wanted.iter().take(MODES) {
-        let name = eigentol::response::Response::Vibration(vibration).name(&content.description);
-        let style = content.style.clone().title(capital(&name));
+        let name = Response::Vibration(vibration).name(&content.description);
+        let style = content.style.clone();
+        let style = style.title(format!("Bode plot of {name}"));
         chart(html, &bode(found, vibration, &peaks, &style))?;
+        let style = content.brief_style.clone();
+        let style = style.title(format!("Polar plot of {name}"));
+        chart(html, &polar(found, vibration, &peaks, &style))?;
     }
     if wanted.len() > MODES {
         let more = wanted.len() - MODES;
@@ -119,7 +132,14 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
             "bands" => "How tolerances spread the amplitudes along the input",
             _ => "Vibration along the input",
         };
-        table(html, caption, &own, &[])?;
+        table(html, caption, &own, &on_a_page(&own))?;
     }
     Ok(())
+}
+
+/// The columns that fit on a page; the rest is available by copying.
+fn on_a_page(table: &Table) -> Vec<&str> {
+    let left_out = ["Re", "Im", "mean", "99.9 %", "designs solved anew"];
+    let names = table.columns.iter().map(|own| &*own.name);
+    names.filter(|name| !left_out.contains(name)).collect()
 }
