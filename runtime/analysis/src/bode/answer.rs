@@ -1,20 +1,17 @@
 //! Forced vibration along an input as text and tables.
 
-use eigentol_results::numbers::{given, number, percent, short};
+use eigentol_results::numbers::{converted, given, number, percent, short};
 use eigentol_results::relevance::{EVERYTHING, shown};
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use super::{Bands, Bode};
+use crate::Error;
 use crate::along::{not_reached, varied};
-use crate::forced::Harmonic;
+use crate::forced::{Harmonic, conventions, vibrations};
 use crate::propagation::{ResponseSpread, VibrationCheck};
 use crate::response::{Response, Vibration};
-use crate::{Complex, Description, Error};
 
-/// What every amplitude and phase means.
-const CONVENTIONS: &str =
-    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.";
 /// An error of a model's spread that is worth a word.
 const WORTH_SAYING: f64 = 0.01;
 
@@ -39,25 +36,7 @@ impl Answer for Bode {
         let visible = places.filter(|(_, row)| points.contains(&row.point));
         table.show_rows(visible.map(|(k, _)| k).collect());
         varied(&mut table, d, self.input, given, &|row| row.value);
-        table
-            .number("frequency", "rad/s", &|row| Some(row.found?.0.frequency))
-            .digits(number);
-        table
-            .words("output", &|row| Some(row.name(d)?.to_owned()))
-            .shown();
-        table
-            .words("unit", &|row| Some(row.unit(d)?.to_owned()))
-            .shown();
-        table
-            .number("amplitude", "", &|row| Some(row.amplitude()?.norm()))
-            .digits(number);
-        table
-            .number("phase", "deg", &|row| {
-                Some(row.amplitude()?.arg().to_degrees())
-            })
-            .digits(short);
-        table.number("Re", "", &|row| Some(row.amplitude()?.re));
-        table.number("Im", "", &|row| Some(row.amplitude()?.im));
+        vibrations(&mut table, d, &|row| row.found);
         table.words("error", &|row| row.error.map(ToString::to_string));
         said.columns(table);
         self.bands(&mut said, &points);
@@ -76,7 +55,7 @@ impl Answer for Bode {
                 "{failed} of {all} points have no vibration; the first: {error}."
             ));
         }
-        said.note(CONVENTIONS);
+        conventions(&mut said);
         said
     }
 }
@@ -89,21 +68,6 @@ struct Row<'a> {
     value: f64,
     found: Option<(&'a Harmonic, usize)>,
     error: Option<&'a Error>,
-}
-
-impl Row<'_> {
-    fn amplitude(&self) -> Option<Complex> {
-        let (harmonic, output) = self.found?;
-        harmonic.outputs.get(output).copied()
-    }
-
-    fn name<'d>(&self, d: &'d Description) -> Option<&'d str> {
-        Some(&d.outputs.get(self.found?.1)?.name)
-    }
-
-    fn unit<'d>(&self, d: &'d Description) -> Option<&'d str> {
-        Some(&d.outputs.get(self.found?.1)?.unit.symbol)
-    }
 }
 
 /// The band of a vibration at a value of the input.
@@ -171,6 +135,7 @@ impl Bode {
         table.show_rows(visible.map(|(k, _)| k).collect());
         varied(&mut table, d, self.input, given, &|row| row.value);
         let named = |row: &Band<'_>| Response::Vibration(*row.vibration);
+        let scaled = |row: &Band<'_>, value| Some(converted(value, &named(row).unit(d)));
         table
             .words("amplitude of", &|row| Some(named(row).name(d)))
             .shown();
@@ -178,17 +143,17 @@ impl Bode {
             .words("unit", &|row| Some(named(row).unit(d).symbol.to_string()))
             .shown();
         table
-            .number("nominal", "", &|row| row.spread?.nominal)
+            .number("nominal", "", &|row| scaled(row, row.spread?.nominal?))
             .digits(number);
         table
-            .number("mean", "", &|row| Some(row.spread?.mean.value))
+            .number("mean", "", &|row| scaled(row, row.spread?.mean.value))
             .digits(number);
         table
-            .number("sigma", "", &|row| Some(row.spread?.sigma?.value))
+            .number("sigma", "", &|row| scaled(row, row.spread?.sigma?.value))
             .digits(short);
         for (place, name) in [(1, "2.3 %"), (3, "50 %"), (5, "97.7 %"), (6, "99.9 %")] {
             table
-                .number(name, "", &|row| row.quantile(place))
+                .number(name, "", &|row| scaled(row, row.quantile(place)?))
                 .digits(number);
         }
         table.whole("designs solved anew", &|row| {

@@ -1,6 +1,7 @@
 //! Forced vibration: the steady response to harmonic excitations about an equilibrium, its derivatives, and its peaks.
 
 mod adjoint;
+mod answer;
 mod curvature;
 mod dynamic_stiffness;
 mod forces;
@@ -9,6 +10,7 @@ mod resolvent;
 mod response;
 mod sensitivities;
 
+pub(crate) use answer::{conventions, vibrations};
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
 pub use measure::Measure;
 pub(crate) use resolvent::Resolvent;

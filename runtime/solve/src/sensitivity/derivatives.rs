@@ -9,15 +9,15 @@ use eigentol_results::{Findings, Table};
 use crate::{Description, Text, Unit};
 
 /// A variable: an input or a design variable.
-pub(super) struct Variable<'a> {
-    pub(super) name: &'a Text,
-    pub(super) unit: &'a Unit,
+pub struct Variable<'a> {
+    pub name: &'a Text,
+    pub unit: &'a Unit,
     /// SI.
     value: f64,
 }
 
 /// All variables, inputs first.
-pub(super) fn variables<'a>(d: &'a Description, inputs: &[f64]) -> Vec<Variable<'a>> {
+pub fn variables<'a>(d: &'a Description, inputs: &[f64]) -> Vec<Variable<'a>> {
     let of_inputs = d.inputs.iter().zip(inputs);
     let of_inputs = of_inputs.map(|(info, &value)| Variable {
         name: &info.name,
@@ -33,13 +33,13 @@ pub(super) fn variables<'a>(d: &'a Description, inputs: &[f64]) -> Vec<Variable<
 }
 
 /// A quantity and its derivatives.
-pub(super) struct Derived {
-    pub(super) name: String,
-    pub(super) unit: Unit,
+pub struct Derived {
+    pub name: String,
+    pub unit: Unit,
     /// It belongs to a mode without derivatives of its own.
-    pub(super) clustered: bool,
+    pub clustered: bool,
     /// By each variable, SI; empty if there are none.
-    pub(super) slopes: Vec<f64>,
+    pub slopes: Vec<f64>,
 }
 
 impl Derived {
@@ -98,7 +98,7 @@ impl<'a> Shown<'a> {
 
 /// Adds a text with one row for each variable that matters to any quantity, in its declared unit, and one column for
 /// each quantity that depends on any.
-pub(super) fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
+pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
     let columns = all.iter().map(|of| Shown::new(of, variables));
     let (columns, still): (Vec<Shown<'_>>, Vec<Shown<'_>>) = columns.partition(Shown::depends);
     let (rows, left): (Vec<_>, Vec<_>) = (variables.iter().enumerate())
@@ -132,7 +132,7 @@ pub(super) fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derive
 
 /// The data: a row for each quantity, which `what` says, and variable; the derivative in `unit` of the quantity per
 /// `per` of the variable.
-pub(super) fn data(name: &str, what: &str, variables: &[Variable<'_>], all: &[Derived]) -> Table {
+pub fn data(name: &str, what: &str, variables: &[Variable<'_>], all: &[Derived]) -> Table {
     let each = all.iter();
     let rows: Vec<_> = each
         .flat_map(|of| variables.iter().enumerate().map(move |own| (of, own)))

@@ -3,7 +3,8 @@
 
 mod adjoint;
 mod answer;
-mod derivatives;
+#[doc(hidden)]
+pub mod derivatives;
 mod explicit;
 mod finite_difference;
 mod gradients;

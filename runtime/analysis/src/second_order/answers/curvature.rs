@@ -22,7 +22,7 @@ impl Answer for ModeCurvature {
         let pairs = pairs(&variables(d));
         let mut table = Columns::new("second derivatives", &pairs);
         table.whole("mode", &|_| Some(number));
-        names(&mut table);
+        names_of_pairs(&mut table, &|pair| pair);
         table.number("lambda", "1/s^2 per units", &|pair| {
             Some(pair.scaled(pair.of(&self.lambda, inputs)?))
         });
@@ -79,12 +79,12 @@ impl Answer for EventCurvature {
 }
 
 /// Two of some variables, and their places among them.
-struct Pair<'a> {
+pub(crate) struct Pair<'a> {
     places: [usize; 2],
     variables: [Variable<'a>; 2],
 }
 
-fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
+pub(crate) fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
     let each = all.iter().copied().enumerate();
     let pair = |(i, first), (j, second)| Pair {
         places: [i, j],
@@ -97,7 +97,7 @@ fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
 
 impl Pair<'_> {
     /// The second derivative with respect to both, inputs first, SI.
-    fn of<T: Copy>(&self, own: &SecondDerivatives<T>, inputs: usize) -> Option<T> {
+    pub(crate) fn of<T: Copy>(&self, own: &SecondDerivatives<T>, inputs: usize) -> Option<T> {
         let [i, j] = self.places;
         match (i.checked_sub(inputs), j.checked_sub(inputs)) {
             (None, None) => entry(&own.by_input, i, j),
@@ -108,19 +108,18 @@ impl Pair<'_> {
     }
 
     /// A second derivative per declared units.
-    fn scaled(&self, value: f64) -> f64 {
+    pub(crate) fn scaled(&self, value: f64) -> f64 {
         let [first, second] = self.variables;
         value * first.unit.scale * second.unit.scale
     }
 }
 
 /// The names and units of both variables.
-fn names(table: &mut Columns<'_, Pair<'_>>) {
+pub(crate) fn names_of_pairs<'a, R>(table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> &Pair<'a>) {
     for (k, title) in ["by", "and by"].into_iter().enumerate() {
-        table.words(title, &|pair| Some(pair.variables[k].name.to_string()));
-        table.words("unit", &|pair| {
-            Some(pair.variables[k].unit.symbol.to_string())
-        });
+        let variable = |row: &R| of(row).variables[k];
+        table.words(title, &|row| Some(variable(row).name.to_string()));
+        table.words("unit", &|row| Some(variable(row).unit.symbol.to_string()));
     }
 }
 
@@ -132,7 +131,7 @@ fn derivatives(
     of: &dyn Fn(&Pair<'_>) -> Option<f64>,
 ) -> Findings {
     let mut table = Columns::new("second derivatives", pairs);
-    names(&mut table);
+    names_of_pairs(&mut table, &|pair| pair);
     if let Some((name, unit)) = quantity {
         let units = format!("{} per units", unit.symbol);
         table.number(name, &units, &|pair| {

@@ -2,3 +2,5 @@
 
 mod curvature;
 mod spreads;
+
+pub(crate) use curvature::{Pair, names_of_pairs, pairs};
