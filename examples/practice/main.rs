@@ -15,6 +15,7 @@ use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol_report::Report;
 
 pub mod centrifuge;
+pub mod fan;
 pub mod fly_ball_governor;
 pub mod gear_train;
 pub mod grinding_spindle;
@@ -42,7 +43,7 @@ pub struct Question {
 }
 
 /// All questions.
-pub const QUESTIONS: [Question; 9] = [
+pub const QUESTIONS: [Question; 10] = [
     Question {
         name: "helicopter_blade",
         answer: helicopter_blade::answer,
@@ -87,6 +88,11 @@ pub const QUESTIONS: [Question; 9] = [
         name: "rotor_bearings",
         answer: rotor_bearings::answer,
         report: |path| save(&rotor_bearings::study(), path),
+    },
+    Question {
+        name: "fan",
+        answer: fan::answer,
+        report: |path| save(&fan::study(), path),
     },
 ];
 

@@ -15,6 +15,7 @@ mod distributions;
 mod dual;
 mod equilibrium;
 mod events;
+mod forced;
 mod handwritten;
 mod judged;
 mod lanes;

@@ -84,6 +84,25 @@ pub fn evaluate<T: Real, M: Mechanism>(
             b(6),
             q(7),
         )),
+        "forced_gradient" => {
+            let o = |k: usize| <M::Outputs<T> as Array<T>>::view(&arguments[k]);
+            let e = |k: usize| <M::Excitations<T> as Array<T>>::view(&arguments[k]);
+            gradient(machine.forced_gradient(
+                q(0),
+                u(1),
+                b(2),
+                o(3),
+                q(4),
+                q(5),
+                q(6),
+                e(7),
+                q(8),
+                q(9),
+                o(10),
+                o(11),
+                e(12),
+            ))
+        }
         "motion_linear" => matrices(&[machine.motion_linear(q(0), q(1), q(2), u(3), b(4))]),
         "whirl" => vec![machine.whirl(q(0), u(1), b(2), q(3), q(4)).to_vec()],
         other => return evaluate_at(machine, other, arguments),
@@ -125,6 +144,24 @@ pub fn evaluate_at<T: Real, M: Mechanism>(
                 flat(by_coordinate.as_ref()),
                 flat(by_input.as_ref()),
                 flat(by_design.as_ref()),
+            ]
+        }
+        "forcing" => {
+            let forcing = machine.forcing(q(0), u(1), b(2));
+            vec![
+                flat(forcing.cosine.as_ref()),
+                forcing.frequency.as_ref().to_vec(),
+                flat(forcing.direct_cosine.as_ref()),
+                flat(forcing.sine.as_ref()),
+                flat(forcing.direct_sine.as_ref()),
+            ]
+        }
+        "output_motion" => {
+            let (acceleration, velocity, position) = machine.output_motion(q(0), u(1), b(2));
+            vec![
+                flat(acceleration.as_ref()),
+                flat(velocity.as_ref()),
+                flat(position.as_ref()),
             ]
         }
         _ => return None,

@@ -69,6 +69,8 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "film_rotor" => [3000.0, 9000.0]
             .map(|speed| point(&[speed * rpm], &[0.0; 2]))
             .to_vec(),
+        "balanced_fan" => vec![point(&[150.0, 90.0], &[0.0; 4])],
+        "shaken_turntable" => vec![point(&[6.0, 40.0], &[0.5])],
         "robot_arm" => vec![point(&[], &[0.1; 7])],
         _ => panic!("nobody has said how {name} is run"),
     }

@@ -10,7 +10,7 @@ use eigentol::Error;
 use crate::color::Color;
 use crate::commands::{
     allocate, branches, campbell, check, completions, equilibria, expand, import, merge, modes,
-    new, probability, report, sample, sensitivities, sweep, tolerance,
+    new, probability, report, response, sample, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -92,6 +92,7 @@ enum Command {
     Sensitivities(sensitivities::Sensitivities),
     Tolerance(tolerance::Tolerance),
     Probability(probability::Probability),
+    Response(response::Response),
     Campbell(campbell::Campbell),
     Sweep(sweep::Follow),
     Branches(branches::Branches),
@@ -142,6 +143,7 @@ impl Command {
             Self::Sensitivities(own) => own.run(),
             Self::Tolerance(own) => own.run(),
             Self::Probability(own) => own.run(),
+            Self::Response(own) => own.run(),
             Self::Campbell(own) => own.run(),
             Self::Sweep(own) => own.run(),
             Self::Branches(own) => own.run(),

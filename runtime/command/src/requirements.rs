@@ -1,9 +1,10 @@
 //! Requirements on a design, from a study file or the command line.
 
+use eigentol::forced::Measure;
 use eigentol::requirement::Requirement;
-use eigentol::response::Response;
+use eigentol::response::{Response, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
-use eigentol::{Quantity, Study};
+use eigentol::{Excitation, Quantity, Study};
 use eigentol_interpreter::Interpreted;
 
 use crate::ends::with_unit_of;
@@ -23,6 +24,8 @@ macro_rules! require_keys {
   mode = 1                       #   a mode, counted from 1; its quantity is "frequency", "natural_frequency",
   quantity = "frequency"         #   "damping_ratio" or "growth"
   output = "angle"               #   an output of the declaration
+  vibration = "shake"            #   the amplitude, 0 to peak, of an output under excitations; under = "u" names one of
+                                 #   them if they have several frequencies; measure = "velocity" or "acceleration"
   critical = "speed=0..6000rpm"  #   the speed at which the equilibrium loses its stiffness
   resonance = "speed=0..6000rpm" #   with mode: the lowest speed at which its frequency is order (1) times the speed
   order = 1
@@ -33,7 +36,7 @@ macro_rules! require_keys {
 pub(crate) use require_keys;
 
 /// The syntax of a requirement on the command line.
-pub(crate) const HELP: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, \
+pub(crate) const HELP: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, `vibration shake under u <= 0.1 mm`, \
                                `angle <= 5 deg`, `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, or `stable`";
 
 /// Parses a requirement as written on the command line.
@@ -74,6 +77,11 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
         }
         ["flutter", of, along] => {
             (own.mode, own.flutter) = (Some(mode(of)?), Some(along.to_owned()));
+        }
+        ["vibration", name] => own.vibration = Some(name.to_owned()),
+        ["vibration", name, "under", excitation] => {
+            own.vibration = Some(name.to_owned());
+            own.under = Some(excitation.to_owned());
         }
         [quantity, of] if study_file::Quantity::named(quantity).is_some() => {
             (own.mode, own.quantity) = (Some(mode(of)?), study_file::Quantity::named(quantity));
@@ -158,12 +166,22 @@ fn away(
 fn all_used(own: &Require) -> Result<(), Failure> {
     let ends = own.at_least.is_some() || own.at_most.is_some() || own.outside.is_some();
     let limited = ends || own.away_from.is_some();
-    let elsewhere = [&own.output, &own.critical, &own.resonance, &own.flutter];
+    let elsewhere = [
+        &own.output,
+        &own.vibration,
+        &own.critical,
+        &own.resonance,
+        &own.flutter,
+    ];
     let of_a_mode = own.mode.is_some() && elsewhere.iter().all(|text| text.is_none());
     let refuse = |message: &str, help: &str| Err(Failure::usage(message, help));
     if own.order.is_some() && own.resonance.is_none() {
         let help = "`order` goes with `resonance = \"speed=0..6000rpm\"`: the excitation frequency is this many times the input";
         return refuse("`order` belongs to a resonance", help);
+    }
+    if own.vibration.is_none() && (own.under.is_some() || own.measure.is_some()) {
+        let help = "`under` and `measure` go with `vibration = \"output\"`";
+        return refuse("`under` and `measure` belong to a vibration", help);
     }
     if own.quantity.is_some() && !of_a_mode {
         let help = "`quantity` goes with `mode = 1` alone, at the operating point";
@@ -181,7 +199,13 @@ fn all_used(own: &Require) -> Result<(), Failure> {
 }
 
 fn about_a_number(own: &Require) -> bool {
-    let texts = [&own.output, &own.critical, &own.resonance, &own.flutter];
+    let texts = [
+        &own.output,
+        &own.vibration,
+        &own.critical,
+        &own.resonance,
+        &own.flutter,
+    ];
     own.mode.is_some() || texts.into_iter().any(Option::is_some)
 }
 
@@ -206,8 +230,16 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
             range: Range::new(found.input.any(), low, high),
         })
     };
+    let stated = [&own.output, &own.critical, &own.resonance, &own.flutter];
+    if let Some(name) = &own.vibration
+        && own.mode.is_none()
+        && !own.stable
+        && stated.into_iter().all(Option::is_none)
+    {
+        return vibration(study, name, own);
+    }
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {
-        _ if own.stable => {}
+        _ if own.stable || own.vibration.is_some() => {}
         (None, None, None, None) if own.mode.is_some() => {
             let quantity = own.quantity.map_or(Quantity::Frequency, Quantity::from);
             return Ok(Response::Mode {
@@ -228,9 +260,46 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
     }
     Err(Failure::usage(
         "a requirement states one thing",
-        "it is `mode = 1`, `output = \"name\"`, `critical = \"speed=0..6000rpm\"`, `resonance` or `flutter` of a `mode` along such a \
+        "it is `mode = 1`, `output = \"name\"`, `vibration = \"name\"`, `critical = \"speed=0..6000rpm\"`, `resonance` or `flutter` of a `mode` along such a \
          range, or `stable = true`",
     ))
+}
+
+/// The amplitude of an output under one of the excitations.
+fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Response, Failure> {
+    let Response::Output(of) = output(study, name)? else {
+        return Err(Failure::usage("an output vibrates", HELP));
+    };
+    let d = study.description();
+    let known = d.excitations.iter().map(|info| &info.name);
+    let excitation = match &own.under {
+        Some(under) => study
+            .find_excitation(under)
+            .map_err(|_| unknown(d, "excitation", under, known))?,
+        None if d.excitations.is_empty() => {
+            let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
+            return Err(Failure::usage("nothing excites a vibration", help));
+        }
+        None if d.excitations.iter().all(|info| info.with == 0) => Excitation::new(0),
+        None => {
+            let names: Vec<&str> = known.map(|name| &**name).collect();
+            let help = format!("say under which: {}", names.join(", "));
+            return Err(Failure::usage(
+                "the excitations have several frequencies",
+                help,
+            ));
+        }
+    };
+    let measure = match own.measure {
+        None | Some(study_file::Measure::Displacement) => Measure::Displacement,
+        Some(study_file::Measure::Velocity) => Measure::Velocity,
+        Some(study_file::Measure::Acceleration) => Measure::Acceleration,
+    };
+    Ok(Response::Vibration(Vibration {
+        output: of,
+        excitation: excitation.any(),
+        measure,
+    }))
 }
 
 fn output(study: &Study<Interpreted>, name: &str) -> Result<Response, Failure> {

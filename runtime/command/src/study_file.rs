@@ -102,6 +102,12 @@ pub(crate) struct Require {
     /// Quantity of a mode at the operating point; its frequency by default.
     pub(crate) quantity: Option<Quantity>,
     pub(crate) output: Option<String>,
+    /// An output that vibrates under excitations.
+    pub(crate) vibration: Option<String>,
+    /// One of the excitations; not needed if all have one frequency.
+    pub(crate) under: Option<String>,
+    /// What is measured of the vibration; the displacement by default.
+    pub(crate) measure: Option<Measure>,
     /// Where the equilibrium loses its stiffness; a range, as for `--sweep`.
     pub(crate) critical: Option<String>,
     /// Where the frequency of the mode is `order` times the input.
@@ -120,6 +126,15 @@ pub(crate) struct Require {
     pub(crate) away_from: Option<String>,
     /// Maximum probability of violating the requirement.
     pub(crate) failure: Option<f64>,
+}
+
+/// The measure of a vibration.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Measure {
+    Displacement,
+    Velocity,
+    Acceleration,
 }
 
 /// The required quantity of a mode.

@@ -63,6 +63,7 @@ pub fn check(subject: &Subject, state: &State) -> Outcome {
     this.linear_partials();
     this.gradients();
     this.output_partials();
+    this.forced();
     this.outcome
 }
 
@@ -384,6 +385,76 @@ impl Check<'_> {
             }
         }
         self.compare("output_partials", &changed, &expected);
+    }
+}
+
+impl Check<'_> {
+    /// Excitations: the gradient of the functional of `forcing` and `output_motion`, and the outputs by position.
+    fn forced(&mut self) {
+        let (Some(forcing), Some(motion)) = (self.kernel("forcing"), self.kernel("output_motion"))
+        else {
+            return;
+        };
+        let along = self.state.along.each_ref().map(|list| exact(list));
+        let at = self.state.at.each_ref().map(|list| exact(list));
+        let moved: Vec<Vec<First>> = (0..3).map(|k| moving(&at[k], &along[k])).collect();
+        let moved: Vec<&[First]> = moved.iter().map(Vec::as_slice).collect();
+        let forcing = interpret(forcing, &moved);
+        let motion = interpret(motion, &moved);
+
+        let position: Vec<Bounded> = motion[2].iter().map(|entry| entry.value).collect();
+        if !position.is_empty() {
+            let expected = self.evaluate("output_partials", &[], &[]).swap_remove(0);
+            self.compare("output_motion.by_position", &position, &expected);
+        }
+
+        let (n, excitations) = (self.n(), forcing[1].len());
+        let outputs = forcing[2].len() / excitations;
+        let state = self.state;
+        let weights = |count: usize, from: f64| -> Vec<f64> {
+            (0..count).map(|k| (from + 1.7 * k as f64).sin()).collect()
+        };
+        let on_outputs = weights(outputs, 0.3);
+        let (share, frequency) = (weights(excitations, 1.1), weights(excitations, 2.3));
+        let [direct_cosine, direct_sine] = [0.7, 1.9].map(|from| weights(outputs, from));
+        let [cosine, acceleration, velocity, position] = &state.pencil;
+        let sine = &state.shape;
+
+        let rows = |matrix: &[First], width: usize, by: &[f64]| -> Vec<Bounded> {
+            let rows = matrix.chunks_exact(width.max(1));
+            rows.map(|row| dot(&slopes(row), &exact(by))).collect()
+        };
+        let mut expected = dot(&slopes(&forcing[1]), &exact(&frequency));
+        for (matrix, by) in motion.iter().zip([acceleration, velocity, position]) {
+            expected = expected + dot(&rows(matrix, n, by), &exact(&on_outputs));
+        }
+        let forces = [
+            (0, cosine),
+            (2, &direct_cosine),
+            (3, sine),
+            (4, &direct_sine),
+        ];
+        for (place, by) in forces {
+            // without outputs there are no rows
+            let rows = rows(&forcing[place], by.len(), by);
+            let share = &exact(&share)[..rows.len()];
+            expected = expected + dot(&rows, share);
+        }
+        let own = [
+            &on_outputs,
+            acceleration,
+            velocity,
+            position,
+            &share,
+            cosine,
+            sine,
+            &direct_cosine,
+            &direct_sine,
+            &frequency,
+        ]
+        .map(Vec::as_slice);
+        let found = self.gradient_along("forced_gradient", &own);
+        self.compare("forced_gradient", &[found], &[expected]);
     }
 }
 

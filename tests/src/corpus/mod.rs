@@ -69,4 +69,6 @@ machines! {
     screw_press: ScrewPress,
     robot_arm: RobotArm,
     film_rotor: FilmRotor,
+    balanced_fan: BalancedFan,
+    shaken_turntable: ShakenTurntable,
 }

@@ -11,7 +11,9 @@ machines! {
     geared_coasting: GearedCoasting,
     geared_motor: GearedMotor,
     geared_rotors: GearedRotors,
+    geared_unbalance: GearedUnbalance,
     governor: Governor,
     porter_governor: PorterGovernor,
+    shaken_linkage: ShakenLinkage,
     slider_crank: SliderCrank,
 }

@@ -6,12 +6,15 @@ use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use super::{Bands, Bode};
-use crate::Error;
 use crate::along::{not_reached, varied};
-use crate::forced::{Harmonic, conventions, vibrations};
+use crate::forced::Harmonic;
 use crate::propagation::{ResponseSpread, VibrationCheck};
 use crate::response::{Response, Vibration};
+use crate::{Complex, Description, Error};
 
+/// What every amplitude and phase means.
+const CONVENTIONS: &str =
+    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.";
 /// An error of a model's spread that is worth a word.
 const WORTH_SAYING: f64 = 0.01;
 
@@ -36,7 +39,25 @@ impl Answer for Bode {
         let visible = places.filter(|(_, row)| points.contains(&row.point));
         table.show_rows(visible.map(|(k, _)| k).collect());
         varied(&mut table, d, self.input, given, &|row| row.value);
-        vibrations(&mut table, d, &|row| row.found);
+        table
+            .number("frequency", "rad/s", &|row| Some(row.found?.0.frequency))
+            .digits(number);
+        table
+            .words("output", &|row| Some(row.name(d)?.to_owned()))
+            .shown();
+        table
+            .words("unit", &|row| Some(row.unit(d)?.to_owned()))
+            .shown();
+        table
+            .number("amplitude", "", &|row| row.scaled(d, Complex::norm))
+            .digits(number);
+        table
+            .number("phase", "deg", &|row| {
+                Some(row.amplitude()?.arg().to_degrees())
+            })
+            .digits(short);
+        table.number("Re", "", &|row| row.scaled(d, |own| own.re));
+        table.number("Im", "", &|row| row.scaled(d, |own| own.im));
         table.words("error", &|row| row.error.map(ToString::to_string));
         said.columns(table);
         self.bands(&mut said, &points);
@@ -55,7 +76,7 @@ impl Answer for Bode {
                 "{failed} of {all} points have no vibration; the first: {error}."
             ));
         }
-        conventions(&mut said);
+        said.note(CONVENTIONS);
         said
     }
 }
@@ -68,6 +89,27 @@ struct Row<'a> {
     value: f64,
     found: Option<(&'a Harmonic, usize)>,
     error: Option<&'a Error>,
+}
+
+impl Row<'_> {
+    fn amplitude(&self) -> Option<Complex> {
+        let (harmonic, output) = self.found?;
+        harmonic.outputs.get(output).copied()
+    }
+
+    /// A part of the amplitude in the unit of the output.
+    fn scaled(&self, d: &Description, part: fn(Complex) -> f64) -> Option<f64> {
+        let unit = &d.outputs.get(self.found?.1)?.unit;
+        Some(converted(part(self.amplitude()?), unit))
+    }
+
+    fn name<'d>(&self, d: &'d Description) -> Option<&'d str> {
+        Some(&d.outputs.get(self.found?.1)?.name)
+    }
+
+    fn unit<'d>(&self, d: &'d Description) -> Option<&'d str> {
+        Some(&d.outputs.get(self.found?.1)?.unit.symbol)
+    }
 }
 
 /// The band of a vibration at a value of the input.

@@ -10,7 +10,6 @@ mod resolvent;
 mod response;
 mod sensitivities;
 
-pub(crate) use answer::{conventions, vibrations};
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
 pub use measure::Measure;
 pub(crate) use resolvent::Resolvent;

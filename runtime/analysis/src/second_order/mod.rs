@@ -28,7 +28,7 @@ mod quadratic;
 mod spread;
 
 pub(crate) use adjoint::Adjoint;
-pub(crate) use answers::{Pair, names_of_pairs, pairs};
+pub(crate) use answers::{Pair, names, pairs};
 pub use critical::critical_curvature;
 pub(crate) use curvature::joined;
 pub use curvature::{ModeCurvature, mode_curvature};

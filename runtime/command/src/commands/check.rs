@@ -54,6 +54,7 @@ fn summary(of: &Description) -> String {
         (moving.count(), "coordinate", "coordinates"),
         (of.inputs.len(), "input", "inputs"),
         (of.design.len(), "design variable", "design variables"),
+        (of.excitations.len(), "excitation", "excitations"),
         (of.outputs.len(), "output", "outputs"),
     ];
     let counts = counts.map(|(count, one, many)| format!("{count} {}", plural(count, one, many)));

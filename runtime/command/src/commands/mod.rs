@@ -13,6 +13,7 @@ pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod probability;
 pub(crate) mod report;
+pub(crate) mod response;
 pub(crate) mod sample;
 pub(crate) mod sensitivities;
 pub(crate) mod sweep;

@@ -13,7 +13,7 @@ pub struct Variable<'a> {
     pub name: &'a Text,
     pub unit: &'a Unit,
     /// SI.
-    value: f64,
+    pub value: f64,
 }
 
 /// All variables, inputs first.

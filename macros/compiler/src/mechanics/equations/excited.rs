@@ -13,7 +13,7 @@ use crate::mechanics::inertia::{Direction, deviation};
 use crate::mechanics::motion::{Kinematics, in_common_frame, in_common_frame_at_zero};
 use crate::mechanics::setup::{
     Context, CoordinateMotion, Excited, ForceSelection, SymbolList, Symbols, Values, at_rest,
-    by_symbol,
+    by_symbol, vanish,
 };
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Excitation, ExcitationLaw, Force, ForceLaw, Frame, Mechanism};
@@ -136,11 +136,12 @@ fn across(
 ) -> Option<[Vector3; 2]> {
     let axis = axis(g, context, kinematics, body)?;
     let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;
-    let along = |g: &Graph, k: usize| (0..3).all(|i| i == k || g.is(axis.0[i], 0.0));
+    let zero = vanish(g, context, &axis.0);
+    let along = |k: usize| (0..3).all(|i| i == k || zero[i]);
     let first = match () {
-        () if along(g, 2) => unit[0],
-        () if along(g, 0) => unit[1],
-        () if along(g, 1) => unit[2],
+        () if along(2) => unit[0],
+        () if along(0) => unit[1],
+        () if along(1) => unit[2],
         () => {
             let part = axis.scale(g, axis.0[0]);
             let across = unit[0].sub(g, part);

@@ -22,7 +22,7 @@ impl Answer for ModeCurvature {
         let pairs = pairs(&variables(d));
         let mut table = Columns::new("second derivatives", &pairs);
         table.whole("mode", &|_| Some(number));
-        names_of_pairs(&mut table, &|pair| pair);
+        names(&mut table, &|pair| pair);
         table.number("lambda", "1/s^2 per units", &|pair| {
             Some(pair.scaled(pair.of(&self.lambda, inputs)?))
         });
@@ -115,7 +115,7 @@ impl Pair<'_> {
 }
 
 /// The names and units of both variables.
-pub(crate) fn names_of_pairs<'a, R>(table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> &Pair<'a>) {
+pub(crate) fn names<'a, R>(table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> &Pair<'a>) {
     for (k, title) in ["by", "and by"].into_iter().enumerate() {
         let variable = |row: &R| of(row).variables[k];
         table.words(title, &|row| Some(variable(row).name.to_string()));
@@ -131,7 +131,7 @@ fn derivatives(
     of: &dyn Fn(&Pair<'_>) -> Option<f64>,
 ) -> Findings {
     let mut table = Columns::new("second derivatives", pairs);
-    names_of_pairs(&mut table, &|pair| pair);
+    names(&mut table, &|pair| pair);
     if let Some((name, unit)) = quantity {
         let units = format!("{} per units", unit.symbol);
         table.number(name, &units, &|pair| {

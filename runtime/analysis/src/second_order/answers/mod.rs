@@ -3,4 +3,4 @@
 mod curvature;
 mod spreads;
 
-pub(crate) use curvature::{Pair, names_of_pairs, pairs};
+pub(crate) use curvature::{Pair, names, pairs};

@@ -1,0 +1,103 @@
+//! Forced vibration.
+
+use clap::Args;
+use eigentol::response::Vibration;
+use eigentol::{Excitation, Output as DeclaredOutput, Study};
+use eigentol_interpreter::Interpreted;
+
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::point::{Point, samples, whole};
+use crate::progress;
+use crate::sweep::{Points, Sweep};
+use crate::verdict::Verdict;
+
+/// Number of designs solved anew for each band, unless it is given.
+const CHECKED: usize = 64;
+
+/// Vibration under the declared excitations: amplitudes and phases, their derivatives and their bands under tolerances
+#[derive(Args, Debug)]
+pub(crate) struct Response {
+    #[command(flatten)]
+    point: Point,
+    #[command(flatten)]
+    sweep: Sweep,
+    #[command(flatten)]
+    points: Points,
+    /// Bands of the amplitudes under tolerances
+    #[arg(long)]
+    bands: bool,
+    /// Number of samples of a band [default: 3000]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
+    samples: Option<usize>,
+    /// Number of designs solved anew to check each band [default: 64]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true, requires = "bands")]
+    checked: Option<usize>,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Response {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.output.check()?;
+        let mut question = self.point.question()?;
+        let wanted = vibrations(&question.study);
+        let number = samples(self.samples, &question.file)?;
+        question.study = question.study.samples(number);
+        let Some(range) = self.sweep.range_if_any(&question)? else {
+            return self.at_point(&question.study, &wanted);
+        };
+        let values = self.points.values(&range, &question)?;
+        let bar = progress::bar("values", Some(values.len() as u64));
+        question.study = progress::watched(question.study, &bar);
+        let (study, input) = (&question.study, range.input);
+        let found = match self.bands {
+            true => study.bode_bands(input, &values, &wanted, self.checked.unwrap_or(CHECKED))?,
+            false => study.bode(input, &values)?,
+        };
+        bar.finish_and_clear();
+        let mut answer = self.output.answer();
+        answer.add(&found)?;
+        self.output.write(&answer)?;
+        if found.points.len() < values.len() {
+            return Ok(Verdict::stopped(found.points.len(), values.len(), "values"));
+        }
+        match found.points.iter().any(|point| point.vibration.is_ok()) {
+            true => Ok(Verdict::Yes),
+            false => Ok(Verdict::No(
+                "no value of the range has a vibration".to_owned(),
+            )),
+        }
+    }
+
+    fn at_point(
+        &self,
+        study: &Study<Interpreted>,
+        wanted: &[Vibration],
+    ) -> Result<Verdict, Failure> {
+        let verdict = Verdict::of(study)?;
+        let mut answer = self.output.answer();
+        answer.add(&study.forced_sensitivities()?)?;
+        if self.bands {
+            answer.add(&study.vibration_spread(wanted)?)?;
+        }
+        self.output.write(&answer)?;
+        Ok(verdict)
+    }
+}
+
+/// Every output under every harmonic.
+fn vibrations(study: &Study<Interpreted>) -> Vec<Vibration> {
+    let d = study.description();
+    let harmonics = d.excitations.iter().enumerate();
+    let firsts = harmonics.filter(|(k, info)| info.with == *k);
+    firsts
+        .flat_map(|(k, _)| {
+            let outputs = 0..d.outputs.len();
+            outputs.map(move |o| {
+                let output = DeclaredOutput::<Interpreted>::new(o);
+                Vibration::new(output, Excitation::new(k))
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,6 @@
+//! Forced vibration: against closed forms, direct solutions and differences.
+
+mod models;
+mod random;
+mod special;
+mod truth;
