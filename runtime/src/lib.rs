@@ -92,7 +92,7 @@ mod study;
 #[doc(inline)]
 pub use eigentol_analysis::{
     allocation, bode, branches, campbell, campbell::Campbell, clusters, forced, judge, motion,
-    picture, propagation, requirement, response, second_order, shapes, summary, sweep,
+    peaks, picture, propagation, requirement, response, second_order, shapes, summary, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]

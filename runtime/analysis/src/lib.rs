@@ -12,6 +12,7 @@ mod deviations;
 pub mod forced;
 pub mod judge;
 pub mod motion;
+pub mod peaks;
 pub mod picture;
 pub mod propagation;
 pub mod requirement;

@@ -109,6 +109,21 @@ impl Vibration {
         Ok(found())
     }
 
+    /// Refuses handles of another mechanism.
+    pub(crate) fn check(&self, of: &Description) -> Result<(), Error> {
+        check_output(self.output, of)?;
+        let (index, count) = (self.excitation.index(), of.excitations.len());
+        match index < count {
+            true => Ok(()),
+            false => Err(Error::UnknownHandle {
+                kind: "excitation",
+                index,
+                mechanism: of.name.clone(),
+                count,
+            }),
+        }
+    }
+
     /// The position of its harmonic.
     pub(crate) fn place(&self, of: &Description) -> Option<usize> {
         let with = of.excitations.get(self.excitation.index())?.with;
@@ -262,19 +277,7 @@ impl<'a> Responses<'a> {
             match response {
                 Response::Mode { mode, .. } => check_mode(*mode, modes)?,
                 Response::Output(output) => check_output(*output, description)?,
-                Response::Vibration(vibration) => {
-                    check_output(vibration.output, description)?;
-                    let index = vibration.excitation.index();
-                    let count = description.excitations.len();
-                    if index >= count {
-                        return Err(Error::UnknownHandle {
-                            kind: "excitation",
-                            index,
-                            mechanism: description.name.clone(),
-                            count,
-                        });
-                    }
-                }
+                Response::Vibration(vibration) => vibration.check(description)?,
                 Response::Critical(range) => range.check(description)?,
                 Response::Crossing { mode, range, .. } => {
                     check_mode(*mode, modes)?;

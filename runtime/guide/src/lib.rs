@@ -9,6 +9,7 @@
 //! | [Closed loops](loops) | linkages, and which assembly is found |
 //! | [Which equilibrium](equilibria) | unstable ones, families of steady motions, machines that nothing holds |
 //! | [Rotors](rotors) | whirl, Campbell diagrams, critical speeds, instability |
+//! | [Forced vibration](vibration) | unbalance, shaking and harmonic loads: amplitudes, bands, the balance grade |
 //! | [Theory](theory) | the equations, with the numbers of the paper |
 //! | [Embedding](embedding) | Python, C, build scripts, no standard library |
 //! | [Performance](performance) | measurements, and where the numbers come from |
@@ -37,6 +38,9 @@ pub mod equilibria {}
 
 #[doc = include_str!("rotors.md")]
 pub mod rotors {}
+
+#[doc = include_str!("vibration.md")]
+pub mod vibration {}
 
 #[doc = include_str!("theory.md")]
 pub mod theory {}

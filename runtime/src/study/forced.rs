@@ -6,8 +6,10 @@ use super::{Study, Value};
 use crate::bode::{self, Banded, Bode};
 use crate::forced::{self, ForcedCurvature, ForcedResponse, ForcedSensitivities};
 use crate::kernels::{CurvatureKernels, Kernels, SummaryKernels};
+use crate::peaks::{self, Peaks};
 use crate::propagation::{self, Propagation};
 use crate::response::{Response, Responses, Vibration};
+use crate::sweep::Range;
 use crate::{Error, Input};
 
 impl<M: Kernels> Study<M> {
@@ -48,6 +50,43 @@ impl<M: CurvatureKernels> Study<M> {
     /// As [`Study::forced_sensitivities`].
     pub fn forced_curvature(&self) -> Result<ForcedCurvature, Error> {
         forced::second_derivatives(&self.mechanism, self.settings.regular(&self.mechanism)?)
+    }
+}
+
+impl<M: CurvatureKernels> Study<M> {
+    /// The peaks of an amplitude along an input, with exact derivatives and their spread under the tolerances
+    /// ([`peaks::peaks`]).
+    #[doc = include_str!("shaken.txt")]
+    /// use eigentol::response::Vibration;
+    ///
+    /// let found = study.peaks(Vibration::new(Rotor::shake, Rotor::u), Rotor::omega, 200.0, 600.0)?;
+    /// assert!(found.peaks.len() == 1 && found.peaks[0].amplification.is_some());
+    /// println!("{}", found.separation([450.0, 600.0]));
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`peaks::peaks`] and [`Study::tolerances`].
+    pub fn peaks(
+        &self,
+        vibration: Vibration,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Peaks, Error> {
+        let low = self.settings.si(input.any().into(), low.into())?;
+        let high = self.settings.si(input.any().into(), high.into())?;
+        let table = Table::<dyn CurvatureKernels>::deviating(&self.settings, &self.mechanism)?;
+        let point = (&self.settings.inputs[..], &table.design[..]);
+        let (start, following) = table.way(table.plain, (input.any(), low))?;
+        let tolerances = self.settings.tolerances()?;
+        peaks::peaks(
+            table.kernels(),
+            point,
+            &start,
+            following,
+            Range::new(input.any(), low, high),
+            vibration,
+            Some(tolerances),
+        )
     }
 }
 

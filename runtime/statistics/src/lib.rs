@@ -10,6 +10,7 @@ mod legendre;
 pub mod normal;
 pub mod quadrature;
 pub mod random;
+pub mod random_phases;
 pub mod reliability;
 pub mod sensitivity;
 pub mod sequence;

@@ -15,6 +15,7 @@ mod lanes;
 mod operations;
 mod pendulum;
 mod report;
+mod rotor;
 mod samples;
 mod timing;
 mod tools;
@@ -73,6 +74,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if wanted(samples::SAMPLES) {
         singles.extend(samples::samples());
+    }
+    if wanted(rotor::ROTOR) {
+        singles.extend(rotor::rotor());
     }
     if wanted(facts::LONG_CHAIN) {
         singles.extend(facts::long_chain());

@@ -14,20 +14,20 @@ use serde_json::Value;
 use super::models::{Jeffcott, Shaken};
 use crate::common::derived::Derived;
 
-fn truth(name: &str) -> Value {
+pub(super) fn truth(name: &str) -> Value {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../truth/forced");
     let text = fs::read_to_string(path.join(name).with_extension("json")).unwrap();
     serde_json::from_str(&text).unwrap()
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub(super) fn numbers(value: &Value) -> Vec<f64> {
     let list = value.as_array().unwrap();
     list.iter().map(|own| own.as_f64().unwrap()).collect()
 }
 
 /// Compares with derivatives by one variable; what is zero in the closed form is zero beside `scale`.
 #[track_caller]
-fn near(found: f64, expected: f64, tolerance: f64, scale: f64) {
+pub(super) fn near(found: f64, expected: f64, tolerance: f64, scale: f64) {
     let size = if expected.abs() < 1e-25 {
         scale
     } else {

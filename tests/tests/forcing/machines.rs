@@ -454,3 +454,30 @@ fn joints_with_several_motions() {
     m.kernels_only = true;
     check(&m, 5);
 }
+
+/// A rotor on the ground: only its bearing feels it.
+#[test]
+fn force_in_a_rigid_bearing() {
+    let mut m = Machine::default();
+    m.rotor("fan", DISK, v(0.0, 0.0, 0.2), v(0.0, 0.0, 1.0))
+        .body(
+            "bob",
+            "sphere(mass: 1 kg, radius: 0.1 m)",
+            v(0.0, 0.0, -1.0),
+        )
+        .joint(
+            "joint spin: revolute(z) from ground to fan",
+            &[("spin", Driven(5.0))],
+        )
+        .released("joint hold: free(wx: x, wy: y, wz: z, spin: z, wa: x, wb: y) from ground to fan")
+        .joint(
+            "joint swing: revolute(x) from ground to bob",
+            &[("swing", Free)],
+        )
+        .other("gravity 9.81 m/s^2 along -z;")
+        .unbalance("fan", Eccentricity, 0.1, 0.7)
+        .reaction("reaction_force(spin).x", "wx")
+        .reaction("reaction_force(spin).y", "wy")
+        .reaction("reaction_force(spin).z", "wz");
+    check(&m, 2);
+}

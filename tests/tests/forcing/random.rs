@@ -215,11 +215,17 @@ impl Builder {
             }),
             false => Motion::Coasting,
         };
+        let coasts = matches!(motion, Motion::Coasting);
         let coordinate = format!("spin{k}");
         self.machine.joint(
             &format!("joint {coordinate}: revolute({word}) {ends}"),
             &[(&coordinate, motion)],
         );
+        if word.contains("1.0, 0.0, 0.0") && !coasts {
+            let sign = if word.contains('-') { "-" } else { "" };
+            let moment = format!("{sign}reaction_moment({coordinate}).x");
+            self.machine.reaction(&moment, &coordinate);
+        }
         let turned = axes_of_body * sense;
         self.seats.push(Seat {
             name: name.clone(),
@@ -385,7 +391,7 @@ const REASONS: [&str; 9] = [
 #[test]
 fn random_machines() {
     let (mut agreed, mut excited, mut refused) = (0, 0, 0);
-    for seed in 0..400 {
+    for seed in 0..480 {
         let machine = machine(seed);
         match compare(&machine, seed) {
             Ok(outcome) => {

@@ -10,7 +10,7 @@ use crate::forced::{self, ForcedSensitivities};
 use crate::kernels::SummaryKernels;
 use crate::propagation::{Propagation, VibrationCheck, check_vibrations, vibrations};
 use crate::response::{Response, Responses, Vibration};
-use crate::sweep::{Following, SweepPoint, sweep_each};
+use crate::sweep::{Following, SweepPoint, states_each};
 use crate::tolerance::{Sampling, Tolerances};
 use crate::{Description, Error, Input, Shared, Watch};
 
@@ -90,11 +90,11 @@ pub fn bode(
     }
     let mut points = Vec::with_capacity(values.len());
     let mut failed = None;
-    let swept = sweep_each(
+    states_each(
         mechanism,
         (u, b),
         start,
-        following,
+        following.into(),
         (input, values),
         |at| match point(mechanism, at, banded) {
             Ok(point) => {
@@ -114,12 +114,13 @@ pub fn bode(
     if let Some(error) = failed {
         return Err(error);
     }
+    let unreached = values.len() - points.len();
     Ok(Bode {
         input,
         points,
         banded: banded.map_or(Vec::new(), |banded| banded.wanted.clone()),
-        unreached: swept.unreached,
-        inputs: swept.inputs,
+        unreached,
+        inputs: u.into(),
         description,
     })
 }

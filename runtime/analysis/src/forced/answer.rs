@@ -1,6 +1,6 @@
 //! Forced vibration at one operating point as text and tables.
 
-use eigentol_results::numbers::{converted, number, short};
+use eigentol_results::numbers::{converted, in_unit as number_in, number, short, with_unit};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
@@ -55,12 +55,39 @@ impl Answer for ForcedResponse {
             false => said.data(table.finish().0),
         }
         self.unknowns(&mut said);
+        self.unknown_phases(&mut said);
         said.note(CONVENTIONS);
         said
     }
 }
 
 impl ForcedResponse {
+    /// What remains true if only the amounts of several excitations are known.
+    fn unknown_phases(&self, said: &mut Findings) {
+        let d = &self.description;
+        for row in self.rows() {
+            let name = row.name(self);
+            let sum = row
+                .harmonic
+                .unknown_phases(Output::new(row.output), Measure::Displacement);
+            let several = row.harmonic.shares.len() > 1;
+            let (true, Ok(sum)) = (several, sum) else {
+                continue;
+            };
+            let Some(info) = d.outputs.get(row.output) else {
+                continue;
+            };
+            let Ok(upper) = sum.quantile(0.95) else {
+                continue;
+            };
+            said.note(format!(
+                "Were only the amounts known and not the phases, {name} would stay below {}, in 95 % of cases below {}.",
+                with_unit(number_in(sum.greatest(), &info.unit), &info.unit),
+                with_unit(number_in(upper, &info.unit), &info.unit)
+            ));
+        }
+    }
+
     fn rows(&self) -> Vec<Row<'_>> {
         let harmonics = self.harmonics.iter().enumerate();
         harmonics

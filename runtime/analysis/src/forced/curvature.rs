@@ -11,7 +11,7 @@ use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_res
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
 use crate::sensitivity::{
-    Direction, Slopes, directions, form_gradient_along, outside_domain, subtract,
+    ComplexGradient, Direction, Slopes, directions, form_gradient_along, outside_domain, subtract,
 };
 use crate::{Complex, Equilibrium, Error, Output};
 
@@ -120,10 +120,11 @@ pub fn second_derivatives(
     for (vibration, own) in solved.vibrations.iter().zip(&first.harmonics) {
         let moved = all.iter().map(|along| along.of(vibration, &own.frequency));
         let moved: Vec<Moved<'_>> = moved.collect();
-        let frequency = frequency_rows(mechanism, at, &adjoint, vibration, &all);
+        let (_, frequency) = frequency_rows(mechanism, at, &adjoint, vibration, &all);
         let of_output = |(o, slopes): (usize, &Option<Slopes<Complex>>)| {
             slopes.as_ref()?;
-            let curved = Curved::new(&solved, &adjoint, vibration, o)?;
+            let own = OutputAdjoint::new(&solved, vibration, o)?;
+            let (curved, _) = Curved::new(own, &adjoint);
             let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
             let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
             let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
@@ -216,16 +217,12 @@ pub(super) struct Curved<'a> {
 }
 
 impl<'a> Curved<'a> {
-    pub(super) fn new(
-        solved: &'a Solved<'a>,
-        adjoint: &'a Adjoint<'a>,
-        vibration: &'a Vibration,
-        output: usize,
-    ) -> Option<Self> {
-        let own = OutputAdjoint::new(solved, vibration, output)?;
-        let mut room = Gradient::zeros(solved.mechanism.sizes());
-        let w = (own.gradient().each_mut()).map(|part| adjoint.total(part, &mut room));
-        Some(Self { own, adjoint, w })
+    /// With the total gradient of `-h`.
+    pub(super) fn new(own: OutputAdjoint<'a>, adjoint: &'a Adjoint<'a>) -> (Self, ComplexGradient) {
+        let mut room = Gradient::zeros(own.solved.mechanism.sizes());
+        let mut total = own.gradient();
+        let w = (total.each_mut()).map(|part| adjoint.total(part, &mut room));
+        (Self { own, adjoint, w }, total)
     }
 
     /// The derivatives of the total gradient along a direction; `None` if they are infinite.
@@ -315,28 +312,30 @@ fn gradient_along(
     );
 }
 
-/// The derivatives of the total gradient of a frequency along each direction.
+/// The total gradient of a frequency, and its derivatives along each direction.
 pub(super) fn frequency_rows(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
     adjoint: &Adjoint<'_>,
     vibration: &Vibration,
     all: &[Along<'_>],
-) -> Vec<Slopes<f64>> {
+) -> (Slopes<f64>, Vec<Slopes<f64>>) {
     let sizes = mechanism.sizes();
     let (mut partial, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
     let weights = Weights::of_frequency(sizes, vibration);
     weights.gradient_into(mechanism, at, &mut partial);
     let w = adjoint.total(&mut partial, &mut room);
+    let slopes = |own: &Gradient| Slopes {
+        by_input: own.inputs.clone(),
+        by_design: own.design.clone(),
+    };
+    let first = slopes(&partial);
     let still = Weights::zeros(sizes);
     let row = |along: &Along<'_>| {
         let own = (&weights, &still);
         gradient_along(mechanism, at, own, &along.direction, &mut partial);
         adjoint.total_along(&mut partial, &w, &along.direction, &mut room);
-        Slopes {
-            by_input: partial.inputs.clone(),
-            by_design: partial.design.clone(),
-        }
+        slopes(&partial)
     };
-    all.iter().map(row).collect()
+    (first, all.iter().map(row).collect())
 }

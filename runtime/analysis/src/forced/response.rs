@@ -213,7 +213,7 @@ fn add(sum: &mut [Complex], values: &[Complex]) {
 const NEAR: f64 = 1e-6;
 
 /// The error of a resonance, with the mode at this frequency if there is one.
-pub(super) fn resonance(at: &Equilibrium, excitation: usize, frequency: f64) -> Error {
+pub(crate) fn resonance(at: &Equilibrium, excitation: usize, frequency: f64) -> Error {
     let mode = modes(at).ok().and_then(|modes| {
         let own = modes.frequencies().into_iter().enumerate();
         let away = own.filter_map(|(mode, own)| Some((mode, (own? - frequency).abs())));

@@ -42,3 +42,21 @@ pub fn sensitivity_sweep(
     );
     Ok(())
 }
+
+/// Solves equilibrium and modes at each of `values` of one input, like [`sweep_each`](super::sweep_each), without looking
+/// for events between them.
+pub(crate) fn states_each(
+    mechanism: &dyn BatchKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
+    following: Following,
+    (input, values): (Input, &[f64]),
+    mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
+) -> Result<(), Error> {
+    check_input(input, &mechanism.description())?;
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
+    follow(&mut tracker, mechanism, values, false, |station| {
+        each(station.point)
+    });
+    Ok(())
+}

@@ -57,6 +57,11 @@ fn summary(of: &Description) -> String {
         (of.excitations.len(), "excitation", "excitations"),
         (of.outputs.len(), "output", "outputs"),
     ];
-    let counts = counts.map(|(count, one, many)| format!("{count} {}", plural(count, one, many)));
+    let mentioned = counts
+        .iter()
+        .filter(|(count, one, _)| *count > 0 || *one != "excitation");
+    let counts: Vec<String> = mentioned
+        .map(|(count, one, many)| format!("{count} {}", plural(*count, one, many)))
+        .collect();
     format!("mechanism `{}`, {}", of.name, counts.join(", "))
 }

@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::output::Output;
 use crate::point::{Point, samples, whole};
 use crate::progress;
-use crate::sweep::{Points, Sweep};
+use crate::sweep::{Points, Range, Sweep, range};
 use crate::verdict::Verdict;
 
 /// Number of designs solved anew for each band, unless it is given.
@@ -33,6 +33,12 @@ pub(crate) struct Response {
     /// Number of designs solved anew to check each band [default: 64]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true, requires = "bands")]
     checked: Option<usize>,
+    /// The peaks of every amplitude in the range of `--sweep`, with their half-power points and spreads
+    #[arg(long, conflicts_with = "bands")]
+    peaks: bool,
+    /// Speeds of operation, for separation margins in the manner of API 617: `speed=4000..6000rpm`
+    #[arg(long, value_name = "NAME=FROM..TO", requires = "peaks")]
+    operating: Option<String>,
     #[command(flatten)]
     output: Output,
 }
@@ -47,6 +53,9 @@ impl Response {
         let Some(range) = self.sweep.range_if_any(&question)? else {
             return self.at_point(&question.study, &wanted);
         };
+        if self.peaks {
+            return self.peaks_in(&question.study, &range, &wanted);
+        }
         let values = self.points.values(&range, &question)?;
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);
@@ -67,6 +76,40 @@ impl Response {
             false => Ok(Verdict::No(
                 "no value of the range has a vibration".to_owned(),
             )),
+        }
+    }
+
+    fn peaks_in(
+        &self,
+        study: &Study<Interpreted>,
+        along: &Range,
+        wanted: &[Vibration],
+    ) -> Result<Verdict, Failure> {
+        let operating = self.operating.as_ref().map(|text| range(study, text));
+        let operating = operating.transpose()?;
+        if operating
+            .as_ref()
+            .is_some_and(|own| own.input != along.input)
+        {
+            let help = "state it for the input of `--sweep`";
+            let message = "the range of operation is of another input";
+            return Err(Failure::usage(message, help));
+        }
+        let mut answer = self.output.answer();
+        let mut number = 0;
+        for vibration in wanted {
+            let found = study.peaks(*vibration, along.input, along.low, along.high)?;
+            number += found.peaks.len();
+            answer.add(&found)?;
+            if let Some(own) = &operating {
+                let ends = [own.low.min(own.high), own.low.max(own.high)];
+                answer.add(&found.separation(ends))?;
+            }
+        }
+        self.output.write(&answer)?;
+        match number {
+            0 => Ok(Verdict::No("no amplitude has a peak".to_owned())),
+            _ => Ok(Verdict::Yes),
         }
     }
 

@@ -11,7 +11,7 @@ use crate::base::ids::{CoordinateId, ExprId, SymbolId};
 use crate::mechanics::equations::{Response, outputs};
 use crate::mechanics::motion::in_common_frame;
 use crate::mechanics::setup::{Context, at_rest, by_symbol, columns, vanish};
-use crate::model::mechanism::{Excitation, ExcitationLaw};
+use crate::model::mechanism::{Excitation, ExcitationLaw, Frame, JointStep, StepMotion};
 
 /// The coordinates that turn an unbalance, each with its direction, by excitation; empty for other excitations.
 pub(crate) type Turning = Vec<Vec<(CoordinateId, f64)>>;
@@ -66,9 +66,13 @@ fn turned(
         let drive = &context.mechanism.coordinates[id.index()].name;
         let symbol = context.symbols.running.ids[place];
         let signs = [0.0, 1.0, -1.0];
-        let direction = signs
-            .into_iter()
-            .find(|&s| turns(g, context, response, (symbol, s), 0..n));
+        // forces that vanish turn in every direction: then the outputs say which
+        let find = |g: &mut Graph, end: usize| {
+            let mut signs = signs.into_iter();
+            signs.find(|&s| turns(g, context, response, (symbol, s), 0..end))
+        };
+        let both = find(g, n + context.mechanism.outputs.len());
+        let direction = both.or_else(|| find(g, n));
         let Some(s) = direction else {
             let name = &excitation.name;
             mistakes.error_with_help(
@@ -79,7 +83,8 @@ fn turned(
             return Vec::new();
         };
         for (k, output) in context.mechanism.outputs.iter().enumerate() {
-            if !turns(g, context, response, (symbol, s), n + k..n + k + 1) {
+            let own = n + k..n + k + 1;
+            if both.is_none() && !turns(g, context, response, (symbol, s), own) {
                 turns_itself(&output.name, drive, mistakes);
             }
         }
@@ -92,21 +97,51 @@ fn turned(
         let forces = response.by.iter().flat_map(|change| &change[..n]);
         let forces: Vec<ExprId> = forces.copied().collect();
         let acts = vanish(g, context, &forces).into_iter().any(|zero| !zero);
-        let message = match acts {
-            true => format!(
-                "`{name}` does not turn relative to what it shakes: it is a constant load, not an excitation"
+        let (problem, help) = match (is_turned(context, excitation), acts) {
+            (false, _) => (
+                "shakes nothing: no drive turns its body",
+                "an unbalance is on a body that a driven or coasting coordinate turns; an eccentric body that does not turn is a `body` with its `center`",
             ),
-            false => format!(
-                "`{name}` shakes nothing: no drive turns its body, or nothing that can move feels it"
+            (true, true) => (
+                "does not turn relative to what it shakes: it is a constant load, not an excitation",
+                "something before the drive must be free to move",
+            ),
+            (true, false) => (
+                "shakes nothing: nothing that can move feels it, and no output",
+                "an eccentricity or an amount shakes what can move or tilt across the axis, a tilt what can tilt; that of a sphere has no effect",
             ),
         };
-        mistakes.error_with_help(
-            name.span(),
-            message,
-            "an unbalance is on a body that a driven or coasting coordinate turns; an eccentric body that does not turn is a `body` with its `center`",
-        );
+        mistakes.error_with_help(name.span(), format!("`{name}` {problem}"), help);
     }
     turning
+}
+
+/// Whether a running coordinate turns the body of an unbalance.
+fn is_turned(context: &Context, excitation: &Excitation) -> bool {
+    let ExcitationLaw::Unbalance { body, .. } = excitation.law else {
+        return false;
+    };
+    let mechanism = context.mechanism;
+    let turns = |step: &JointStep| {
+        let coordinate = &mechanism.coordinates[step.coordinate.index()];
+        step.motion != StepMotion::Slide && coordinate.motion.runs()
+    };
+    let mut frame = Frame::Body(body);
+    while let Frame::Body(body) = frame {
+        let mut branches = context.topology.branches.iter();
+        let Some(branch) = branches.find(|branch| branch.body == body) else {
+            return false;
+        };
+        if mechanism.joints[branch.joint.index()]
+            .steps
+            .iter()
+            .any(turns)
+        {
+            return true;
+        }
+        frame = branch.parent;
+    }
+    false
 }
 
 /// Whether these derivatives turn with a running coordinate in a direction.

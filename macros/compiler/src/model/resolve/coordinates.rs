@@ -28,6 +28,24 @@ pub(super) enum DeclaredMotion {
     Free,
     Driven,
     Coasting,
+    Shaken,
+}
+
+impl DeclaredMotion {
+    /// Whether the declaration gives the motion, so that no equation determines it.
+    pub(super) fn is_given(self) -> bool {
+        matches!(self, Self::Driven | Self::Shaken)
+    }
+
+    /// The word that declares it.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Free => "free",
+            Self::Driven => "driven",
+            Self::Coasting => "coasting",
+            Self::Shaken => "shaken",
+        }
+    }
 }
 
 /// The dimension of a coordinate.
@@ -97,7 +115,7 @@ fn motion(joint: &Joint, name: &Ident, is_only: bool) -> DeclaredMotion {
         }
         JointClause::Shake(shake) => {
             let meant = shake.coordinate.as_ref().map_or(is_only, |own| own == name);
-            meant.then_some(DeclaredMotion::Driven)
+            meant.then_some(DeclaredMotion::Shaken)
         }
         JointClause::Coast(coast) => {
             let meant = coast.coordinate.as_ref().is_none_or(|own| own == name);

@@ -3,7 +3,6 @@
 use proc_macro2::Ident;
 
 use super::arguments::{Arguments, Signature};
-use super::coordinates::DeclaredMotion;
 use super::expected::Expected;
 use super::joints::kinds::Kind;
 use super::placements::zero;
@@ -105,6 +104,7 @@ impl Resolver<'_> {
         let amount = self.amplitude(&arguments, "amount", first_moment);
         let eccentricity = self.amplitude(&arguments, "eccentricity", Dimension::LENGTH);
         let tilt = self.amplitude(&arguments, "tilt", Expected::angle());
+        let moves_the_body = eccentricity.is_some() || tilt.is_some();
         let deviation = amount
             .map(Deviation::Amount)
             .or(eccentricity.map(Deviation::Eccentricity))
@@ -114,6 +114,13 @@ impl Resolver<'_> {
         {
             let message = "an eccentricity or a tilt moves the whole body: it has no place";
             self.diagnostics.error(at.extent, message);
+            return None;
+        }
+        if moves_the_body && self.is_massless(&unbalance.on) {
+            let message = format!("`{}` has no mass that could be out of place", unbalance.on);
+            let help = "give the `amount` of the unbalance, or name the body that has the mass";
+            self.diagnostics
+                .error_with_help(&unbalance.on, message, help);
             return None;
         }
         let Frame::Body(body) = frame? else {
@@ -133,6 +140,15 @@ impl Resolver<'_> {
             frequency: Frequency::OfTurning,
             phase: phase?,
         })
+    }
+
+    fn is_massless(&self, body: &Ident) -> bool {
+        let mut bodies = self.ast.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Body(body) => Some(body),
+            _ => None,
+        });
+        let declared = bodies.find(|own| own.name == *body);
+        declared.is_some_and(|own| own.terms.iter().all(|term| term.shape.word == "massless"))
     }
 
     fn harmonic(&mut self, force: &Force) -> Option<Excitation> {
@@ -294,8 +310,7 @@ impl Resolver<'_> {
     /// A coordinate that keeps turning.
     fn running_coordinate(&mut self, name: &Ident) -> Option<CoordinateId> {
         let (id, quantity) = self.coordinate(name)?;
-        let motion = self.coordinates.get(id.index())?.motion;
-        if motion == DeclaredMotion::Free || quantity != CoordinateQuantity::Angle {
+        if quantity != CoordinateQuantity::Angle || !self.runs(id)? {
             let message = format!("`{name}` does not turn at a speed of its own");
             let help = "an order is counted in turns of a driven or coasting coordinate";
             self.diagnostics.error_with_help(name, message, help);

@@ -1,6 +1,6 @@
 //! The data that the steps of resolution share; each step is a file that adds its methods.
 
-use super::coordinates::{self, Declared, DeclaredMotion};
+use super::coordinates::{self, Declared};
 use super::exerted::Exerted;
 use super::joints::kinds::Kind;
 use super::nominal::Nominal;
@@ -114,8 +114,7 @@ impl<'a> Resolver<'a> {
     /// Whether some coordinate is free or coasting. Anything that could not be understood gets the benefit of the
     /// doubt.
     pub(super) fn can_move(&self) -> bool {
-        let moves =
-            |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;
+        let moves = |coordinate: &Declared| !coordinate.motion.is_given() && !coordinate.cut;
         self.coordinates.iter().any(moves) || self.may_have_more_coordinates()
     }
 

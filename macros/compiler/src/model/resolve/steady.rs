@@ -41,6 +41,12 @@ impl Resolver<'_> {
                 self.diagnostics.error_with_help(name, message, help);
                 return None;
             }
+            DeclaredMotion::Shaken => {
+                let message =
+                    format!("`{name}` is shaken about zero: it has no other steady value");
+                self.diagnostics.error(name, message);
+                return None;
+            }
         };
         let value = self.scalar_of(value, dimension, &what)?;
         Some(Steady {

@@ -176,6 +176,13 @@ fn violation(requirement: &Requirement, at: &Values) -> Option<Violation> {
     })
 }
 
+fn in_unit(value: f64, dimension: Dimension) -> String {
+    match dimension.is_none() {
+        true => rounded(value).to_string(),
+        false => format!("{} {}", rounded(value), dimension.si_symbol()),
+    }
+}
+
 /// The problem with the values, as the end of a sentence.
 fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
     let values: Vec<f64> = requirement.values.iter().map(|expr| at.of(expr)).collect();
@@ -185,14 +192,14 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
     match (&requirement.demand, values.as_slice()) {
         (Demand::Positive(dimension), values) => {
             let value = values.iter().find(|&&value| value <= 0.0)?;
-            let (value, unit) = (rounded(*value), dimension.si_symbol());
-            Some(format!("is {value} {unit}; it must be positive"))
+            let value = in_unit(*value, *dimension);
+            Some(format!("is {value}; it must be positive"))
         }
         (Demand::Amplitude(dimension), values) => {
             let value = values.iter().find(|&&value| value < 0.0)?;
-            let (value, unit) = (rounded(*value), dimension.si_symbol());
+            let value = in_unit(*value, *dimension);
             Some(format!(
-                "is {value} {unit}; the opposite direction is a phase of 180 deg"
+                "is {value}; the opposite direction is a phase of 180 deg"
             ))
         }
         (Demand::Direction, vector) if vector.iter().all(|&value| value == 0.0) => {

@@ -1,7 +1,7 @@
 //! Constraints given by expressions: couplings of two coordinates, and the user's own equations.
 
 use super::super::arguments::Arguments;
-use super::super::coordinates::{self, DeclaredMotion};
+use super::super::coordinates;
 use super::super::exerted::Exerted;
 use super::super::expected::Expected;
 use super::super::resolver::Resolver;
@@ -168,11 +168,11 @@ impl Resolver<'_> {
 
     fn is_driven(&self, id: CoordinateId) -> bool {
         let declared = self.coordinates.get(id.index());
-        declared.is_some_and(|own| own.motion == DeclaredMotion::Driven)
+        declared.is_some_and(|own| own.motion.is_given())
     }
 
     /// Whether a coordinate keeps moving in steady motion; `None` if its joint is wrong.
-    fn runs(&self, id: CoordinateId) -> Option<bool> {
+    pub(in crate::model::resolve) fn runs(&self, id: CoordinateId) -> Option<bool> {
         let declared = self.coordinates.get(id.index())?;
         let mut resolved = self.declared_coordinates.iter();
         let own = resolved.find(|own| own.joint == declared.joint && own.name == *declared.name);

@@ -69,11 +69,15 @@ impl Resolver<'_> {
         let name = self.name_of(on, "coordinate")?;
         let found = self.coordinate(name)?;
         match self.coordinates.get(found.0.index())?.motion {
-            DeclaredMotion::Driven => {
+            motion @ (DeclaredMotion::Driven | DeclaredMotion::Shaken) => {
+                let given = motion.word();
                 self.diagnostics.error_with_help(
                     name,
-                    format!("`{name}` is driven; a {word} on it has no effect on the motion"),
-                    format!("remove the {word}, or the drive"),
+                    format!("`{name}` is {given}; a {word} on it has no effect on the motion"),
+                    match motion {
+                        DeclaredMotion::Shaken => format!("remove the {word}, or `shaken`"),
+                        _ => format!("remove the {word}, or the drive"),
+                    },
                 );
                 None
             }

@@ -68,7 +68,7 @@ impl Resolver<'_> {
         let reason = match self.coordinates.get(coordinate.index())?.motion {
             DeclaredMotion::Coasting => return Some(()),
             DeclaredMotion::Driven => "it is the speed of the drive",
-            DeclaredMotion::Free => "in steady motion it is zero",
+            DeclaredMotion::Free | DeclaredMotion::Shaken => "in steady motion it is zero",
         };
         let message = format!("the rate of `{name}` is no output: {reason}");
         self.diagnostics.error(function, message);

@@ -58,7 +58,9 @@ impl Resolver<'_> {
         motions: &mut Motions,
     ) -> Option<()> {
         let who = (drive.coordinate.as_ref(), drive.keyword);
-        let place = kind.and_then(|kind| self.driven_place(joint, kind, who, &motions.ids));
+        let place = kind.and_then(|kind| {
+            self.given_place(joint, kind, who, &motions.ids, DeclaredMotion::Driven)
+        });
         let Some(place) = place else {
             // Its value may be wrong as well, so check it too.
             self.scalar(&drive.speed, ValueContext::Parameter);
@@ -117,17 +119,22 @@ impl Resolver<'_> {
         }
         if before != motion {
             let name = self.coordinates.get(motions.ids[place].index())?.name;
-            self.diagnostics.error_with_help(
-                keyword,
-                format!("`{name}` is both driven and coasting"),
-                "a drive prescribes the speed, a coasting coordinate finds its own: keep one of them",
-            );
+            let message = format!("`{name}` is both {} and {}", before.word(), motion.word());
+            let help = match (before, motion) {
+                (DeclaredMotion::Shaken, _) | (_, DeclaredMotion::Shaken) => {
+                    "a shaken coordinate moves about zero: keep one of them"
+                }
+                _ => {
+                    "a drive prescribes the speed, a coasting coordinate finds its own: keep one of them"
+                }
+            };
+            self.diagnostics.error_with_help(keyword, message, help);
             return None;
         }
         let what = name.map_or("this joint".to_string(), |name| format!("`{name}`"));
         let message = match motion {
             DeclaredMotion::Coasting => format!("{what} is said to coast twice"),
-            _ => format!("{what} is driven twice"),
+            _ => format!("{what} is {} twice", motion.word()),
         };
         self.diagnostics.error(keyword, message);
         None
@@ -143,22 +150,24 @@ impl Resolver<'_> {
     ) -> Option<()> {
         let keyword = Extent::from(shake.call.word.span());
         let who = (shake.coordinate.as_ref(), keyword);
-        let place = self.driven_place(joint, kind?, who, &motions.ids)?;
+        let place = self.given_place(joint, kind?, who, &motions.ids, DeclaredMotion::Shaken)?;
         let name = shake.coordinate.as_ref();
-        self.say(motions, place, DeclaredMotion::Driven, name, keyword)?;
+        self.say(motions, place, DeclaredMotion::Shaken, name, keyword)?;
         motions.motions[place] = Motion::Driven(Expr::Number(0.0));
         Some(())
     }
 
     /// The index within the joint of the coordinate that a clause drives or shakes.
-    fn driven_place(
+    fn given_place(
         &mut self,
         joint: &Joint,
         kind: &Kind,
         (coordinate, keyword): (Option<&Ident>, Extent),
         ids: &[CoordinateId],
+        motion: DeclaredMotion,
     ) -> Option<usize> {
-        self.has_motions(kind, "be driven", keyword)?;
+        let word = motion.word();
+        self.has_motions(kind, &format!("be {word}"), keyword)?;
         let place = match coordinate {
             Some(name) => self.place_named(name, ids)?,
             None if ids.len() == 1 => 0,
@@ -169,12 +178,17 @@ impl Resolver<'_> {
                 self.diagnostics.error_with_help(
                     keyword,
                     format!("`{}` has the coordinates {quoted}", joint.name),
-                    format!("say which one is driven: `{first} driven at ...`"),
+                    match motion {
+                        DeclaredMotion::Shaken => {
+                            format!("say which one is shaken: `{first} shaken(...)`")
+                        }
+                        _ => format!("say which one is driven: `{first} driven at ...`"),
+                    },
                 );
                 return None;
             }
         };
-        self.is_not_cut(joint, "be driven", keyword)?;
+        self.is_not_cut(joint, &format!("be {word}"), keyword)?;
         Some(place)
     }
 

@@ -1,0 +1,373 @@
+//! Peaks of a forced vibration along an input: where, how high, how wide, with exact derivatives by the design.
+//!
+//! At a peak of `A(u, b) = |y|^2` along the input `u`, `A_u = 0`, so `du/db = -A_ub / A_uu`; its height follows the
+//! design as if the place were fixed. Half-power points, `A = A_peak / 2`, move by `(dA_peak / 2 - A_b) / A_u`. All
+//! derivatives are total: equilibrium and frequency follow the variables.
+
+mod answer;
+mod scan;
+mod separation;
+mod state;
+
+pub use separation::{Separation, SeparationMargin};
+
+use scan::{Scan, scan};
+use state::{Along, State};
+
+use crate::algebra::Vector;
+use crate::kernels::CurvatureKernels;
+use crate::response::Vibration;
+use crate::sweep::{Following, Gap, Range};
+use crate::tolerance::{Spread, Tolerances};
+use crate::{Description, Equilibrium, Error, Shared};
+
+/// The peaks of a vibration along an input.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Peaks {
+    /// The vibration.
+    pub vibration: Vibration,
+    /// The range that was searched.
+    pub range: Range,
+    /// The peaks, in the order in which the range passes them.
+    pub peaks: Vec<Peak>,
+    /// Stretches without an equilibrium or a vibration.
+    pub gaps: Vec<Gap>,
+    /// Number of states solved to find them.
+    pub states: usize,
+    /// Number of standard deviations that a tolerance and a band represent; `None` without tolerances.
+    pub sigma_level: Option<f64>,
+    /// The inputs, SI; all but the varied one keep their values.
+    pub inputs: Vector,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+/// A local maximum of the modulus of a vibration along an input.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Peak {
+    /// The value of the input, SI.
+    pub place: Moving,
+    /// The frequency there, rad/s.
+    pub frequency: Moving,
+    /// The modulus, 0 to peak, in the unit of the measured output (SI).
+    pub height: Moving,
+    /// The phase, rad.
+    pub phase: f64,
+    /// Where the modulus is `1/sqrt 2` of the height, before and after the peak.
+    pub half_power: [HalfPower; 2],
+    /// Amplification factor: the frequency at the peak over the difference of those at the half-power points. `None`
+    /// if one of these is missing, or the frequency does not follow the input.
+    pub amplification: Option<Moving>,
+    /// The equilibrium there.
+    pub equilibrium: Equilibrium,
+}
+
+/// A point beside a peak at which the power is half of that at the peak.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum HalfPower {
+    /// The value of the input, SI.
+    At(Moving),
+    /// The range, or the stretch without gaps, ends before.
+    EndOfRange,
+    /// The amplitude rises again before.
+    RisesAgain,
+}
+
+impl HalfPower {
+    /// The value of the input, if there is one.
+    #[must_use]
+    pub fn place(&self) -> Option<&Moving> {
+        match self {
+            Self::At(place) => Some(place),
+            Self::EndOfRange | Self::RisesAgain => None,
+        }
+    }
+}
+
+/// A number that moves with the design.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Moving {
+    /// Its value, SI.
+    pub value: f64,
+    /// Its total derivatives by the design variables, per SI unit.
+    pub by_design: Vector,
+    /// Its spread to first order, if tolerances were given.
+    pub spread: Option<Spread>,
+}
+
+impl Moving {
+    /// `value`, which moves `slope` times as far.
+    fn scaled(&self, slope: f64, value: f64) -> Self {
+        let by_design: Vector = self.by_design.map(|own| slope * own);
+        let spread = self.spread.clone().map(|mut own| {
+            own.mean = value + slope * (own.mean - self.value);
+            own.sigma *= slope.abs();
+            own.band *= slope.abs();
+            own.by_design = by_design.clone();
+            own
+        });
+        Self {
+            value,
+            by_design,
+            spread,
+        }
+    }
+
+    fn new(value: f64, by_design: Vector, tolerances: Option<&Tolerances>) -> Self {
+        let spread = tolerances.map(|own| Spread::new(value, by_design.clone(), own));
+        Self {
+            value,
+            by_design,
+            spread,
+        }
+    }
+}
+
+/// Finds every peak of a vibration in a range of an input, along the followed equilibria, from one at `start`.
+///
+/// Peaks do not depend on the steps of the range: it is divided according to the distance of the poles from the
+/// frequency, until no peak can hide.
+///
+/// # Errors
+/// [`Error::UnknownHandle`], [`Error::Setting`], [`Error::NoExcitation`], [`Error::Resonance`] if an undamped mode is
+/// driven at its natural frequency within the range: the peak there is infinite. [`Error::WrongLength`] for tolerances
+/// of another mechanism, and the reason why there is no vibration in the whole range. A stretch without one is a gap.
+pub fn peaks(
+    mechanism: &dyn CurvatureKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
+    following: impl Into<Following>,
+    range: Range,
+    vibration: Vibration,
+    tolerances: Option<&Tolerances>,
+) -> Result<Peaks, Error> {
+    let description = mechanism.description();
+    range.check(&description)?;
+    vibration.check(&description)?;
+    let harmonic = vibration.place(&description).ok_or(Error::NoExcitation {
+        mechanism: description.name.clone(),
+    })?;
+    if let Some(own) = tolerances {
+        own.check_count(b.len())?;
+    }
+    let following = following.into();
+    let along = Along {
+        mechanism,
+        inputs: u,
+        design: b,
+        policy: following.policy,
+        held: following.held,
+        input: range.input,
+        vibration,
+        harmonic,
+    };
+    let mut found = scan(&along, &range, start)?;
+    if found.states.is_empty() {
+        let first = found.gaps.into_iter().next();
+        return Err(first.map_or(Error::CriticalState, |gap| gap.reason));
+    }
+    // An end at which the frequency is zero has no vibration, but everything beside it has.
+    found
+        .gaps
+        .retain(|gap| !matches!(gap.reason, Error::NoFrequency { .. }));
+    let ascending = range.high > range.low;
+    let search = Search {
+        along: &along,
+        scan: &found,
+        ascending,
+        tolerances,
+    };
+    let mut peaks = Vec::new();
+    for k in 1..found.states.len() {
+        let [a, b] = [k - 1, k].map(|k| &found.states[k]);
+        let rises = search.rises(a) && !search.rises(b);
+        if rises && !found.after_gap.contains(&k) && a.line.audible {
+            let top = search.zero((a, b), |state| {
+                let own = state.square();
+                (own.slope, own.bend)
+            })?;
+            peaks.push(search.peak(k, top)?);
+        }
+    }
+    Ok(Peaks {
+        vibration,
+        range,
+        peaks,
+        states: found.states.len(),
+        gaps: found.gaps,
+        sigma_level: tolerances.map(Tolerances::sigma_level),
+        inputs: u.into(),
+        description,
+    })
+}
+
+/// The search for what lies between the states of a scan.
+struct Search<'a> {
+    along: &'a Along<'a>,
+    scan: &'a Scan,
+    ascending: bool,
+    tolerances: Option<&'a Tolerances>,
+}
+
+/// A half-power point, and its frequency with the derivatives by the design.
+struct Half {
+    place: Moving,
+    frequency: (f64, Vector),
+}
+
+/// Most steps of a search for a zero.
+const STEPS: usize = 80;
+
+impl Search<'_> {
+    /// Whether the amplitude rises along the range.
+    fn rises(&self, state: &State) -> bool {
+        let slope = state.square().slope;
+        if self.ascending {
+            slope > 0.0
+        } else {
+            slope < 0.0
+        }
+    }
+
+    /// The zero of a function, which comes with its derivative, between two states with different signs: Newton's steps
+    /// as long as they stay between the signs and shrink, else halves.
+    fn zero(
+        &self,
+        (a, b): (&State, &State),
+        f: impl Fn(&State) -> (f64, f64),
+    ) -> Result<State, Error> {
+        let (mut low, mut high) = (a.value, b.value);
+        let positive = f(a).0 > 0.0;
+        let nearer = if f(a).0.abs() < f(b).0.abs() { a } else { b };
+        let (mut value, mut at) = (nearer.value, f(nearer));
+        let mut from = nearer.equilibrium.coordinates.clone();
+        let mut last = (high - low).abs();
+        for _ in 0..STEPS {
+            let newton = value - at.0 / at.1;
+            let between = (newton - low) * (high - newton) > 0.0;
+            let next = match between && (newton - value).abs() <= 0.5 * last {
+                true => newton,
+                false => 0.5 * (low + high),
+            };
+            let state = self.along.state(next, &from)?;
+            let step = (next - value).abs();
+            (value, at, last) = (next, f(&state), step);
+            if (at.0 > 0.0) == positive {
+                low = next;
+            } else {
+                high = next;
+            }
+            let enough = 4.0 * f64::EPSILON * value.abs();
+            let correction = (at.0 / at.1).abs();
+            if at.0 == 0.0 || correction <= enough || (high - low).abs() <= enough {
+                return Ok(state);
+            }
+            from = state.equilibrium.coordinates;
+        }
+        self.along.state(value, &from)
+    }
+
+    /// The peak in the stretch before state `k`.
+    fn peak(&self, k: usize, top: State) -> Result<Peak, Error> {
+        let square = top.square();
+        let own = top.square_by_design();
+        let bend = top.bend_by_design().map(|value| -value / square.bend);
+        let height = square.value.sqrt();
+        let by_frequency = &top.line.frequency.slopes.by_design;
+        let frequency = by_frequency.iter().zip(&bend);
+        let frequency: Vector = frequency
+            .map(|(dw, du)| dw + top.frequency_slope() * du)
+            .collect();
+        let before = self.half_power(&top, (0..k).rev())?;
+        let after = self.half_power(&top, k..self.scan.states.len())?;
+        let factor = match (&before, &after) {
+            (Ok(a), Ok(b)) => amplification((top.line.frequency.value, &frequency), [a, b]),
+            _ => None,
+        };
+        let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
+        let half_power = [before, after].map(|found| match found {
+            Ok(half) => HalfPower::At(half.place),
+            Err(missing) => missing,
+        });
+        Ok(Peak {
+            place: moving(top.value, bend),
+            height: moving(height, own.map(|value| value / (2.0 * height))),
+            frequency: moving(top.line.frequency.value, frequency),
+            phase: top.line.amplitude.value.arg(),
+            half_power,
+            amplification: factor.map(|(value, by_design)| moving(value, by_design)),
+            equilibrium: top.equilibrium,
+        })
+    }
+
+    /// The half-power point on the way from a peak along these states, or why there is none.
+    fn half_power(
+        &self,
+        top: &State,
+        way: impl Iterator<Item = usize>,
+    ) -> Result<Result<Half, HalfPower>, Error> {
+        let half = 0.5 * top.square().value;
+        let mut last = top;
+        for (count, k) in way.enumerate() {
+            let next = &self.scan.states[k];
+            let up = (next.value - top.value) * next.square().slope > 0.0;
+            let onwards = (next.value > last.value) == self.ascending;
+            let gap = if onwards { k } else { k + 1 };
+            if count > 0 && self.scan.after_gap.contains(&gap) {
+                break;
+            }
+            if next.square().value <= half {
+                return self.half(top, half, (last, next)).map(Ok);
+            }
+            if up {
+                let lowest = self.zero((last, next), |state| {
+                    let own = state.square();
+                    (own.slope, own.bend)
+                })?;
+                if lowest.square().value > half {
+                    return Ok(Err(HalfPower::RisesAgain));
+                }
+                return self.half(top, half, (last, &lowest)).map(Ok);
+            }
+            last = next;
+        }
+        Ok(Err(HalfPower::EndOfRange))
+    }
+
+    fn half(&self, top: &State, half: f64, between: (&State, &State)) -> Result<Half, Error> {
+        let found = self.zero(between, |state| {
+            let own = state.square();
+            (own.value - half, own.slope)
+        })?;
+        let slope = found.square().slope;
+        let (peak, own) = (top.square_by_design(), found.square_by_design());
+        let pairs = peak.iter().zip(&own);
+        let by_design: Vector = pairs
+            .map(|(peak, own)| (0.5 * peak - own) / slope)
+            .collect();
+        let frequency = found.line.frequency.slopes.by_design.iter().zip(&by_design);
+        let frequency = frequency.map(|(dw, du)| dw + found.frequency_slope() * du);
+        Ok(Half {
+            frequency: (found.line.frequency.value, frequency.collect()),
+            place: Moving::new(found.value, by_design, self.tolerances),
+        })
+    }
+}
+
+/// The amplification factor and its derivatives; `None` if the frequency does not follow the input.
+fn amplification(peak: (f64, &Vector), [a, b]: [&Half; 2]) -> Option<(f64, Vector)> {
+    let (w, dw) = peak;
+    let width = b.frequency.0 - a.frequency.0;
+    let (sign, width) = (width.signum(), width.abs());
+    let factor = w / width;
+    let slopes = a.frequency.1.iter().zip(&b.frequency.1).zip(dw);
+    let slopes = slopes.map(|((da, db), dw)| (dw - factor * sign * (db - da)) / width);
+    (width > 1e-12 * w).then(|| (factor, slopes.collect()))
+}

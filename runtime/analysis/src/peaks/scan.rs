@@ -1,0 +1,173 @@
+//! Divides a range until the poles say that nothing can hide between two states.
+//!
+//! As a function of the input, the squared amplitude has no finer features than the distance from `i w` to the nearest
+//! pole `s_j`, measured by how fast the two move relative to each other. A stretch along which they move by a small part
+//! of that distance is as good as a cubic; where the cubic through the slopes at its ends changes its sign twice, it is
+//! divided all the same. Few states suffice: the stretches shrink geometrically towards a resonance and no farther than
+//! its width.
+
+use super::state::{Along, State};
+use crate::forced::resonance;
+use crate::sweep::Gap;
+use crate::{Error, sweep::Range};
+
+/// Part of the distance to the nearest pole by which poles may move along a stretch.
+const PART: f64 = 0.35;
+/// Most divisions of a step: beyond them, a stretch is rounding.
+const DIVISIONS: usize = 44;
+/// Most divisions towards a value at which there is no vibration.
+const TOWARDS_GAP: usize = 20;
+/// Relative change of an amplitude along the shortest stretch that counts as none.
+const STILL: f64 = 1e-3;
+
+/// States from one end of a range to the other, and where there are none.
+#[derive(Default)]
+pub(super) struct Scan {
+    pub(super) states: Vec<State>,
+    /// Positions of states before which there is a gap.
+    pub(super) after_gap: Vec<usize>,
+    pub(super) gaps: Vec<Gap>,
+}
+
+/// States that leave no peak between them unseen.
+pub(super) fn scan(along: &Along<'_>, range: &Range, start: &[f64]) -> Result<Scan, Error> {
+    let mut scan = Scan::default();
+    let value = |k: usize| range.low + (range.high - range.low) * k as f64 / range.steps as f64;
+    let mut last = End::new(along, value(0), start)?;
+    scan.begin(&mut last);
+    for k in 1..=range.steps {
+        let from = last.coordinates(start);
+        let next = End::new(along, value(k), &from)?;
+        last = scan.divide(along, last, next, DIVISIONS)?;
+    }
+    Ok(scan)
+}
+
+/// An end of a stretch: a state, which may already belong to the scan, or the reason why there is none.
+enum End {
+    /// The position of a state of the scan, its value and its coordinates.
+    Taken(usize, f64, Vec<f64>),
+    Found(Box<State>),
+    Missing(f64, Error),
+}
+
+impl End {
+    fn new(along: &Along<'_>, value: f64, from: &[f64]) -> Result<Self, Error> {
+        match along.state(value, from) {
+            Ok(state) => Ok(Self::Found(state.into())),
+            Err(error @ Error::Resonance { .. }) => Err(error),
+            Err(error) => Ok(Self::Missing(value, error)),
+        }
+    }
+
+    fn value(&self) -> f64 {
+        match self {
+            Self::Taken(_, value, _) | Self::Missing(value, _) => *value,
+            Self::Found(state) => state.value,
+        }
+    }
+
+    fn coordinates(&self, otherwise: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Taken(_, _, coordinates) => coordinates.clone(),
+            Self::Found(state) => state.equilibrium.coordinates.to_vec(),
+            Self::Missing(..) => otherwise.to_vec(),
+        }
+    }
+}
+
+impl Scan {
+    /// Takes a state over.
+    fn begin(&mut self, end: &mut End) {
+        if let End::Found(_) = end {
+            let place = self.states.len();
+            let taken = End::Taken(place, end.value(), end.coordinates(&[]));
+            if let End::Found(state) = core::mem::replace(end, taken) {
+                self.states.push(*state);
+            }
+        }
+    }
+
+    /// Adds the states after `a` up to `b`; returns `b`.
+    fn divide(&mut self, along: &Along<'_>, a: End, mut b: End, left: usize) -> Result<End, Error> {
+        match (&a, &b) {
+            (End::Missing(from, reason), End::Missing(to, _)) => {
+                self.gap(*from, *to, reason);
+                return Ok(b);
+            }
+            (End::Missing(..), _) | (_, End::Missing(..)) if left + TOWARDS_GAP <= DIVISIONS => {
+                let (from, to) = (a.value(), b.value());
+                if let End::Missing(_, reason) = &a {
+                    self.gap(from, to, reason);
+                    self.after_gap.push(self.states.len());
+                    self.begin(&mut b);
+                } else if let End::Missing(_, reason) = &b {
+                    self.gap(from, to, reason);
+                }
+                return Ok(b);
+            }
+            (End::Taken(place, ..), End::Found(state)) => {
+                let before = &self.states[*place];
+                if resolved(before, state) {
+                    self.begin(&mut b);
+                    return Ok(b);
+                }
+                if left == 0 {
+                    if !still(before, state) {
+                        let at = &state.equilibrium;
+                        let with = along.vibration.excitation.index();
+                        return Err(resonance(at, with, state.line.frequency.value));
+                    }
+                    self.begin(&mut b);
+                    return Ok(b);
+                }
+            }
+            _ => {}
+        }
+        let middle = 0.5 * (a.value() + b.value());
+        let from = a.coordinates(&b.coordinates(&[]));
+        let middle = End::new(along, middle, &from)?;
+        let middle = self.divide(along, a, middle, left - 1)?;
+        self.divide(along, middle, b, left - 1)
+    }
+
+    fn gap(&mut self, from: f64, to: f64, reason: &Error) {
+        match self.gaps.last_mut() {
+            Some(gap) if gap.to == from => gap.to = to,
+            _ => self.gaps.push(Gap {
+                from,
+                to,
+                reason: reason.clone(),
+            }),
+        }
+    }
+}
+
+/// Whether nothing can hide between two states.
+fn resolved(a: &State, b: &State) -> bool {
+    let near = a.distance().min(b.distance());
+    a.moved(b) <= PART * near && !turns_between(a, b)
+}
+
+/// Whether the cubic through the slopes at both ends has a sign that neither end has.
+fn turns_between(a: &State, b: &State) -> bool {
+    let h = b.value - a.value;
+    let (first, last) = (a.square(), b.square());
+    let (f, g) = (first.slope, last.slope);
+    if (f > 0.0) != (g > 0.0) {
+        return false;
+    }
+    let (df, dg) = (first.bend * h, last.bend * h);
+    (1..8).any(|k| {
+        let t = f64::from(k) / 8.0;
+        let r = 1.0 - t;
+        let value = r * r * ((1.0 + 2.0 * t) * f + t * df) + t * t * ((3.0 - 2.0 * t) * g - r * dg);
+        (value > 0.0) != (f > 0.0)
+    })
+}
+
+/// Whether the amplitude is about the same at both states.
+fn still(a: &State, b: &State) -> bool {
+    let [a, b] = [a, b].map(|own| own.square().value);
+    (a - b).abs() <= STILL * a.max(b)
+}

@@ -1,0 +1,288 @@
+//! Peaks along an input: against a closed form, against fine grids, and how they end.
+
+use eigentol::equilibrium::equilibrium;
+use eigentol::forced::{Measure, response};
+use eigentol::peaks::{HalfPower, Moving, Peaks, peaks};
+use eigentol::response::Vibration;
+use eigentol::sweep::Range;
+use eigentol::{Any, Error, Excitation, Forcing, Input, Output, Policy, Real, Shared, Tolerances};
+
+use super::models::{Jeffcott, Shaken, described, excitation, output};
+use super::truth::{near, numbers, truth};
+use crate::common::derived::{Derived, Excited, Model};
+use crate::common::{NUMBER, SPEED, coordinate, design, input, sizes};
+
+fn vibration(o: usize) -> Vibration {
+    Vibration::new(Output::<Any>::new(o), Excitation::<Any>::new(0))
+}
+
+const DESIGN: [f64; 4] = [12.0, 1.9e6, 310.0, 4e-5];
+
+fn jeffcott(low: f64, high: f64, steps: usize, tolerances: Option<&Tolerances>) -> Peaks {
+    let range = Range::new(Input::new(0), low, high).steps(steps);
+    let from = (&[0.0][..], &DESIGN[..]);
+    let (policy, model) = (Policy::Stable, Derived(Jeffcott));
+    peaks(
+        &model,
+        from,
+        &[0.0; 2],
+        policy,
+        range,
+        vibration(0),
+        tolerances,
+    )
+    .unwrap()
+}
+
+#[test]
+fn jeffcott_rotor() {
+    let truth = truth("jeffcott");
+    let values = numbers(&truth["peak"]["values"]);
+    let sigma = [0.1, 1e4, 3.0, 1e-6];
+    let tolerances = Tolerances::new(sigma, 1.0, None).unwrap();
+    for (low, high, steps) in [(0.0, 1000.0, 1), (200.0, 900.0, 7), (900.0, 3.0, 50)] {
+        let found = jeffcott(low, high, steps, Some(&tolerances));
+        let [peak] = &found.peaks[..] else {
+            panic!("one peak")
+        };
+        assert!(
+            found.gaps.is_empty() && found.states < 120,
+            "{}",
+            found.states
+        );
+        let mut sides = [0, 1].map(|k| peak.half_power[k].place().unwrap());
+        if low > high {
+            sides.reverse();
+        }
+        let factor = peak.amplification.as_ref().unwrap();
+        let all: [&Moving; 5] = [&peak.place, &peak.height, sides[0], sides[1], factor];
+        for (i, own) in all.into_iter().enumerate() {
+            near(own.value, values[i], 1e-12, 0.0);
+            let spread = own.spread.as_ref().unwrap();
+            let mut variance = 0.0;
+            for (k, name) in ["m", "k", "c", "e"].into_iter().enumerate() {
+                let expected = numbers(&truth["peak"]["derivatives"][name]["first"])[i];
+                near(own.by_design[k], expected, 1e-10, values[i] / DESIGN[k]);
+                variance += (expected * sigma[k]).powi(2);
+            }
+            near(spread.sigma, variance.sqrt(), 1e-9, 0.0);
+        }
+        assert!((peak.frequency.value - peak.place.value).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn half_power_points_need_room() {
+    let found = jeffcott(395.0, 500.0, 10, None);
+    let [before, after] = &found.peaks[0].half_power;
+    assert_eq!(*before, HalfPower::EndOfRange);
+    assert!(after.place().is_some() && found.peaks[0].amplification.is_none());
+    assert!(
+        found.to_string().contains("the range ends before it"),
+        "{found}"
+    );
+    assert!(jeffcott(400.0, 900.0, 10, None).peaks.is_empty());
+}
+
+#[test]
+fn an_undamped_mode_has_no_highest_amplitude() {
+    let range = Range::new(Input::new(0), 100.0, 900.0);
+    let design = [12.0, 1.9e6, 0.0, 4e-5];
+    let from = (&[0.0][..], &design[..]);
+    let model = Derived(Jeffcott);
+    let error = peaks(
+        &model,
+        from,
+        &[0.0; 2],
+        Policy::Stable,
+        range,
+        vibration(0),
+        None,
+    );
+    assert!(
+        matches!(error, Err(Error::Resonance { mode: Some(_), .. })),
+        "{error:?}"
+    );
+}
+
+/// Seven masses in a row between walls, with a force on the first; one spring and one mass differ, so that two pairs of
+/// frequencies are close. Outputs: the first and the last position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Row;
+
+impl Model for Row {
+    sizes!(7, 1, 3, 2, 1);
+
+    const DESCRIPTION: eigentol::Description = described!(
+        "Row",
+        [
+            coordinate("a", NUMBER),
+            coordinate("b", NUMBER),
+            coordinate("c", NUMBER),
+            coordinate("d", NUMBER),
+            coordinate("e", NUMBER),
+            coordinate("f", NUMBER),
+            coordinate("g", NUMBER),
+        ],
+        [input("w", SPEED)],
+        [
+            design("damping", NUMBER, 0.02, 0.0),
+            design("link", NUMBER, 3.0, 0.0),
+            design("mass", NUMBER, 1.1, 0.0),
+        ],
+        [output("first", NUMBER), output("last", NUMBER)],
+        [excitation("force", 0)],
+    );
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 7],
+        _: &[T; 7],
+        _: &[T; 7],
+        _: &[T; 1],
+        b: &[T; 3],
+    ) -> [T; 7] {
+        let mut own = *a;
+        own[6] = b[2] * own[6];
+        own
+    }
+
+    fn applied<T: Real>(&self, v: &[T; 7], q: &[T; 7], _: &[T; 1], b: &[T; 3]) -> [T; 7] {
+        let mut sum = [T::constant(0.0); 7];
+        for k in 0..8_usize {
+            let stiffness = if k == 4 { b[1] } else { T::constant(100.0) };
+            let at = |x: &[T; 7], i: usize| if i < 7 { x[i] } else { T::constant(0.0) };
+            let (i, j) = (k.wrapping_sub(1), k);
+            let force = stiffness * (at(q, j) - at(q, i)) + b[0] * (at(v, j) - at(v, i));
+            if i < 7 {
+                sum[i] = sum[i] + force;
+            }
+            if j < 7 {
+                sum[j] = sum[j] - force;
+            }
+        }
+        sum
+    }
+
+    fn outputs<T: Real>(&self, q: &[T; 7], _: &[T; 1], _: &[T; 3]) -> [T; 2] {
+        [q[0], q[6]]
+    }
+
+    fn forcing<T: Real>(&self, _: &[T; 7], u: &[T; 1], _: &[T; 3]) -> Excited<Self, T> {
+        let none = T::constant(0.0);
+        let mut cosine = [none; 7];
+        cosine[0] = T::constant(1.0);
+        Forcing {
+            cosine: [cosine],
+            frequency: [u[0]],
+            direct_cosine: [[none; 2]],
+            sine: [[none; 7]],
+            direct_sine: [[none; 2]],
+        }
+    }
+}
+
+#[test]
+fn the_poles_decide_how_many_peaks_there_are() {
+    let model = Derived(Row);
+    for (damping, grid) in [(1e-5, 0), (0.02, 40_000), (1.0, 2_000), (8.0, 1_000)] {
+        let design = [damping, 3.0, 1.1];
+        for (o, measure) in [(0, Measure::Displacement), (1, Measure::Velocity)] {
+            let find = |steps: usize| {
+                let range = Range::new(Input::new(0), 0.5, 30.0).steps(steps);
+                let from = (&[1.0][..], &design[..]);
+                let wanted = vibration(o).measure(measure);
+                peaks(&model, from, &[0.0; 7], Policy::Stable, range, wanted, None).unwrap()
+            };
+            let found = find(1);
+            for steps in [2, 13] {
+                let other = find(steps);
+                assert_eq!(found.peaks.len(), other.peaks.len());
+                for (one, other) in found.peaks.iter().zip(&other.peaks) {
+                    let (a, b) = (one.place.value, other.place.value);
+                    assert!((a - b).abs() < 1e-13 * a, "{a} {b}");
+                }
+            }
+            let at = equilibrium(&model, &[1.0], &design, &[0.0; 7], Policy::Stable).unwrap();
+            let height = |w: f64| {
+                let mut at = at.clone();
+                at.inputs[0] = w;
+                let found = response(&model, &at).unwrap();
+                let y = found.harmonics[0].amplitude(Output::new(o), measure);
+                y.unwrap().norm()
+            };
+            match grid {
+                // Every mode has its peak, however narrow.
+                0 => assert_eq!(found.peaks.len(), 7),
+                _ => {
+                    let place = |k: usize| 0.5 + 29.5 * k as f64 / grid as f64;
+                    let heights: Vec<f64> = (0..=grid).map(|k| height(place(k))).collect();
+                    let tops = (1..grid)
+                        .filter(|&k| heights[k] > heights[k - 1] && heights[k] >= heights[k + 1]);
+                    let tops: Vec<f64> = tops.map(place).collect();
+                    assert_eq!(found.peaks.len(), tops.len(), "{damping} {o}");
+                    for (peak, top) in found.peaks.iter().zip(tops) {
+                        assert!((peak.place.value - top).abs() < 30.0 / grid as f64);
+                    }
+                }
+            }
+            for peak in &found.peaks {
+                let top = peak.height.value;
+                assert!((height(peak.place.value) / top - 1.0).abs() < 1e-9);
+                for side in &peak.half_power {
+                    if let Some(place) = side.place() {
+                        let ratio = height(place.value) / top * 2.0_f64.sqrt();
+                        assert!((ratio - 1.0).abs() < 1e-9, "{ratio}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The equilibrium and the natural frequency follow the speed; the frequency of the excitation does not.
+#[test]
+fn peaks_follow_the_design() {
+    let model = Derived(Shaken);
+    let find = |design: &[f64]| {
+        let range = Range::new(Input::new(0), 6.0, 12.0);
+        let from = (&[8.0, 6.5][..], design);
+        peaks(
+            &model,
+            from,
+            &[1.0],
+            Policy::Stable,
+            range,
+            vibration(1),
+            None,
+        )
+        .unwrap()
+    };
+    let design = [1.3, 0.45, 0.02, 9.81, 0.002];
+    let found = find(&design);
+    let [peak] = &found.peaks[..] else {
+        panic!("one peak")
+    };
+    assert!(peak.amplification.is_none() && peak.frequency.value == 6.5);
+    for k in 0..5 {
+        let step = 1e-4 * design[k];
+        let moved = |steps: f64| {
+            let mut design = design;
+            design[k] += steps * step;
+            let found = find(&design);
+            let own = &found.peaks[0];
+            let [a, b] = [0, 1].map(|k| own.half_power[k].place().unwrap().value);
+            [own.place.value, own.height.value, a, b]
+        };
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(moved);
+        let sides = [0, 1].map(|k| peak.half_power[k].place().unwrap());
+        for (i, own) in [&peak.place, &peak.height, sides[0], sides[1]]
+            .into_iter()
+            .enumerate()
+        {
+            let expected = (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * step);
+            let size = expected.abs() + own.value / design[k];
+            assert!((own.by_design[k] - expected).abs() < 1e-7 * size, "{i} {k}");
+        }
+    }
+}
