@@ -28,6 +28,7 @@ Counts: TypeAlias = dict[str, int]
 Table: TypeAlias = dict[str, Any]
 Quantity: TypeAlias = Literal["frequency", "natural_frequency", "damping_ratio", "growth"]
 QuantityOrLambda: TypeAlias = Quantity | Literal["lambda"]
+Measure: TypeAlias = Literal["displacement", "velocity", "acceleration"]
 Family: TypeAlias = Literal["undamped", "general"]
 Nominal: TypeAlias = dict[str, float]
 Units: TypeAlias = dict[str, str]
@@ -119,6 +120,9 @@ class NotAssembled(Error):
 
 class NoModes(Error):
     """The modes were not found."""
+
+class NoVibration(Error):
+    """There is no steady vibration: nothing excites it, or it resonates without damping."""
 
 class NoDerivative(Error):
     """A derivative does not exist at this state."""
@@ -423,6 +427,26 @@ class Mechanism:
         """
     def output_values(self, q: Numbers | None, inputs: Numbers | None = None, design: Numbers | None = None) -> Real:
         """The declared outputs at the state `q`, SI, shape (outputs,)."""
+    def forcing(
+        self,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Complex, Real, Complex]:
+        """The harmonic forces of every excitation about the state `q`, SI: with `F = forces[k]`, complex, excitation k acts
+        on the equations as `Re(F e^{i w t})`, `w = frequencies[k]`, rad/s, which may be negative; `direct[k]`, complex, is
+        what it adds to the outputs besides their dependence on the motion. Shapes (e, n), (e,) and (e, outputs), with e
+        the number of excitations.
+        """
+    def output_motion(
+        self,
+        q: Numbers | None,
+        inputs: Numbers | None = None,
+        design: Numbers | None = None,
+    ) -> tuple[Real, Real, Real]:
+        """Derivatives of the outputs, as functions of any motion, by qddot, qdot and q, at the state of rest `q`, SI: three
+        arrays of shape (outputs, n).
+        """
     def motion_residual(
         self,
         acceleration: Numbers | None,
@@ -491,6 +515,20 @@ class Mechanism:
     @property
     def outputs(self) -> list[str]:
         """Names of the outputs in the order of arrays."""
+    @property
+    def excitations(self) -> list[str]:
+        """Names of the excitations in the order of arrays."""
+    @property
+    def excitation_kinds(self) -> list[str]:
+        """What each excitation was declared as: "unbalance", "harmonic" or "shaken"."""
+    @property
+    def excitation_orders(self) -> list[str]:
+        """The frequency of each excitation in terms of the speeds of running coordinates: "1 spin"; empty for a frequency
+        of its own.
+        """
+    @property
+    def harmonics(self) -> list[list[str]]:
+        """The harmonics of a forced response, each a list of the excitations that have one frequency in every design."""
     @property
     def nominal(self) -> Nominal:
         """The nominal design, SI, by name."""
@@ -840,7 +878,8 @@ class SecondOrderFailure(_Result):
 
 @final
 class Response:
-    """A number that a design gives: a quantity of a mode, an output, a critical value of an input. `response(x)` evaluates
+    """A number that a design gives: a quantity of a mode, an output, the amplitude of its vibration, a critical value of an
+    input. `response(x)` evaluates
     it.
 
     `x` holds the variables `names`, SI: an array of shape (variables,), for one number, or of shape (N, variables), for
@@ -911,6 +950,88 @@ class Assembly(_Result):
     @property
     def dependent_constraints(self) -> list[str]:
         """Names of the constraints that depend on each other."""
+
+@final
+class Bode(_Result):
+    """Forced vibration along an input. `k` is the number of values, `h` of harmonics, `o` of outputs, `v` of the
+    vibrations that have bands. Amplitudes are complex, SI: the modulus is from 0 to peak, half of peak to peak; a
+    positive phase leads. NaN stands where a value has no vibration.
+    """
+
+    @property
+    def input(self) -> str:
+        """Name of the input."""
+    def __len__(self) -> int: ...
+    @property
+    def values(self) -> Real:
+        """Values of the input, SI, shape (k,)."""
+    @property
+    def harmonics(self) -> list[list[str]]:
+        """Names of the excitations that act together in each harmonic."""
+    @property
+    def frequencies(self) -> Real:
+        """Frequencies of the harmonics, rad/s, shape (k, h)."""
+    @property
+    def outputs(self) -> Complex:
+        """Amplitudes of the outputs, complex, SI, shape (k, h, o)."""
+    @property
+    def by_input(self) -> Complex:
+        """Total derivatives of the complex amplitudes by inputs, the varied one included, shape (k, h, o, inputs), per
+        SI unit.
+        """
+    @property
+    def by_design(self) -> Complex:
+        """Total derivatives of the complex amplitudes by design variables, shape (k, h, o, design), per SI unit."""
+    @property
+    def vibrations(self) -> list[ForcedSensitivities | None]:
+        """The vibration with its derivatives at each value, or None."""
+    @property
+    def failures(self) -> list[str | None]:
+        """Why there is no vibration at each value: a text, or None where there is one."""
+    @property
+    def banded(self) -> list[str]:
+        """Names of the vibrations that have bands."""
+    @property
+    def spreads(self) -> list[Propagation | None]:
+        """The spreads of these amplitudes at each value, or None."""
+    @property
+    def mean(self) -> Real:
+        """Means of the banded amplitudes, SI, shape (k, v)."""
+    @property
+    def sigma(self) -> Real:
+        """Their standard deviations, SI, shape (k, v)."""
+    @property
+    def quantiles(self) -> Real:
+        """Their quantiles, SI, shape (k, v, 7), for the probabilities of -3, -2 ... 3 standard deviations of a normal
+        variable.
+        """
+    @property
+    def probabilities(self) -> Real:
+        """Probabilities of the quantiles, shape (7,)."""
+    @property
+    def checked(self) -> Real:
+        """Numbers of designs solved anew that have the vibration, shape (k, v); NaN where none was asked for."""
+    @property
+    def sigma_errors(self) -> Real:
+        """Relative errors of the standard deviations that these show, shape (k, v)."""
+    @property
+    def upper_errors(self) -> Real:
+        """Relative errors of the values below which 97.7 % of the designs lie, shape (k, v)."""
+    @property
+    def unreached(self) -> int:
+        """Number of values that were not reached."""
+    def amplitudes(self, measure: Measure = "displacement") -> Complex:
+        """Amplitudes of the outputs, complex, shape (k, h, o): as "displacement" they are `outputs`, SI; as "velocity"
+        per second, as "acceleration" per second squared.
+        """
+    def modulus(self, measure: Measure = "displacement") -> tuple[Real, Real]:
+        """Derivatives of the moduli `|y|`, by inputs, shape (k, h, o, inputs), and by design variables, shape (k, h, o,
+        design), SI; NaN also where the modulus is zero.
+        """
+    def phase(self, measure: Measure = "displacement") -> tuple[Real, Real]:
+        """Derivatives of the phases, rad, by inputs, shape (k, h, o, inputs), and by design variables, shape (k, h, o,
+        design), per SI unit; NaN also where the modulus is zero.
+        """
 
 @final
 class Branch(_Result):
@@ -1156,6 +1277,119 @@ class EventCurvature(_Result):
     @property
     def hessian(self) -> Real:
         """Second derivatives, shape (design, design)."""
+
+@final
+class ForcedCurvature(_Result):
+    """The steady vibration with its total first and second derivatives, per SI unit. `h` is the number of harmonics, `o`
+    of outputs; NaN stands where an output has no derivative.
+    """
+
+    @property
+    def asymmetry(self) -> float:
+        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
+        zero.
+        """
+    @property
+    def first(self) -> ForcedSensitivities:
+        """The vibration and its first derivatives."""
+    @property
+    def hessian(self) -> Complex:
+        """Second derivatives of the complex amplitudes by design variables, shape (h, o, design, design)."""
+    @property
+    def by_input(self) -> Complex:
+        """Second derivatives of the complex amplitudes by inputs, shape (h, o, inputs, inputs)."""
+    @property
+    def by_input_and_design(self) -> Complex:
+        """Second derivatives of the complex amplitudes by an input and a design variable, shape (h, o, inputs, design)."""
+    @property
+    def frequency_hessian(self) -> Real:
+        """Second derivatives of the frequencies by design variables, rad/s per SI units, shape (h, design, design)."""
+    @property
+    def frequency_by_input(self) -> Real:
+        """Second derivatives of the frequencies by inputs, shape (h, inputs, inputs)."""
+    @property
+    def frequency_by_input_and_design(self) -> Real:
+        """Second derivatives of the frequencies by an input and a design variable, shape (h, inputs, design)."""
+    def complex(self, measure: Measure = "displacement") -> tuple[Complex, Complex, Complex]:
+        """Second derivatives of the complex amplitudes of the outputs, as "displacement", "velocity" or "acceleration",
+        SI: by inputs, shape (h, o, inputs, inputs), by an input and a design variable, shape (h, o, inputs, design),
+        and by design variables, shape (h, o, design, design).
+        """
+    def modulus(self, measure: Measure = "displacement") -> tuple[Real, Real, Real]:
+        """The same of the moduli `|y|`; NaN also where the modulus is zero."""
+    def phase(self, measure: Measure = "displacement") -> tuple[Real, Real, Real]:
+        """The same of the phases, rad; NaN also where the modulus is zero."""
+
+@final
+class ForcedResponse(_Result):
+    """The steady vibration under the declared excitations, `Re(y e^{i w t})`. Amplitudes are complex, SI: the modulus is
+    from 0 to peak, half of peak to peak; a positive phase leads. `h` is the number of harmonics, `o` of outputs, `n`
+    of unknowns, `e` of excitations.
+    """
+
+    @property
+    def frequencies(self) -> Real:
+        """Frequencies of the harmonics, rad/s, positive, shape (h,)."""
+    @property
+    def harmonics(self) -> list[list[str]]:
+        """Names of the excitations that act together in each harmonic."""
+    @property
+    def outputs(self) -> Complex:
+        """Amplitudes of the outputs, complex, SI, shape (h, o)."""
+    @property
+    def unknowns(self) -> Complex:
+        """Amplitudes of the unknowns, complex, SI, shape (h, n): displacements of coordinates, speeds, reactions."""
+    @property
+    def excitations(self) -> list[str]:
+        """Names of the excitations: the rows of `shares`."""
+    @property
+    def shares(self) -> Complex:
+        """What each excitation contributes to the outputs, complex, SI, shape (e, o)."""
+    @property
+    def unknown_shares(self) -> Complex:
+        """What each excitation contributes to the unknowns, complex, SI, shape (e, n)."""
+    @property
+    def reversed(self) -> Flags:
+        """Whether the declared frequency of each excitation is negative, shape (e,)."""
+    def amplitudes(self, measure: Measure = "displacement") -> Complex:
+        """Amplitudes of the outputs, complex, shape (h, o): as "displacement" they are `outputs`, SI; as "velocity" per
+        second, as "acceleration" per second squared.
+        """
+
+@final
+class ForcedSensitivities(_Result):
+    """The steady vibration with its total first derivatives, per SI unit: equilibrium and frequencies follow the
+    variables. `h` is the number of harmonics, `o` of outputs; NaN stands where an output has no derivative, because it
+    depends on a place that nothing determines, or sees an undamped mode in resonance that nothing drives.
+    """
+
+    @property
+    def response(self) -> ForcedResponse:
+        """The vibration."""
+    @property
+    def by_input(self) -> Complex:
+        """Derivatives of the complex amplitudes of the outputs by inputs, shape (h, o, inputs)."""
+    @property
+    def by_design(self) -> Complex:
+        """Derivatives of the complex amplitudes of the outputs by design variables, shape (h, o, design)."""
+    @property
+    def frequency_by_input(self) -> Real:
+        """Derivatives of the frequencies by inputs, rad/s per SI unit, shape (h, inputs)."""
+    @property
+    def frequency_by_design(self) -> Real:
+        """Derivatives of the frequencies by design variables, rad/s per SI unit, shape (h, design)."""
+    def complex(self, measure: Measure = "displacement") -> tuple[Complex, Complex]:
+        """Derivatives of the complex amplitudes of the outputs, as "displacement", "velocity" or "acceleration", by
+        inputs, shape (h, o, inputs), and by design variables, shape (h, o, design), SI.
+        """
+    def modulus(self, measure: Measure = "displacement") -> tuple[Real, Real]:
+        """Derivatives of the moduli `|y|`, by inputs, shape (h, o, inputs), and by design variables, shape (h, o,
+        design), SI; NaN also where the modulus is zero.
+        """
+    def phase(self, measure: Measure = "displacement") -> tuple[Real, Real]:
+        """Derivatives of the phases, rad, by inputs, shape (h, o, inputs), and by design variables, shape (h, o,
+        design), per SI unit; NaN also where the modulus is zero.
+        """
 
 @final
 class ModeCurvature(_Result):
@@ -1932,6 +2166,14 @@ class Study:
         """Total derivatives of all modes."""
     def outputs(self) -> OutputSensitivities:
         """The outputs and their total derivatives."""
+    def forced_response(self) -> ForcedResponse:
+        """The steady vibration under the declared excitations. Raises NoVibration where nothing excites one, and where a mode
+        without damping resonates.
+        """
+    def forced_sensitivities(self) -> ForcedSensitivities:
+        """The steady vibration and its total derivatives: equilibrium and frequencies follow the variables."""
+    def forced_curvature(self) -> ForcedCurvature:
+        """The steady vibration with total first and second derivatives."""
     def output_tolerances(self) -> OutputTolerances:
         """First-order spread of the outputs."""
     def first_order(self) -> FirstOrder:
@@ -1944,7 +2186,7 @@ class Study:
         """
     def propagate(self, responses: Sequence[tuple[Any, ...]]) -> Propagation:
         """How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
-        "angle"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
+        "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
         """
     def influence(self, responses: Sequence[tuple[Any, ...]]) -> Influence:
         """Which variables the scatter of responses comes from; tuples as `propagate` takes them."""
@@ -1963,6 +2205,25 @@ class Study:
     def flutter_onsets(self, input: str, low: Value, high: Value) -> list[Event]:
         """Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
         how tolerances move them.
+        """
+    def vibration_spread(self, vibrations: Sequence[tuple[Any, ...]]) -> Propagation:
+        """How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
+        measure) as `response` takes them.
+        """
+    def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Bode:
+        """Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
+        texts with units, or numbers in `unit`. A value without a vibration is NaN in arrays; `failures` says why.
+        """
+    def bode_bands(
+        self,
+        input: str,
+        values: ArrayLike,
+        vibrations: Sequence[tuple[Any, ...]],
+        checked: int = 64,
+        unit: str | None = None,
+    ) -> Bode:
+        """The same with bands of these vibrations under tolerances, given as `vibration_spread` takes them. `checked`
+        designs are solved anew at each value to say how good the bands are; 0 for none.
         """
     def monte_carlo(self) -> MonteCarlo:
         """Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
@@ -2006,7 +2267,7 @@ class Study:
     def report(
         self,
         path: str | PathLike[str],
-        sweep: Along | None = None,
+        sweep: tuple[Real, Real] | None = None,
         orders: Sequence[float] = ...,
         title: str | None = None,
         mode_names: Sequence[str] = ...,
@@ -2054,7 +2315,9 @@ class Study:
         """A response as a function of arrays of designs.
 
         `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
-        number of a mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value,
+        number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
+        peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies, and
+        "velocity" or "acceleration"; "critical" and the name of an input, a low and a high value,
         between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
         high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
         vary, in order; all unless given.

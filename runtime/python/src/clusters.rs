@@ -115,7 +115,7 @@ attributes! {
 }
 
 attributes! {
-    Clusters(self, py, quantity: hints::QuantityOrLambda) {
+    Clusters(self, py, quantity: hints::QuantityOrLambda = "frequency") {
         /// Means of the members of each cluster from the lowest up, and at last of the distance of the highest from the
         /// lowest: arrays of shape (members + 1,). The quantity is "frequency" (rad/s), "lambda" (1/s^2), "growth" (1/s) or
         /// "damping_ratio".

@@ -7,8 +7,8 @@ use crate::events::Event;
 use crate::hints;
 use crate::requirements::Chances;
 use crate::results::{
-    Branch, Branches, Campbell, EventCurvature, ModeCurvature, Modes, OutputCurvature,
-    Sensitivities, Sweep, attributes, family,
+    Bode, Branch, Branches, Campbell, EventCurvature, ForcedCurvature, ModeCurvature, Modes,
+    OutputCurvature, Sensitivities, Sweep, attributes, family,
 };
 use crate::spreads::{
     FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, counts,
@@ -43,14 +43,14 @@ attributes! {
 }
 
 attributes! {
-    Branch, Campbell, Event, EventCurvature, Sweep(self, py) {
+    Bode, Branch, Campbell, Event, EventCurvature, Sweep(self, py) {
         /// Name of the input.
         input: String = self.0.description.inputs[self.0.input.index()].name.to_string();
     }
 }
 
 attributes! {
-    EventCurvature, ModeCurvature, OutputCurvature(self, py) {
+    EventCurvature, ForcedCurvature, ModeCurvature, OutputCurvature(self, py) {
         /// Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
         /// zero.
         asymmetry: f64 = self.0.asymmetry;
@@ -73,6 +73,7 @@ macro_rules! lengths {
 }
 
 lengths! {
+    Bode: |own| own.points;
     Branch: |own| own.points;
     Branches: |own| own.branches;
     Campbell: |own| own.points;

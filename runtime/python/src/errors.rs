@@ -78,6 +78,8 @@ exceptions! {
     NotAssembled("", "coordinates: list[float]");
     /// The modes were not found.
     NoModes("");
+    /// There is no steady vibration: nothing excites it, or it resonates without damping.
+    NoVibration("");
     /// A derivative does not exist at this state.
     NoDerivative("");
     /// What was looked for is not in the range of the input.
@@ -169,6 +171,9 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
         | Error::NoUndampedModes
         | Error::ModesNotFound { .. }
         | Error::EigenvalueRange { .. } => Kind::NoModes,
+        Error::NoExcitation { .. } | Error::NoFrequency { .. } | Error::Resonance { .. } => {
+            Kind::NoVibration
+        }
         Error::CriticalState
         | Error::ClosesHereOnly { .. }
         | Error::NotOscillating { .. }

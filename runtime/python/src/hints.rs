@@ -31,5 +31,8 @@ pub(crate) type Quantity = str;
 /// In Python `Quantity | Literal["lambda"]`.
 pub(crate) type QuantityOrLambda = str;
 
+/// How a vibrating output is measured. In Python `Literal["displacement", "velocity", "acceleration"]`.
+pub(crate) type Measure = str;
+
 /// Which modes. In Python `Literal["undamped", "general"]`.
 pub(crate) type Family = str;

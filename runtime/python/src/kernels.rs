@@ -1,7 +1,8 @@
 //! The kernels of a mechanism as functions of arrays.
 
-use eigentol::kernels::{Gradient, Kernels, Linear, MotionKernels};
-use eigentol::{Error, Matrix, motion};
+use eigentol::kernels::{Gradient, Kernel, Kernels, Linear, MotionKernels};
+use eigentol::{Complex, Error, Matrix, motion};
+use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 
 use crate::arrays::{self, Array1, Array2, Array3};
@@ -69,6 +70,9 @@ impl Mechanism {
 
 /// Mhat, Chat, Khat.
 type Three<'py> = (Array2<'py>, Array2<'py>, Array2<'py>);
+
+/// Forces, frequencies, direct terms of the outputs.
+type Forcing<'py> = (Array2<'py, Complex>, Array1<'py>, Array2<'py, Complex>);
 
 /// Derivatives of a number with respect to unknowns, inputs and design variables.
 type Slopes<'py> = (Array1<'py>, Array1<'py>, Array1<'py>);
@@ -171,6 +175,47 @@ kernels! { self, py;
         let found = py.detach(|| self.kernels().outputs(&q, &u, &b));
         self.finite(py, &q, [&found[..]].into_iter())?;
         Ok(arrays::vector(py, found))
+    };
+    /// The harmonic forces of every excitation about the state `q`, SI: with `F = forces[k]`, complex, excitation k acts
+    /// on the equations as `Re(F e^{i w t})`, `w = frequencies[k]`, rad/s, which may be negative; `direct[k]`, complex, is
+    /// what it adds to the outputs besides their dependence on the motion. Shapes (e, n), (e,) and (e, outputs), with e
+    /// the number of excitations.
+    forcing() -> Forcing<'py> = |q, u, b| {
+        let sizes = self.kernels().sizes();
+        let (rows, columns) = (sizes.excitations, [sizes.coordinates, sizes.outputs]);
+        let [mut cosine, mut direct_cosine] = columns.map(|count| vec![0.0; rows * count]);
+        let [mut sine, mut direct_sine] = columns.map(|count| vec![0.0; rows * count]);
+        let mut frequency = vec![0.0; rows];
+        py.detach(|| {
+            let results: &mut [&mut [f64]] = &mut [
+                &mut cosine, &mut frequency, &mut direct_cosine, &mut sine, &mut direct_sine,
+            ];
+            self.kernels().evaluate(Kernel::Forcing, &[&q, &u, &b], results);
+        });
+        let all = [&cosine, &frequency, &direct_cosine, &sine, &direct_sine];
+        self.finite(py, &q, all.into_iter().map(|own| &own[..]))?;
+        let complex = |cosine: &[f64], sine: &[f64], count| {
+            let all = cosine.iter().zip(sine).map(|(re, im)| Complex::new(*re, -im));
+            arrays::vector(py, all).reshape([rows, count])
+        };
+        Ok((
+            complex(&cosine, &sine, columns[0])?,
+            arrays::vector(py, frequency),
+            complex(&direct_cosine, &direct_sine, columns[1])?,
+        ))
+    };
+    /// Derivatives of the outputs, as functions of any motion, by qddot, qdot and q, at the state of rest `q`, SI: three
+    /// arrays of shape (outputs, n).
+    output_motion() -> Three<'py> = |q, u, b| {
+        let sizes = self.kernels().sizes();
+        let mut all = [(); 3].map(|()| Matrix::zeros(sizes.outputs, sizes.coordinates));
+        py.detach(|| {
+            let results = &mut all.each_mut().map(Matrix::as_flattened_mut);
+            self.kernels().evaluate(Kernel::OutputMotion, &[&q, &u, &b], results);
+        });
+        self.finite(py, &q, all.iter().map(|own| own.as_flattened()))?;
+        let [acceleration, velocity, position] = all.map(|own| arrays::matrix(py, &own));
+        Ok((acceleration?, velocity?, position?))
     };
     /// Residual of the equations of the full nonlinear motion, N or N m, shape (n,): the forces that this motion would
     /// need besides those that act. `acceleration` is qddot, `velocity` qdot.

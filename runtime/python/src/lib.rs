@@ -55,9 +55,9 @@ mod module {
     use crate::response::Response;
     #[pymodule_export]
     use crate::results::{
-        Assembly, Branch, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
-        ModeCurvature, Modes, OutputCurvature, OutputSensitivities, Sensitivities,
-        ShapeSensitivity, Sweep, json_schema,
+        Assembly, Bode, Branch, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
+        ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes,
+        OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, json_schema,
     };
     #[pymodule_export]
     use crate::robots::{Import, import_urdf};

@@ -66,6 +66,17 @@ attributes! {
         design: Vec<&str> = names::design(self.inner.description());
         /// Names of the outputs in the order of arrays.
         outputs: Vec<&str> = names::outputs(self.inner.description());
+        /// Names of the excitations in the order of arrays.
+        excitations: Vec<&str> = names::excitations(self.inner.description());
+        /// What each excitation was declared as: "unbalance", "harmonic" or "shaken".
+        excitation_kinds: Vec<&str> =
+            self.inner.description().excitations.iter().map(|own| &*own.kind).collect();
+        /// The frequency of each excitation in terms of the speeds of running coordinates: "1 spin"; empty for a frequency
+        /// of its own.
+        excitation_orders: Vec<&str> =
+            self.inner.description().excitations.iter().map(|own| &*own.order).collect();
+        /// The harmonics of a forced response, each a list of the excitations that have one frequency in every design.
+        harmonics: Vec<Vec<&str>> = names::harmonics(self.inner.description());
         /// The nominal design, SI, by name.
         nominal: PyResult<Nominal<'py>> = {
             let all = self.inner.description().design.iter();
@@ -121,13 +132,14 @@ impl Mechanism {
             false => names.join(", "),
         };
         format!(
-            "Mechanism {}\n  coordinates: {}\n  reactions: {}\n  inputs: {}\n  design: {}\n  outputs: {}",
+            "Mechanism {}\n  coordinates: {}\n  reactions: {}\n  inputs: {}\n  design: {}\n  outputs: {}\n  excitations: {}",
             of.name,
             listed(self.coordinates(py)),
             listed(self.reactions(py)),
             listed(names::inputs(of)),
             listed(names::design(of)),
             listed(names::outputs(of)),
+            listed(names::excitations(of)),
         )
     }
 

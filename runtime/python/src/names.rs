@@ -22,4 +22,15 @@ macro_rules! names {
     };
 }
 
-names! { coordinates inputs design outputs }
+names! { coordinates inputs design outputs excitations }
+
+/// The names of the excitations of each harmonic.
+pub(crate) fn harmonics(description: &Description) -> Vec<Vec<&str>> {
+    let all = &description.excitations;
+    let firsts = (0..all.len()).filter(|&k| all[k].with == k);
+    let members = |first| {
+        let own = all.iter().filter(move |info| info.with == first);
+        own.map(|info| &*info.name).collect()
+    };
+    firsts.map(members).collect()
+}

@@ -1,5 +1,6 @@
 //! The analyses of a study.
 
+use eigentol::response::{Response, Vibration};
 use eigentol::sweep::Line;
 use eigentol::{Coordinate, Input};
 use eigentol_interpreter::Interpreted;
@@ -8,12 +9,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 
 use crate::arrays::{Array1, optional};
+use crate::errors::invalid;
 use crate::events::{Event, events};
 use crate::hints;
 use crate::response::wanted;
 use crate::results::{
-    Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature, ModeCurvature,
-    Modes, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
+    Assembly, Bode, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
+    ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature,
+    OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
 };
 use crate::spreads::{
     FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary,
@@ -51,6 +54,13 @@ questions! {
     sensitivities -> Sensitivities;
     /// The outputs and their total derivatives.
     outputs -> OutputSensitivities;
+    /// The steady vibration under the declared excitations. Raises NoVibration where nothing excites one, and where a mode
+    /// without damping resonates.
+    forced_response -> ForcedResponse;
+    /// The steady vibration and its total derivatives: equilibrium and frequencies follow the variables.
+    forced_sensitivities -> ForcedSensitivities;
+    /// The steady vibration with total first and second derivatives.
+    forced_curvature -> ForcedCurvature;
     /// First-order spread of the outputs.
     output_tolerances -> OutputTolerances;
     /// First-order spread of all modes.
@@ -84,7 +94,7 @@ macro_rules! of_responses {
 
 of_responses! {
     /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
-    /// "angle"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
+    /// "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
     propagate -> Propagation;
     /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
     influence -> Influence;
@@ -192,8 +202,76 @@ impl Study {
     }
 }
 
+impl Study {
+    /// Amplitudes of vibration, given as the tuples that `Study.response` takes.
+    fn vibrations(
+        &self,
+        py: Python<'_>,
+        given: Vec<Bound<'_, PyTuple>>,
+    ) -> PyResult<Vec<Vibration>> {
+        let own = |response| match response {
+            Response::Vibration(own) => Ok(own),
+            other => {
+                let name = other.name(self.inner.description());
+                let message = format!(
+                    "{name} is no vibration: that is a tuple such as (\"vibration\", \"shake\")"
+                );
+                Err(invalid(py, message))
+            }
+        };
+        self.wanted(given)?.into_iter().map(own).collect()
+    }
+}
+
 #[pymethods]
 impl Study {
+    /// How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
+    /// measure) as `response` takes them.
+    fn vibration_spread(
+        &self,
+        py: Python<'_>,
+        vibrations: Vec<Bound<'_, PyTuple>>,
+    ) -> PyResult<Propagation> {
+        let wanted = self.vibrations(py, vibrations)?;
+        self.ask_stoppably(py, |study| study.vibration_spread(&wanted))
+            .map(Propagation)
+    }
+
+    /// Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
+    /// texts with units, or numbers in `unit`. A value without a vibration is NaN in arrays; `failures` says why.
+    #[pyo3(signature = (input, values, unit=None))]
+    fn bode(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        values: &hints::ArrayLike<'_>,
+        unit: Option<&str>,
+    ) -> PyResult<Bode> {
+        let (input, values) = self.values(py, input, values, unit)?;
+        self.ask_stoppably(py, |study| study.bode(input, &values))
+            .map(Bode)
+    }
+
+    /// The same with bands of these vibrations under tolerances, given as `vibration_spread` takes them. `checked`
+    /// designs are solved anew at each value to say how good the bands are; 0 for none.
+    #[pyo3(signature = (input, values, vibrations, checked=64, unit=None))]
+    fn bode_bands(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        values: &hints::ArrayLike<'_>,
+        vibrations: Vec<Bound<'_, PyTuple>>,
+        checked: usize,
+        unit: Option<&str>,
+    ) -> PyResult<Bode> {
+        let (input, values) = self.values(py, input, values, unit)?;
+        let wanted = self.vibrations(py, vibrations)?;
+        let found = self.ask_stoppably(py, |study| {
+            study.bode_bands(input, &values, &wanted, checked)
+        });
+        found.map(Bode)
+    }
+
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
     /// is done, take the samples in parts (`samples_between`).
     fn monte_carlo(&self, py: Python<'_>) -> PyResult<MonteCarlo> {

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use eigentol::response::{self, Responses, Workspace};
+use eigentol::forced::Measure;
+use eigentol::response::{self, Responses, Vibration, Workspace};
 use eigentol::sweep::{Condition, Line, Range};
-use eigentol::{Equilibrium, Error, Modes, Output};
+use eigentol::{Equilibrium, Error, Excitation, Modes, Output};
 use eigentol_interpreter::Interpreted;
 use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
@@ -12,13 +13,14 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyTuple};
 
 use crate::arrays::{Array1, or_nan, rows, vector};
-use crate::errors::raise;
+use crate::errors::{invalid, raise};
 use crate::results::{attributes, quantity};
 use crate::study::Study;
-use crate::values::{List, mode_number, number, numbers};
+use crate::values::{List, mode_number, number, numbers, word};
 use crate::{hints, names};
 
-/// A number that a design gives: a quantity of a mode, an output, a critical value of an input. `response(x)` evaluates
+/// A number that a design gives: a quantity of a mode, an output, the amplitude of its vibration, a critical value of an
+/// input. `response(x)` evaluates
 /// it.
 ///
 /// `x` holds the variables `names`, SI: an array of shape (variables,), for one number, or of shape (N, variables), for
@@ -44,8 +46,8 @@ pub(crate) struct Response {
     text: String,
 }
 
-/// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("critical", input, low, high),
-/// ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
+/// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("vibration", output, excitation,
+/// measure), ("critical", input, low, high), ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
 pub(crate) fn wanted(
     study: &eigentol::Study<Interpreted>,
     what: &str,
@@ -62,6 +64,15 @@ pub(crate) fn wanted(
             let name = given.get_item(0)?.extract::<String>()?;
             let output = study.find_output(&name).map_err(|error| raise(py, error))?;
             Ok(response::Response::Output(Output::new(output.index())))
+        }
+        "vibration" => {
+            if !(1..=3).contains(&given.len()) {
+                count(
+                    1,
+                    "the name of an output, and perhaps of an excitation and a measure",
+                )?;
+            }
+            vibration(study, given).map(response::Response::Vibration)
         }
         "critical" => {
             count(3, "the name of an input, a low and a high value")?;
@@ -93,6 +104,59 @@ pub(crate) fn wanted(
     }
 }
 
+/// The amplitude of an output under an excitation, or under all if they have one frequency.
+fn vibration(
+    study: &eigentol::Study<Interpreted>,
+    given: &Bound<'_, PyTuple>,
+) -> PyResult<Vibration> {
+    let py = given.py();
+    let name = given.get_item(0)?.extract::<String>()?;
+    let output = study.find_output(&name).map_err(|error| raise(py, error))?;
+    let excitation = match given.get_item(1) {
+        Ok(name) => {
+            let found = study.find_excitation(&name.extract::<String>()?);
+            found.map_err(|error| raise(py, error))?
+        }
+        Err(_) => only(py, study)?,
+    };
+    let own = Vibration::new(output, excitation);
+    match given.get_item(2) {
+        Ok(name) => Ok(own.measure(measure(py, &name.extract::<String>()?)?)),
+        Err(_) => Ok(own),
+    }
+}
+
+/// The first excitation, if all have one frequency.
+fn only(py: Python<'_>, study: &eigentol::Study<Interpreted>) -> PyResult<Excitation<Interpreted>> {
+    let of = study.description();
+    let harmonics = names::harmonics(of);
+    match harmonics.len() {
+        0 => {
+            let mechanism = of.name.clone();
+            Err(raise(py, Error::NoExcitation { mechanism }))
+        }
+        1 => Ok(Excitation::new(0)),
+        _ => {
+            let firsts: Vec<&str> = harmonics.iter().map(|own| own[0]).collect();
+            let message = format!(
+                "the excitations have several frequencies: say under which the output vibrates, {}",
+                firsts.join(" or ")
+            );
+            Err(invalid(py, message))
+        }
+    }
+}
+
+/// Looks up how a vibration is measured.
+pub(crate) fn measure(py: Python<'_>, name: &str) -> PyResult<Measure> {
+    let words = [
+        ("displacement", Measure::Displacement),
+        ("velocity", Measure::Velocity),
+        ("acceleration", Measure::Acceleration),
+    ];
+    word(py, "measure", name, &words)
+}
+
 /// The range of the input whose name is item `first` of the given tuple.
 fn range(
     study: &eigentol::Study<Interpreted>,
@@ -111,7 +175,9 @@ impl Study {
     /// A response as a function of arrays of designs.
     ///
     /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
-    /// number of a mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value,
+    /// number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
+    /// peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies, and
+    /// "velocity" or "acceleration"; "critical" and the name of an input, a low and a high value,
     /// between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
     /// high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
     /// vary, in order; all unless given.

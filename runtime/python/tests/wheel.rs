@@ -156,6 +156,7 @@ fn the_module_passes_its_tests() {
     let files = [
         "test_documents.py",
         "test_equilibria.py",
+        "test_forced.py",
         "test_kernels.py",
         "test_mistakes.py",
         "test_motion.py",

@@ -1,6 +1,6 @@
 //! Forced vibration along an input as text and tables.
 
-use eigentol_results::numbers::{given, number, percent, short};
+use eigentol_results::numbers::{converted, given, number, percent, short};
 use eigentol_results::relevance::{EVERYTHING, shown};
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
@@ -49,15 +49,15 @@ impl Answer for Bode {
             .words("unit", &|row| Some(row.unit(d)?.to_owned()))
             .shown();
         table
-            .number("amplitude", "", &|row| Some(row.amplitude()?.norm()))
+            .number("amplitude", "", &|row| row.scaled(d, Complex::norm))
             .digits(number);
         table
             .number("phase", "deg", &|row| {
                 Some(row.amplitude()?.arg().to_degrees())
             })
             .digits(short);
-        table.number("Re", "", &|row| Some(row.amplitude()?.re));
-        table.number("Im", "", &|row| Some(row.amplitude()?.im));
+        table.number("Re", "", &|row| row.scaled(d, |own| own.re));
+        table.number("Im", "", &|row| row.scaled(d, |own| own.im));
         table.words("error", &|row| row.error.map(ToString::to_string));
         said.columns(table);
         self.bands(&mut said, &points);
@@ -95,6 +95,12 @@ impl Row<'_> {
     fn amplitude(&self) -> Option<Complex> {
         let (harmonic, output) = self.found?;
         harmonic.outputs.get(output).copied()
+    }
+
+    /// A part of the amplitude in the unit of the output.
+    fn scaled(&self, d: &Description, part: fn(Complex) -> f64) -> Option<f64> {
+        let unit = &d.outputs.get(self.found?.1)?.unit;
+        Some(converted(part(self.amplitude()?), unit))
     }
 
     fn name<'d>(&self, d: &'d Description) -> Option<&'d str> {
@@ -171,6 +177,7 @@ impl Bode {
         table.show_rows(visible.map(|(k, _)| k).collect());
         varied(&mut table, d, self.input, given, &|row| row.value);
         let named = |row: &Band<'_>| Response::Vibration(*row.vibration);
+        let scaled = |row: &Band<'_>, value| Some(converted(value, &named(row).unit(d)));
         table
             .words("amplitude of", &|row| Some(named(row).name(d)))
             .shown();
@@ -178,17 +185,17 @@ impl Bode {
             .words("unit", &|row| Some(named(row).unit(d).symbol.to_string()))
             .shown();
         table
-            .number("nominal", "", &|row| row.spread?.nominal)
+            .number("nominal", "", &|row| scaled(row, row.spread?.nominal?))
             .digits(number);
         table
-            .number("mean", "", &|row| Some(row.spread?.mean.value))
+            .number("mean", "", &|row| scaled(row, row.spread?.mean.value))
             .digits(number);
         table
-            .number("sigma", "", &|row| Some(row.spread?.sigma?.value))
+            .number("sigma", "", &|row| scaled(row, row.spread?.sigma?.value))
             .digits(short);
         for (place, name) in [(1, "2.3 %"), (3, "50 %"), (5, "97.7 %"), (6, "99.9 %")] {
             table
-                .number(name, "", &|row| row.quantile(place))
+                .number(name, "", &|row| scaled(row, row.quantile(place)?))
                 .digits(number);
         }
         table.whole("designs solved anew", &|row| {

@@ -252,7 +252,7 @@ impl Answer for ForcedSensitivities {
 }
 
 /// `second derivatives`: a row for each output of each harmonic and each pair of variables, derivatives of the complex
-/// amplitude and of its modulus per `unit` of the first and `unit 2` of the second.
+/// amplitude and of its modulus, `in` the unit of the output per `unit` of the first and `unit 2` of the second.
 impl Answer for ForcedCurvature {
     const KIND: &'static str = "second derivatives of forced vibration";
 
@@ -265,28 +265,34 @@ impl Answer for ForcedCurvature {
         let d = &of.description;
         let title = title(d, &of.inputs);
         let mut said = Findings::titled(format!("{title}: second derivatives of forced vibration"));
-        let pairs = pairs(&crate::variables::variables(d));
-        for row in of.rows() {
+        let (pairs, inputs) = (pairs(&crate::variables::variables(d)), d.inputs.len());
+        let rows = of.rows();
+        let second = |row: &Row<'_>| {
             let (output, measure) = (Output::new(row.output), Measure::Displacement);
-            let mut table = Columns::new("second derivatives", &pairs);
-            table.words("output", &|_| Some(row.name(of)));
-            names(&mut table);
-            let unit = row.unit(d);
-            let units = format!("{} per units", unit.symbol);
-            let inputs = d.inputs.len();
-            let scaled = |pair: &Pair<'_>, value: f64| Some(converted(pair.scaled(value), &unit));
-            let complex = self.complex(row.place, output, measure);
-            let part = |pair: &Pair<'_>, part: fn(Complex) -> f64| {
-                scaled(pair, part(pair.of(complex.as_ref()?, inputs)?))
-            };
-            table.number("Re", &units, &|pair| part(pair, |own| own.re));
-            table.number("Im", &units, &|pair| part(pair, |own| own.im));
             let modulus = self.modulus(row.place, output, measure);
-            table.number("amplitude", &units, &|pair| {
-                scaled(pair, pair.of(modulus.as_ref()?, inputs)?)
-            });
-            said.columns(table);
-        }
+            (self.complex(row.place, output, measure), modulus)
+        };
+        let all: Vec<_> = rows.iter().map(|row| (row, second(row))).collect();
+        let rows: Vec<_> = (all.iter())
+            .flat_map(|own| pairs.iter().map(move |pair| (own, pair)))
+            .collect();
+        let mut table = Columns::new("second derivatives", &rows);
+        table.words("output", &|((row, _), _)| Some(row.name(of)));
+        table.words("in", &|((row, _), _)| Some(row.unit(d).symbol.to_string()));
+        names(&mut table, &|row| row.1);
+        let scaled = |row: &Row<'_>, pair: &Pair<'_>, value: f64| {
+            Some(converted(pair.scaled(value), &row.unit(d)))
+        };
+        table.number("Re", "per units", &|((row, (complex, _)), pair)| {
+            scaled(row, pair, pair.of(complex.as_ref()?, inputs)?.re)
+        });
+        table.number("Im", "per units", &|((row, (complex, _)), pair)| {
+            scaled(row, pair, pair.of(complex.as_ref()?, inputs)?.im)
+        });
+        table.number("amplitude", "per units", &|((row, (_, modulus)), pair)| {
+            scaled(row, pair, pair.of(modulus.as_ref()?, inputs)?)
+        });
+        said.columns(table);
         said
     }
 }

@@ -1,14 +1,18 @@
 //! Results as classes: arrays for computation, text and tables for reading.
 
+mod bode;
 mod branches;
 mod equilibrium;
+mod forced;
 mod modes;
 mod sensitivities;
 mod shared;
 mod sweep;
 
+pub(crate) use bode::Bode;
 pub(crate) use branches::{Branch, Branches};
 pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
+pub(crate) use forced::{ForcedCurvature, ForcedResponse, ForcedSensitivities};
 pub(crate) use modes::{Modes, family};
 pub(crate) use sensitivities::{
     EventCurvature, ModeCurvature, OutputCurvature, OutputSensitivities, Sensitivities,

@@ -6,7 +6,7 @@ use eigentol::{Complex, Quantity};
 use pyo3::prelude::*;
 
 use super::{attributes, result};
-use crate::arrays::{Array1, Array2, matrix, optional_rows, vector};
+use crate::arrays::{Array1, Array2, NONE, matrix, optional_rows, vector};
 use crate::errors::{Kind, new};
 use crate::hints;
 use crate::values::word;
@@ -43,10 +43,9 @@ impl Sensitivities {
         columns: usize,
         of: impl Fn(&Slopes<Complex>) -> Vec<Complex>,
     ) -> PyResult<Array2<'py, Complex>> {
-        let none = Complex::new(f64::NAN, f64::NAN);
         let row = |mode: &ModeSensitivity| match mode.s() {
             Some(slopes) => of(&slopes),
-            None => vec![none; columns],
+            None => vec![NONE; columns],
         };
         crate::arrays::rows(py, columns, self.0.modes.iter().map(row))
     }
@@ -147,7 +146,7 @@ attributes! {
 }
 
 attributes! {
-    ModeCurvature(self, py, quantity: hints::QuantityOrLambda) {
+    ModeCurvature(self, py, quantity: hints::QuantityOrLambda = "frequency") {
         /// First derivatives of a quantity by design variables, shape (design,).
         gradient: Array1<'py> = Ok(vector(py, self.first(py, quantity)?.by_design));
         /// First derivatives of a quantity by inputs, shape (inputs,).

@@ -106,7 +106,8 @@ macro_rules! result {
 }
 pub(crate) use result;
 
-/// Attributes of classes, each with its docstring, type and value; with `quantity`, methods of the name of a quantity.
+/// Attributes of classes, each with its docstring, type and value; with a word, methods that take it, such as the name of a
+/// quantity.
 macro_rules! attributes {
     ($class:ident, $($other:ident),+ ($own:ident, $py:ident) $all:tt) => {
         $crate::results::attributes! { $class($own, $py) $all }
@@ -127,15 +128,15 @@ macro_rules! attributes {
             )+
         }
     };
-    ($class:ident($own:ident, $py:ident, $quantity:ident: $words:ty) {
+    ($class:ident($own:ident, $py:ident, $word:ident: $words:ty = $usual:literal) {
         $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)+
     }) => {
         #[pymethods]
         impl $class {
             $(
                 $(#[$doc])*
-                #[pyo3(signature = ($quantity="frequency"))]
-                fn $name<'py>(&$own, $py: Python<'py>, $quantity: &$words) -> PyResult<$type> {
+                #[pyo3(signature = ($word=$usual))]
+                fn $name<'py>(&$own, $py: Python<'py>, $word: &$words) -> PyResult<$type> {
                     $value
                 }
             )+

@@ -7,10 +7,8 @@ use eigentol::{Complex, Error, Mode};
 use pyo3::prelude::*;
 
 use super::{Equilibrium, Modes, attributes, result};
-use crate::arrays::{Array1, Array2, optional_rows, or_nan, rows, vector};
+use crate::arrays::{Array1, Array2, NONE, optional_rows, or_nan, rows, vector};
 use crate::events::{Event, events};
-
-const NONE: Complex = Complex::new(f64::NAN, f64::NAN);
 
 result! {
     /// States along an input. `k` is their number, `n` that of the unknowns; a column of an array over modes is one

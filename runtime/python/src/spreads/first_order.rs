@@ -70,7 +70,7 @@ attributes! {
 }
 
 attributes! {
-    FirstOrder(self, py, quantity: hints::QuantityOrLambda) {
+    FirstOrder(self, py, quantity: hints::QuantityOrLambda = "frequency") {
         /// Means, shape (m,).
         mean: Array1<'py> = Ok(optional(py, self.each(py, quantity, |own| own.mean)?));
         /// Standard deviations, shape (m,).

@@ -101,7 +101,7 @@ attributes! {
 }
 
 attributes! {
-    MonteCarlo(self, py, quantity: hints::Quantity) {
+    MonteCarlo(self, py, quantity: hints::Quantity = "frequency") {
         /// Means of "frequency" (rad/s) or "damping_ratio" over the stable samples, shape (m,).
         mean: Array1<'py> = self.statistics(py, quantity, |own| Some(own.mean));
         /// Standard deviations likewise, shape (m,).

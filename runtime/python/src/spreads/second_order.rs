@@ -48,7 +48,7 @@ attributes! {
 }
 
 attributes! {
-    SecondOrder(self, py, quantity: hints::Quantity) {
+    SecondOrder(self, py, quantity: hints::Quantity = "frequency") {
         /// Means, shape (m,).
         mean: Array1<'py> = self.each(py, quantity, |own| own.moments.mean);
         /// Standard deviations, shape (m,).

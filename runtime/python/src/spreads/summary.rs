@@ -74,7 +74,7 @@ impl Summary {
 }
 
 attributes! {
-    Summary(self, py, quantity: hints::Quantity) {
+    Summary(self, py, quantity: hints::Quantity = "frequency") {
         /// Means of a quantity over the samples that judged, shape (m,); NaN where there are none.
         sampled_mean: Array1<'py> = self.checks(py, quantity, |own| Some(own.mean));
         /// Standard deviations likewise, shape (m,).

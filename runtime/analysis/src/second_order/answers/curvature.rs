@@ -22,7 +22,7 @@ impl Answer for ModeCurvature {
         let pairs = pairs(&variables(d));
         let mut table = Columns::new("second derivatives", &pairs);
         table.whole("mode", &|_| Some(number));
-        names(&mut table);
+        names(&mut table, &|pair| pair);
         table.number("lambda", "1/s^2 per units", &|pair| {
             Some(pair.scaled(pair.of(&self.lambda, inputs)?))
         });
@@ -115,12 +115,11 @@ impl Pair<'_> {
 }
 
 /// The names and units of both variables.
-pub(crate) fn names(table: &mut Columns<'_, Pair<'_>>) {
+pub(crate) fn names<'a, R>(table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> &Pair<'a>) {
     for (k, title) in ["by", "and by"].into_iter().enumerate() {
-        table.words(title, &|pair| Some(pair.variables[k].name.to_string()));
-        table.words("unit", &|pair| {
-            Some(pair.variables[k].unit.symbol.to_string())
-        });
+        let variable = |row: &R| of(row).variables[k];
+        table.words(title, &|row| Some(variable(row).name.to_string()));
+        table.words("unit", &|row| Some(variable(row).unit.symbol.to_string()));
     }
 }
 
@@ -132,7 +131,7 @@ fn derivatives(
     of: &dyn Fn(&Pair<'_>) -> Option<f64>,
 ) -> Findings {
     let mut table = Columns::new("second derivatives", pairs);
-    names(&mut table);
+    names(&mut table, &|pair| pair);
     if let Some((name, unit)) = quantity {
         let units = format!("{} per units", unit.symbol);
         table.number(name, &units, &|pair| {

@@ -1,0 +1,261 @@
+"""Forced vibration: reference values of a rotor, shapes and gaps of arrays, and the steady state by SciPy."""
+
+import numpy as np
+import pytest
+
+import eigentol
+
+ROTOR = """
+mechanism Rotor {
+    input omega: rad/s;
+    design m = 12 kg;
+    design k = 1.9e6 N/m +/- 5 %;
+    design c = 310 N*s/m;
+    design e = 0.04 mm +/- 50 %;
+    body hub: massless;
+    body sleeve: massless;
+    body disk: cylinder(mass: m, radius: 20 cm, height: 2 cm, axis: z);
+    joint x: prismatic(x) from ground to hub;
+    joint y: prismatic(y) from hub to sleeve;
+    joint spin: revolute(z) from sleeve to disk, driven at omega;
+    force shaft1: spring(on: x, stiffness: k);
+    force shaft2: spring(on: y, stiffness: k);
+    force oil1: damper(on: x, damping: c);
+    force oil2: damper(on: y, damping: c);
+    unbalance u: on disk, eccentricity: e;
+    output across = x;
+    output up = y;
+}
+"""
+
+# Re, Im, modulus and phase, and their first and second derivatives by one variable: z = m e W^2 / (k - m W^2 + i c W).
+REFERENCE = {
+    398.0: {
+        "value": (-4.235387853073042e-06, -0.0006162289543775376, 0.0006162435092749451, -1.5776692936245478),
+        "m": (-0.0007914366692022715, -4.047754358111762e-05, 4.5916062702665826e-05, -1.2838103216198702),
+        "c": (2.732379217004318e-08, 1.987647538227426e-06, -1.987788386528705e-06, 2.217016254749289e-05),
+        "omega": (-4.77035419228186e-05, -8.92692818834977e-07, 1.220530414673571e-06, -0.07739842956906322),
+        "m, m": (-8.99641379231143e-05, 0.002032823455062344, -0.001016483714025653, 0.02265597767432747),
+        "c, c": (-2.644071411031599e-10, -1.2821715214567801e-08, 1.2823532522578366e-08, -1.4302655030382737e-07),
+    },
+    200.0: {"value": (1.3495399565597027e-05, -5.892357556809969e-07, 1.3508257038229964e-05, -0.04363425826460572)},
+}
+
+
+@pytest.fixture(scope="module")
+def spinning():
+    return eigentol.Study(eigentol.Mechanism.from_text(ROTOR), inputs={"omega": 398.0})
+
+
+def close(found, expected, rtol):
+    np.testing.assert_allclose(found, expected, rtol=rtol)
+
+
+def test_excitations_are_listed(spinning):
+    mechanism = spinning.mechanism
+    assert (mechanism.excitations, mechanism.harmonics) == (["u"], [["u"]])
+    assert (mechanism.excitation_kinds, mechanism.excitation_orders) == (["unbalance"], ["1 spin"])
+    assert "excitations: u" in repr(mechanism)
+
+
+@pytest.mark.parametrize("speed", REFERENCE)
+def test_a_rotor_vibrates_as_the_formula_says(spinning, speed):
+    found = spinning.replace(inputs={"omega": speed}).forced_response()
+    re, im, modulus, phase = REFERENCE[speed]["value"]
+    across, up = found.outputs[0]
+    close(found.frequencies, [speed], 1e-15)
+    np.testing.assert_allclose([across, up], [re + 1j * im, -1j * (re + 1j * im)], atol=1e-11 * modulus)
+    close([abs(across), np.angle(across)], [modulus, phase], 1e-10)
+    close(found.amplitudes("velocity"), 1j * speed * found.outputs, 1e-14)
+    np.testing.assert_array_equal(found.shares, found.outputs)
+
+
+def test_derivatives_are_those_of_the_formula(spinning):
+    first, second = spinning.forced_sensitivities(), spinning.forced_curvature()
+    expected, names = REFERENCE[398.0], spinning.mechanism.design
+    assert first.by_design.shape == (1, 2, 4) and first.by_input.shape == (1, 2, 1)
+    assert second.hessian.shape == (1, 2, 4, 4) and second.by_input_and_design.shape == (1, 2, 1, 4)
+    assert second.first == first and first.response == spinning.forced_response()
+    for name in ("m", "c", "omega"):
+        side, place = (0, 0) if name == "omega" else (1, names.index(name))
+        re, im, modulus, phase = expected[name]
+        slope = first.complex()[side][0, 0, place]
+        assert abs(slope - (re + 1j * im)) < 1e-9 * abs(slope)
+        close(first.modulus()[side][0, 0, place], modulus, 1e-7)
+        close(first.phase()[side][0, 0, place], phase, 1e-9)
+    for name in ("m", "c"):
+        place = names.index(name)
+        re, im, modulus, phase = expected[f"{name}, {name}"]
+        curvature = second.hessian[0, 0, place, place]
+        assert abs(curvature - (re + 1j * im)) < 1e-8 * abs(curvature)
+        close(second.modulus()[2][0, 0, place, place], modulus, 1e-6)
+        close(second.phase()[2][0, 0, place, place], phase, 1e-6)
+    close(first.frequency_by_input, [[1.0]], 1e-14)
+
+
+def test_a_bode_diagram_has_a_row_for_each_value(spinning):
+    found = spinning.bode("omega", [200.0, 0.0, 398.0])
+    assert found.outputs.shape == (3, 1, 2) and found.by_design.shape == (3, 1, 2, 4) and len(found) == 3
+    missing = np.isnan(found.outputs).all(axis=(1, 2))
+    assert missing.tolist() == [own is not None for own in found.failures] == [False, True, False]
+    assert np.isnan(found.frequencies[1]).all() and np.isnan(found.by_design[1]).all()
+    np.testing.assert_array_equal(found.outputs[2], spinning.forced_response().outputs)
+    np.testing.assert_array_equal(found.modulus()[1][2], spinning.forced_sensitivities().modulus()[1])
+
+
+def test_bands_are_spreads_of_amplitudes(spinning):
+    wanted = [("vibration", "across"), ("vibration", "up", "u", "velocity")]
+    found = spinning.replace(samples=500).bode_bands("omega", [390.0, 398.0], wanted, checked=32)
+    assert found.quantiles.shape == (2, 2, 7) and (np.diff(found.quantiles) > 0).all()
+    np.testing.assert_array_equal(found.quantiles[1], found.spreads[1].quantiles)
+    assert found.banded == found.spreads[0].names and (found.checked == 32).all()
+    alone = spinning.vibration_spread(wanted[:1])
+    close(alone.nominal, abs(spinning.forced_response().outputs[0, :1]), 1e-12)
+    response = spinning.response(*wanted[0])
+    close(response(response.nominal), alone.nominal, 1e-12)
+    close(response.gradient(response.nominal), spinning.forced_sensitivities().modulus()[1][0, 0], 1e-7)
+
+
+def test_kernels_give_the_response(spinning):
+    mechanism, state = spinning.mechanism, spinning.equilibrium()
+    at = (state.coordinates, spinning.inputs)
+    forces, frequencies, direct = mechanism.forcing(*at)
+    (w,) = frequencies
+    mass, damping, stiffness = mechanism.linear(*at)
+    motion = np.linalg.solve(stiffness + 1j * w * damping - w**2 * mass, forces[0])
+    found = spinning.forced_response()
+    close(found.unknowns[0], motion, 1e-11)
+    acceleration, velocity, position = mechanism.output_motion(*at)
+    close((position + 1j * w * velocity - w**2 * acceleration) @ motion + direct[0], found.outputs[0], 1e-11)
+
+
+def test_mistakes_are_told(spinning, study):
+    with pytest.raises(eigentol.NoVibration):
+        study.forced_response()
+    with pytest.raises(eigentol.NoVibration):
+        spinning.replace(inputs={"omega": 0.0}).forced_response()
+    with pytest.raises(eigentol.UnknownName, match="did you mean `across`"):
+        spinning.propagate([("vibration", "acros")])
+    with pytest.raises(eigentol.InvalidValue, match="velocity"):
+        spinning.response("vibration", "across", "u", "velocty")
+    with pytest.raises(eigentol.InvalidValue, match="no vibration"):
+        spinning.vibration_spread([("output", "across")])
+
+
+FREQUENCY = 9.0
+
+
+# Each machine with its excitation, and what is prescribed or exerted in the free one: a coordinate that moves, or a moment.
+MACHINES = {
+    "loop": (
+        """
+mechanism Loop {
+    input size: m;
+    design l = 0.4 m;
+    gravity 9.81 m/s^2 along -z;
+    body base: massless;
+    body left: rod(mass: 1 kg, length: l, along: -z);
+    body floor: rod(mass: 0.7 kg, length: 0.5 m, along: x);
+    body right: rod(mass: 1.3 kg, length: 0.5 m, along: -z);
+    joint shake: prismatic(x) from ground to base EXCITED;
+    joint a: revolute(y) from base to left;
+    joint b: revolute(y) from left to floor at [0, 0, -l];
+    joint c: revolute(y) from ground to right at [0.6 m, 0, 0];
+    constraint pin: coincident(floor at [0.5 m, 0, 0], right at [0, 0, -0.5 m]);
+    force grease: damper(on: a, damping: 0.5 N*m*s/rad);
+}
+""",
+        "shake",
+    ),
+    "train": (
+        """
+mechanism Train {
+    input size: N*m;
+    design l = 0.4 m;
+    gravity 9.81 m/s^2 along -z;
+    body left: rod(mass: 1 kg, length: l, along: -z);
+    body right: rod(mass: 2 kg, length: l, along: -z);
+    joint a: revolute(y) from ground to left;
+    joint b: revolute(y) from ground to right at [1 m, 0, 0];
+    constraint gear: coupling(of: b, with: a, ratio: -0.5);
+    force grease: damper(on: b, damping: 0.8 N*m*s/rad);
+    EXCITED
+}
+""",
+        "a",
+    ),
+    "arm": (
+        """
+mechanism Arm {
+    input size: m;
+    design l = 0.4 m;
+    gravity 9.81 m/s^2 along -z;
+    body base: massless;
+    body arm: rod(mass: 1 kg, length: l, along: -z);
+    joint shake: prismatic(x) from ground to base EXCITED;
+    joint a: revolute(y) from base to arm;
+    force elbow: spring(on: a, stiffness: 3 N*m/rad, free: 0.5 rad);
+    force grease: damper(on: a, damping: 0.3 N*m*s/rad);
+}
+""",
+        "shake",
+    ),
+}
+
+
+def machine(name, size):
+    """The study of the excited machine, and the free one."""
+    text, _ = MACHINES[name]
+    excited = f", shaken(amplitude: size, frequency: {FREQUENCY} rad/s)"
+    if name == "train":
+        excited = f"force gust: harmonic(on: a, moment: size, frequency: {FREQUENCY} rad/s);"
+    study = eigentol.Study(eigentol.Mechanism.from_text(text.replace("EXCITED", excited)), inputs={"size": size})
+    return study, eigentol.Mechanism.from_text(text.replace("EXCITED", ""))
+
+
+def integrated(study, free, name, size):
+    """First harmonic of the steady state of the free machine with the excited coordinate moved, or its equation loaded."""
+    integrate = pytest.importorskip("scipy.integrate", reason="SciPy is absent: no steady state is integrated")
+    w, (_, excited) = FREQUENCY, MACHINES[name]
+    count, place = len(free.coordinates), free.coordinates.index(excited)
+    state = study.equilibrium().coordinates
+    named = dict(zip(study.mechanism.coordinates, state))
+    own = np.array([named.get(coordinate, 0.0) for coordinate in free.coordinates])
+    moves = excited not in study.mechanism.coordinates
+    found = study.forced_response().unknowns[0]
+    amplitude = dict(zip(study.mechanism.coordinates, found))
+    amplitude = np.array([amplitude.get(coordinate, size) for coordinate in free.coordinates])
+    left = [k for k in range(len(free.unknowns)) if not (moves and k == place)]
+
+    def rates(t, y):
+        q, velocity = np.zeros((2, len(free.unknowns)))
+        q[:count], velocity[:count] = y[:count], y[count:]
+        mass, forces = free.mass_and_forces(velocity, q)
+        acceleration = np.zeros(len(free.unknowns))
+        if moves:
+            acceleration[place] = -size * w**2 * np.cos(w * t)
+        else:
+            forces[place] += size * np.cos(w * t)
+        rest = (forces - mass @ acceleration)[left]
+        acceleration[left] = np.linalg.solve(mass[np.ix_(left, left)], rest)
+        return np.concatenate([y[count:], acceleration[:count]])
+
+    # Near the steady state: what is left of the transient dies away.
+    start = np.concatenate([own + amplitude.real, (1j * w * amplitude).real])
+    period = 2 * np.pi / w
+    times = 30 * period + period * np.arange(32) / 32
+    run = integrate.solve_ivp(rates, (0, times[-1]), start, t_eval=times, rtol=1e-9, atol=1e-9 * size, method="DOP853")
+    assert run.success
+    first = 2 * np.mean(run.y[:count] * np.exp(-1j * w * times), axis=1)
+    return first, amplitude
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_the_steady_state_by_scipy(name):
+    errors = []
+    for size in (1e-2, 1e-3):
+        study, free = machine(name, size)
+        found, expected = integrated(study, free, name, size)
+        errors.append(np.abs(found - expected).max() / np.abs(expected).max())
+    # The error falls with the square of the amplitude, down to that of the integrator.
+    assert errors[1] < 1e-3 and errors[1] < max(0.03 * errors[0], 1e-6), errors
