@@ -3,4 +3,5 @@
 mod vibration {
     mod bands;
     mod closed_forms;
+    mod exceedance;
 }
