@@ -32,7 +32,7 @@ fn every_command_draws_its_figure_beside_the_same_answer() {
                 "response",
                 &shaken,
                 "--sweep",
-                "omega=60..140",
+                "omega=60..140rad/s",
                 "--points",
                 "9",
                 "--bands",
@@ -72,11 +72,11 @@ fn a_bode_plot_is_of_the_vibration_asked_for() {
     let file = shaken(&folder);
     let path = folder.join("bode.svg").display().to_string();
     let figure = ["--figure", &path, "--draw", "twice under u"];
-    let sweep = ["--sweep", "omega=60..140", "--points", "5"];
+    let sweep = ["--sweep", "omega=60..140rad/s", "--points", "5"];
     answer(&[&["response", &file][..], &sweep, &figure].concat());
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.contains("twice under u") && text.contains("half power"));
-    let still = run(&[&["response", &file, "--set", "omega=100"][..], &figure].concat());
+    let still = run(&[&["response", &file, "--set", "omega=100rad/s"][..], &figure].concat());
     assert_eq!(still.code, 2);
     assert!(still.err.contains("--sweep"), "{}", still.err);
     let wrong = ["--figure", &path, "--draw", "thrice"];
