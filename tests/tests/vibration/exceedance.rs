@@ -5,7 +5,7 @@ use eigentol::response::{Response, Vibration};
 use eigentol::{Excitation, Output, Study};
 use eigentol_interpreter::Interpreted;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{RngCore as _, SeedableRng as _};
+use rand_chacha::rand_core::{Rng as _, SeedableRng as _};
 
 const ROTOR: &str = "mechanism Rotor {
     input w: rad/s;
