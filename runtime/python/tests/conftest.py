@@ -61,6 +61,20 @@ mechanism Twins {
 """
 
 
+SHAKEN = """
+mechanism Shaken {
+    input speed: rpm;
+    design mass = 2 kg +/- 5%;
+    body block: point(mass: mass);
+    joint x: prismatic(x) from ground to block;
+    force shaft: spring(on: x, stiffness: 800 N/m);
+    force oil: damper(on: x, damping: 5 N*s/m);
+    force gust: harmonic(on: x, force: 3 N, frequency: speed);
+    output place = x;
+}
+"""
+
+
 @pytest.fixture(scope="session")
 def results():
     """An object of each class of the module, by the name of the class."""
@@ -69,6 +83,7 @@ def results():
         mechanism, inputs={"speed": "60 rpm"}, start={"theta": "1 rad"}, samples=64, keep_samples=True
     )
     twins = eigentol.Study(eigentol.Mechanism.from_text(TWINS))
+    shaken = eigentol.Study(eigentol.Mechanism.from_text(SHAKEN), inputs={"speed": 19.0}, samples=64)
     speeds, frequency = [6.0, 6.1, 6.2], ("frequency", 0)
     wanted = [(frequency, 5.8, None), "stable"]
     branches = study.branches("speed", 3.0, 6.0)
@@ -87,6 +102,10 @@ def results():
         study.output_curvature("angle"),
         study.critical_curvature("speed", 2.0, 6.0),
         study.outputs(),
+        shaken.forced_response(),
+        shaken.forced_sensitivities(),
+        shaken.forced_curvature(),
+        shaken.bode_bands("speed", [18.0, 19.0], [("vibration", "place")], checked=8),
         study.output_tolerances(),
         study.first_order(),
         study.second_order(),

@@ -14,7 +14,7 @@ mechanism Rotor {
     design e = 0.04 mm +/- 50 %;
     body hub: massless;
     body sleeve: massless;
-    body disk: cylinder(mass: m, radius: 20 cm, height: 2 cm, axis: z);
+    body disk: cylinder(mass: m, radius: 20 cm, length: 2 cm, axis: z);
     joint x: prismatic(x) from ground to hub;
     joint y: prismatic(y) from hub to sleeve;
     joint spin: revolute(z) from sleeve to disk, driven at omega;
@@ -34,7 +34,7 @@ REFERENCE = {
         "value": (-4.235387853073042e-06, -0.0006162289543775376, 0.0006162435092749451, -1.5776692936245478),
         "m": (-0.0007914366692022715, -4.047754358111762e-05, 4.5916062702665826e-05, -1.2838103216198702),
         "c": (2.732379217004318e-08, 1.987647538227426e-06, -1.987788386528705e-06, 2.217016254749289e-05),
-        "omega": (-4.77035419228186e-05, -8.92692818834977e-07, 1.220530414673571e-06, -0.07739842956906322),
+        "omega": (-4.77035419228186e-05, -8.92689218834977e-07, 1.220530414673571e-06, -0.07739842956906322),
         "m, m": (-8.99641379231143e-05, 0.002032823455062344, -0.001016483714025653, 0.02265597767432747),
         "c, c": (-2.644071411031599e-10, -1.2821715214567801e-08, 1.2823532522578366e-08, -1.4302655030382737e-07),
     },
@@ -161,7 +161,9 @@ mechanism Loop {
     joint a: revolute(y) from base to left;
     joint b: revolute(y) from left to floor at [0, 0, -l];
     joint c: revolute(y) from ground to right at [0.6 m, 0, 0];
-    constraint pin: coincident(floor at [0.5 m, 0, 0], right at [0, 0, -0.5 m]);
+    point far: floor at [0.5 m, 0, 0];
+    point foot: right at [0, 0, -0.5 m];
+    constraint pin: coincident(from: far, to: foot, along: [x, z]);
     force grease: damper(on: a, damping: 0.5 N*m*s/rad);
 }
 """,
@@ -194,7 +196,7 @@ mechanism Arm {
     body arm: rod(mass: 1 kg, length: l, along: -z);
     joint shake: prismatic(x) from ground to base EXCITED;
     joint a: revolute(y) from base to arm;
-    force elbow: spring(on: a, stiffness: 3 N*m/rad, free: 0.5 rad);
+    force elbow: spring(on: a, stiffness: 3 N*m/rad, rest: 0.5 rad);
     force grease: damper(on: a, damping: 0.3 N*m*s/rad);
 }
 """,
@@ -225,23 +227,30 @@ def integrated(study, free, name, size):
     found = study.forced_response().unknowns[0]
     amplitude = dict(zip(study.mechanism.coordinates, found))
     amplitude = np.array([amplitude.get(coordinate, size) for coordinate in free.coordinates])
-    left = [k for k in range(len(free.unknowns)) if not (moves and k == place)]
+
+    def padded(values):
+        return np.concatenate([values, np.zeros(len(free.unknowns) - count)])
 
     def rates(t, y):
-        q, velocity = np.zeros((2, len(free.unknowns)))
-        q[:count], velocity[:count] = y[:count], y[count:]
-        mass, forces = free.mass_and_forces(velocity, q)
-        acceleration = np.zeros(len(free.unknowns))
+        q, velocity = padded(y[:count]), padded(y[count:])
+        acceleration = free.accelerations(velocity, q)
+        # What a force on the coordinate adds, with the reactions of constraints.
+        matrix, stiffness = free.mass_and_forces(velocity, q)[0], free.linear(q)[2]
+        matrix[count:, :count], matrix[:count, count:] = stiffness[count:, :count], stiffness[:count, count:]
+        pushed = np.linalg.solve(matrix, np.eye(len(q))[place])
+        force = size * np.cos(w * t)
         if moves:
-            acceleration[place] = -size * w**2 * np.cos(w * t)
-        else:
-            forces[place] += size * np.cos(w * t)
-        rest = (forces - mass @ acceleration)[left]
-        acceleration[left] = np.linalg.solve(mass[np.ix_(left, left)], rest)
-        return np.concatenate([y[count:], acceleration[:count]])
+            force = (-(w**2) * force - acceleration[place]) / pushed[place]
+        return np.concatenate([y[count:], (acceleration + force * pushed)[:count]])
 
-    # Near the steady state: what is left of the transient dies away.
-    start = np.concatenate([own + amplitude.real, (1j * w * amplitude).real])
+    # Near the steady state, with the constraints met: what is left of the transient dies away.
+    q, velocity = own + amplitude.real, (1j * w * amplitude).real
+    others = [k for k in range(count) if k != place or not moves]
+    for _ in range(4):
+        slopes = free.linear(padded(q))[2][count:, :count]
+        q[others] -= np.linalg.pinv(slopes[:, others]) @ free.residual(padded(q))[count:]
+        velocity[others] -= np.linalg.pinv(slopes[:, others]) @ slopes @ velocity
+    start = np.concatenate([q, velocity])
     period = 2 * np.pi / w
     times = 30 * period + period * np.arange(32) / 32
     run = integrate.solve_ivp(rates, (0, times[-1]), start, t_eval=times, rtol=1e-9, atol=1e-9 * size, method="DOP853")

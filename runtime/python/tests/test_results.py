@@ -117,6 +117,31 @@ ELSEWHERE = {
         "second.by_design": "hessian",
     },
     "EventCurvature": {"first": "gradient", "second": "hessian"},
+    "ForcedResponse": {
+        "harmonics.frequency": "frequencies",
+        "harmonics.shares.excitation": "excitations",
+    },
+    "ForcedSensitivities": {
+        "response": "response",
+        "harmonics.frequency.by_design": "frequency_by_design",
+        "harmonics.frequency.by_input": "frequency_by_input",
+    },
+    "ForcedCurvature": {
+        "first": "first",
+        "harmonics.frequency.by_design": "frequency_hessian",
+        "harmonics.frequency.by_input": "frequency_by_input",
+        "harmonics.frequency.by_input_and_design": "frequency_by_input_and_design",
+        "harmonics.outputs.by_design": "hessian",
+    },
+    "Bode": {
+        "banded": "banded",
+        "points.bands.checks.samples": "checked",
+        "points.bands.checks.sigma": "sigma_errors",
+        "points.bands.checks.upper": "upper_errors",
+        "points.bands.spread": "spreads",
+        "points.value": "values",
+        "points.vibration": "vibrations",
+    },
     "OutputTolerances": {f"spreads.{field}": name for field, name in SPREAD.items()},
     "FirstOrder": {
         "modes.behaviour": "behaviours",

@@ -128,7 +128,7 @@ macro_rules! attributes {
             )+
         }
     };
-    ($class:ident($own:ident, $py:ident, $word:ident: $words:ty = $usual:literal) {
+    ($class:ident($own:ident, $py:ident, $word:ident: $words:ty = $usual:tt) {
         $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)+
     }) => {
         #[pymethods]
