@@ -114,7 +114,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
         &["eigentol-contract", "eigentol-results"],
         1_000,
     ),
-    ("runtime/figures", &["eigentol"], 4_400),
+    ("runtime/figures", &["eigentol"], 5_000),
     (
         "runtime/report",
         &["eigentol", "eigentol-figures", "eigentol-tables"],

@@ -14,7 +14,7 @@ use eigentol_interpreter::Interpreted;
 use eigentol_tests::wheels::{WhippleBicycle, whipple};
 
 use ask::{BARS, THREAD, ask, everything, few, interpreted};
-use questions::{Question, Range, along_an_input, at_one_state, of_chance};
+use questions::{Question, Range, along_an_input, at_one_state, of_chance, of_vibration};
 
 /// Stack size of the main thread on Windows, KiB.
 const WINDOWS: usize = 1024;
@@ -74,6 +74,28 @@ fn samples_side_by_side() {
     ask(&study.threads(1), &BARS, THREAD, &questions);
 }
 
+/// The same chain, shaken at its end.
+#[test]
+fn a_long_chain_vibrates() {
+    let shaken = "input f: rad/s; point end: bar15 at [0, 0, -l15]; output tip = position(end).x;
+        force shake: harmonic(at: end, force: [1, 0, 0] N, frequency: f); }";
+    let chain = damped_chain();
+    let chain = chain.trim_end().trim_end_matches('}');
+    let study = few(interpreted(&format!("{chain}{shaken}"))).samples(8);
+    let frequency = study.find_input("f").expect("declared");
+    let range = Range {
+        sweep: [1.0, 1.5, 2.0],
+        crossings: [1.0, 4.0],
+        ..BARS
+    };
+    ask(
+        &study.input(frequency, 1.0),
+        &range,
+        WINDOWS,
+        &of_vibration(),
+    );
+}
+
 /// Every question in the sources of `Study` is put here, name by name.
 #[test]
 fn every_question_is_asked() {
@@ -89,6 +111,7 @@ fn every_question_is_asked() {
             names(at_one_state()),
         ),
         (&["over_input", "events"], names(along_an_input())),
+        (&["forced"], names(of_vibration())),
         (&["propagation", "requirements"], names(of_chance())),
     ] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src/study");

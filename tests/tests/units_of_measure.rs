@@ -120,7 +120,12 @@ fn rescaled(tokens: TokenStream, scale: Scale, outer: f64) -> TokenStream {
         let exponent = k > 0 && is(&tokens, k - 1, '^');
         found.push(match token {
             TokenTree::Literal(number) if !exponent => {
-                let unknown = matches!(tokens.get(k + 1), Some(TokenTree::Ident(_))) && taken == 0;
+                let word = match tokens.get(k + 1) {
+                    Some(TokenTree::Ident(word)) => Some(word.to_string()),
+                    _ => None,
+                };
+                // An order is so many turns `of` a drive.
+                let unknown = word.is_some_and(|word| word != "of") && taken == 0;
                 assert!(!unknown, "an unknown unit: {number} {}", tokens[k + 1]);
                 match number.to_string().replace('_', "").parse::<f64>() {
                     Ok(value) if own != 1.0 => Literal::f64_unsuffixed(value * own).into(),

@@ -16,7 +16,7 @@ use crate::sweep::{
 };
 use crate::tolerance::{Outcome, Solution};
 use crate::{
-    Complex, Description, Equilibrium, Error, Excitation, Modes, Output, Text, Unit, Watch,
+    Any, Complex, Description, Equilibrium, Error, Excitation, Modes, Output, Text, Unit, Watch,
 };
 
 /// A scalar that depends on the design.
@@ -73,6 +73,18 @@ impl Vibration {
             excitation: excitation.any(),
             measure: Measure::Displacement,
         }
+    }
+
+    /// Every output under every harmonic, as a displacement.
+    #[must_use]
+    pub fn all(of: &Description) -> Vec<Self> {
+        let harmonics = of.excitations.iter().enumerate();
+        let firsts = harmonics.filter(|(k, info)| info.with == *k);
+        let each = |(k, _)| {
+            let outputs = (0..of.outputs.len()).map(Output::<Any>::new);
+            outputs.map(move |output| Self::new(output, Excitation::new(k)))
+        };
+        firsts.flat_map(each).collect()
     }
 
     /// The output as a velocity or an acceleration.

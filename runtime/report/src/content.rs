@@ -13,6 +13,7 @@ use eigentol::{
 use eigentol_figures::Style;
 
 use crate::Report;
+use crate::answer::answer;
 use crate::forced::Forced;
 use crate::pictures::Pictures;
 
@@ -176,18 +177,4 @@ fn values_si<M: SummaryKernels>(
         });
     }
     Ok(values)
-}
-
-/// Separates errors of the caller from refusals of an analysis, which are answers.
-pub(crate) fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Error> {
-    match found {
-        Err(
-            mistake @ (Error::Setting { .. }
-            | Error::NotFinite { .. }
-            | Error::WrongLength { .. }
-            | Error::UnknownHandle { .. }
-            | Error::Threads(_)),
-        ) => Err(mistake),
-        found => Ok(found),
-    }
 }

@@ -6,9 +6,9 @@ use eigentol::kernels::SummaryKernels;
 use eigentol::peaks::Peaks;
 use eigentol::propagation::Propagation;
 use eigentol::response::Vibration;
-use eigentol::{Description, Error, Excitation, Input, Output, Study};
+use eigentol::{Description, Error, Input, Study};
 
-use crate::content::answer;
+use crate::answer::answer;
 
 /// Number of designs solved anew to check each band.
 const CHECKED: usize = 16;
@@ -36,7 +36,7 @@ impl Forced {
         varies: bool,
     ) -> Result<Self, Error> {
         let response = answer(study.forced_response())?;
-        let wanted = vibrations(study.description());
+        let wanted = Vibration::all(study.description());
         let spread = varies && response.is_ok() && !wanted.is_empty();
         let spread = spread.then(|| answer(study.vibration_spread(&wanted)));
         let along = along.map(|(input, values)| {
@@ -73,16 +73,4 @@ pub(crate) fn excitations(d: &Description, harmonic: usize) -> String {
     let all = d.excitations.iter().filter(|info| info.with == harmonic);
     let names: Vec<&str> = all.map(|info| &*info.name).collect();
     names.join(", ")
-}
-
-/// Every output under every harmonic.
-pub(crate) fn vibrations(d: &Description) -> Vec<Vibration> {
-    let outputs = 0..d.outputs.len();
-    let under = |excitation: usize| {
-        outputs.clone().map(move |output| {
-            let (output, excitation) = (Output::<()>::new(output), Excitation::new(excitation));
-            Vibration::new(output, excitation)
-        })
-    };
-    harmonics(d).into_iter().flat_map(under).collect()
 }

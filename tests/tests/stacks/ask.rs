@@ -4,7 +4,7 @@ use eigentol::kernels::{BatchKernels, CurvatureKernels, PictureKernels};
 use eigentol::{Policy, Study};
 use eigentol_interpreter::Interpreted;
 
-use super::questions::{Question, Range, along_an_input, at_one_state, of_chance};
+use super::questions::{Question, Range, along_an_input, at_one_state, of_chance, of_vibration};
 
 /// Stack size of Rust threads, KiB.
 pub(crate) const THREAD: usize = 2048;
@@ -40,6 +40,7 @@ pub(crate) fn everything<M: BatchKernels + CurvatureKernels + PictureKernels>() 
     let mut questions = at_one_state();
     questions.extend(of_chance());
     questions.extend(along_an_input());
+    questions.extend(of_vibration());
     questions
 }
 

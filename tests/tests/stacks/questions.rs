@@ -7,9 +7,9 @@ use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::equilibrium::Search;
 use eigentol::kernels::{BatchKernels, CurvatureKernels, PictureKernels};
 use eigentol::requirement::Requirement;
-use eigentol::response::Response;
+use eigentol::response::{Response, Vibration};
 use eigentol::sensitivity::Quantity;
-use eigentol::{Error, Input, Output, Study};
+use eigentol::{Error, Excitation, Input, Output, Study};
 
 /// Where the interesting ranges of a machine lie.
 #[derive(Clone, Copy)]
@@ -82,6 +82,10 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
         ("first_order", |s, _| answered(s.first_order())),
         ("whirls", |s, _| answered(s.whirls())),
         ("picture", |s, _| answered(s.picture())),
+        ("vibration_pictures", |s, _| {
+            let pictures = s.vibration_pictures(Excitation::new(0), 4, 0.1);
+            let _ = black_box(pictures);
+        }),
         ("mode_pictures", |s, _| {
             answered(s.mode_pictures(mode(s), 2, 0.1))
         }),
@@ -166,6 +170,42 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
 }
 
 /// Questions along the first input.
+/// Questions about forced vibration; a machine without excitations has none.
+pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>>
+{
+    fn told<M: BatchKernels + CurvatureKernels + PictureKernels, T>(
+        study: &Study<M>,
+        answer: Result<T, Error>,
+    ) {
+        match study.description().excitations.is_empty() {
+            true => drop(black_box(answer)),
+            false => answered(answer),
+        }
+    }
+    fn wanted<M>() -> Vibration {
+        Vibration::new::<M>(Output::new(0), Excitation::new(0))
+    }
+    vec![
+        ("forced_response", |s, _| told(s, s.forced_response())),
+        ("forced_sensitivities", |s, _| {
+            told(s, s.forced_sensitivities());
+        }),
+        ("forced_curvature", |s, _| told(s, s.forced_curvature())),
+        ("peaks", |s, range| {
+            let [low, high] = range.crossings;
+            told(s, s.peaks(wanted::<M>(), input(), low, high));
+        }),
+        ("vibration_spread", |s, _| {
+            told(s, s.vibration_spread(&[wanted::<M>()]));
+        }),
+        ("bode", |s, range| told(s, s.bode(input(), &range.sweep))),
+        ("bode_bands", |s, range| {
+            let bands = s.bode_bands(input(), &range.sweep, &[wanted::<M>()], 4);
+            told(s, bands);
+        }),
+    ]
+}
+
 pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels>()
 -> Vec<Question<M>> {
     macro_rules! between {

@@ -1,9 +1,9 @@
 //! Forced vibration.
 
 use clap::Args;
+use eigentol::Study;
 use eigentol::bode::Bode;
 use eigentol::response::Vibration;
-use eigentol::{Excitation, Output as DeclaredOutput, Study};
 use eigentol_figures as figures;
 use eigentol_interpreter::Interpreted;
 
@@ -57,7 +57,7 @@ impl Response {
         self.output.check()?;
         self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
-        let wanted = vibrations(&question.study);
+        let wanted = Vibration::all(question.study.description());
         let number = samples(self.samples, &question.file)?;
         question.study = question.study.samples(number);
         let drawn = self.drawn(&question.study, &wanted)?;
@@ -175,20 +175,4 @@ impl Response {
         self.output.write(&answer)?;
         Ok(verdict)
     }
-}
-
-/// Every output under every harmonic.
-fn vibrations(study: &Study<Interpreted>) -> Vec<Vibration> {
-    let d = study.description();
-    let harmonics = d.excitations.iter().enumerate();
-    let firsts = harmonics.filter(|(k, info)| info.with == *k);
-    firsts
-        .flat_map(|(k, _)| {
-            let outputs = 0..d.outputs.len();
-            outputs.map(move |o| {
-                let output = DeclaredOutput::<Interpreted>::new(o);
-                Vibration::new(output, Excitation::new(k))
-            })
-        })
-        .collect()
 }

@@ -1,6 +1,7 @@
 //! Forced vibration: amplitudes at the operating point and along the swept input.
 
 use eigentol::response::Response;
+use eigentol::response::Vibration;
 use eigentol_figures::{bode, polar};
 use eigentol_tables::{Answer as _, Table};
 
@@ -8,7 +9,7 @@ use super::{MODES, refused};
 use crate::Error;
 use crate::charts::chart;
 use crate::content::Content;
-use crate::forced::{Forced, ForcedAlong, vibrations};
+use crate::forced::{Forced, ForcedAlong};
 use crate::html::Html;
 use crate::tables::table;
 
@@ -104,7 +105,7 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
             format!("At {failed} of {all} values there is no vibration: the table says why.");
         html.leaf("p", &[("class", "refused")], &text);
     }
-    let wanted = vibrations(&content.description);
+    let wanted = Vibration::all(&content.description);
     let peaks = along.peaks.iter().filter_map(|own| own.1.as_ref().ok());
     let peaks: Vec<_> = peaks.cloned().collect();
     for &vibration in wanted.iter().take(MODES) {

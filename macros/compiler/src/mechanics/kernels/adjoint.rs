@@ -30,13 +30,23 @@ pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
 /// the velocities are set to zero only after differentiating.
 pub(crate) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
     let power = weighted_sum(g, &s.pencil.left.values, &e.motion);
+    at_rest_along_motion(g, s, power, "_pencil")
+}
+
+/// The derivative of a scalar along the acceleration, velocity and position of the pencil, taken at rest.
+pub(crate) fn at_rest_along_motion(
+    g: &mut Graph,
+    s: &Symbols,
+    root: ExprId,
+    suffix: &'static str,
+) -> ExprId {
     let rates = s
         .acceleration
         .with(&s.pencil.acceleration.values)
         .chain(s.velocity.with(&s.pencil.velocity.values))
         .chain(s.q.with(&s.pencil.position.values))
         .collect();
-    let functional = derivatives_along(g, &[power], &Direction::new("_pencil", rates));
+    let functional = derivatives_along(g, &[root], &Direction::new(suffix, rates));
     at_rest(g, s, &functional)[0]
 }
 

@@ -1,8 +1,6 @@
 //! What a vibration forced by excitations needs besides the three matrices.
 
-use crate::algebra::{
-    Array, Direction, Function, Graph, Parameter, Stage, Unary, derivatives_along, substitute,
-};
+use crate::algebra::{Array, Function, Graph, Parameter, Stage, Unary, substitute};
 use crate::base::ids::{CoordinateId, ExprId};
 use crate::mechanics::checks::Turning;
 use crate::mechanics::equations::{Equations, Response};
@@ -12,7 +10,7 @@ use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::setup::{Context, SymbolList, at_rest, columns};
 use crate::model::mechanism::{Excitation, ExcitationLaw, Frequency, Motion, ShakenBy};
 
-use super::adjoint::{state_gradient, weighted_sum};
+use super::adjoint::{at_rest_along_motion, state_gradient, weighted_sum};
 use super::parameters::parameter;
 
 /// The excitations as expressions, and facts about them.
@@ -327,14 +325,7 @@ impl Weights {
     ) -> ExprId {
         let s = context.symbols;
         let outputs = weighted_sum(g, &self.output.values, &e.outputs_in_motion);
-        let rates = s
-            .acceleration
-            .with(&s.pencil.acceleration.values)
-            .chain(s.velocity.with(&s.pencil.velocity.values))
-            .chain(s.q.with(&s.pencil.position.values))
-            .collect();
-        let moved = derivatives_along(g, &[outputs], &Direction::new("_forced", rates));
-        let mut terms = at_rest(g, s, &moved);
+        let mut terms = vec![at_rest_along_motion(g, s, outputs, "_forced")];
         let on_cosine = [&self.cosine.values[..], &self.direct_cosine.values].concat();
         let on_sine = [&self.sine.values[..], &self.direct_sine.values].concat();
         for (force, &share) in excitations.forces.iter().zip(&self.share.values) {

@@ -1,0 +1,17 @@
+//! Errors that are answers.
+
+use eigentol::Error;
+
+/// Separates errors of the caller from refusals of an analysis, which are answers.
+pub(crate) fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Error> {
+    match found {
+        Err(
+            mistake @ (Error::Setting { .. }
+            | Error::NotFinite { .. }
+            | Error::WrongLength { .. }
+            | Error::UnknownHandle { .. }
+            | Error::Threads(_)),
+        ) => Err(mistake),
+        found => Ok(found),
+    }
+}
