@@ -47,9 +47,9 @@ pub(crate) struct Response {
     output: Output,
     #[command(flatten)]
     picture: Picture,
-    /// Vibration in the figure: `shake`, or `shake under u` [default: the first output under the first excitation]
-    #[arg(long, value_name = "VIBRATION", requires = "figure")]
-    draw: Option<String>,
+    /// Only this vibration among bands, peaks and in the figure: `shake`, or `shake under u`
+    #[arg(long, value_name = "VIBRATION")]
+    of: Option<String>,
 }
 
 impl Response {
@@ -57,10 +57,12 @@ impl Response {
         self.output.check()?;
         self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
-        let wanted = Vibration::all(question.study.description());
+        let wanted = match &self.of {
+            Some(text) => vec![named_vibration(&question.study, text)?],
+            None => Vibration::all(question.study.description()),
+        };
         let number = samples(self.samples, &question.file)?;
         question.study = question.study.samples(number);
-        let drawn = self.drawn(&question.study, &wanted)?;
         let Some(range) = self.sweep.range_if_any(&question)? else {
             if self.picture.is_wanted() {
                 let message = "the figure is a Bode plot, which needs values of an input";
@@ -83,7 +85,7 @@ impl Response {
             false => study.bode(input, &values)?,
         };
         bar.finish_and_clear();
-        self.figure(&question, &range, &found, drawn)?;
+        self.figure(&question, &range, &found, wanted.first().copied())?;
         let mut answer = self.output.answer();
         answer.add(&found)?;
         self.output.write(&answer)?;
@@ -120,7 +122,7 @@ impl Response {
             let found = study.peaks(*vibration, along.input, along.low, along.high)?;
             number += found.peaks.len();
             answer.add(&found)?;
-            if let Some(own) = &operating {
+            if let (Some(own), false) = (&operating, found.peaks.is_empty()) {
                 let ends = [own.low.min(own.high), own.low.max(own.high)];
                 answer.add(&found.separation(ends))?;
             }
@@ -132,18 +134,7 @@ impl Response {
         }
     }
 
-    /// The vibration in the figure; `None` without outputs or excitations, which the analysis refuses.
-    fn drawn(
-        &self,
-        study: &Study<Interpreted>,
-        wanted: &[Vibration],
-    ) -> Result<Option<Vibration>, Failure> {
-        match &self.draw {
-            Some(text) => named_vibration(study, text).map(Some),
-            None => Ok(wanted.first().copied()),
-        }
-    }
-
+    /// The Bode plot of a vibration; `None` without outputs or excitations, which the analysis refuses.
     fn figure(
         &self,
         question: &Question,

@@ -71,7 +71,7 @@ fn a_bode_plot_is_of_the_vibration_asked_for() {
     let folder = folder("bode");
     let file = shaken(&folder);
     let path = folder.join("bode.svg").display().to_string();
-    let figure = ["--figure", &path, "--draw", "twice under u"];
+    let figure = ["--figure", &path, "--of", "twice under u"];
     let sweep = ["--sweep", "omega=60..140rad/s", "--points", "5"];
     answer(&[&["response", &file][..], &sweep, &figure].concat());
     let text = fs::read_to_string(&path).unwrap();
@@ -79,7 +79,7 @@ fn a_bode_plot_is_of_the_vibration_asked_for() {
     let still = run(&[&["response", &file, "--set", "omega=100rad/s"][..], &figure].concat());
     assert_eq!(still.code, 2);
     assert!(still.err.contains("--sweep"), "{}", still.err);
-    let wrong = ["--figure", &path, "--draw", "thrice"];
+    let wrong = ["--figure", &path, "--of", "thrice"];
     let wrong = run(&[&["response", &file][..], &sweep, &wrong].concat());
     assert!(
         wrong.code == 2 && wrong.err.contains("twice"),
