@@ -16,7 +16,7 @@ use crate::response::wanted;
 use crate::results::{
     Assembly, Bode, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
     ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature,
-    OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
+    OutputSensitivities, Peaks, Sensitivities, ShapeSensitivity, Sweep,
 };
 use crate::spreads::{
     FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary,
@@ -270,6 +270,22 @@ impl Study {
             study.bode_bands(input, &values, &wanted, checked)
         });
         found.map(Bode)
+    }
+
+    /// The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
+    /// half-power points and amplification factors, with their derivatives and spreads.
+    fn peaks(
+        &self,
+        py: Python<'_>,
+        vibration: Bound<'_, PyTuple>,
+        input: &str,
+        low: &hints::Value<'_>,
+        high: &hints::Value<'_>,
+    ) -> PyResult<Peaks> {
+        let (input, low, high) = self.range(py, input, low, high)?;
+        let wanted = self.vibrations(py, vec![vibration])?;
+        self.ask_stoppably(py, |study| study.peaks(wanted[0], input, low, high))
+            .map(Peaks)
     }
 
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what

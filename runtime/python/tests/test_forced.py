@@ -268,3 +268,17 @@ def test_the_steady_state_by_scipy(name):
         errors.append(np.abs(found - expected).max() / np.abs(expected).max())
     # The error falls with the square of the amplitude, down to that of the integrator.
     assert errors[1] < 1e-3 and errors[1] < max(0.03 * errors[0], 1e-6), errors
+
+
+def test_the_peak_of_a_rotor_is_that_of_the_formula(spinning):
+    found = spinning.peaks(("vibration", "across"), "omega", 100.0, 900.0)
+    close(found.places, [398.3311669843997], 1e-9)
+    close(found.heights, [0.000616445456224498], 1e-9)
+    close([found.half_power_before[0], found.half_power_after[0]], [385.9795992849649, 411.94983284900997], 1e-9)
+    close(found.amplifications, [15.337989394745996], 1e-9)
+    k = spinning.mechanism.design.index("k")
+    close(found.places_by_design[0, k], 0.00010460261280203874, 1e-7)
+    close(found.heights_by_design[0, k], 1.6205136977782588e-10, 1e-7)
+    close(found.amplifications_by_design[0, k], 4.070591191155354e-06, 1e-7)
+    assert found.place_sigmas[0] > 0 and found.phases.shape == found.frequencies.shape == (1,)
+    assert "peaks of the vibration" in str(found)

@@ -5,6 +5,7 @@ mod branches;
 mod equilibrium;
 mod forced;
 mod modes;
+mod peaks;
 mod sensitivities;
 mod shared;
 mod sweep;
@@ -14,6 +15,7 @@ pub(crate) use branches::{Branch, Branches};
 pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
 pub(crate) use forced::{ForcedCurvature, ForcedResponse, ForcedSensitivities};
 pub(crate) use modes::{Modes, family};
+pub(crate) use peaks::Peaks;
 pub(crate) use sensitivities::{
     EventCurvature, ModeCurvature, OutputCurvature, OutputSensitivities, Sensitivities,
     ShapeSensitivity, quantity,

@@ -1,0 +1,77 @@
+//! Peaks of a forced vibration along an input.
+
+use eigentol::peaks::{Moving, Peak};
+use pyo3::prelude::*;
+
+use super::{attributes, result};
+use crate::arrays::{Array1, Array2, or_nan, rows, vector};
+
+result! {
+    /// The peaks of a vibration along an input, in the order in which the range passes them. `k` is their number. Values
+    /// are SI; heights are from 0 to peak.
+    Peaks(eigentol::peaks::Peaks)
+}
+
+/// Something about a peak that moves with the design.
+type Of = fn(&Peak) -> Option<&Moving>;
+
+const PLACE: Of = |peak| Some(&peak.place);
+const FREQUENCY: Of = |peak| Some(&peak.frequency);
+const HEIGHT: Of = |peak| Some(&peak.height);
+const BEFORE: Of = |peak| peak.half_power[0].place();
+const AFTER: Of = |peak| peak.half_power[1].place();
+const AMPLIFICATION: Of = |peak| peak.amplification.as_ref();
+
+impl Peaks {
+    fn each<'py>(&self, py: Python<'py>, of: impl Fn(&Peak) -> Option<f64>) -> Array1<'py> {
+        vector(py, self.0.peaks.iter().map(|peak| or_nan(of(peak))))
+    }
+
+    fn values<'py>(&self, py: Python<'py>, of: Of) -> Array1<'py> {
+        self.each(py, |peak| Some(of(peak)?.value))
+    }
+
+    fn sigmas<'py>(&self, py: Python<'py>, of: Of) -> Array1<'py> {
+        self.each(py, |peak| Some(of(peak)?.spread.as_ref()?.sigma))
+    }
+
+    fn slopes<'py>(&self, py: Python<'py>, of: Of) -> PyResult<Array2<'py>> {
+        let count = self.0.description.design.len();
+        let row = |peak: &Peak| match of(peak) {
+            Some(own) => own.by_design.to_vec(),
+            None => vec![f64::NAN; count],
+        };
+        rows(py, count, self.0.peaks.iter().map(row))
+    }
+}
+
+attributes! {
+    Peaks(self, py) {
+        /// Values of the input at the peaks, SI, shape (k,).
+        places: Array1<'py> = self.values(py, PLACE);
+        /// Their standard deviations to first order, SI, shape (k,).
+        place_sigmas: Array1<'py> = self.sigmas(py, PLACE);
+        /// Their total derivatives by design variables, shape (k, design), per SI unit.
+        places_by_design: PyResult<Array2<'py>> = self.slopes(py, PLACE);
+        /// Frequencies at the peaks, rad/s, shape (k,).
+        frequencies: Array1<'py> = self.values(py, FREQUENCY);
+        /// Moduli at the peaks, SI, shape (k,).
+        heights: Array1<'py> = self.values(py, HEIGHT);
+        /// Their standard deviations to first order, SI, shape (k,).
+        height_sigmas: Array1<'py> = self.sigmas(py, HEIGHT);
+        /// Their total derivatives by design variables, shape (k, design), per SI unit.
+        heights_by_design: PyResult<Array2<'py>> = self.slopes(py, HEIGHT);
+        /// Phases at the peaks, rad, shape (k,).
+        phases: Array1<'py> = self.each(py, |peak| Some(peak.phase));
+        /// Values of the input before the peaks at which the power is half, SI, shape (k,); NaN where there is none.
+        half_power_before: Array1<'py> = self.values(py, BEFORE);
+        /// Values of the input after the peaks at which the power is half, SI, shape (k,); NaN where there is none.
+        half_power_after: Array1<'py> = self.values(py, AFTER);
+        /// Amplification factors, shape (k,); NaN where there is none.
+        amplifications: Array1<'py> = self.values(py, AMPLIFICATION);
+        /// Their standard deviations to first order, shape (k,).
+        amplification_sigmas: Array1<'py> = self.sigmas(py, AMPLIFICATION);
+        /// Their total derivatives by design variables, shape (k, design), per SI unit.
+        amplifications_by_design: PyResult<Array2<'py>> = self.slopes(py, AMPLIFICATION);
+    }
+}
