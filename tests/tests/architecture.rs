@@ -118,7 +118,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
     (
         "runtime/report",
         &["eigentol", "eigentol-figures", "eigentol-tables"],
-        2_300,
+        2_650,
     ),
     (
         "runtime/command",
@@ -144,7 +144,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        5_500,
+        6_700,
     ),
 ];
 

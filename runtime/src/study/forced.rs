@@ -17,7 +17,7 @@ impl<M: Kernels> Study<M> {
     #[doc = include_str!("shaken.txt")]
     /// let vibration = study.forced_response()?;
     /// let amplitude = vibration.harmonics[0].outputs[Rotor::shake.index()].norm();
-    /// assert!((amplitude / 4.024e-4 - 1.0).abs() < 1e-3);
+    /// assert!((amplitude / 3.3888e-4 - 1.0).abs() < 1e-3);
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`] and [`forced::response`].
@@ -31,7 +31,7 @@ impl<M: Kernels> Study<M> {
     ///
     /// let slopes = study.forced_sensitivities()?;
     /// let amplitude = slopes.modulus(0, Rotor::shake.any(), Measure::Displacement).expect("it vibrates");
-    /// assert!(amplitude.by_design[Rotor::e.index()] > 10.0);
+    /// assert!(amplitude.by_design[Rotor::e.index()] > 8.0);
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::forced_response`] and [`Study::equilibrium_shift`].
