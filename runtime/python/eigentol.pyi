@@ -1540,6 +1540,52 @@ class OutputSensitivities(_Result):
         """Derivatives by design variables, shape (o, design); NaN where there is none."""
 
 @final
+class Peaks(_Result):
+    """The peaks of a vibration along an input, in the order in which the range passes them. `k` is their number. Values
+    are SI; heights are from 0 to peak.
+    """
+
+    @property
+    def places(self) -> Real:
+        """Values of the input at the peaks, SI, shape (k,)."""
+    @property
+    def place_sigmas(self) -> Real:
+        """Their standard deviations to first order, SI, shape (k,)."""
+    @property
+    def places_by_design(self) -> Real:
+        """Their total derivatives by design variables, shape (k, design), per SI unit."""
+    @property
+    def frequencies(self) -> Real:
+        """Frequencies at the peaks, rad/s, shape (k,)."""
+    @property
+    def heights(self) -> Real:
+        """Moduli at the peaks, SI, shape (k,)."""
+    @property
+    def height_sigmas(self) -> Real:
+        """Their standard deviations to first order, SI, shape (k,)."""
+    @property
+    def heights_by_design(self) -> Real:
+        """Their total derivatives by design variables, shape (k, design), per SI unit."""
+    @property
+    def phases(self) -> Real:
+        """Phases at the peaks, rad, shape (k,)."""
+    @property
+    def half_power_before(self) -> Real:
+        """Values of the input before the peaks at which the power is half, SI, shape (k,); NaN where there is none."""
+    @property
+    def half_power_after(self) -> Real:
+        """Values of the input after the peaks at which the power is half, SI, shape (k,); NaN where there is none."""
+    @property
+    def amplifications(self) -> Real:
+        """Amplification factors, shape (k,); NaN where there is none."""
+    @property
+    def amplification_sigmas(self) -> Real:
+        """Their standard deviations to first order, shape (k,)."""
+    @property
+    def amplifications_by_design(self) -> Real:
+        """Their total derivatives by design variables, shape (k, design), per SI unit."""
+
+@final
 class Sensitivities(_Result):
     """Total derivatives of all modes, per SI unit of inputs and design variables. `m` is the number of modes."""
 
@@ -2224,6 +2270,10 @@ class Study:
     ) -> Bode:
         """The same with bands of these vibrations under tolerances, given as `vibration_spread` takes them. `checked`
         designs are solved anew at each value to say how good the bands are; 0 for none.
+        """
+    def peaks(self, vibration: tuple[Any, ...], input: str, low: Value, high: Value) -> Peaks:
+        """The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
+        half-power points and amplification factors, with their derivatives and spreads.
         """
     def monte_carlo(self) -> MonteCarlo:
         """Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
