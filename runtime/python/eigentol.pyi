@@ -1558,6 +1558,12 @@ class Peaks(_Result):
     def frequencies(self) -> Real:
         """Frequencies at the peaks, rad/s, shape (k,)."""
     @property
+    def frequency_sigmas(self) -> Real:
+        """Their standard deviations to first order, rad/s, shape (k,)."""
+    @property
+    def frequencies_by_design(self) -> Real:
+        """Their total derivatives by design variables, shape (k, design), rad/s per SI unit."""
+    @property
     def heights(self) -> Real:
         """Moduli at the peaks, SI, shape (k,)."""
     @property
@@ -1575,6 +1581,14 @@ class Peaks(_Result):
     @property
     def half_power_after(self) -> Real:
         """Values of the input after the peaks at which the power is half, SI, shape (k,); NaN where there is none."""
+    @property
+    def half_power_sigmas(self) -> tuple[Real, Real]:
+        """Standard deviations of the half-power points before and after the peaks to first order, SI, shape (k,) each."""
+    @property
+    def half_power_by_design(self) -> tuple[Real, Real]:
+        """Total derivatives of the half-power points before and after the peaks by design variables, shape (k, design)
+        each, per SI unit.
+        """
     @property
     def amplifications(self) -> Real:
         """Amplification factors, shape (k,); NaN where there is none."""

@@ -45,7 +45,7 @@ def test_modes_are_called_and_measured_as_the_user_says(study, tmp_path):
     study.report(path, mode_names=["swing"], frequency_unit="Hz")
     hertz = study.modes().frequencies[0] / (2 * math.pi)
     assert f"Swing at {hertz:.4f}" in path.read_text("utf-8")
-    assert data(path, "scene")[0]["modes"][0]["title"].startswith("Swing: ")
+    assert data(path, "scene")[0]["motions"][0]["title"].startswith("Swing: ")
     with pytest.raises(ValueError, match="frequency_unit.*\"kHz\""):
         study.report(path, frequency_unit="kHz")
 

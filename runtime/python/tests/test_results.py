@@ -73,6 +73,7 @@ def test_only_a_document_of_the_same_kind_is_read(results):
 # round brackets for what is no result. Fields of the same name need no entry.
 COUNTED = {"counts": "counts"}
 RESPONSES = {"wanted": "names"}
+PEAKS = {"place": "places", "frequency": "frequencies", "height": "heights", "amplification": "amplifications"}
 SPREAD = {"variance_shares": "shares", "by_design": "gradient"}
 ELSEWHERE = {
     "Equilibrium": {
@@ -141,6 +142,24 @@ ELSEWHERE = {
         "points.bands.spread": "spreads",
         "points.value": "values",
         "points.vibration": "vibrations",
+    },
+    "Peaks": {
+        **{f"peaks.{name}.value": name_of for name, name_of in PEAKS.items()},
+        **{f"peaks.{name}.by_design": f"{name_of}_by_design" for name, name_of in PEAKS.items()},
+        **{f"peaks.{name}.spread.sigma": f"{name}_sigmas" for name in PEAKS},
+        **{
+            f"peaks.{name}.spread.{field}": "(follows from the derivatives)"
+            for name in PEAKS
+            for field in ("mean", "band", "by_design", "variance_shares")
+        },
+        "peaks.half_power": "half_power_after",
+        "peaks.phase": "phases",
+        "peaks.equilibrium": "(the equilibrium at that value)",
+        "vibration": "(as asked)",
+        "range": "(as asked)",
+        "states": "(how it was found)",
+        "gaps": "(in the text)",
+        "sigma_level": "(of the study)",
     },
     "OutputTolerances": {f"spreads.{field}": name for field, name in SPREAD.items()},
     "FirstOrder": {

@@ -55,6 +55,10 @@ attributes! {
         places_by_design: PyResult<Array2<'py>> = self.slopes(py, PLACE);
         /// Frequencies at the peaks, rad/s, shape (k,).
         frequencies: Array1<'py> = self.values(py, FREQUENCY);
+        /// Their standard deviations to first order, rad/s, shape (k,).
+        frequency_sigmas: Array1<'py> = self.sigmas(py, FREQUENCY);
+        /// Their total derivatives by design variables, shape (k, design), rad/s per SI unit.
+        frequencies_by_design: PyResult<Array2<'py>> = self.slopes(py, FREQUENCY);
         /// Moduli at the peaks, SI, shape (k,).
         heights: Array1<'py> = self.values(py, HEIGHT);
         /// Their standard deviations to first order, SI, shape (k,).
@@ -67,6 +71,12 @@ attributes! {
         half_power_before: Array1<'py> = self.values(py, BEFORE);
         /// Values of the input after the peaks at which the power is half, SI, shape (k,); NaN where there is none.
         half_power_after: Array1<'py> = self.values(py, AFTER);
+        /// Standard deviations of the half-power points before and after the peaks to first order, SI, shape (k,) each.
+        half_power_sigmas: (Array1<'py>, Array1<'py>) = (self.sigmas(py, BEFORE), self.sigmas(py, AFTER));
+        /// Total derivatives of the half-power points before and after the peaks by design variables, shape (k, design)
+        /// each, per SI unit.
+        half_power_by_design: PyResult<(Array2<'py>, Array2<'py>)> =
+            Ok((self.slopes(py, BEFORE)?, self.slopes(py, AFTER)?));
         /// Amplification factors, shape (k,); NaN where there is none.
         amplifications: Array1<'py> = self.values(py, AMPLIFICATION);
         /// Their standard deviations to first order, shape (k,).
