@@ -1,4 +1,4 @@
-//! Forced vibration: the steady response to harmonic excitations about an equilibrium, its derivatives, and its peaks.
+//! Forced vibration: the steady response to harmonic excitations about an equilibrium, and its derivatives.
 
 mod adjoint;
 mod answer;

@@ -105,18 +105,12 @@ pub struct Moving {
 impl Moving {
     /// `value`, which moves `slope` times as far.
     fn scaled(&self, slope: f64, value: f64) -> Self {
-        let by_design: Vector = self.by_design.map(|own| slope * own);
-        let spread = self.spread.clone().map(|mut own| {
-            own.mean = value + slope * (own.mean - self.value);
-            own.sigma *= slope.abs();
-            own.band *= slope.abs();
-            own.by_design = by_design.clone();
-            own
-        });
+        let mean = |own: f64| value + slope * (own - self.value);
+        let spread = self.spread.as_ref();
         Self {
             value,
-            by_design,
-            spread,
+            by_design: self.by_design.map(|own| slope * own),
+            spread: spread.map(|own| own.scaled(slope, mean(own.mean))),
         }
     }
 

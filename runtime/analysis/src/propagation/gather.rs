@@ -13,14 +13,29 @@ use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
 use super::space::Space;
 use crate::Error;
 use crate::algebra::Vector;
+use crate::response::Responses;
 use crate::tolerance::gather::{Part, SampleRun};
-use crate::tolerance::{Outcome, Sampling};
+use crate::tolerance::{Outcome, Sampling, Tolerances};
 
 /// Statistics of some samples, per randomisation: responses first, then the varying design variables.
 pub(super) struct Gathered<'a>(pub(super) &'a [Partial]);
 
 /// Reference value and scale of a response for its quantile sketch, SI; any positive scale works.
 pub(super) type Scale = (f64, f64);
+
+/// The responses of the nominal design, SI, and the scales expected of their samples.
+pub(super) fn nominal_scales(
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+) -> Result<(Vec<Option<f64>>, Vec<Scale>), Error> {
+    let design = &responses.nominal().design;
+    let found = responses.with_gradients(&mut responses.workspace(), design)?;
+    let slopes = found.gradients.iter().map(Option::as_deref);
+    let scales = found.values.iter().zip(slopes);
+    let scales = scales.map(|(value, slopes)| tolerances.scale(*value, slopes));
+    let scales = scales.collect();
+    Ok((found.values, scales))
+}
 
 /// The model to sample.
 pub(super) struct Task<'a, M> {

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::gather::{Gathered, Task};
+use super::gather::{Gathered, Task, nominal_scales};
 use super::model::Designs;
 use super::result::{Method, Propagation};
 use super::space::Space;
@@ -70,15 +70,11 @@ pub fn sampled(
     }
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
-    let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
-    let slopes = nominal.gradients.iter().map(Option::as_deref);
-    let scales = nominal.values.iter().zip(slopes);
+    let (nominal, scales) = nominal_scales(responses, tolerances)?;
     let designs = Designs::new(responses, &space);
     let task = Task {
         model: &designs,
-        scales: scales
-            .map(|(value, slopes)| tolerances.scale(*value, slopes))
-            .collect(),
+        scales,
         unknowns: at.coordinates.len(),
         space: &space,
     };
@@ -93,7 +89,7 @@ pub fn sampled(
             inputs: at.inputs.clone(),
             description: at.description.clone(),
         },
-        nominal: nominal.values,
+        nominal,
         variables: (space.variables(), at.design.len()),
     })
 }

@@ -1,6 +1,6 @@
 //! Spreads of forced vibrations, right at a resonance too: the condensed resolvent in place of the mechanism.
 
-use super::gather::{Gathered, Task};
+use super::gather::{Gathered, Task, nominal_scales};
 use super::model::{DesignRoom, Designs, Evaluated, Model, Take};
 use super::result::{Method, Propagation, ResponseSpread};
 use super::sampled::propagation_of;
@@ -110,14 +110,10 @@ pub fn vibrations(
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
     let model = Vibrations::new(mechanism, at, responses.wanted(), &space)?;
-    let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
-    let slopes = nominal.gradients.iter().map(Option::as_deref);
-    let scales = nominal.values.iter().zip(slopes);
+    let (nominal, scales) = nominal_scales(responses, tolerances)?;
     let task = Task {
         model: &model,
-        scales: scales
-            .map(|(value, slopes)| tolerances.scale(*value, slopes))
-            .collect(),
+        scales,
         unknowns: at.coordinates.len(),
         space: &space,
     };
@@ -125,7 +121,7 @@ pub fn vibrations(
     propagation_of(
         Method::Resolvent(sampling.points),
         &parts,
-        (responses.wanted(), &nominal.values),
+        (responses.wanted(), &nominal),
         (&space.variables(), at.design.len()),
         (&at.inputs, &at.description),
     )
@@ -157,12 +153,7 @@ pub fn check_vibrations(
 ) -> Result<Vec<Option<VibrationCheck>>, Error> {
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
-    let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
-    let slopes = nominal.gradients.iter().map(Option::as_deref);
-    let scales = nominal.values.iter().zip(slopes);
-    let scales: Vec<_> = scales
-        .map(|(value, slopes)| tolerances.scale(*value, slopes))
-        .collect();
+    let (_, scales) = nominal_scales(responses, tolerances)?;
     let both = Both {
         designs: Designs::new(responses, &space),
         model: Vibrations::new(mechanism, at, responses.wanted(), &space)?,

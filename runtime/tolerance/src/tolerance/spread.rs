@@ -58,7 +58,9 @@ impl Spread {
     }
 
     /// The spread of a quantity that changes `rate` times as fast.
-    pub(super) fn scaled(&self, rate: f64, mean: f64) -> Self {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn scaled(&self, rate: f64, mean: f64) -> Self {
         Self {
             mean,
             by_design: self.by_design.map(|slope| rate * slope),
