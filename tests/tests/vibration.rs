@@ -1,7 +1,8 @@
-//! Forced vibration of declared machines: closed forms, bands against designs solved anew.
+//! Forced vibration of declared machines: closed forms, a rigid rotor, bands against designs solved anew.
 
 mod vibration {
     mod bands;
     mod closed_forms;
     mod exceedance;
+    mod rigid_rotor;
 }
