@@ -4,10 +4,14 @@
 use eigentol::Policy;
 use eigentol::equilibrium::{Equilibrium, equilibrium};
 use eigentol::kernels::CurvatureKernels;
+use eigentol::second_order::SecondDerivatives;
+use eigentol::sensitivity::Slopes;
 
 use crate::tables;
 
-pub use eigentol_rederived::{ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode};
+pub use eigentol_rederived::{
+    ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode, Vibration,
+};
 
 /// One operating point of a machine: inputs in SI, and where to look for the equilibrium.
 #[derive(Clone, Debug)]
@@ -74,6 +78,27 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "robot_arm" => vec![point(&[], &[0.1; 7])],
         _ => panic!("nobody has said how {name} is run"),
     }
+}
+
+/// First derivatives by design variables, then inputs.
+#[must_use]
+pub fn flat<T: Copy>(all: &Slopes<T>) -> Vec<T> {
+    [&all.by_design[..], &all.by_input].concat()
+}
+
+/// Second derivatives by design variables, then inputs.
+#[must_use]
+pub fn ordered<T: Copy>(all: &SecondDerivatives<T>) -> Vec<Vec<T>> {
+    let (design, inputs) = (all.by_design.row_count(), all.by_input.row_count());
+    let by = |i: usize, j: usize| match (i < design, j < design) {
+        (true, true) => all.by_design[i][j],
+        (true, false) => all.by_input_and_design[j - design][i],
+        (false, true) => all.by_input_and_design[i - design][j],
+        (false, false) => all.by_input[i - design][j - design],
+    };
+    let variables = 0..design + inputs;
+    let row = |i| variables.clone().map(|j| by(i, j)).collect();
+    variables.clone().map(row).collect()
 }
 
 /// A comparison between the product and the solution in hyper-dual numbers.

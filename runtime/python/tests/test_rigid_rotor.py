@@ -51,7 +51,7 @@ def declaration():
 
 
 def by_hand(speed):
-    """Amplitudes x, y of both journals: displacements of the centre of mass and tilts about x and y are the unknowns."""
+    """Amplitudes x, y of both journals: displacements of the centre of mass and tilts about x and y."""
     heights, masses, across, about, amounts, angles = np.array(DISKS).T
     center = masses @ heights / masses.sum()
     transverse = across.sum() + masses @ (heights - center) ** 2

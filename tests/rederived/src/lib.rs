@@ -1,12 +1,13 @@
 //! First and second total derivatives, obtained by solving the whole problem again in hyper-dual numbers: equilibrium,
-//! matrices, eigenpairs. No derivative formula is used here, neither adjoint nor Nelson's; where the product uses one,
-//! it must agree with this.
+//! matrices, eigenpairs, forced vibrations. No derivative formula is used here, neither adjoint nor Nelson's; where the
+//! product uses one, it must agree with this.
 //!
 //! A solution `x` of `F(x; p) = 0` in doubles becomes one in hyper-dual numbers by repeating `x -= J^-1 F(x; p)` with
 //! the Jacobian in doubles: each repetition makes one more order of the infinitesimals exact.
 //!
-//! Variables are the design variables, then the inputs. The only compiler kernels used are `residual`, `linear` and
-//! `outputs`, and the stiffness from `residual_and_stiffness` where Newton's method needs a Jacobian.
+//! Variables are the design variables, then the inputs. The only compiler kernels used are `residual`, `linear`,
+//! `outputs`, `forcing` and `output_motion`, and the stiffness from `residual_and_stiffness` where Newton's method needs
+//! a Jacobian.
 
 mod complex;
 pub mod dual;
@@ -16,9 +17,11 @@ mod modes;
 mod num_dual;
 mod pair;
 mod spectrum;
+mod vibrations;
 
 pub use machine::{Machine, State};
 pub use modes::{ComplexDerived, GeneralMode, UndampedMode};
+pub use vibrations::Vibration;
 
 use crate::hyper::Hyper;
 

@@ -41,6 +41,17 @@ pub(super) struct Solution {
     pub(super) damping: Vec<Hyper>,
     pub(super) stiffness: Vec<Hyper>,
     pub(super) outputs: Vec<Hyper>,
+    pub(super) excited: Option<Excited>,
+}
+
+/// The results of the kernels of excitations.
+pub(super) struct Excited {
+    /// Forces in phase, frequencies, direct terms in phase; forces and direct terms a quarter of a period ahead.
+    pub(super) forcing: Vec<Vec<Hyper>>,
+    /// Derivatives of the outputs by acceleration, velocity and position.
+    pub(super) motion: Vec<Vec<Hyper>>,
+    /// Number of outputs.
+    pub(super) outputs: usize,
 }
 
 impl Machine {
@@ -159,12 +170,20 @@ impl Machine {
             let (mass, damping, stiffness) = (next(), next(), next());
             let outputs = self.program.kernel("outputs");
             let outputs = outputs.map(|kernel| interpret(kernel, &[&q, &u, &b]).concat());
+            let outputs = outputs.unwrap_or_default();
+            let forcing = self.program.kernel("forcing");
+            let excited = forcing.map(|forcing| Excited {
+                forcing: interpret(forcing, &[&q, &u, &b]),
+                motion: interpret(self.kernel("output_motion"), &[&q, &u, &b]),
+                outputs: outputs.len(),
+            });
             Solution {
                 coordinates: q,
                 mass,
                 damping,
                 stiffness,
-                outputs: outputs.unwrap_or_default(),
+                outputs,
+                excited,
             }
         };
         State {

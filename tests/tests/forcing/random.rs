@@ -357,7 +357,7 @@ impl Builder {
     }
 }
 
-fn machine(seed: u64) -> Machine {
+pub(crate) fn machine(seed: u64) -> Machine {
     let mut builder = Builder::new(seed);
     let links = 1 + builder.random.below(3);
     let rotors = builder.random.below(3);

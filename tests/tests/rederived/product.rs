@@ -5,11 +5,13 @@ use eigentol::equilibrium::Equilibrium;
 use eigentol::error::NoDerivative;
 use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::{Family, Mode, Modes, modes, undamped_modes};
-use eigentol::second_order::{SecondDerivatives, mode_curvature, output_curvature};
+use eigentol::second_order::{mode_curvature, output_curvature};
 use eigentol::sensitivity::{Quantity, sensitivities};
 use eigentol::shapes::shape_sensitivity;
 use eigentol::{Complex, Description, Error, Output, Role, Sensitivities};
-use eigentol_tests::rederived::{Comparison, ComplexDerived, Derived, State, every_machine};
+use eigentol_tests::rederived::{
+    Comparison, ComplexDerived, Derived, State, every_machine, ordered,
+};
 
 use super::expected::Expected;
 
@@ -27,20 +29,6 @@ pub(super) struct Product {
     outputs: usize,
     /// The largest errors relative to the allowed ones, and where they occur.
     worst: [(f64, String); 3],
-}
-
-/// Second derivatives by design variables, then inputs.
-fn ordered<T: Copy>(all: &SecondDerivatives<T>) -> Vec<Vec<T>> {
-    let (design, inputs) = (all.by_design.row_count(), all.by_input.row_count());
-    let by = |i: usize, j: usize| match (i < design, j < design) {
-        (true, true) => all.by_design[i][j],
-        (true, false) => all.by_input_and_design[j - design][i],
-        (false, true) => all.by_input_and_design[i - design][j],
-        (false, false) => all.by_input[i - design][j - design],
-    };
-    let variables = 0..design + inputs;
-    let row = |i| variables.clone().map(|j| by(i, j)).collect();
-    variables.clone().map(row).collect()
 }
 
 /// Scales of the variables.
