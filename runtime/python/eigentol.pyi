@@ -1016,7 +1016,7 @@ class Bode(_Result):
         """Relative errors of the standard deviations that these show, shape (k, v)."""
     @property
     def upper_errors(self) -> Real:
-        """Relative errors of the values below which 97.7 % of the designs lie, shape (k, v)."""
+        """Relative errors of the values below which 99 % of the designs lie, shape (k, v)."""
     @property
     def unreached(self) -> int:
         """Number of values that were not reached."""

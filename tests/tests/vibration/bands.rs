@@ -6,7 +6,7 @@ use eigentol::response::{Response, Responses, Vibration};
 use eigentol::tolerance::{Points, Sampling};
 use eigentol_interpreter::Interpreted;
 
-/// Shows the greatest errors of sigma and of the 97.7 % quantile of every output along an input.
+/// Shows the greatest errors of sigma and of the 99 % quantile of every output along an input.
 fn greatest_errors(text: &str, input: &str, values: &[f64]) -> (f64, f64) {
     let machine =
         Interpreted::from_text(&format!("mechanism Machine {{ {text} }}")).expect("a declaration");

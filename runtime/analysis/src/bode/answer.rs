@@ -202,7 +202,7 @@ impl Bode {
             usize::try_from(row.check?.samples).ok()
         });
         table.number("error of sigma", "", &|row| Some(row.check?.sigma));
-        table.number("error of 97.7 %", "", &|row| Some(row.check?.upper));
+        table.number("error of 99 %", "", &|row| Some(row.check?.upper));
         said.columns(table);
         let checks = || rows.iter().filter_map(|row| row.check);
         let worst = checks().map(|own| own.sigma.abs().max(own.upper.abs()));

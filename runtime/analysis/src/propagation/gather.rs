@@ -211,6 +211,14 @@ impl Gathered<'_> {
         Ok(Statistics::of(&self.moments(quantity)?, sketch))
     }
 
+    /// The value below which a quantity lies with a given probability; `None` if no sample has it.
+    pub(super) fn quantile(&self, quantity: usize, probability: f64) -> Result<Option<f64>, Error> {
+        let Some(all) = self.statistics(quantity)? else {
+            return Ok(None);
+        };
+        Ok(Some(all.quantile(probability)?.value))
+    }
+
     /// The spread of a response; `None` if no sample has it.
     pub(super) fn spread(
         &self,

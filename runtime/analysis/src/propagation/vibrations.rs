@@ -2,7 +2,7 @@
 
 use super::gather::{Gathered, Task, nominal_scales};
 use super::model::{DesignRoom, Designs, Evaluated, Model, Take};
-use super::result::{Method, Propagation, ResponseSpread};
+use super::result::{Method, Propagation};
 use super::sampled::propagation_of;
 use super::space::Space;
 use crate::algebra::Vector;
@@ -136,7 +136,7 @@ pub struct VibrationCheck {
     pub samples: u64,
     /// Relative error of the model's standard deviation.
     pub sigma: f64,
-    /// Relative error of the value below which 97.7 % of the designs lie.
+    /// Relative error of the value below which 99 % of the designs lie.
     pub upper: f64,
 }
 
@@ -167,29 +167,34 @@ pub fn check_vibrations(
     let parts = task.gather(sampling)?;
     let (gathered, count) = (Gathered(&parts), scales.len());
     let compared = |k: usize| {
-        let exact = gathered.spread(k, None)?;
-        let model = gathered.spread(count + k, None)?;
+        let sigma = |place| -> Result<_, Error> {
+            let spread = gathered.spread(place, None)?;
+            Ok(spread.and_then(|own| Some(own.sigma?.value)))
+        };
+        let upper = |place| gathered.quantile(place, UPPER);
+        let sigma = relative(sigma(count + k)?, sigma(k)?);
+        let upper = relative(upper(count + k)?, upper(k)?);
         let samples = gathered.count(k)?;
-        Ok(exact.zip(model).and_then(|(exact, model)| {
-            let (right, own) = (exact.sigma?.value, model.sigma?.value);
-            let upper = |of: &ResponseSpread| Some(of.quantiles.get(UPPER)?.value);
-            let (right_upper, own_upper) = (upper(&exact)?, upper(&model)?);
-            let relative = |own: f64, right: f64| match right == own {
-                true => 0.0,
-                false => own / right - 1.0,
-            };
-            Some(VibrationCheck {
-                samples,
-                sigma: relative(own, right),
-                upper: relative(own_upper, right_upper),
-            })
+        Ok(sigma.zip(upper).map(|(sigma, upper)| VibrationCheck {
+            samples,
+            sigma,
+            upper,
         }))
     };
     (0..count).map(compared).collect()
 }
 
-/// Position of the quantile for two standard deviations above in [`QUANTILES`](super::QUANTILES).
-const UPPER: usize = 5;
+/// Share of the designs below the upper end that is compared.
+const UPPER: f64 = 0.99;
+
+/// The relative error of a number of the model, if both exist.
+fn relative(own: Option<f64>, right: Option<f64>) -> Option<f64> {
+    let (own, right) = own.zip(right)?;
+    Some(match right == own {
+        true => 0.0,
+        false => own / right - 1.0,
+    })
+}
 
 /// The mechanism and the model, at the same designs; designs that fail have neither value.
 struct Both<'a> {

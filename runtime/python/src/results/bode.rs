@@ -183,7 +183,7 @@ attributes! {
             self.bands(py, |own, band| Some(check(own, band)?.samples as f64));
         /// Relative errors of the standard deviations that these show, shape (k, v).
         sigma_errors: PyResult<Array2<'py>> = self.bands(py, |own, band| Some(check(own, band)?.sigma));
-        /// Relative errors of the values below which 97.7 % of the designs lie, shape (k, v).
+        /// Relative errors of the values below which 99 % of the designs lie, shape (k, v).
         upper_errors: PyResult<Array2<'py>> = self.bands(py, |own, band| Some(check(own, band)?.upper));
         /// Number of values that were not reached.
         unreached: usize = self.0.unreached;
