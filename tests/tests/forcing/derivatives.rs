@@ -200,9 +200,9 @@ impl Seen {
     fn machine(&mut self, what: &str, all: &ForcedCurvature, state: &State, variables: &[f64]) {
         for (h, harmonic) in all.first.response.harmonics.iter().enumerate() {
             let members: Vec<usize> = harmonic.shares.iter().map(|own| own.excitation).collect();
-            for rate in 0..MEASURES.len() {
+            for (rate, measure) in MEASURES.into_iter().enumerate() {
                 let expected = state.vibration(&members, rate);
-                let what = format!("{what} harmonic {h} {:?}", MEASURES[rate]);
+                let what = format!("{what} harmonic {h} {measure:?}");
                 let w = &expected.frequency;
                 assert!(
                     (harmonic.frequency - w.value).abs() <= 1e-13 * w.value,
