@@ -164,6 +164,7 @@ fn the_module_passes_its_tests() {
         "test_pendulum.py",
         "test_report.py",
         "test_results.py",
+        "test_rigid_rotor.py",
         "test_robots.py",
         "test_tables.py",
     ];
@@ -197,6 +198,7 @@ fn the_module_agrees_with_its_peers() {
             "test_openturns.py",
             "test_peers.py",
             "test_parts.py",
+            "test_rigid_rotor.py",
             "test_robots.py",
             "test_stubs.py",
         ],
