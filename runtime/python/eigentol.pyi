@@ -1355,6 +1355,29 @@ class ForcedResponse(_Result):
         """Amplitudes of the outputs, complex, shape (h, o): as "displacement" they are `outputs`, SI; as "velocity" per
         second, as "acceleration" per second squared.
         """
+    def orbit_parts(self, x: str, y: str) -> tuple[Complex, Complex]:
+        """The orbit of two outputs, which should be perpendicular displacements: `x + i y = f e^{i w t} + conj(b) e^{-i w t}`.
+        The forward parts `f`, which circle from `x` to `y`, and the backward parts `b`, complex, SI, shape (h,) each.
+        """
+    def orbit_semi_axes(self, x: str, y: str) -> tuple[Real, Real]:
+        """Half of the longest and half of the shortest diameters of the orbits of two outputs, SI, shape (h,) each."""
+    def orbit_directions(self, x: str, y: str) -> Real:
+        """Angles of the longest diameters of the orbits of two outputs from `x`, rad, shape (h,); NaN for a circle."""
+    def orbit_turnings(self, x: str, y: str) -> list[str | None]:
+        """How the orbits of two outputs are passed in each harmonic: "forward", from `x` to `y`, "backward", or None on a
+        straight line.
+        """
+    def unknown_phases_quantile(self, probability: float, measure: Measure = "displacement") -> Real:
+        """Amplitudes of the outputs that are not exceeded with a probability if only the amounts of the excitations are
+        known, and their phases, such as the angles of unbalances, are independent and uniform over the turn: shape (h, o).
+        0 gives the least possible, 1 the greatest.
+        """
+    def unknown_phases_root_mean_square(self, measure: Measure = "displacement") -> Real:
+        """Roots of the mean squares of the amplitudes of the outputs under unknown phases, shape (h, o)."""
+    def unknown_phases_probability(self, output: str, limit: Value, measure: Measure = "displacement") -> Real:
+        """Probabilities that the amplitude of an output stays below a limit, SI or a text with a unit, under unknown phases,
+        shape (h,).
+        """
 
 @final
 class ForcedSensitivities(_Result):
@@ -1598,6 +1621,10 @@ class Peaks(_Result):
     @property
     def amplifications_by_design(self) -> Real:
         """Their total derivatives by design variables, shape (k, design), per SI unit."""
+    def separation(self, low: Value, high: Value) -> Separation:
+        """How far the peaks keep from a range of operation of the input, in the manner of API 617. Values are SI or texts
+        with units.
+        """
 
 @final
 class Sensitivities(_Result):
@@ -1635,6 +1662,36 @@ class Sensitivities(_Result):
         by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
         none.
         """
+
+@final
+class Separation(_Result):
+    """The distances of peaks from a range of operation, in the manner of API 617. `k` is the number of peaks."""
+
+    @property
+    def peaks(self) -> Peaks:
+        """The peaks."""
+    @property
+    def operating(self) -> tuple[float, float]:
+        """Lowest and highest value of the input in operation, SI."""
+    @property
+    def margins(self) -> Real:
+        """Distances of the peaks from the nearest end of the range, relative to that end, shape (k,); zero within the
+        range.
+        """
+    @property
+    def margin_sigmas(self) -> Real:
+        """Their standard deviations to first order, shape (k,)."""
+    @property
+    def margins_by_design(self) -> Real:
+        """Their total derivatives by design variables, shape (k, design), per SI unit."""
+    @property
+    def required(self) -> Real:
+        """The margins that the amplification factors ask for, shape (k,); zero for a peak that is damped away, NaN
+        without an amplification factor.
+        """
+    @property
+    def sufficient(self) -> list[bool | None]:
+        """Whether each peak keeps away far enough; None if what is required is not known."""
 
 @final
 class ShapeSensitivity(_Result):
