@@ -4,7 +4,7 @@ use eigentol::forced::Measure;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
-use eigentol::{Excitation, Quantity, Study};
+use eigentol::{Excitation, Output, Quantity, Study};
 use eigentol_interpreter::Interpreted;
 
 use crate::ends::with_unit_of;
@@ -247,7 +247,9 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
                 quantity,
             });
         }
-        (Some(name), None, None, None) if own.mode.is_none() => return output(study, name),
+        (Some(name), None, None, None) if own.mode.is_none() => {
+            return output(study, name).map(Response::Output);
+        }
         (None, Some(text), None, None) if own.mode.is_none() => {
             return Ok(Response::Critical(along(text)?));
         }
@@ -265,7 +267,6 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
     ))
 }
 
-/// The amplitude of an output under one of the excitations.
 /// The vibration written as `shake` or `shake under u`.
 pub(crate) fn named_vibration(
     study: &Study<Interpreted>,
@@ -282,47 +283,72 @@ pub(crate) fn named_vibration(
     vibration(study, name.trim(), &own)
 }
 
-fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Vibration, Failure> {
-    let Response::Output(of) = output(study, name)? else {
-        return Err(Failure::usage("an output vibrates", HELP));
+/// The orbit written as `shake,lift` or `shake,lift under u`.
+pub(crate) fn named_orbit(
+    study: &Study<Interpreted>,
+    text: &str,
+) -> Result<([Output; 2], Excitation), Failure> {
+    let (pair, under) = match text.split_once(" under ") {
+        Some((pair, under)) => (pair, Some(under.trim())),
+        None => (text, None),
     };
-    let d = study.description();
-    let known = d.excitations.iter().map(|info| &info.name);
-    let excitation = match &own.under {
-        Some(under) => study
-            .find_excitation(under)
-            .map_err(|_| unknown(d, "excitation", under, known))?,
-        None if d.excitations.is_empty() => {
-            let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
-            return Err(Failure::usage("nothing excites a vibration", help));
-        }
-        None if d.excitations.iter().all(|info| info.with == 0) => Excitation::new(0),
+    Ok((named_pair(study, pair)?, excitation(study, under)?))
+}
+
+/// The two outputs of an orbit written as `shake,lift`.
+pub(crate) fn named_pair(study: &Study<Interpreted>, text: &str) -> Result<[Output; 2], Failure> {
+    match text.split_once(',') {
+        Some((x, y)) => Ok([output(study, x.trim())?, output(study, y.trim())?]),
         None => {
-            let names: Vec<&str> = known.map(|name| &**name).collect();
-            let help = format!("say under which: {}", names.join(", "));
-            return Err(Failure::usage(
-                "the excitations have several frequencies",
-                help,
-            ));
+            let message = format!("`{text}` is no pair of outputs");
+            Err(Failure::usage(message, "write `--orbit shake,lift`"))
         }
-    };
-    let measure = match own.measure {
-        None | Some(study_file::Measure::Displacement) => Measure::Displacement,
-        Some(study_file::Measure::Velocity) => Measure::Velocity,
-        Some(study_file::Measure::Acceleration) => Measure::Acceleration,
-    };
+    }
+}
+
+/// The amplitude of an output under one of the excitations.
+fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Vibration, Failure> {
     Ok(Vibration {
-        output: of,
-        excitation: excitation.any(),
-        measure,
+        output: output(study, name)?,
+        excitation: excitation(study, own.under.as_deref())?,
+        measure: match own.measure {
+            None | Some(study_file::Measure::Displacement) => Measure::Displacement,
+            Some(study_file::Measure::Velocity) => Measure::Velocity,
+            Some(study_file::Measure::Acceleration) => Measure::Acceleration,
+        },
     })
 }
 
-fn output(study: &Study<Interpreted>, name: &str) -> Result<Response, Failure> {
+/// The excitation with a name; without one the first, if all have one frequency.
+fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Excitation, Failure> {
+    let d = study.description();
+    let known = d.excitations.iter().map(|info| &info.name);
+    match under {
+        Some(under) => study
+            .find_excitation(under)
+            .map(|found| found.any())
+            .map_err(|_| unknown(d, "excitation", under, known)),
+        None if d.excitations.is_empty() => {
+            let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
+            Err(Failure::usage("nothing excites a vibration", help))
+        }
+        None if d.excitations.iter().all(|info| info.with == 0) => Ok(Excitation::new(0)),
+        None => {
+            let names: Vec<&str> = known.map(|name| &**name).collect();
+            let help = format!("say under which: {}", names.join(", "));
+            Err(Failure::usage(
+                "the excitations have several frequencies",
+                help,
+            ))
+        }
+    }
+}
+
+fn output(study: &Study<Interpreted>, name: &str) -> Result<Output, Failure> {
     let all = &study.description().outputs;
     study
         .find_output(name)
-        .map(|found| Response::Output(found.any()))
+        .map(|found| found.any())
         .map_err(|_| {
             let known = all.iter().map(|info| &info.name);
             unknown(study.description(), "output", name, known)
