@@ -1413,6 +1413,12 @@ class ForcedSensitivities(_Result):
         """Derivatives of the phases, rad, by inputs, shape (h, o, inputs), and by design variables, shape (h, o,
         design), per SI unit; NaN also where the modulus is zero.
         """
+    def orbit_squares_by_input(self, x: str, y: str) -> tuple[Real, Real]:
+        """Derivatives of `|f|^2` and of `|b|^2`, the squares of `response.orbit_parts(x, y)`, by inputs, shape (h, inputs)
+        each, SI.
+        """
+    def orbit_squares_by_design(self, x: str, y: str) -> tuple[Real, Real]:
+        """The same by design variables, shape (h, design) each."""
 
 @final
 class ModeCurvature(_Result):
@@ -2289,6 +2295,10 @@ class Study:
         """
     def forced_sensitivities(self) -> ForcedSensitivities:
         """The steady vibration and its total derivatives: equilibrium and frequencies follow the variables."""
+    def share_sensitivities(self) -> ForcedSensitivities:
+        """What each excitation contributes, and its total derivatives: a harmonic for every excitation alone, in the order of
+        `mechanism.excitations`.
+        """
     def forced_curvature(self) -> ForcedCurvature:
         """The steady vibration with total first and second derivatives."""
     def output_tolerances(self) -> OutputTolerances:

@@ -4,4 +4,5 @@ mod vibration {
     mod bands;
     mod closed_forms;
     mod exceedance;
+    mod shares;
 }

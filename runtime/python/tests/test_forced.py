@@ -339,3 +339,22 @@ def test_unknown_phases_are_those_of_random_ones():
     close(found.unknown_phases_probability("across", f"{1e3 * np.hypot(a, b)} mm"), [0.5], 1e-9)
     with pytest.raises(eigentol.InvalidValue, match="probability"):
         found.unknown_phases_quantile(1.5)
+
+
+def test_shares_and_orbits_have_derivatives():
+    gust = "force gust: harmonic(on: x, force: 300 N, frequency: omega);\n    output across"
+    text = ROTOR.replace("output across", gust)
+    study = eigentol.Study(eigentol.Mechanism.from_text(text), inputs={"omega": 380.0})
+    alone, together = study.share_sensitivities(), study.forced_sensitivities()
+    assert alone.response.harmonics == [["u"], ["gust"]]
+    np.testing.assert_array_equal(alone.response.outputs, together.response.shares)
+    size = np.abs(alone.by_design).sum(axis=0)
+    assert (abs(alone.by_design.sum(axis=0) - together.by_design[0]) <= 1e-12 * size).all()
+    forward, backward = together.orbit_squares_by_design("across", "up")
+    assert forward.shape == (1, 4) and together.orbit_squares_by_input("across", "up")[0].shape == (1, 1)
+    parts = [
+        study.replace(design={"k": 1.9e6 + side}).forced_response().orbit_parts("across", "up") for side in (10.0, -10.0)
+    ]
+    k = study.mechanism.design.index("k")
+    for slope, (above, below) in zip((forward, backward), zip(*parts, strict=True), strict=True):
+        close(slope[0, k], (abs(above[0]) ** 2 - abs(below[0]) ** 2) / 20.0, 1e-6)

@@ -11,6 +11,7 @@ mod orbit;
 mod resolvent;
 mod response;
 mod sensitivities;
+mod shares;
 mod unknown_phases;
 
 pub(crate) use answer::CONVENTIONS;
@@ -23,3 +24,4 @@ pub(crate) use resolvent::Resolvent;
 pub(crate) use response::resonance;
 pub use response::{ForcedResponse, Harmonic, Share, response};
 pub use sensitivities::{ForcedSensitivities, HarmonicSensitivity, sensitivities};
+pub use shares::share_sensitivities;

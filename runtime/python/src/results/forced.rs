@@ -9,7 +9,7 @@ use numpy::{Element, PyArrayMethods};
 use pyo3::prelude::*;
 
 use super::{attributes, result};
-use crate::arrays::{Array1, Array2, Array3, Array4, NONE, optional, rows, vector};
+use crate::arrays::{Array1, Array2, Array3, Array4, NONE, optional, optional_rows, rows, vector};
 use crate::errors::raise;
 use crate::response::measure;
 use crate::values::number;
@@ -47,7 +47,11 @@ attributes! {
         /// Frequencies of the harmonics, rad/s, positive, shape (h,).
         frequencies: Array1<'py> = vector(py, self.0.harmonics.iter().map(|own| own.frequency));
         /// Names of the excitations that act together in each harmonic.
-        harmonics: Vec<Vec<&str>> = names::harmonics(&self.0.description);
+        harmonics: Vec<Vec<&str>> = {
+            let all = names::excitations(&self.0.description);
+            let of = |own: &Harmonic| own.shares.iter().map(|own| all[own.excitation]).collect();
+            self.0.harmonics.iter().map(of).collect()
+        };
         /// Amplitudes of the outputs, complex, SI, shape (h, o).
         outputs: PyResult<Array2<'py, Complex>> = {
             let all = self.0.harmonics.iter().map(|own| own.outputs.to_vec());
@@ -293,6 +297,27 @@ impl ForcedSensitivities {
     }
 }
 
+impl ForcedSensitivities {
+    fn orbit_squares<'py>(
+        &self,
+        py: Python<'py>,
+        [x, y]: [&str; 2],
+        (count, part): (usize, fn(&Slopes<f64>) -> &Vector),
+    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+        let response = ForcedResponse(self.0.response.clone());
+        let (x, y) = (response.output(py, x)?, response.output(py, y)?);
+        let harmonics = 0..self.0.harmonics.len();
+        let both: Vec<_> = harmonics.map(|k| self.0.orbit_squares(k, x, y)).collect();
+        let of = |which: usize| {
+            let each = both
+                .iter()
+                .map(|own| Some(part(&own.as_ref()?[which]).to_vec()));
+            optional_rows(py, count, each)
+        };
+        Ok((of(0)?, of(1)?))
+    }
+}
+
 attributes! {
     ForcedSensitivities(self, py) {
         /// The vibration.
@@ -334,6 +359,32 @@ attributes! {
             let wanted = self::measure(py, measure)?;
             self.both(py, f64::NAN, |harmonic, output| self.0.phase(harmonic, output, wanted))
         };
+    }
+}
+
+#[pymethods]
+impl ForcedSensitivities {
+    /// Derivatives of `|f|^2` and of `|b|^2`, the squares of `response.orbit_parts(x, y)`, by inputs, shape (h, inputs)
+    /// each, SI.
+    fn orbit_squares_by_input<'py>(
+        &self,
+        py: Python<'py>,
+        x: &str,
+        y: &str,
+    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+        let count = self.0.response.description.inputs.len();
+        self.orbit_squares(py, [x, y], (count, |own| &own.by_input))
+    }
+
+    /// The same by design variables, shape (h, design) each.
+    fn orbit_squares_by_design<'py>(
+        &self,
+        py: Python<'py>,
+        x: &str,
+        y: &str,
+    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+        let count = self.0.response.description.design.len();
+        self.orbit_squares(py, [x, y], (count, |own| &own.by_design))
     }
 }
 
