@@ -4,5 +4,6 @@ mod vibration {
     mod bands;
     mod closed_forms;
     mod exceedance;
+    mod requirements;
     mod shares;
 }

@@ -1,6 +1,7 @@
 //! Requirements on a design, from a study file or the command line.
 
 use eigentol::forced::Measure;
+use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
@@ -25,7 +26,9 @@ macro_rules! require_keys {
   quantity = "frequency"         #   "damping_ratio" or "growth"
   output = "angle"               #   an output of the declaration
   vibration = "shake"            #   the amplitude, 0 to peak, of an output under excitations; under = "u" names one of
-                                 #   them if they have several frequencies; measure = "velocity" or "acceleration"
+                                 #   them if they have several frequencies; measure = "velocity" or "acceleration";
+                                 #   along = "speed=0..6000rpm" is the greatest amplitude in that range,
+                                 #   peak = "speed=0..6000rpm" the speed at its highest peak there
   critical = "speed=0..6000rpm"  #   the speed at which the equilibrium loses its stiffness
   resonance = "speed=0..6000rpm" #   with mode: the lowest speed at which its frequency is order (1) times the speed
   order = 1
@@ -37,6 +40,7 @@ pub(crate) use require_keys;
 
 /// The syntax of a requirement on the command line.
 pub(crate) const HELP: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, `vibration shake under u <= 0.1 mm`, \
+                               `vibration shake along speed=0..6000rpm <= 0.1 mm`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
                                `angle <= 5 deg`, `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, or `stable`";
 
 /// Parses a requirement as written on the command line.
@@ -78,10 +82,21 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
         ["flutter", of, along] => {
             (own.mode, own.flutter) = (Some(mode(of)?), Some(along.to_owned()));
         }
-        ["vibration", name] => own.vibration = Some(name.to_owned()),
-        ["vibration", name, "under", excitation] => {
+        [what @ ("vibration" | "peak"), name, ref more @ ..] => {
             own.vibration = Some(name.to_owned());
-            own.under = Some(excitation.to_owned());
+            let (under, range) = match *more {
+                [] => (None, None),
+                ["under", under] => (Some(under), None),
+                ["along", range] => (None, Some(range)),
+                ["under", under, "along", range] => (Some(under), Some(range)),
+                _ => return Err(refused()),
+            };
+            own.under = under.map(str::to_owned);
+            let range = range.map(str::to_owned);
+            match what {
+                "vibration" => own.along = range,
+                _ => own.peak = Some(range.ok_or_else(refused)?),
+            }
         }
         [quantity, of] if study_file::Quantity::named(quantity).is_some() => {
             (own.mode, own.quantity) = (Some(mode(of)?), study_file::Quantity::named(quantity));
@@ -183,6 +198,14 @@ fn all_used(own: &Require) -> Result<(), Failure> {
         let help = "`under` and `measure` go with `vibration = \"output\"`";
         return refuse("`under` and `measure` belong to a vibration", help);
     }
+    if own.vibration.is_none() && (own.along.is_some() || own.peak.is_some()) {
+        let help = "`along` and `peak` go with `vibration = \"output\"`";
+        return refuse("`along` and `peak` belong to a vibration", help);
+    }
+    if own.along.is_some() && own.peak.is_some() {
+        let help = "state another requirement for the other";
+        return refuse("`along` asks for an amplitude and `peak` for a speed", help);
+    }
     if own.quantity.is_some() && !of_a_mode {
         let help = "`quantity` goes with `mode = 1` alone, at the operating point";
         return refuse("`quantity` belongs to a mode", help);
@@ -236,7 +259,17 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         && !own.stable
         && stated.into_iter().all(Option::is_none)
     {
-        return vibration(study, name, own).map(Response::Vibration);
+        let vibration = vibration(study, name, own)?;
+        let (text, quantity) = match (&own.along, &own.peak) {
+            (None, None) => return Ok(Response::Vibration(vibration)),
+            (Some(text), _) => (text, PeakQuantity::Height),
+            (_, Some(text)) => (text, PeakQuantity::Place),
+        };
+        return Ok(Response::Peak {
+            vibration,
+            range: along(text)?,
+            quantity,
+        });
     }
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {
         _ if own.stable || own.vibration.is_some() => {}

@@ -13,6 +13,7 @@ mod response;
 mod sensitivities;
 mod shares;
 mod unknown_phases;
+mod vibration;
 
 pub(crate) use answer::CONVENTIONS;
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
@@ -25,3 +26,5 @@ pub(crate) use response::resonance;
 pub use response::{ForcedResponse, Harmonic, Share, response};
 pub use sensitivities::{ForcedSensitivities, HarmonicSensitivity, sensitivities};
 pub use shares::share_sensitivities;
+pub use vibration::Vibration;
+pub(crate) use vibration::check_output;

@@ -92,6 +92,29 @@ fn a_bode_plot_is_of_the_vibration_asked_for() {
 }
 
 #[test]
+fn a_requirement_limits_a_peak() {
+    let file = shaken(&folder("peak_required"));
+    let at = ["probability", &file, "--set", "omega=60rad/s"];
+    let along = "along omega=60..140rad/s";
+    let height = format!("vibration shake under u {along} <= 0.1 mm");
+    let place = format!("peak shake {along} away from omega by 60%");
+    let both = ["--require", &height, "--require", &place];
+    let text = run(&[&at[..], &both].concat()).out;
+    for words in [
+        "greatest shake under u along omega",
+        "omega at the peak of shake under u",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    let wrong = run(&[&at[..], &["--require", "peak shake under u <= 1 rad/s"]].concat());
+    assert!(
+        wrong.code == 2 && wrong.err.contains("peak shake along"),
+        "{}",
+        wrong.err
+    );
+}
+
+#[test]
 fn an_orbit_is_drawn_at_one_operating_point() {
     let folder = folder("orbit");
     let file = shaken(&folder);
@@ -104,7 +127,7 @@ fn an_orbit_is_drawn_at_one_operating_point() {
     let same = drawn("shake, twice");
     answer(&same);
     assert_eq!(fs::read_to_string(&path).unwrap(), text);
-    let report = ["report", &at[1], at[2], at[3], "--samples", "20"];
+    let report = ["report", at[1], at[2], at[3], "--samples", "20"];
     let report = answer(&[&report[..], &["--orbit", "shake,twice"]].concat());
     assert!(report.contains("orbit of shake and twice"));
     for (wrong, word) in [
