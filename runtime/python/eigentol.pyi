@@ -1355,6 +1355,29 @@ class ForcedResponse(_Result):
         """Amplitudes of the outputs, complex, shape (h, o): as "displacement" they are `outputs`, SI; as "velocity" per
         second, as "acceleration" per second squared.
         """
+    def orbit_parts(self, x: str, y: str) -> tuple[Complex, Complex]:
+        """The orbit of two outputs, which should be perpendicular displacements: `x + i y = f e^{i w t} + conj(b) e^{-i w t}`.
+        The forward parts `f`, which circle from `x` to `y`, and the backward parts `b`, complex, SI, shape (h,) each.
+        """
+    def orbit_semi_axes(self, x: str, y: str) -> tuple[Real, Real]:
+        """Half of the longest and half of the shortest diameters of the orbits of two outputs, SI, shape (h,) each."""
+    def orbit_directions(self, x: str, y: str) -> Real:
+        """Angles of the longest diameters of the orbits of two outputs from `x`, rad, shape (h,); NaN for a circle."""
+    def orbit_turnings(self, x: str, y: str) -> list[str | None]:
+        """How the orbits of two outputs are passed in each harmonic: "forward", from `x` to `y`, "backward", or None on a
+        straight line.
+        """
+    def unknown_phases_quantile(self, probability: float, measure: Measure = "displacement") -> Real:
+        """Amplitudes of the outputs that are not exceeded with a probability if only the amounts of the excitations are
+        known, and their phases, such as the angles of unbalances, are independent and uniform over the turn: shape (h, o).
+        0 gives the least possible, 1 the greatest.
+        """
+    def unknown_phases_root_mean_square(self, measure: Measure = "displacement") -> Real:
+        """Roots of the mean squares of the amplitudes of the outputs under unknown phases, shape (h, o)."""
+    def unknown_phases_probability(self, output: str, limit: Value, measure: Measure = "displacement") -> Real:
+        """Probabilities that the amplitude of an output stays below a limit, SI or a text with a unit, under unknown phases,
+        shape (h,).
+        """
 
 @final
 class ForcedSensitivities(_Result):
@@ -1390,6 +1413,12 @@ class ForcedSensitivities(_Result):
         """Derivatives of the phases, rad, by inputs, shape (h, o, inputs), and by design variables, shape (h, o,
         design), per SI unit; NaN also where the modulus is zero.
         """
+    def orbit_squares_by_input(self, x: str, y: str) -> tuple[Real, Real]:
+        """Derivatives of `|f|^2` and of `|b|^2`, the squares of `response.orbit_parts(x, y)`, by inputs, shape (h, inputs)
+        each, SI.
+        """
+    def orbit_squares_by_design(self, x: str, y: str) -> tuple[Real, Real]:
+        """The same by design variables, shape (h, design) each."""
 
 @final
 class ModeCurvature(_Result):
@@ -1598,6 +1627,10 @@ class Peaks(_Result):
     @property
     def amplifications_by_design(self) -> Real:
         """Their total derivatives by design variables, shape (k, design), per SI unit."""
+    def separation(self, low: Value, high: Value) -> Separation:
+        """How far the peaks keep from a range of operation of the input, in the manner of API 617. Values are SI or texts
+        with units.
+        """
 
 @final
 class Sensitivities(_Result):
@@ -1635,6 +1668,36 @@ class Sensitivities(_Result):
         by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
         none.
         """
+
+@final
+class Separation(_Result):
+    """The distances of peaks from a range of operation, in the manner of API 617. `k` is the number of peaks."""
+
+    @property
+    def peaks(self) -> Peaks:
+        """The peaks."""
+    @property
+    def operating(self) -> tuple[float, float]:
+        """Lowest and highest value of the input in operation, SI."""
+    @property
+    def margins(self) -> Real:
+        """Distances of the peaks from the nearest end of the range, relative to that end, shape (k,); zero within the
+        range.
+        """
+    @property
+    def margin_sigmas(self) -> Real:
+        """Their standard deviations to first order, shape (k,)."""
+    @property
+    def margins_by_design(self) -> Real:
+        """Their total derivatives by design variables, shape (k, design), per SI unit."""
+    @property
+    def required(self) -> Real:
+        """The margins that the amplification factors ask for, shape (k,); zero for a peak that is damped away, NaN
+        without an amplification factor.
+        """
+    @property
+    def sufficient(self) -> list[bool | None]:
+        """Whether each peak keeps away far enough; None if what is required is not known."""
 
 @final
 class ShapeSensitivity(_Result):
@@ -2232,6 +2295,10 @@ class Study:
         """
     def forced_sensitivities(self) -> ForcedSensitivities:
         """The steady vibration and its total derivatives: equilibrium and frequencies follow the variables."""
+    def share_sensitivities(self) -> ForcedSensitivities:
+        """What each excitation contributes, and its total derivatives: a harmonic for every excitation alone, in the order of
+        `mechanism.excitations`.
+        """
     def forced_curvature(self) -> ForcedCurvature:
         """The steady vibration with total first and second derivatives."""
     def output_tolerances(self) -> OutputTolerances:
@@ -2381,7 +2448,8 @@ class Study:
         `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
         number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
         peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies, and
-        "velocity" or "acceleration"; "critical" and the name of an input, a low and a high value,
+        "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for the
+        greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and the name of an input, a low and a high value,
         between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
         high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
         vary, in order; all unless given.

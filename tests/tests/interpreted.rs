@@ -2,7 +2,10 @@
 //! the same operations in another order, each on the same numbers.
 
 use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};
-use eigentol::{Coordinate, Description, Input, Law, Mechanism, Policy, Study, ToleranceInfo};
+use eigentol::response::Vibration;
+use eigentol::{
+    Coordinate, Description, Excitation, Input, Law, Mechanism, Policy, Study, ToleranceInfo,
+};
 use eigentol_interpreter::{Interpreted, ReadError};
 use eigentol_tests::corpus::{self, Visitor};
 use eigentol_tests::fits::{self, Fits};
@@ -44,6 +47,28 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
         ("picture", format!("{:?}", study.picture())),
         ("swing", format!("{:?}", study.mode_pictures(0, 4, 0.1))),
     ];
+    let vibrations = Vibration::all(study.description());
+    if let Some(&first) = vibrations.first() {
+        let all = &vibrations[..];
+        answers.extend([
+            ("response", format!("{:?}", study.forced_response())),
+            ("its slopes", format!("{:?}", study.forced_sensitivities())),
+            ("its shares", format!("{:?}", study.share_sensitivities())),
+            ("its curvature", format!("{:?}", study.forced_curvature())),
+            ("its spread", format!("{:?}", study.vibration_spread(all))),
+            (
+                "its pictures",
+                format!("{:?}", study.vibration_pictures(Excitation::new(0), 4, 0.1)),
+            ),
+        ]);
+        for (input, &value) in operation.inputs.iter().enumerate() {
+            let input = Input::new(input);
+            let (low, high) = (0.4 * value, 1.2 * value);
+            let bode = study.bode(input, &[low, value, high]);
+            let peaks = study.peaks(first, input, low, high);
+            answers.push(("along an input", format!("{bode:?} {peaks:?}")));
+        }
+    }
     if let Some(&value) = operation.inputs.first() {
         let values: Vec<f64> = (0..20)
             .map(|k| value * (1.0 + 0.002 * f64::from(k)))

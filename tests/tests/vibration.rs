@@ -5,4 +5,6 @@ mod vibration {
     mod closed_forms;
     mod exceedance;
     mod rigid_rotor;
+    mod requirements;
+    mod shares;
 }

@@ -4,20 +4,19 @@
 use crate::algebra::Vector;
 use crate::along::name_of;
 use crate::clusters::common_slopes;
-use crate::forced::{self, ForcedResponse, Measure};
-use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
+pub use crate::forced::Vibration;
+use crate::forced::{self, ForcedResponse, check_output};
+use crate::kernels::{BatchKernels, CurvatureKernels, Kernels, SummaryKernels};
 use crate::modes::Family;
+use crate::peaks::{self, PeakQuantity};
 use crate::scalar::Instructions;
-use crate::second_order::SecondDerivatives;
-use crate::sensitivity::{Quantity, Slopes, eigenvalue_slope, output_sensitivities, sensitivities};
+use crate::sensitivity::{Quantity, eigenvalue_slope, output_sensitivities, sensitivities};
 use crate::sweep::{
     Change, Condition, CriticalState, Crossing, Following, Range, critical_sensitivity,
     critical_state, crossing_sensitivity, first_crossing, meeting,
 };
 use crate::tolerance::{Outcome, Solution};
-use crate::{
-    Any, Complex, Description, Equilibrium, Error, Excitation, Modes, Output, Text, Unit, Watch,
-};
+use crate::{Complex, Description, Equilibrium, Error, Modes, Output, Unit, Watch};
 
 /// A scalar that depends on the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +35,16 @@ pub enum Response {
     Output(Output),
     /// The amplitude, 0 to peak, with which an output vibrates under excitations, SI.
     Vibration(Vibration),
+    /// The greatest amplitude of a vibration in a range of an input, or where its highest peak is. The search follows
+    /// stable equilibria ([`peaks`](fn@crate::peaks::peaks)).
+    Peak {
+        /// The vibration.
+        vibration: Vibration,
+        /// The range to search.
+        range: Range,
+        /// What is asked about it.
+        quantity: PeakQuantity,
+    },
     /// The first value (SI) of an input in a range at which the branch that is stable at the low end loses its
     /// stiffness ([`critical_state`]).
     Critical(Range),
@@ -50,135 +59,6 @@ pub enum Response {
         /// The range to search.
         range: Range,
     },
-}
-
-/// The vibration of an output under all excitations that have one frequency.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Vibration {
-    /// The output.
-    pub output: Output,
-    /// One of the excitations.
-    pub excitation: Excitation,
-    /// What is measured.
-    pub measure: Measure,
-}
-
-impl Vibration {
-    /// The output as a displacement.
-    #[must_use]
-    pub fn new<M>(output: Output<M>, excitation: Excitation<M>) -> Self {
-        Self {
-            output: output.any(),
-            excitation: excitation.any(),
-            measure: Measure::Displacement,
-        }
-    }
-
-    /// Every output under every harmonic, as a displacement.
-    #[must_use]
-    pub fn all(of: &Description) -> Vec<Self> {
-        let harmonics = of.excitations.iter().enumerate();
-        let firsts = harmonics.filter(|(k, info)| info.with == *k);
-        let each = |(k, _)| {
-            let outputs = (0..of.outputs.len()).map(Output::<Any>::new);
-            outputs.map(move |output| Self::new(output, Excitation::new(k)))
-        };
-        firsts.flat_map(each).collect()
-    }
-
-    /// The output as a velocity or an acceleration.
-    #[must_use]
-    pub fn measure(self, measure: Measure) -> Self {
-        Self { measure, ..self }
-    }
-
-    /// The amplitude in a response.
-    pub(crate) fn of(&self, response: &ForcedResponse) -> Option<f64> {
-        let harmonic = self.place(&response.description)?;
-        let amplitude = response
-            .harmonics
-            .get(harmonic)?
-            .amplitude(self.output, self.measure)?;
-        Some(amplitude.norm()).filter(|value| value.is_finite())
-    }
-
-    /// The amplitude with its total first and second derivatives; `None` where it has none.
-    #[expect(clippy::type_complexity, reason = "a value and its derivatives")]
-    pub(crate) fn quadratic(
-        &self,
-        mechanism: &dyn CurvatureKernels,
-        at: &Equilibrium,
-    ) -> Result<Option<((f64, Slopes<f64>), SecondDerivatives<f64>)>, Error> {
-        let all = forced::second_derivatives(mechanism, at)?;
-        let found = || {
-            let (place, output) = (self.place(&at.description)?, self.output);
-            let value = self.of(&all.first.response)?;
-            let first = all.first.modulus(place, output, self.measure)?;
-            let second = all.modulus(place, output, self.measure)?;
-            Some(((value, first), second))
-        };
-        Ok(found())
-    }
-
-    /// Refuses handles of another mechanism.
-    pub(crate) fn check(&self, of: &Description) -> Result<(), Error> {
-        check_output(self.output, of)?;
-        let (index, count) = (self.excitation.index(), of.excitations.len());
-        match index < count {
-            true => Ok(()),
-            false => Err(Error::UnknownHandle {
-                kind: "excitation",
-                index,
-                mechanism: of.name.clone(),
-                count,
-            }),
-        }
-    }
-
-    /// The position of its harmonic.
-    pub(crate) fn place(&self, of: &Description) -> Option<usize> {
-        let with = of.excitations.get(self.excitation.index())?.with;
-        let firsts = of.excitations.iter().enumerate().take(with + 1);
-        firsts
-            .filter(|(k, info)| info.with == *k)
-            .count()
-            .checked_sub(1)
-    }
-
-    fn name(&self, of: &Description) -> String {
-        let output = of.outputs.get(self.output.index());
-        let output = output.map_or("?", |info| &*info.name);
-        let with = of
-            .excitations
-            .get(self.excitation.index())
-            .map(|info| info.with);
-        let members = of.excitations.iter().filter(|info| Some(info.with) == with);
-        let names: Vec<&str> = members.map(|info| &*info.name).collect();
-        let measure = match self.measure {
-            Measure::Displacement => "",
-            Measure::Velocity => "rate of ",
-            Measure::Acceleration => "acceleration of ",
-        };
-        format!("{measure}{output} under {}", names.join(", "))
-    }
-
-    fn unit(&self, of: &Description) -> Option<Unit> {
-        let unit = &of.outputs.get(self.output.index())?.unit;
-        let per = match self.measure {
-            Measure::Displacement => return Some(unit.clone()),
-            Measure::Velocity => "/s",
-            Measure::Acceleration => "/s^2",
-        };
-        let symbol = match &*unit.symbol {
-            "" => format!("1{per}"),
-            symbol => format!("{symbol}{per}"),
-        };
-        Some(Unit {
-            symbol: Text::from(symbol),
-            scale: unit.scale,
-        })
-    }
 }
 
 impl Response {
@@ -203,6 +83,17 @@ impl Response {
                 info.map_or("?", |info| &*info.name).to_owned()
             }
             Self::Vibration(vibration) => vibration.name(of),
+            Self::Peak {
+                vibration,
+                range,
+                quantity,
+            } => {
+                let (name, input) = (vibration.name(of), name_of(of, range.input));
+                match quantity {
+                    PeakQuantity::Height => format!("greatest {name} along {input}"),
+                    PeakQuantity::Place => format!("{input} at the peak of {name}"),
+                }
+            }
             Self::Critical(range) => format!("critical {}", name_of(of, range.input)),
             Self::Crossing {
                 mode,
@@ -228,11 +119,16 @@ impl Response {
         let declared = match self {
             Self::Mode { quantity, .. } => return quantity.unit(),
             Self::Output(output) => of.outputs.get(output.index()).map(|info| &info.unit),
-            Self::Vibration(vibration) => {
+            Self::Vibration(vibration)
+            | Self::Peak {
+                vibration,
+                quantity: PeakQuantity::Height,
+                ..
+            } => {
                 let unit = vibration.unit(of);
                 return unit.unwrap_or_else(|| Quantity::DampingRatio.unit());
             }
-            Self::Critical(range) | Self::Crossing { range, .. } => {
+            Self::Critical(range) | Self::Crossing { range, .. } | Self::Peak { range, .. } => {
                 of.inputs.get(range.input.index()).map(|info| &info.unit)
             }
         };
@@ -260,7 +156,7 @@ pub struct Realisation {
 
 /// Evaluates responses at designs near a nominal one. Modes are matched to the nominal modes by shape.
 pub struct Responses<'a> {
-    mechanism: &'a dyn DirectionalKernels,
+    mechanism: &'a dyn CurvatureKernels,
     /// The same mechanism, if several designs can be solved at once.
     batches: Option<&'a dyn BatchKernels>,
     vectors: Option<Instructions>,
@@ -279,7 +175,7 @@ impl<'a> Responses<'a> {
     /// # Errors
     /// [`Error::NoSuchMode`], [`Error::UnknownHandle`], or [`Error::Setting`] for an invalid range.
     pub fn new(
-        mechanism: &'a dyn DirectionalKernels,
+        mechanism: &'a dyn CurvatureKernels,
         nominal: &'a Equilibrium,
         modes: &'a Modes,
         wanted: Vec<Response>,
@@ -290,6 +186,12 @@ impl<'a> Responses<'a> {
                 Response::Mode { mode, .. } => check_mode(*mode, modes)?,
                 Response::Output(output) => check_output(*output, description)?,
                 Response::Vibration(vibration) => vibration.check(description)?,
+                Response::Peak {
+                    vibration, range, ..
+                } => {
+                    vibration.check(description)?;
+                    range.check(description)?;
+                }
                 Response::Critical(range) => range.check(description)?,
                 Response::Crossing { mode, range, .. } => {
                     check_mode(*mode, modes)?;
@@ -341,7 +243,7 @@ impl<'a> Responses<'a> {
     /// # Errors
     /// As [`Self::new`].
     pub fn side_by_side(
-        mechanism: &'a dyn BatchKernels,
+        mechanism: &'a dyn SummaryKernels,
         nominal: &'a Equilibrium,
         modes: &'a Modes,
         wanted: Vec<Response>,
@@ -374,7 +276,9 @@ impl<'a> Responses<'a> {
     /// Equilibrium solutions needed for one design.
     pub(crate) fn price(&self) -> u64 {
         let steps = self.wanted.iter().map(|response| match response {
-            Response::Critical(range) | Response::Crossing { range, .. } => range.steps as u64,
+            Response::Critical(range)
+            | Response::Crossing { range, .. }
+            | Response::Peak { range, .. } => range.steps as u64,
             Response::Mode { .. } | Response::Output(_) | Response::Vibration(_) => 0,
         });
         steps.fold(1, u64::saturating_add)
@@ -385,7 +289,7 @@ impl<'a> Responses<'a> {
         self.nominal
     }
 
-    pub(crate) fn mechanism(&self) -> &'a dyn DirectionalKernels {
+    pub(crate) fn mechanism(&self) -> &'a dyn CurvatureKernels {
         self.mechanism
     }
 
@@ -454,6 +358,14 @@ impl<'a> Responses<'a> {
                         asked.and_then(|state| crossing_sensitivity(self.mechanism, state).ok());
                     (state.map(|state| state.value), gradient)
                 }
+                Response::Peak {
+                    vibration,
+                    range,
+                    quantity,
+                } => match self.peak(design, (*vibration, *range, *quantity)) {
+                    Some((value, slopes)) => (Some(value), slopes),
+                    None => (None, None),
+                },
                 _ if !(stable || unstable && tells_stability(response)) => (None, None),
                 Response::Mode { mode, quantity } => {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
@@ -529,6 +441,22 @@ impl<'a> Responses<'a> {
         critical_state(self.mechanism, inputs, design, start, range).ok()
     }
 
+    /// What a [`Response::Peak`] asks for.
+    fn peak(
+        &self,
+        design: &[f64],
+        what: (Vibration, Range, PeakQuantity),
+    ) -> Option<(f64, Option<Vector>)> {
+        let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
+        if self.mechanism.violation(inputs, design).is_some() {
+            return None;
+        }
+        let values = (&**inputs, design);
+        peaks::highest(self.mechanism, values, start, what)
+            .ok()
+            .flatten()
+    }
+
     /// The first crossing that a [`Response::Crossing`] asks for.
     pub(crate) fn first_crossing(&self, design: &[f64], response: &Response) -> Option<Crossing> {
         let Response::Crossing {
@@ -560,19 +488,6 @@ fn tells_stability(response: &Response) -> bool {
         return false;
     };
     matches!(quantity, Quantity::DampingRatio | Quantity::Growth)
-}
-
-fn check_output(output: Output, description: &Description) -> Result<(), Error> {
-    let (index, count) = (output.index(), description.outputs.len());
-    if index < count {
-        return Ok(());
-    }
-    Err(Error::UnknownHandle {
-        kind: "output",
-        index,
-        mechanism: description.name.clone(),
-        count,
-    })
 }
 
 fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {

@@ -1,10 +1,11 @@
 //! Requirements on a design, from a study file or the command line.
 
 use eigentol::forced::Measure;
+use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
-use eigentol::{Excitation, Quantity, Study};
+use eigentol::{Excitation, Output, Quantity, Study};
 use eigentol_interpreter::Interpreted;
 
 use crate::ends::with_unit_of;
@@ -25,7 +26,9 @@ macro_rules! require_keys {
   quantity = "frequency"         #   "damping_ratio" or "growth"
   output = "angle"               #   an output of the declaration
   vibration = "shake"            #   the amplitude, 0 to peak, of an output under excitations; under = "u" names one of
-                                 #   them if they have several frequencies; measure = "velocity" or "acceleration"
+                                 #   them if they have several frequencies; measure = "velocity" or "acceleration";
+                                 #   along = "speed=0..6000rpm" is the greatest amplitude in that range,
+                                 #   peak = "speed=0..6000rpm" the speed at its highest peak there
   critical = "speed=0..6000rpm"  #   the speed at which the equilibrium loses its stiffness
   resonance = "speed=0..6000rpm" #   with mode: the lowest speed at which its frequency is order (1) times the speed
   order = 1
@@ -37,6 +40,7 @@ pub(crate) use require_keys;
 
 /// The syntax of a requirement on the command line.
 pub(crate) const HELP: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, `vibration shake under u <= 0.1 mm`, \
+                               `vibration shake along speed=0..6000rpm <= 0.1 mm`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
                                `angle <= 5 deg`, `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, or `stable`";
 
 /// Parses a requirement as written on the command line.
@@ -78,10 +82,21 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
         ["flutter", of, along] => {
             (own.mode, own.flutter) = (Some(mode(of)?), Some(along.to_owned()));
         }
-        ["vibration", name] => own.vibration = Some(name.to_owned()),
-        ["vibration", name, "under", excitation] => {
+        [what @ ("vibration" | "peak"), name, ref more @ ..] => {
             own.vibration = Some(name.to_owned());
-            own.under = Some(excitation.to_owned());
+            let (under, range) = match *more {
+                [] => (None, None),
+                ["under", under] => (Some(under), None),
+                ["along", range] => (None, Some(range)),
+                ["under", under, "along", range] => (Some(under), Some(range)),
+                _ => return Err(refused()),
+            };
+            own.under = under.map(str::to_owned);
+            let range = range.map(str::to_owned);
+            match what {
+                "vibration" => own.along = range,
+                _ => own.peak = Some(range.ok_or_else(refused)?),
+            }
         }
         [quantity, of] if study_file::Quantity::named(quantity).is_some() => {
             (own.mode, own.quantity) = (Some(mode(of)?), study_file::Quantity::named(quantity));
@@ -183,6 +198,14 @@ fn all_used(own: &Require) -> Result<(), Failure> {
         let help = "`under` and `measure` go with `vibration = \"output\"`";
         return refuse("`under` and `measure` belong to a vibration", help);
     }
+    if own.vibration.is_none() && (own.along.is_some() || own.peak.is_some()) {
+        let help = "`along` and `peak` go with `vibration = \"output\"`";
+        return refuse("`along` and `peak` belong to a vibration", help);
+    }
+    if own.along.is_some() && own.peak.is_some() {
+        let help = "state another requirement for the other";
+        return refuse("`along` asks for an amplitude and `peak` for a speed", help);
+    }
     if own.quantity.is_some() && !of_a_mode {
         let help = "`quantity` goes with `mode = 1` alone, at the operating point";
         return refuse("`quantity` belongs to a mode", help);
@@ -236,7 +259,17 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
         && !own.stable
         && stated.into_iter().all(Option::is_none)
     {
-        return vibration(study, name, own).map(Response::Vibration);
+        let vibration = vibration(study, name, own)?;
+        let (text, quantity) = match (&own.along, &own.peak) {
+            (None, None) => return Ok(Response::Vibration(vibration)),
+            (Some(text), _) => (text, PeakQuantity::Height),
+            (_, Some(text)) => (text, PeakQuantity::Place),
+        };
+        return Ok(Response::Peak {
+            vibration,
+            range: along(text)?,
+            quantity,
+        });
     }
     match (&own.output, &own.critical, &own.resonance, &own.flutter) {
         _ if own.stable || own.vibration.is_some() => {}
@@ -247,7 +280,9 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
                 quantity,
             });
         }
-        (Some(name), None, None, None) if own.mode.is_none() => return output(study, name),
+        (Some(name), None, None, None) if own.mode.is_none() => {
+            return output(study, name).map(Response::Output);
+        }
         (None, Some(text), None, None) if own.mode.is_none() => {
             return Ok(Response::Critical(along(text)?));
         }
@@ -265,7 +300,6 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
     ))
 }
 
-/// The amplitude of an output under one of the excitations.
 /// The vibration written as `shake` or `shake under u`.
 pub(crate) fn named_vibration(
     study: &Study<Interpreted>,
@@ -282,47 +316,72 @@ pub(crate) fn named_vibration(
     vibration(study, name.trim(), &own)
 }
 
-fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Vibration, Failure> {
-    let Response::Output(of) = output(study, name)? else {
-        return Err(Failure::usage("an output vibrates", HELP));
+/// The orbit written as `shake,lift` or `shake,lift under u`.
+pub(crate) fn named_orbit(
+    study: &Study<Interpreted>,
+    text: &str,
+) -> Result<([Output; 2], Excitation), Failure> {
+    let (pair, under) = match text.split_once(" under ") {
+        Some((pair, under)) => (pair, Some(under.trim())),
+        None => (text, None),
     };
-    let d = study.description();
-    let known = d.excitations.iter().map(|info| &info.name);
-    let excitation = match &own.under {
-        Some(under) => study
-            .find_excitation(under)
-            .map_err(|_| unknown(d, "excitation", under, known))?,
-        None if d.excitations.is_empty() => {
-            let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
-            return Err(Failure::usage("nothing excites a vibration", help));
-        }
-        None if d.excitations.iter().all(|info| info.with == 0) => Excitation::new(0),
+    Ok((named_pair(study, pair)?, excitation(study, under)?))
+}
+
+/// The two outputs of an orbit written as `shake,lift`.
+pub(crate) fn named_pair(study: &Study<Interpreted>, text: &str) -> Result<[Output; 2], Failure> {
+    match text.split_once(',') {
+        Some((x, y)) => Ok([output(study, x.trim())?, output(study, y.trim())?]),
         None => {
-            let names: Vec<&str> = known.map(|name| &**name).collect();
-            let help = format!("say under which: {}", names.join(", "));
-            return Err(Failure::usage(
-                "the excitations have several frequencies",
-                help,
-            ));
+            let message = format!("`{text}` is no pair of outputs");
+            Err(Failure::usage(message, "write `--orbit shake,lift`"))
         }
-    };
-    let measure = match own.measure {
-        None | Some(study_file::Measure::Displacement) => Measure::Displacement,
-        Some(study_file::Measure::Velocity) => Measure::Velocity,
-        Some(study_file::Measure::Acceleration) => Measure::Acceleration,
-    };
+    }
+}
+
+/// The amplitude of an output under one of the excitations.
+fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Vibration, Failure> {
     Ok(Vibration {
-        output: of,
-        excitation: excitation.any(),
-        measure,
+        output: output(study, name)?,
+        excitation: excitation(study, own.under.as_deref())?,
+        measure: match own.measure {
+            None | Some(study_file::Measure::Displacement) => Measure::Displacement,
+            Some(study_file::Measure::Velocity) => Measure::Velocity,
+            Some(study_file::Measure::Acceleration) => Measure::Acceleration,
+        },
     })
 }
 
-fn output(study: &Study<Interpreted>, name: &str) -> Result<Response, Failure> {
+/// The excitation with a name; without one the first, if all have one frequency.
+fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Excitation, Failure> {
+    let d = study.description();
+    let known = d.excitations.iter().map(|info| &info.name);
+    match under {
+        Some(under) => study
+            .find_excitation(under)
+            .map(|found| found.any())
+            .map_err(|_| unknown(d, "excitation", under, known)),
+        None if d.excitations.is_empty() => {
+            let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
+            Err(Failure::usage("nothing excites a vibration", help))
+        }
+        None if d.excitations.iter().all(|info| info.with == 0) => Ok(Excitation::new(0)),
+        None => {
+            let names: Vec<&str> = known.map(|name| &**name).collect();
+            let help = format!("say under which: {}", names.join(", "));
+            Err(Failure::usage(
+                "the excitations have several frequencies",
+                help,
+            ))
+        }
+    }
+}
+
+fn output(study: &Study<Interpreted>, name: &str) -> Result<Output, Failure> {
     let all = &study.description().outputs;
     study
         .find_output(name)
-        .map(|found| Response::Output(found.any()))
+        .map(|found| found.any())
         .map_err(|_| {
             let known = all.iter().map(|info| &info.name);
             unknown(study.description(), "output", name, known)

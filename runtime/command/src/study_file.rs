@@ -108,6 +108,10 @@ pub(crate) struct Require {
     pub(crate) under: Option<String>,
     /// What is measured of the vibration; the displacement by default.
     pub(crate) measure: Option<Measure>,
+    /// A range, as for `--sweep`: the greatest amplitude in it.
+    pub(crate) along: Option<String>,
+    /// A range: where in it the highest peak of the vibration is.
+    pub(crate) peak: Option<String>,
     /// Where the equilibrium loses its stiffness; a range, as for `--sweep`.
     pub(crate) critical: Option<String>,
     /// Where the frequency of the mode is `order` times the input.

@@ -57,8 +57,8 @@ mod module {
     use crate::results::{
         Assembly, Bode, Branch, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
         ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes,
-        OutputCurvature, OutputSensitivities, Peaks, Sensitivities, ShapeSensitivity, Sweep,
-        json_schema,
+        OutputCurvature, OutputSensitivities, Peaks, Sensitivities, Separation, ShapeSensitivity,
+        Sweep, json_schema,
     };
     #[pymodule_export]
     use crate::robots::{Import, import_urdf};

@@ -59,6 +59,9 @@ questions! {
     forced_response -> ForcedResponse;
     /// The steady vibration and its total derivatives: equilibrium and frequencies follow the variables.
     forced_sensitivities -> ForcedSensitivities;
+    /// What each excitation contributes, and its total derivatives: a harmonic for every excitation alone, in the order of
+    /// `mechanism.excitations`.
+    share_sensitivities -> ForcedSensitivities;
     /// The steady vibration with total first and second derivatives.
     forced_curvature -> ForcedCurvature;
     /// First-order spread of the outputs.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use eigentol::forced::Measure;
+use eigentol::peaks::PeakQuantity;
 use eigentol::response::{self, Responses, Vibration, Workspace};
 use eigentol::sweep::{Condition, Line, Range};
 use eigentol::{Equilibrium, Error, Excitation, Modes, Output};
@@ -47,7 +48,7 @@ pub(crate) struct Response {
 }
 
 /// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("vibration", output, excitation,
-/// measure), ("critical", input, low, high), ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
+/// measure), ("greatest" or "peak", input, low, high, output, excitation, measure), ("critical", input, low, high), ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
 pub(crate) fn wanted(
     study: &eigentol::Study<Interpreted>,
     what: &str,
@@ -73,6 +74,22 @@ pub(crate) fn wanted(
                 )?;
             }
             vibration(study, given).map(response::Response::Vibration)
+        }
+        "greatest" | "peak" => {
+            if !(4..=6).contains(&given.len()) {
+                count(
+                    4,
+                    "the name of an input, a low and a high value, the name of an output, and perhaps of an excitation and a measure",
+                )?;
+            }
+            Ok(response::Response::Peak {
+                vibration: vibration(study, &given.get_slice(3, given.len()))?,
+                range: range(study, given, 0)?,
+                quantity: match what {
+                    "greatest" => PeakQuantity::Height,
+                    _ => PeakQuantity::Place,
+                },
+            })
         }
         "critical" => {
             count(3, "the name of an input, a low and a high value")?;
@@ -177,7 +194,8 @@ impl Study {
     /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
     /// number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
     /// peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies, and
-    /// "velocity" or "acceleration"; "critical" and the name of an input, a low and a high value,
+    /// "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for the
+    /// greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and the name of an input, a low and a high value,
     /// between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
     /// high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
     /// vary, in order; all unless given.

@@ -107,6 +107,7 @@ def results():
         shaken.forced_curvature(),
         shaken.bode_bands("speed", [18.0, 19.0], [("vibration", "place")], checked=8),
         shaken.peaks(("vibration", "place"), "speed", 15.0, 25.0),
+        shaken.peaks(("vibration", "place"), "speed", 15.0, 25.0).separation(10.0, 16.0),
         study.output_tolerances(),
         study.first_order(),
         study.second_order(),

@@ -282,3 +282,79 @@ def test_the_peak_of_a_rotor_is_that_of_the_formula(spinning):
     close(found.amplifications_by_design[0, k], 4.070591191155354e-06, 1e-7)
     assert found.place_sigmas[0] > 0 and found.phases.shape == found.frequencies.shape == (1,)
     assert "peaks of the vibration" in str(found)
+
+
+def test_a_peak_keeps_away_from_operation(spinning):
+    peaks = spinning.peaks(("vibration", "across"), "omega", 100.0, 900.0)
+    found, place, factor = peaks.separation(450.0, "600 rad/s"), peaks.places[0], peaks.amplifications[0]
+    close(found.margins, [1.0 - place / 450.0], 1e-12)
+    close(found.required, [0.17 * (1.0 - 1.0 / (factor - 1.5))], 1e-12)
+    close(found.margins_by_design, -peaks.places_by_design / 450.0, 1e-12)
+    close(found.margin_sigmas, peaks.place_sigmas / 450.0, 1e-12)
+    assert found.operating == (450.0, 600.0) and found.peaks == peaks and found.sufficient == [False]
+    assert peaks.separation(600.0, 700.0).sufficient == [True]
+    with pytest.raises(eigentol.InvalidValue, match="starts above"):
+        peaks.separation(600.0, 450.0)
+
+
+def test_an_orbit_of_an_isotropic_rotor_is_a_circle(spinning):
+    found = spinning.forced_response()
+    forward, backward = found.orbit_parts("across", "up")
+    close(forward, found.outputs[:, 0], 1e-12)
+    assert abs(backward[0]) < 1e-12 * abs(forward[0])
+    close(found.orbit_semi_axes("across", "up"), np.abs([forward, forward]), 1e-11)
+    assert np.isnan(found.orbit_directions("across", "up")).all()
+    assert found.orbit_turnings("across", "up") == ["forward"]
+    assert found.orbit_turnings("up", "across") == ["backward"]
+    with pytest.raises(eigentol.UnknownName, match="did you mean `across`"):
+        found.orbit_turnings("acros", "up")
+
+
+def test_an_orbit_across_unequal_springs_is_an_ellipse():
+    text = ROTOR.replace("shaft2: spring(on: y, stiffness: k)", "shaft2: spring(on: y, stiffness: 2.2e6 N/m)")
+    found = eigentol.Study(eigentol.Mechanism.from_text(text), inputs={"omega": 410.0}).forced_response()
+    (x, y), (forward, backward) = found.outputs[0], found.orbit_parts("across", "up")
+    close([forward[0], backward[0]], [(x + 1j * y) / 2, (x - 1j * y) / 2], 1e-12)
+    time = np.linspace(0.0, 2.0 * np.pi, 20001)
+    path = (x * np.exp(1j * time)).real + 1j * (y * np.exp(1j * time)).real
+    longest, shortest = found.orbit_semi_axes("across", "up")
+    close([longest[0], shortest[0]], [abs(path).max(), abs(path).min()], 1e-6)
+    direction = np.exp(1j * found.orbit_directions("across", "up")[0])
+    assert abs((path[abs(path).argmax()] / direction).imag) < 1e-3 * longest[0]
+    area = (path.conj()[:-1] * path[1:]).imag.sum()
+    assert found.orbit_turnings("across", "up") == ["forward" if area > 0 else "backward"]
+
+
+def test_unknown_phases_are_those_of_random_ones():
+    text = ROTOR.replace("output across", "force gust: harmonic(on: x, force: 300 N, frequency: omega);\n    output across")
+    study = eigentol.Study(eigentol.Mechanism.from_text(text), inputs={"omega": 380.0})
+    found = study.forced_response()
+    a, b = abs(found.shares[:, 0])
+    close(found.unknown_phases_quantile(1.0)[0, 0], a + b, 1e-12)
+    close(found.unknown_phases_quantile(0.0)[0, 0], abs(a - b), 1e-9)
+    close(found.unknown_phases_root_mean_square()[0, 0], np.hypot(a, b), 1e-12)
+    close(found.unknown_phases_quantile(0.5)[0, 0], np.hypot(a, b), 1e-9)
+    close(found.unknown_phases_quantile(0.5, "velocity")[0, 0], 380.0 * np.hypot(a, b), 1e-9)
+    close(found.unknown_phases_probability("across", np.hypot(a, b)), [0.5], 1e-9)
+    close(found.unknown_phases_probability("across", f"{1e3 * np.hypot(a, b)} mm"), [0.5], 1e-9)
+    with pytest.raises(eigentol.InvalidValue, match="probability"):
+        found.unknown_phases_quantile(1.5)
+
+
+def test_shares_and_orbits_have_derivatives():
+    gust = "force gust: harmonic(on: x, force: 300 N, frequency: omega);\n    output across"
+    text = ROTOR.replace("output across", gust)
+    study = eigentol.Study(eigentol.Mechanism.from_text(text), inputs={"omega": 380.0})
+    alone, together = study.share_sensitivities(), study.forced_sensitivities()
+    assert alone.response.harmonics == [["u"], ["gust"]]
+    np.testing.assert_array_equal(alone.response.outputs, together.response.shares)
+    size = np.abs(alone.by_design).sum(axis=0)
+    assert (abs(alone.by_design.sum(axis=0) - together.by_design[0]) <= 1e-12 * size).all()
+    forward, backward = together.orbit_squares_by_design("across", "up")
+    assert forward.shape == (1, 4) and together.orbit_squares_by_input("across", "up")[0].shape == (1, 1)
+    parts = [
+        study.replace(design={"k": 1.9e6 + side}).forced_response().orbit_parts("across", "up") for side in (10.0, -10.0)
+    ]
+    k = study.mechanism.design.index("k")
+    for slope, (above, below) in zip((forward, backward), zip(*parts, strict=True), strict=True):
+        close(slope[0, k], (abs(above[0]) ** 2 - abs(below[0]) ** 2) / 20.0, 1e-6)

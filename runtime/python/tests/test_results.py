@@ -161,6 +161,17 @@ ELSEWHERE = {
         "gaps": "(in the text)",
         "sigma_level": "(of the study)",
     },
+    "Separation": {
+        "peaks": "peaks",
+        "margins.actual.value": "margins",
+        "margins.actual.by_design": "margins_by_design",
+        "margins.actual.spread.sigma": "margin_sigmas",
+        **{
+            f"margins.actual.spread.{field}": "(follows from the derivatives)"
+            for field in ("mean", "band", "by_design", "variance_shares")
+        },
+        "margins.required": "required",
+    },
     "OutputTolerances": {f"spreads.{field}": name for field, name in SPREAD.items()},
     "FirstOrder": {
         "modes.behaviour": "behaviours",

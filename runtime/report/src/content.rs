@@ -6,8 +6,8 @@ use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::summary::Summary;
 use eigentol::tolerance::{Distribution, OutputTolerances};
 use eigentol::{
-    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Study, Text, Tolerances,
-    Value,
+    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Output, Study, Text,
+    Tolerances, Value,
 };
 
 use eigentol_figures::Style;
@@ -35,6 +35,8 @@ pub(crate) struct Content {
     pub(crate) spread: Option<Spreads>,
     /// `None` without excitations.
     pub(crate) forced: Option<Forced>,
+    /// Pairs of outputs whose orbits are drawn.
+    pub(crate) orbits: Vec<[Output; 2]>,
     /// `None` if no input is swept.
     pub(crate) along: Option<Along>,
 }
@@ -119,6 +121,7 @@ impl Content {
             outputs,
             spread,
             forced,
+            orbits: report.orbits.clone(),
             along: along.transpose()?,
         })
     }

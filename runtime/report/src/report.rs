@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use eigentol::kernels::{PictureKernels, SummaryKernels};
-use eigentol::{Input, Study, Value};
+use eigentol::{Input, Output, Study, Value};
 use eigentol_figures::Style;
 
 use crate::content::Content;
@@ -43,6 +43,7 @@ pub struct Report<M> {
     pub(crate) declaration: Option<String>,
     pub(crate) along: Option<(Input<M>, Vec<Value>)>,
     pub(crate) orders: Vec<f64>,
+    pub(crate) orbits: Vec<[Output; 2]>,
     pub(crate) style: Style,
 }
 
@@ -56,6 +57,7 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
             declaration: None,
             along: None,
             orders: Vec::new(),
+            orbits: Vec::new(),
             style: Style::default(),
         }
     }
@@ -88,6 +90,14 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     #[must_use]
     pub fn orders(mut self, orders: &[f64]) -> Self {
         self.orders = orders.to_vec();
+        self
+    }
+
+    /// Draws the orbit of two outputs, perpendicular displacements of one place, under each harmonic; may be called
+    /// several times.
+    #[must_use]
+    pub fn orbit(mut self, x: Output<M>, y: Output<M>) -> Self {
+        self.orbits.push([x.any(), y.any()]);
         self
     }
 

@@ -416,6 +416,8 @@ const UNBALANCED: &str = "mechanism Unbalanced {
     force damp_y: damper(on: y, damping: 30 N*s/m);
     unbalance residual: on disk, amount: 20 g*mm;
     output right = x;
+    output up = y;
+    output still = 0 * x;
 }";
 
 #[test]
@@ -425,11 +427,16 @@ fn forced_vibration_is_listed_drawn_and_moved() {
         .input(input, InDeclaredUnit(1100.0))
         .samples(200);
     let speeds = [800.0, 900.0, 950.0, 1000.0, 1100.0].map(InDeclaredUnit);
-    let html = Report::new(&study).sweep(input, &speeds).html().unwrap();
+    let [right, up, still] = ["right", "up", "still"].map(|own| study.find_output(own).unwrap());
+    let report = Report::new(&study).sweep(input, &speeds);
+    let html = (report.orbit(right, up).orbit(still, still))
+        .html()
+        .unwrap();
     let found = study.forced_response().unwrap();
-    let y = found.harmonics[0].outputs[0];
+    let y = found.harmonics[0].outputs.iter().map(|own| own.norm());
     let response = table(&html, "forced response");
-    assert_eq!(column(&response, "amplitude"), [Some(y.norm())]);
+    let y: Vec<_> = y.map(Some).collect();
+    assert_eq!(column(&response, "amplitude"), y);
     let spreads: Vec<_> = data(&html, "table")
         .into_iter()
         .map(|own| own["name"].to_string())
@@ -448,6 +455,16 @@ fn forced_vibration_is_listed_drawn_and_moved() {
     assert_eq!(
         titled("Polar plot of right under residual")["panels"][0]["equal_scales"],
         true
+    );
+    let orbits = figures.iter().filter(|own| {
+        let title = own["title"].as_str().unwrap_or_default();
+        title.contains("orbit")
+    });
+    let orbits: Vec<_> = orbits.collect();
+    let caption = orbits[0]["caption"].to_string();
+    assert!(
+        orbits.len() == 1 && caption.contains("Semi-axes"),
+        "{caption}"
     );
     let motions = &data(&html, "scene")[0]["motions"];
     let last = motions.as_array().unwrap().last().unwrap();

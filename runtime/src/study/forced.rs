@@ -38,6 +38,18 @@ impl<M: Kernels> Study<M> {
     pub fn forced_sensitivities(&self) -> Result<ForcedSensitivities, Error> {
         forced::sensitivities(&self.mechanism, self.settings.regular(&self.mechanism)?)
     }
+
+    /// What each excitation contributes, and its total derivatives: a harmonic for every excitation alone
+    /// ([`forced::share_sensitivities`]).
+    #[doc = include_str!("shaken.txt")]
+    /// let alone = study.share_sensitivities()?;
+    /// assert_eq!(alone, study.forced_sensitivities()?);
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::forced_sensitivities`].
+    pub fn share_sensitivities(&self) -> Result<ForcedSensitivities, Error> {
+        forced::share_sensitivities(&self.mechanism, self.settings.regular(&self.mechanism)?)
+    }
 }
 
 impl<M: CurvatureKernels> Study<M> {

@@ -4,14 +4,14 @@ use super::Study;
 use super::deviating::Toleranced;
 use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
-use crate::kernels::{CurvatureKernels, DirectionalKernels};
+use crate::kernels::CurvatureKernels;
 use crate::requirement::{
     Chances, FormSettings, Probabilities, RareFailure, Reliability, Requirement, Requirements,
     SecondOrderFailure, second_order_failure,
 };
 use crate::tolerance::Sampling;
 
-impl<M: DirectionalKernels> Study<M> {
+impl<M: CurvatureKernels> Study<M> {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points,
     /// lines of designs, or the study's number of samples ([`Requirements::probabilities`]).
     #[doc = include_str!("example.txt")]
@@ -149,7 +149,7 @@ impl<M: CurvatureKernels> Study<M> {
 }
 
 /// What requirements are about.
-type Own<'a> = Toleranced<'a, dyn DirectionalKernels + 'a>;
+type Own<'a> = Toleranced<'a, dyn CurvatureKernels + 'a>;
 
 impl Own<'_> {
     fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {

@@ -4,11 +4,12 @@ use std::fmt::Debug;
 
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::clusters::ClusterTolerance;
+use eigentol::forced::Measure;
 use eigentol::requirement::Requirement;
-use eigentol::response::Response;
+use eigentol::response::{Response, Vibration};
 use eigentol::second_order::EventCurvature;
 use eigentol::sweep::{CriticalState, Crossing, EventTolerance};
-use eigentol::{Coordinate, Error, Input, Output, Quantity, Study};
+use eigentol::{Coordinate, Error, Excitation, Input, Output, Quantity, Study};
 use eigentol_interpreter::Interpreted;
 use eigentol_tables::{Answer, json};
 use eigentol_tests::corpus::declarations;
@@ -24,6 +25,7 @@ const SMALL: usize = 3;
 struct Answers {
     answered: usize,
     refused: usize,
+    peaks: usize,
 }
 
 impl Answers {
@@ -116,10 +118,44 @@ impl Answers {
             vec![1.0; study.design_values().len()],
         );
         self.both(name, study.directional_derivatives(0, (&u, &b)));
+        if !state.description.excitations.is_empty() {
+            self.ask_of_vibration(name, &study);
+        }
         if state.coordinates.len() <= SMALL {
             self.ask_of_chance(name, &study);
             if let Some(&value) = operation.inputs.first() {
                 self.ask_along(name, &study, value);
+            }
+        }
+    }
+
+    fn ask_of_vibration(&mut self, name: &str, study: &Study<Interpreted>) {
+        let all = Vibration::all(study.description());
+        let response = study.forced_response();
+        if let Ok(Some(own)) = response.as_ref().map(|own| own.harmonics.first()) {
+            let [x, y] = [all[0].output, all[1].output];
+            let orbit = own.orbit(x, y).expect("outputs");
+            self.plain(name, &orbit);
+            self.plain(name, &orbit.turning());
+            self.plain(name, &own.unknown_phases(x, Measure::Velocity));
+        }
+        self.both(name, response);
+        self.both(name, study.forced_sensitivities());
+        self.both(name, study.share_sensitivities());
+        self.both(name, study.forced_curvature());
+        self.both(name, study.vibration_spread(&all));
+        let pictures = study.vibration_pictures(Excitation::new(0), 4, 0.1);
+        self.plain(name, &pictures);
+        for (input, &value) in study.input_values().iter().enumerate() {
+            let input = Input::new(input);
+            self.both(name, study.bode(input, &[0.0, value]));
+            self.both(name, study.bode_bands(input, &[value], &all[..2], 8));
+            for vibration in &all {
+                let found = study.peaks(*vibration, input, 0.2 * value, 1.4 * value);
+                self.both(name, found.clone());
+                let Ok(found) = found else { continue };
+                self.peaks += found.peaks.len();
+                self.both(name, Ok(found.separation([0.9 * value, value])));
             }
         }
     }
@@ -189,9 +225,10 @@ fn answers_come_back() {
         answers.ask(name, machine, &operation.expect("a point"));
     }
     assert!(
-        answers.answered > 400 && answers.refused > 10,
-        "{} {}",
+        answers.answered > 400 && answers.refused > 10 && answers.peaks > 4,
+        "{} {} {}",
         answers.answered,
-        answers.refused
+        answers.refused,
+        answers.peaks
     );
 }

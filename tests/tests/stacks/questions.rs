@@ -169,7 +169,6 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
     ]
 }
 
-/// Questions along the first input.
 /// Questions about forced vibration; a machine without excitations has none.
 pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>>
 {
@@ -190,6 +189,9 @@ pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>(
         ("forced_sensitivities", |s, _| {
             told(s, s.forced_sensitivities());
         }),
+        ("share_sensitivities", |s, _| {
+            told(s, s.share_sensitivities());
+        }),
         ("forced_curvature", |s, _| told(s, s.forced_curvature())),
         ("peaks", |s, range| {
             let [low, high] = range.crossings;
@@ -206,6 +208,7 @@ pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>(
     ]
 }
 
+/// Questions along the first input.
 pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels>()
 -> Vec<Question<M>> {
     macro_rules! between {

@@ -141,13 +141,19 @@ impl Row<'_> {
         self.harmonic.outputs.get(self.output).copied()
     }
 
-    /// `x at 380.0 rad/s`, or only the output if there is one harmonic.
+    /// `x at 380.0 rad/s`, or only the output if there is one harmonic; `x under u` if several have this frequency.
     fn name(&self, of: &ForcedResponse) -> String {
         let info = of.description.outputs.get(self.output);
         let name = info.map_or("?", |info| &*info.name);
-        match of.harmonics.len() {
-            1 => name.to_owned(),
-            _ => format!("{name} at {} rad/s", short(self.harmonic.frequency)),
+        let frequency = self.harmonic.frequency;
+        let same = of.harmonics.iter().filter(|own| own.frequency == frequency);
+        match (of.harmonics.len(), same.count()) {
+            (1, _) => name.to_owned(),
+            (_, 1) => format!("{name} at {} rad/s", short(frequency)),
+            _ => {
+                let under = excitations(self.harmonic, &of.description);
+                format!("{name} under {under}")
+            }
         }
     }
 
@@ -157,15 +163,19 @@ impl Row<'_> {
     }
 }
 
+/// The names of the excitations of a harmonic.
+fn excitations(of: &Harmonic, d: &Description) -> String {
+    let shares = of.shares.iter();
+    let infos = shares.filter_map(|share| d.excitations.get(share.excitation));
+    let names: Vec<&str> = infos.map(|info| &*info.name).collect();
+    names.join(", ")
+}
+
 /// Columns of the excitations and the frequency of a harmonic.
 fn of_harmonic<R>(table: &mut Columns<'_, R>, d: &Description, of: &dyn Fn(&R) -> &Harmonic) {
-    let excitations = |row: &R| {
-        let shares = of(row).shares.iter();
-        let infos = shares.filter_map(|share| d.excitations.get(share.excitation));
-        let names: Vec<&str> = infos.map(|info| &*info.name).collect();
-        Some(names.join(", "))
-    };
-    table.words("excitations", &excitations).shown();
+    table
+        .words("excitations", &|row| Some(excitations(of(row), d)))
+        .shown();
     table
         .number("frequency", "rad/s", &|row| Some(of(row).frequency))
         .digits(number);

@@ -11,7 +11,9 @@ mod orbit;
 mod resolvent;
 mod response;
 mod sensitivities;
+mod shares;
 mod unknown_phases;
+mod vibration;
 
 pub(crate) use answer::CONVENTIONS;
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
@@ -23,3 +25,6 @@ pub(crate) use resolvent::Resolvent;
 pub(crate) use response::resonance;
 pub use response::{ForcedResponse, Harmonic, Share, response};
 pub use sensitivities::{ForcedSensitivities, HarmonicSensitivity, sensitivities};
+pub use shares::share_sensitivities;
+pub use vibration::Vibration;
+pub(crate) use vibration::check_output;

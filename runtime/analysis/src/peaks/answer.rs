@@ -7,7 +7,6 @@ use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 use super::{HalfPower, Moving, Peak, Peaks};
 use crate::along::{name_of, value_of, varied};
 use crate::forced::CONVENTIONS;
-use crate::response::Response;
 use crate::{Text, Unit};
 
 displayed!(Peaks);
@@ -27,7 +26,7 @@ impl Answer for Peaks {
 
     fn findings(&self) -> Findings {
         let (d, input) = (&self.description, self.range.input);
-        let name = Response::Vibration(self.vibration).name(d);
+        let name = self.vibration.name(d);
         let title = title_along(d, &self.inputs, input);
         let mut said = Findings::titled(format!("{title}: peaks of the vibration, {name}"));
         let units = self.units();
@@ -91,7 +90,7 @@ impl Peaks {
         [
             place.map_or(plain(""), |info| info.unit.clone()),
             plain("rad/s"),
-            Response::Vibration(self.vibration).unit(d),
+            self.vibration.unit(d).unwrap_or(plain("")),
             plain(""),
         ]
     }

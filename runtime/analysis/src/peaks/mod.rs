@@ -5,18 +5,21 @@
 //! derivatives are total: equilibrium and frequency follow the variables.
 
 mod answer;
+mod highest;
 mod scan;
 mod separation;
 mod state;
 
+pub use highest::PeakQuantity;
+pub(crate) use highest::highest;
 pub use separation::{Separation, SeparationMargin};
 
 use scan::{Scan, scan};
 use state::{Along, State};
 
 use crate::algebra::Vector;
+use crate::forced::Vibration;
 use crate::kernels::CurvatureKernels;
-use crate::response::Vibration;
 use crate::sweep::{Following, Gap, Range};
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Description, Equilibrium, Error, Shared};
@@ -142,54 +145,20 @@ pub fn peaks(
     vibration: Vibration,
     tolerances: Option<&Tolerances>,
 ) -> Result<Peaks, Error> {
-    let description = mechanism.description();
-    range.check(&description)?;
-    vibration.check(&description)?;
-    let harmonic = vibration.place(&description).ok_or(Error::NoExcitation {
-        mechanism: description.name.clone(),
-    })?;
     if let Some(own) = tolerances {
         own.check_count(b.len())?;
     }
-    let following = following.into();
-    let along = Along {
-        mechanism,
-        inputs: u,
-        design: b,
-        policy: following.policy,
-        held: following.held,
-        input: range.input,
-        vibration,
-        harmonic,
-    };
-    let mut found = scan(&along, &range, start)?;
-    if found.states.is_empty() {
-        let first = found.gaps.into_iter().next();
-        return Err(first.map_or(Error::CriticalState, |gap| gap.reason));
-    }
-    // An end at which the frequency is zero has no vibration, but everything beside it has.
-    found
-        .gaps
-        .retain(|gap| !matches!(gap.reason, Error::NoFrequency { .. }));
-    let ascending = range.high > range.low;
+    let along = Along::new(mechanism, (u, b), following.into(), (range, vibration))?;
+    let found = scan(&along, &range, start)?;
     let search = Search {
         along: &along,
         scan: &found,
-        ascending,
+        ascending: range.high > range.low,
         tolerances,
     };
-    let mut peaks = Vec::new();
-    for k in 1..found.states.len() {
-        let [a, b] = [k - 1, k].map(|k| &found.states[k]);
-        let rises = search.rises(a) && !search.rises(b);
-        if rises && !found.after_gap.contains(&k) && a.line.audible {
-            let top = search.zero((a, b), |state| {
-                let own = state.square();
-                (own.slope, own.bend)
-            })?;
-            peaks.push(search.peak(k, top)?);
-        }
-    }
+    let tops = search.tops()?.into_iter();
+    let peaks = tops.map(|(k, top)| search.peak(k, top));
+    let peaks = peaks.collect::<Result<_, _>>()?;
     Ok(Peaks {
         vibration,
         range,
@@ -198,7 +167,7 @@ pub fn peaks(
         gaps: found.gaps,
         sigma_level: tolerances.map(Tolerances::sigma_level),
         inputs: u.into(),
-        description,
+        description: mechanism.description(),
     })
 }
 
@@ -228,6 +197,23 @@ impl Search<'_> {
         } else {
             slope < 0.0
         }
+    }
+
+    /// The states at peaks, with the number of the state after each.
+    fn tops(&self) -> Result<Vec<(usize, State)>, Error> {
+        let mut tops = Vec::new();
+        for k in 1..self.scan.states.len() {
+            let [a, b] = [k - 1, k].map(|k| &self.scan.states[k]);
+            let rises = self.rises(a) && !self.rises(b);
+            if rises && !self.scan.after_gap.contains(&k) && a.line.audible {
+                let top = self.zero((a, b), |state| {
+                    let own = state.square();
+                    (own.slope, own.bend)
+                })?;
+                tops.push((k, top));
+            }
+        }
+        Ok(tops)
     }
 
     /// The zero of a function, which comes with its derivative, between two states with different signs: Newton's steps
@@ -271,9 +257,7 @@ impl Search<'_> {
     /// The peak in the stretch before state `k`.
     fn peak(&self, k: usize, top: State) -> Result<Peak, Error> {
         let square = top.square();
-        let own = top.square_by_design();
-        let bend = top.bend_by_design().map(|value| -value / square.bend);
-        let height = square.value.sqrt();
+        let bend = top.place_by_design();
         let by_frequency = &top.line.frequency.slopes.by_design;
         let frequency = by_frequency.iter().zip(&bend);
         let frequency: Vector = frequency
@@ -292,7 +276,7 @@ impl Search<'_> {
         });
         Ok(Peak {
             place: moving(top.value, bend),
-            height: moving(height, own.map(|value| value / (2.0 * height))),
+            height: moving(square.value.sqrt(), top.modulus_by_design()),
             frequency: moving(top.line.frequency.value, frequency),
             phase: top.line.amplitude.value.arg(),
             half_power,

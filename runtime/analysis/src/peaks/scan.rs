@@ -29,7 +29,7 @@ pub(super) struct Scan {
     pub(super) gaps: Vec<Gap>,
 }
 
-/// States that leave no peak between them unseen.
+/// States that leave no peak between them unseen; the reason if there are none.
 pub(super) fn scan(along: &Along<'_>, range: &Range, start: &[f64]) -> Result<Scan, Error> {
     let mut scan = Scan::default();
     let value = |k: usize| range.low + (range.high - range.low) * k as f64 / range.steps as f64;
@@ -40,6 +40,13 @@ pub(super) fn scan(along: &Along<'_>, range: &Range, start: &[f64]) -> Result<Sc
         let next = End::new(along, value(k), &from)?;
         last = scan.divide(along, last, next, DIVISIONS)?;
     }
+    if scan.states.is_empty() {
+        let first = scan.gaps.into_iter().next();
+        return Err(first.map_or(Error::CriticalState, |gap| gap.reason));
+    }
+    // An end at which the frequency is zero has no vibration, but everything beside it has.
+    scan.gaps
+        .retain(|gap| !matches!(gap.reason, Error::NoFrequency { .. }));
     Ok(scan)
 }
 

@@ -2,10 +2,10 @@
 
 use crate::algebra::Vector;
 use crate::equilibrium::{Held, OperatingPoint, Policy, solve_into};
-use crate::forced::{Line, along_input};
+use crate::forced::{Line, Vibration, along_input};
 use crate::kernels::CurvatureKernels;
 use crate::modes::modes;
-use crate::response::Vibration;
+use crate::sweep::{Following, Range};
 use crate::{Complex, Equilibrium, Error, Input};
 
 /// Where a vibration is looked for.
@@ -30,7 +30,31 @@ pub(super) struct State {
     input: usize,
 }
 
-impl Along<'_> {
+impl<'a> Along<'a> {
+    pub(super) fn new(
+        mechanism: &'a dyn CurvatureKernels,
+        (inputs, design): (&'a [f64], &'a [f64]),
+        following: Following,
+        (range, vibration): (Range, Vibration),
+    ) -> Result<Self, Error> {
+        let description = mechanism.description();
+        range.check(&description)?;
+        vibration.check(&description)?;
+        let harmonic = vibration.place(&description).ok_or(Error::NoExcitation {
+            mechanism: description.name.clone(),
+        })?;
+        Ok(Self {
+            mechanism,
+            inputs,
+            design,
+            policy: following.policy,
+            held: following.held,
+            input: range.input,
+            vibration,
+            harmonic,
+        })
+    }
+
     /// The state at a value of the input, on the branch of the equilibrium `from`.
     pub(super) fn state(&self, value: f64, from: &[f64]) -> Result<State, Error> {
         let mut inputs = Vector::from(self.inputs);
@@ -86,6 +110,19 @@ impl State {
         let each = own.slopes.by_design.iter().zip(&own.along.by_design);
         each.map(|(dy, ddy)| 2.0 * (along * dy + y * ddy).re)
             .collect()
+    }
+
+    /// The derivatives of the modulus by the design.
+    pub(super) fn modulus_by_design(&self) -> Vector {
+        let modulus = self.line.amplitude.value.norm();
+        let own = self.square_by_design();
+        own.map(|value| value / (2.0 * modulus))
+    }
+
+    /// How far a peak here moves with the design.
+    pub(super) fn place_by_design(&self) -> Vector {
+        let bend = self.square().bend;
+        self.bend_by_design().map(|value| -value / bend)
     }
 
     /// `dw/du`.

@@ -68,6 +68,8 @@ pub(super) fn expansions(
                     .ok()
                     .flatten()
                     .map(|(_, second)| second.by_design),
+                // They would need third derivatives.
+                Response::Peak { .. } => None,
                 Response::Critical(range) => {
                     let state = responses.critical_state(&at.design, range);
                     let found = state.map(|state| critical_curvature(mechanism, &state));

@@ -2,7 +2,7 @@
 
 use super::kinds::Requirement;
 use crate::deviations::Deviations;
-use crate::kernels::DirectionalKernels;
+use crate::kernels::CurvatureKernels;
 use crate::response::{Realisation, Response, Responses};
 use crate::tolerance::Tolerances;
 use crate::{Equilibrium, Error, Modes, Watch};
@@ -36,7 +36,7 @@ impl<'a> Requirements<'a> {
     /// [`Error::Setting`] for an empty list, an empty band, or a band that excludes nothing; the errors of
     /// [`Responses::new`]; [`Error::WrongLength`] for tolerances of another mechanism.
     pub fn new(
-        mechanism: &'a dyn DirectionalKernels,
+        mechanism: &'a dyn CurvatureKernels,
         nominal: &'a Equilibrium,
         modes: &'a Modes,
         tolerances: &'a Tolerances,

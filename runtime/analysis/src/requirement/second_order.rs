@@ -198,6 +198,11 @@ impl Model {
                     by_input: Some((first.by_input, second.by_input_and_design)),
                 });
             }
+            Response::Peak { .. } => {
+                return Err(Error::NoSensitivity {
+                    reason: NoDerivative::Peak,
+                });
+            }
             Response::Critical(range) => {
                 let state = responses.critical_state(&at.design, range).ok_or(missing)?;
                 critical_curvature(mechanism, &state)?

@@ -1,6 +1,7 @@
 //! Reports.
 
 use clap::Args;
+use eigentol::Output;
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -8,6 +9,7 @@ use crate::picture::Wording;
 use crate::place::Place;
 use crate::point::{Point, Question, exact, samples, whole};
 use crate::progress;
+use crate::requirements::named_pair;
 use crate::sweep::{Orders, Points, Sweep};
 use crate::verdict::Verdict;
 
@@ -22,6 +24,9 @@ pub(crate) struct Report {
     points: Points,
     #[command(flatten)]
     orders: Orders,
+    /// Two outputs whose orbits are drawn, `shake,lift`; may be given several times
+    #[arg(long = "orbit", value_name = "OUTPUTS")]
+    orbits: Vec<String>,
     /// Number of Monte Carlo samples [default: 3000]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
@@ -67,6 +72,10 @@ impl Report {
             .orders(&orders);
         if let Some(title) = &self.title {
             report = report.title(title);
+        }
+        for text in &self.orbits {
+            let [x, y] = named_pair(&question.study, text)?;
+            report = report.orbit(Output::new(x.index()), Output::new(y.index()));
         }
         if let Some(range) = &range {
             report = report.sweep(range.input, &values);

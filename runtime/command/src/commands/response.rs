@@ -12,7 +12,7 @@ use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::{Point, Question, samples, whole};
 use crate::progress;
-use crate::requirements::named_vibration;
+use crate::requirements::{named_orbit, named_vibration};
 use crate::sweep::{Points, Range, Sweep, range};
 use crate::verdict::Verdict;
 
@@ -50,6 +50,12 @@ pub(crate) struct Response {
     /// Only this vibration among bands, peaks and in the figure: `shake`, or `shake under u`
     #[arg(long, value_name = "VIBRATION")]
     of: Option<String>,
+    /// The figure is a polar plot: the path of the complex amplitude along the input of `--sweep`
+    #[arg(long, requires = "figure")]
+    polar: bool,
+    /// The figure is the orbit of two outputs at one operating point: `shake,lift`, or `shake,lift under u`
+    #[arg(long, value_name = "OUTPUTS", requires = "figure", conflicts_with_all = ["polar", "of"])]
+    orbit: Option<String>,
 }
 
 impl Response {
@@ -64,15 +70,20 @@ impl Response {
         let number = samples(self.samples, &question.file)?;
         question.study = question.study.samples(number);
         let Some(range) = self.sweep.range_if_any(&question)? else {
-            if self.picture.is_wanted() {
-                let message = "the figure is a Bode plot, which needs values of an input";
-                return Err(Failure::usage(
-                    message,
-                    "give a range: `--sweep speed=0..6000rpm`",
-                ));
+            if self.picture.is_wanted() && self.orbit.is_none() {
+                let message = "a Bode plot or a polar plot needs values of an input";
+                let help = "give a range, `--sweep speed=0..6000rpm`, or draw an orbit: `--orbit shake,lift`";
+                return Err(Failure::usage(message, help));
             }
-            return self.at_point(&question.study, &wanted);
+            return self.at_point(&question, &wanted);
         };
+        if self.orbit.is_some() {
+            let message = "an orbit is drawn at one operating point, not along an input";
+            return Err(Failure::usage(
+                message,
+                "leave out the sweep, and set the input",
+            ));
+        }
         if self.peaks {
             return self.peaks_in(&question.study, &range, &wanted);
         }
@@ -134,7 +145,7 @@ impl Response {
         }
     }
 
-    /// The Bode plot of a vibration; `None` without outputs or excitations, which the analysis refuses.
+    /// The Bode plot or the polar plot of a vibration; `None` without outputs or excitations, which the analysis refuses.
     fn figure(
         &self,
         question: &Question,
@@ -148,18 +159,26 @@ impl Response {
             let peaks = (question.study).peaks(drawn, range.input, range.low, range.high);
             // Without damping a peak is infinite, and the curves say so.
             let peaks: Vec<_> = peaks.into_iter().collect();
-            figures::bode(found, drawn, &peaks, &self.picture.plain_style(question))
+            let style = self.picture.plain_style(question);
+            match self.polar {
+                true => figures::polar(found, drawn, &peaks, &style),
+                false => figures::bode(found, drawn, &peaks, &style),
+            }
         })
     }
 
-    fn at_point(
-        &self,
-        study: &Study<Interpreted>,
-        wanted: &[Vibration],
-    ) -> Result<Verdict, Failure> {
+    fn at_point(&self, question: &Question, wanted: &[Vibration]) -> Result<Verdict, Failure> {
+        let study = &question.study;
+        let orbit = self.orbit.as_ref().map(|text| named_orbit(study, text));
+        let orbit = orbit.transpose()?;
         let verdict = Verdict::of(study)?;
         let mut answer = self.output.answer();
-        answer.add(&study.forced_sensitivities()?)?;
+        let found = study.forced_sensitivities()?;
+        if let Some((pair, excitation)) = orbit {
+            let style = self.picture.plain_style(question);
+            (self.picture).draw(|| figures::orbit(&found.response, pair, excitation, &style))?;
+        }
+        answer.add(&found)?;
         if self.bands {
             answer.add(&study.vibration_spread(wanted)?)?;
         }

@@ -76,6 +76,9 @@ fn a_bode_plot_is_of_the_vibration_asked_for() {
     answer(&[&["response", &file][..], &sweep, &figure].concat());
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.contains("twice under u") && text.contains("half power"));
+    answer(&[&["response", &file][..], &sweep, &figure, &["--polar"]].concat());
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("polar plot of twice under u") && text.contains("omega = 60"));
     let still = run(&[&["response", &file, "--set", "omega=100rad/s"][..], &figure].concat());
     assert_eq!(still.code, 2);
     assert!(still.err.contains("--sweep"), "{}", still.err);
@@ -86,6 +89,59 @@ fn a_bode_plot_is_of_the_vibration_asked_for() {
         "{}",
         wrong.err
     );
+}
+
+#[test]
+fn a_requirement_limits_a_peak() {
+    let file = shaken(&folder("peak_required"));
+    let at = ["probability", &file, "--set", "omega=60rad/s"];
+    let along = "along omega=60..140rad/s";
+    let height = format!("vibration shake under u {along} <= 0.1 mm");
+    let place = format!("peak shake {along} away from omega by 60%");
+    let both = ["--require", &height, "--require", &place];
+    let text = run(&[&at[..], &both].concat()).out;
+    for words in [
+        "greatest shake under u along omega",
+        "omega at the peak of shake under u",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    let wrong = run(&[&at[..], &["--require", "peak shake under u <= 1 rad/s"]].concat());
+    assert!(
+        wrong.code == 2 && wrong.err.contains("peak shake along"),
+        "{}",
+        wrong.err
+    );
+}
+
+#[test]
+fn an_orbit_is_drawn_at_one_operating_point() {
+    let folder = folder("orbit");
+    let file = shaken(&folder);
+    let path = folder.join("orbit.svg").display().to_string();
+    let at = ["response", &file, "--set", "omega=100rad/s"];
+    let drawn = |pair| [&at[..], &["--figure", &path, "--orbit", pair]].concat();
+    assert_eq!(answer(&drawn("shake,twice under u")), answer(&at));
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("orbit of shake and twice") && text.contains("a straight line"));
+    let same = drawn("shake, twice");
+    answer(&same);
+    assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    let report = ["report", at[1], at[2], at[3], "--samples", "20"];
+    let report = answer(&[&report[..], &["--orbit", "shake,twice"]].concat());
+    assert!(report.contains("orbit of shake and twice"));
+    for (wrong, word) in [
+        (drawn("shake"), "--orbit shake,lift"),
+        (drawn("shake,twise"), "twice"),
+        (
+            [&same[..], &["--sweep", "omega=60..140rad/s"]].concat(),
+            "one operating point",
+        ),
+        ([&at[..], &["--orbit", "shake,twice"]].concat(), "--figure"),
+    ] {
+        let wrong = run(&wrong);
+        assert!(wrong.code == 2 && wrong.err.contains(word), "{}", wrong.err);
+    }
 }
 
 #[test]

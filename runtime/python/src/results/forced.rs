@@ -1,15 +1,18 @@
 //! Forced vibration about an equilibrium, and its derivatives.
 
-use eigentol::forced::{self, Harmonic, Measure, Share};
+use eigentol::forced::{self, Harmonic, Measure, Orbit, RandomPhases, Share, Turning};
+use eigentol::response::{Response, Vibration};
 use eigentol::second_order::SecondDerivatives;
 use eigentol::sensitivity::Slopes;
-use eigentol::{Complex, Description, Matrix, Output, Vector};
+use eigentol::{Any, Complex, Description, Error, Excitation, Matrix, Output, Vector};
 use numpy::{Element, PyArrayMethods};
 use pyo3::prelude::*;
 
 use super::{attributes, result};
-use crate::arrays::{Array1, Array2, Array3, Array4, NONE, rows, vector};
+use crate::arrays::{Array1, Array2, Array3, Array4, NONE, optional, optional_rows, rows, vector};
+use crate::errors::raise;
 use crate::response::measure;
+use crate::values::number;
 use crate::{hints, names};
 
 result! {
@@ -44,7 +47,11 @@ attributes! {
         /// Frequencies of the harmonics, rad/s, positive, shape (h,).
         frequencies: Array1<'py> = vector(py, self.0.harmonics.iter().map(|own| own.frequency));
         /// Names of the excitations that act together in each harmonic.
-        harmonics: Vec<Vec<&str>> = names::harmonics(&self.0.description);
+        harmonics: Vec<Vec<&str>> = {
+            let all = names::excitations(&self.0.description);
+            let of = |own: &Harmonic| own.shares.iter().map(|own| all[own.excitation]).collect();
+            self.0.harmonics.iter().map(of).collect()
+        };
         /// Amplitudes of the outputs, complex, SI, shape (h, o).
         outputs: PyResult<Array2<'py, Complex>> = {
             let all = self.0.harmonics.iter().map(|own| own.outputs.to_vec());
@@ -82,6 +89,140 @@ attributes! {
             let all = self.0.harmonics.iter().map(|own| amplitudes(own, wanted).collect());
             rows(py, self.0.description.outputs.len(), all)
         };
+    }
+}
+
+impl ForcedResponse {
+    fn output(&self, py: Python<'_>, name: &str) -> PyResult<Output> {
+        let of = &self.0.description;
+        let place = of.outputs.iter().position(|own| own.name == *name);
+        place.map(Output::new).ok_or_else(|| {
+            let error = Error::UnknownName {
+                kind: "output",
+                name: name.to_owned(),
+                mechanism: of.name.clone(),
+                known: of.outputs.iter().map(|own| own.name.clone()).collect(),
+            };
+            raise(py, error)
+        })
+    }
+
+    fn orbits(&self, py: Python<'_>, [x, y]: [&str; 2]) -> PyResult<Vec<Orbit>> {
+        let (x, y) = (self.output(py, x)?, self.output(py, y)?);
+        let each = self.0.harmonics.iter();
+        Ok(each.filter_map(|own| own.orbit(x, y)).collect())
+    }
+
+    /// A number of each output of each harmonic, if the phases of the excitations are unknown.
+    fn of_unknown_phases<'py>(
+        &self,
+        py: Python<'py>,
+        measure: &str,
+        of: impl Fn(&RandomPhases) -> Result<f64, Error>,
+    ) -> PyResult<Array2<'py>> {
+        let measure = self::measure(py, measure)?;
+        let outputs = self.0.description.outputs.len();
+        let each = |own: &Harmonic| {
+            let all = (0..outputs).map(|k| of(&own.unknown_phases(Output::new(k), measure)?));
+            all.collect::<Result<Vec<f64>, _>>()
+        };
+        let all: Result<Vec<_>, _> = self.0.harmonics.iter().map(each).collect();
+        rows(py, outputs, all.map_err(|error| raise(py, error))?)
+    }
+}
+
+#[pymethods]
+impl ForcedResponse {
+    /// The orbit of two outputs, which should be perpendicular displacements: `x + i y = f e^{i w t} + conj(b) e^{-i w t}`.
+    /// The forward parts `f`, which circle from `x` to `y`, and the backward parts `b`, complex, SI, shape (h,) each.
+    fn orbit_parts<'py>(
+        &self,
+        py: Python<'py>,
+        x: &str,
+        y: &str,
+    ) -> PyResult<(Array1<'py, Complex>, Array1<'py, Complex>)> {
+        let all = self.orbits(py, [x, y])?;
+        let part = |of: fn(&Orbit) -> Complex| vector(py, all.iter().map(of));
+        Ok((part(|own| own.forward), part(|own| own.backward)))
+    }
+
+    /// Half of the longest and half of the shortest diameters of the orbits of two outputs, SI, shape (h,) each.
+    fn orbit_semi_axes<'py>(
+        &self,
+        py: Python<'py>,
+        x: &str,
+        y: &str,
+    ) -> PyResult<(Array1<'py>, Array1<'py>)> {
+        let all = self.orbits(py, [x, y])?;
+        let axis = |k: usize| vector(py, all.iter().map(|own| own.semi_axes()[k]));
+        Ok((axis(0), axis(1)))
+    }
+
+    /// Angles of the longest diameters of the orbits of two outputs from `x`, rad, shape (h,); NaN for a circle.
+    fn orbit_directions<'py>(&self, py: Python<'py>, x: &str, y: &str) -> PyResult<Array1<'py>> {
+        let all = self.orbits(py, [x, y])?;
+        Ok(optional(py, all.iter().map(Orbit::direction)))
+    }
+
+    /// How the orbits of two outputs are passed in each harmonic: "forward", from `x` to `y`, "backward", or None on a
+    /// straight line.
+    fn orbit_turnings(
+        &self,
+        py: Python<'_>,
+        x: &str,
+        y: &str,
+    ) -> PyResult<Vec<Option<&'static str>>> {
+        let word = |own: &Orbit| match own.turning()? {
+            Turning::Forward => Some("forward"),
+            Turning::Backward => Some("backward"),
+        };
+        Ok(self.orbits(py, [x, y])?.iter().map(word).collect())
+    }
+
+    /// Amplitudes of the outputs that are not exceeded with a probability if only the amounts of the excitations are
+    /// known, and their phases, such as the angles of unbalances, are independent and uniform over the turn: shape (h, o).
+    /// 0 gives the least possible, 1 the greatest.
+    #[pyo3(signature = (probability, measure="displacement"))]
+    fn unknown_phases_quantile<'py>(
+        &self,
+        py: Python<'py>,
+        probability: f64,
+        measure: &hints::Measure,
+    ) -> PyResult<Array2<'py>> {
+        self.of_unknown_phases(py, measure, |own| Ok(own.quantile(probability)?))
+    }
+
+    /// Roots of the mean squares of the amplitudes of the outputs under unknown phases, shape (h, o).
+    #[pyo3(signature = (measure="displacement"))]
+    fn unknown_phases_root_mean_square<'py>(
+        &self,
+        py: Python<'py>,
+        measure: &hints::Measure,
+    ) -> PyResult<Array2<'py>> {
+        self.of_unknown_phases(py, measure, |own| Ok(own.root_mean_square()))
+    }
+
+    /// Probabilities that the amplitude of an output stays below a limit, SI or a text with a unit, under unknown phases,
+    /// shape (h,).
+    #[pyo3(signature = (output, limit, measure="displacement"))]
+    fn unknown_phases_probability<'py>(
+        &self,
+        py: Python<'py>,
+        output: &str,
+        limit: &hints::Value<'_>,
+        measure: &hints::Measure,
+    ) -> PyResult<Array1<'py>> {
+        let wanted = self.output(py, output)?;
+        let vibration = Vibration::new(wanted, Excitation::<Any>::new(0));
+        let vibration = vibration.measure(self::measure(py, measure)?);
+        let unit = Response::Vibration(vibration).unit(&self.0.description);
+        let limit = number(limit, &unit, output)?;
+        let below = |own: &Harmonic| {
+            let sum = own.unknown_phases(wanted, vibration.measure)?;
+            Ok(sum.probability_below(limit))
+        };
+        let all: Result<Vec<f64>, _> = self.0.harmonics.iter().map(below).collect();
+        Ok(vector(py, all.map_err(|error| raise(py, error))?))
     }
 }
 
@@ -156,6 +297,27 @@ impl ForcedSensitivities {
     }
 }
 
+impl ForcedSensitivities {
+    fn orbit_squares<'py>(
+        &self,
+        py: Python<'py>,
+        [x, y]: [&str; 2],
+        (count, part): (usize, fn(&Slopes<f64>) -> &Vector),
+    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+        let response = ForcedResponse(self.0.response.clone());
+        let (x, y) = (response.output(py, x)?, response.output(py, y)?);
+        let harmonics = 0..self.0.harmonics.len();
+        let both: Vec<_> = harmonics.map(|k| self.0.orbit_squares(k, x, y)).collect();
+        let of = |which: usize| {
+            let each = both
+                .iter()
+                .map(|own| Some(part(&own.as_ref()?[which]).to_vec()));
+            optional_rows(py, count, each)
+        };
+        Ok((of(0)?, of(1)?))
+    }
+}
+
 attributes! {
     ForcedSensitivities(self, py) {
         /// The vibration.
@@ -197,6 +359,32 @@ attributes! {
             let wanted = self::measure(py, measure)?;
             self.both(py, f64::NAN, |harmonic, output| self.0.phase(harmonic, output, wanted))
         };
+    }
+}
+
+#[pymethods]
+impl ForcedSensitivities {
+    /// Derivatives of `|f|^2` and of `|b|^2`, the squares of `response.orbit_parts(x, y)`, by inputs, shape (h, inputs)
+    /// each, SI.
+    fn orbit_squares_by_input<'py>(
+        &self,
+        py: Python<'py>,
+        x: &str,
+        y: &str,
+    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+        let count = self.0.response.description.inputs.len();
+        self.orbit_squares(py, [x, y], (count, |own| &own.by_input))
+    }
+
+    /// The same by design variables, shape (h, design) each.
+    fn orbit_squares_by_design<'py>(
+        &self,
+        py: Python<'py>,
+        x: &str,
+        y: &str,
+    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+        let count = self.0.response.description.design.len();
+        self.orbit_squares(py, [x, y], (count, |own| &own.by_design))
     }
 }
 

@@ -15,7 +15,7 @@ pub(crate) use branches::{Branch, Branches};
 pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
 pub(crate) use forced::{ForcedCurvature, ForcedResponse, ForcedSensitivities};
 pub(crate) use modes::{Modes, family};
-pub(crate) use peaks::Peaks;
+pub(crate) use peaks::{Peaks, Separation};
 pub(crate) use sensitivities::{
     EventCurvature, ModeCurvature, OutputCurvature, OutputSensitivities, Sensitivities,
     ShapeSensitivity, quantity,

@@ -4,7 +4,9 @@ use eigentol::peaks::{Moving, Peak};
 use pyo3::prelude::*;
 
 use super::{attributes, result};
-use crate::arrays::{Array1, Array2, or_nan, rows, vector};
+use crate::arrays::{Array1, Array2, optional, or_nan, rows, vector};
+use crate::values::number;
+use crate::{errors, hints};
 
 result! {
     /// The peaks of a vibration along an input, in the order in which the range passes them. `k` is their number. Values
@@ -83,5 +85,65 @@ attributes! {
         amplification_sigmas: Array1<'py> = self.sigmas(py, AMPLIFICATION);
         /// Their total derivatives by design variables, shape (k, design), per SI unit.
         amplifications_by_design: PyResult<Array2<'py>> = self.slopes(py, AMPLIFICATION);
+    }
+}
+
+#[pymethods]
+impl Peaks {
+    /// How far the peaks keep from a range of operation of the input, in the manner of API 617. Values are SI or texts
+    /// with units.
+    fn separation(
+        &self,
+        py: Python<'_>,
+        low: &hints::Value<'_>,
+        high: &hints::Value<'_>,
+    ) -> PyResult<Separation> {
+        let input = &self.0.description.inputs[self.0.range.input.index()];
+        let end = |value| number(value, &input.unit, &input.name);
+        let operating = [end(low)?, end(high)?];
+        if operating[0] > operating[1] {
+            let message = "the range of operation starts above its end".to_owned();
+            return Err(errors::invalid(py, message));
+        }
+        Ok(Separation(self.0.clone().separation(operating)))
+    }
+}
+
+result! {
+    /// The distances of peaks from a range of operation, in the manner of API 617. `k` is the number of peaks.
+    Separation(eigentol::peaks::Separation)
+}
+
+impl Separation {
+    fn actual(&self) -> impl Iterator<Item = &Moving> {
+        self.0.margins.iter().map(|own| &own.actual)
+    }
+}
+
+attributes! {
+    Separation(self, py) {
+        /// The peaks.
+        peaks: Peaks = Peaks(self.0.peaks.clone());
+        /// Lowest and highest value of the input in operation, SI.
+        operating: (f64, f64) = self.0.operating.into();
+        /// Distances of the peaks from the nearest end of the range, relative to that end, shape (k,); zero within the
+        /// range.
+        margins: Array1<'py> = vector(py, self.actual().map(|own| own.value));
+        /// Their standard deviations to first order, shape (k,).
+        margin_sigmas: Array1<'py> = {
+            optional(py, self.actual().map(|own| Some(own.spread.as_ref()?.sigma)))
+        };
+        /// Their total derivatives by design variables, shape (k, design), per SI unit.
+        margins_by_design: PyResult<Array2<'py>> = {
+            let count = self.0.peaks.description.design.len();
+            rows(py, count, self.actual().map(|own| own.by_design.to_vec()))
+        };
+        /// The margins that the amplification factors ask for, shape (k,); zero for a peak that is damped away, NaN
+        /// without an amplification factor.
+        required: Array1<'py> = optional(py, self.0.margins.iter().map(|own| own.required));
+        /// Whether each peak keeps away far enough; None if what is required is not known.
+        sufficient: Vec<Option<bool>> = {
+            self.0.margins.iter().map(|own| own.sufficient()).collect()
+        };
     }
 }

@@ -1,15 +1,16 @@
 //! Forced vibration: amplitudes at the operating point and along the swept input.
 
-use eigentol::response::Response;
-use eigentol::response::Vibration;
-use eigentol_figures::{bode, polar};
+use eigentol::forced::{ForcedResponse, Harmonic};
+use eigentol::response::{Response, Vibration};
+use eigentol::{Any, Excitation};
+use eigentol_figures::{bode, orbit, polar};
 use eigentol_tables::{Answer as _, Table};
 
 use super::{MODES, refused};
 use crate::Error;
-use crate::charts::chart;
+use crate::charts::{chart, charts};
 use crate::content::Content;
-use crate::forced::{Forced, ForcedAlong};
+use crate::forced::{Forced, ForcedAlong, harmonics};
 use crate::html::Html;
 use crate::tables::table;
 
@@ -54,6 +55,7 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
             _ => {}
         }
     }
+    orbits(html, content, found)?;
     match &forced.spread {
         Some(Ok(spread)) => {
             let columns = ["response", "unit", "nominal", "mean", "sigma", "skewness"];
@@ -65,6 +67,23 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
         }
         Some(Err(error)) => refused(html, "amplitudes have no spread", error),
         None => {}
+    }
+    Ok(())
+}
+
+/// The orbits that were asked for, under each harmonic that moves them.
+fn orbits(html: &mut Html, content: &Content, found: &ForcedResponse) -> Result<(), Error> {
+    for &[x, y] in &content.orbits {
+        let moves = |own: &Harmonic| {
+            let orbit = own.orbit(x, y);
+            orbit.is_none_or(|own| own.semi_axes()[0] > 0.0)
+        };
+        let moved = harmonics(&content.description)
+            .into_iter()
+            .map(Excitation::<Any>::new)
+            .filter(|own| found.harmonic(*own).is_some_and(moves));
+        let figures = moved.map(|own| orbit(found, [x, y], own, &content.brief_style));
+        charts(html, figures)?;
     }
     Ok(())
 }

@@ -74,6 +74,7 @@ reasons! {
         Transcritical = "another branch continues on both sides of it: second derivatives are available only at limit points and pitchforks",
         Family = "it belongs to a family of steady motions: only first derivatives are available",
         Stability = "stability is not a number: sample, or require a critical value beyond the operating point",
+        Peak = "a peak has first derivatives only: take samples or the design point",
         NotSmooth = "it has a value there, but no derivative",
     }
 }

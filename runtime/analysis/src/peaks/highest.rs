@@ -1,0 +1,64 @@
+//! The greatest amplitude in a range, and where the highest peak is: what a requirement limits.
+
+use super::Search;
+use super::scan::scan;
+use super::state::{Along, State};
+use crate::Error;
+use crate::algebra::Vector;
+use crate::forced::Vibration;
+use crate::kernels::CurvatureKernels;
+use crate::sweep::{Following, Range};
+
+/// What is asked about a vibration in a range of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum PeakQuantity {
+    /// The greatest amplitude, 0 to peak, at a peak or at an end of the range, SI.
+    Height,
+    /// The value of the input at the highest peak within the range, SI.
+    Place,
+}
+
+/// A quantity and its total derivatives by the design, which an amplitude of zero does not have; `None` without a peak
+/// whose place is asked for, and if the range has a stretch without an equilibrium or a vibration.
+pub(crate) fn highest(
+    mechanism: &dyn CurvatureKernels,
+    values: (&[f64], &[f64]),
+    start: &[f64],
+    (vibration, range, quantity): (Vibration, Range, PeakQuantity),
+) -> Result<Option<(f64, Option<Vector>)>, Error> {
+    let along = Along::new(mechanism, values, Following::default(), (range, vibration))?;
+    let found = scan(&along, &range, start)?;
+    if !found.gaps.is_empty() {
+        return Ok(None);
+    }
+    let search = Search {
+        along: &along,
+        scan: &found,
+        ascending: range.high > range.low,
+        tolerances: None,
+    };
+    let tops = search.tops()?;
+    let tops = tops.iter().map(|own| &own.1);
+    let (value, slopes) = match quantity {
+        PeakQuantity::Height => {
+            let ends = [found.states.first(), found.states.last()];
+            let Some(own) = tops.chain(ends.into_iter().flatten()).max_by(lower) else {
+                return Ok(None);
+            };
+            (own.square().value.sqrt(), own.modulus_by_design())
+        }
+        PeakQuantity::Place => {
+            let Some(own) = tops.max_by(lower) else {
+                return Ok(None);
+            };
+            (own.value, own.place_by_design())
+        }
+    };
+    let smooth = slopes.iter().all(|own| own.is_finite());
+    Ok(Some((value, smooth.then_some(slopes))))
+}
+
+fn lower(a: &&State, b: &&State) -> core::cmp::Ordering {
+    a.square().value.total_cmp(&b.square().value)
+}

@@ -1,0 +1,126 @@
+//! Derivatives of what each excitation contributes, and of orbits, against differences.
+
+use eigentol::forced::Measure;
+use eigentol::sensitivity::Slopes;
+use eigentol::{Complex, DesignVariable, Input, Output, Study};
+use eigentol_interpreter::Interpreted;
+use eigentol_tests::corpus::declarations;
+
+/// A fan with three unbalances, shaken, with a harmonic force and a moment.
+fn fan() -> Study<Interpreted> {
+    let all = declarations();
+    let own = all.iter().find(|own| own.0 == "balanced_fan");
+    let machine = Interpreted::from_text(own.expect("the fan").1).expect("a declaration");
+    Study::new(machine)
+        .input(Input::new(0), 150.0)
+        .input(Input::new(1), 90.0)
+}
+
+/// Compares derivatives of numbers with central differences.
+fn compare(
+    study: &Study<Interpreted>,
+    of: impl Fn(&Study<Interpreted>) -> Vec<Complex>,
+    slopes: &[Slopes<Complex>],
+) {
+    const STEP: f64 = 1e-5;
+    let values = of(study);
+    assert_eq!(values.len(), slopes.len());
+    let inputs = study.input_values().to_vec();
+    let design = study.design_values().to_vec();
+    let check = |name: &str, at: f64, ends: [Vec<Complex>; 2], exact: Vec<Complex>| {
+        for (k, exact) in exact.into_iter().enumerate() {
+            let difference = (ends[1][k] - ends[0][k]) / (2.0 * STEP * at);
+            let size = exact.norm() + (values[k] / at).norm();
+            assert!(
+                (difference - exact).norm() <= 1e-6 * size,
+                "{name}, {k}: {difference} {exact}"
+            );
+        }
+    };
+    for (k, &at) in inputs.iter().enumerate() {
+        let moved = |step: f64| of(&study.clone().input(Input::new(k), at * (1.0 + step)));
+        let exact = slopes.iter().map(|own| own.by_input[k]).collect();
+        check("input", at, [moved(-STEP), moved(STEP)], exact);
+    }
+    for (k, &at) in design.iter().enumerate() {
+        let variable = DesignVariable::new(k);
+        let moved = |step: f64| of(&study.clone().design(variable, at * (1.0 + step)));
+        let exact = slopes.iter().map(|own| own.by_design[k]).collect();
+        check("design", at, [moved(-STEP), moved(STEP)], exact);
+    }
+}
+
+#[test]
+fn shares_have_the_derivatives_of_differences() {
+    let study = fan();
+    let found = study.share_sensitivities().expect("shares");
+    let count = study.description().excitations.len();
+    let excitations: Vec<usize> = (found.response.harmonics.iter())
+        .map(|own| own.shares[0].excitation)
+        .collect();
+    assert_eq!(excitations, (0..count).collect::<Vec<_>>());
+    let shares = |study: &Study<Interpreted>| {
+        let response = study.forced_response().expect("a vibration");
+        let harmonics = response.harmonics.iter();
+        let mut all: Vec<_> = harmonics.flat_map(|own| &own.shares).collect();
+        all.sort_by_key(|own| own.excitation);
+        let values = all.iter().flat_map(|own| own.outputs.iter().copied());
+        values.collect()
+    };
+    let slopes = found.harmonics.iter().flat_map(|own| own.outputs.iter());
+    let slopes: Vec<_> = slopes.map(|own| own.clone().expect("smooth")).collect();
+    compare(&study, shares, &slopes);
+    let text = found.to_string();
+    assert!(
+        text.contains("across under screw") && text.contains("rad/s"),
+        "{text}"
+    );
+}
+
+#[test]
+fn shares_add_up_to_the_vibration() {
+    let study = fan();
+    let (all, each) = (
+        study.forced_sensitivities().expect("a vibration"),
+        study.share_sensitivities().expect("shares"),
+    );
+    for (of, own) in all.response.harmonics.iter().zip(&all.harmonics) {
+        for (output, slopes) in own.outputs.iter().enumerate() {
+            let slopes = slopes.as_ref().expect("smooth");
+            let mut sum = vec![Complex::ZERO; slopes.iter().count()];
+            let mut size = 0.0;
+            for share in &of.shares {
+                let own =
+                    each.complex(share.excitation, Output::new(output), Measure::Displacement);
+                for (sum, slope) in sum.iter_mut().zip(own.expect("smooth").iter()) {
+                    *sum += slope;
+                    size += slope.norm();
+                }
+            }
+            for (sum, slope) in sum.iter().zip(slopes.iter()) {
+                assert!((sum - slope).norm() <= 1e-11 * size, "{sum} {slope}");
+            }
+        }
+    }
+}
+
+#[test]
+fn orbits_have_the_derivatives_of_differences() {
+    let study = fan();
+    let [x, y] = ["height", "across"].map(|own| study.find_output(own).expect("an output").any());
+    let found = study.forced_sensitivities().expect("a vibration");
+    let harmonics = found.harmonics.len();
+    let squares = |study: &Study<Interpreted>| {
+        let response = study.forced_response().expect("a vibration");
+        let orbits = response.harmonics.iter().map(|own| own.orbit(x, y));
+        let both = orbits.flat_map(|own| {
+            let own = own.expect("outputs");
+            [own.forward, own.backward].map(|part| Complex::from(part.norm_sqr()))
+        });
+        both.collect()
+    };
+    let slopes = (0..harmonics).flat_map(|k| found.orbit_squares(k, x, y).expect("smooth"));
+    let slopes: Vec<_> = slopes.map(|own| own.map(Complex::from)).collect();
+    compare(&study, squares, &slopes);
+    assert!(found.orbit_squares(harmonics, x, y).is_none());
+}
