@@ -113,6 +113,15 @@ impl Seen {
         self.combined(output, [s * s, s, Complex::ONE])
     }
 
+    /// `c` of every output, one row each.
+    pub(super) fn rows(&self, s: Complex) -> Matrix<Complex> {
+        let [acceleration, velocity, position] = &self.0;
+        let square = s * s;
+        Matrix::from_fn(position.row_count(), position.column_count(), |o, i| {
+            square * acceleration[o][i] + s * velocity[o][i] + position[o][i]
+        })
+    }
+
     /// `dc/ds`.
     pub(super) fn row_slope(&self, output: usize, s: Complex) -> Vector<Complex> {
         self.combined(output, [2.0 * s, Complex::ONE, Complex::ZERO])

@@ -16,7 +16,7 @@
 //! residues to first order amount to the same, but here equal modes need no care, and with as many vectors as unknowns
 //! `E` is `D`.
 
-use super::dynamic_stiffness::{Scaled, factored, times};
+use super::dynamic_stiffness::{Scaled, factored, product, times};
 use super::forces::{Forces, Seen};
 use super::response::add;
 use crate::algebra::{Lu, Matrix, Vector};
@@ -291,19 +291,6 @@ fn orthonormal(mut vectors: Vec<Vector<Complex>>) -> Option<Vec<Vector<Complex>>
         }
     }
     Some(vectors)
-}
-
-fn product(a: &Matrix<Complex>, b: &Matrix<Complex>) -> Matrix<Complex> {
-    let (rows, columns) = (a.row_count(), b.column_count());
-    let mut product = Matrix::zeros(rows, columns);
-    for i in 0..rows {
-        for (factor, row) in a[i].iter().zip(b.iter()) {
-            for (entry, value) in product[i].iter_mut().zip(row) {
-                *entry += factor * value;
-            }
-        }
-    }
-    product
 }
 
 fn negated(mut matrix: Matrix<Complex>) -> Matrix<Complex> {

@@ -1,8 +1,8 @@
 //! Total first derivatives of forced vibrations.
 
-use super::adjoint::{OutputAdjoint, Weights};
+use super::adjoint::{OutputAdjoint, Weights, gradients};
 use super::measure::Measure;
-use super::response::{ForcedResponse, Harmonic, Solved};
+use super::response::{ForcedResponse, Harmonic, Solved, Vibration};
 use crate::algebra::{Matrix, Vector, add_to};
 use crate::kernels::{Gradient, Kernels};
 use crate::sensitivity::{EquilibriumShift, Slopes, depends, equilibrium_shift, outside_domain};
@@ -108,54 +108,86 @@ pub fn sensitivities(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
 ) -> Result<ForcedSensitivities, Error> {
-    first_derivatives(&Solved::new(mechanism, at)?)
+    let solved = Solved::new(mechanism, at)?;
+    Ok(ForcedSensitivities {
+        harmonics: first_derivatives(&solved)?,
+        response: solved.response(),
+    })
 }
 
-pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<ForcedSensitivities, Error> {
+pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensitivity>, Error> {
     let (mechanism, at) = (solved.mechanism, solved.at);
-    let shift = equilibrium_shift(mechanism, at)?;
+    let shift = Shift::new(&equilibrium_shift(mechanism, at)?);
     let outputs = mechanism.sizes().outputs;
-    let mut room = Gradient::zeros(mechanism.sizes());
     let mut harmonics = Vec::new();
     for vibration in &solved.vibrations {
-        let of_frequency = Weights::of_frequency(mechanism.sizes(), vibration);
-        of_frequency.gradient_into(mechanism, at, &mut room);
-        let frequency = total(&room, &shift);
-        let of_output = |o: usize| {
-            let [re, im] = OutputAdjoint::new(solved, vibration, o)?.gradient();
-            let placed = [&re, &im];
-            if placed.iter().any(|own| depends(at, &own.coordinates)) {
+        let adjoints = OutputAdjoint::each(solved, vibration, 0..outputs);
+        let finite: Vec<&OutputAdjoint<'_>> = adjoints.iter().flatten().collect();
+        let [mut re, mut im] = gradients(solved, vibration, &finite);
+        let mut rows = re.iter_mut().zip(im.iter_mut());
+        let of_output = |own: &Option<OutputAdjoint<'_>>| {
+            own.as_ref()?;
+            let (re, im) = rows.next()?;
+            let placed = [&*re, &*im];
+            if placed
+                .iter()
+                .any(|own| depends(at, &own[..at.coordinates.len()]))
+            {
                 return None;
             }
-            let both = total(&re, &shift).zip(&total(&im, &shift));
+            let both = shift.total(re).zip(&shift.total(im));
             Some(both.map(|(re, im)| -Complex::new(re, im)))
         };
         let own = HarmonicSensitivity {
-            frequency,
-            outputs: (0..outputs).map(of_output).collect(),
+            outputs: adjoints.iter().map(of_output).collect(),
+            frequency: shift.total(&mut frequency_gradient(solved, vibration)),
         };
         if !own.finite() {
             return Err(outside_domain(at));
         }
         harmonics.push(own);
     }
-    Ok(ForcedSensitivities {
-        response: solved.response(),
-        harmonics,
-    })
+    Ok(harmonics)
 }
 
-/// The derivatives of a gradient's scalar with the shift of the equilibrium.
-fn total(partial: &Gradient, shift: &EquilibriumShift) -> Slopes<f64> {
-    let with = |own: &Vector, shift: &Matrix| {
-        let mut sum = own.clone();
-        for (rate, shift) in partial.coordinates.iter().zip(shift.iter()) {
-            add_to(&mut sum, *rate, shift);
+/// The gradient of a frequency by unknowns, inputs and design variables.
+fn frequency_gradient(solved: &Solved<'_>, vibration: &Vibration) -> Vector {
+    let sizes = solved.mechanism.sizes();
+    let mut found = Gradient::zeros(sizes);
+    let weights = Weights::of_frequency(sizes, vibration);
+    weights.gradient_into(solved.mechanism, solved.at, &mut found);
+    let by_unknown = found.coordinates.iter().chain(&found.inputs);
+    by_unknown.chain(&found.design).copied().collect()
+}
+
+/// The shift of the equilibrium by inputs, then design variables.
+struct Shift {
+    inputs: usize,
+    rows: Matrix,
+}
+
+impl Shift {
+    fn new(shift: &EquilibriumShift) -> Self {
+        let (inputs, by_design) = (shift.by_input.column_count(), &shift.by_design);
+        let count = inputs + by_design.column_count();
+        Self {
+            inputs,
+            rows: Matrix::from_fn(by_design.row_count(), count, |i, k| match k < inputs {
+                true => shift.by_input[i][k],
+                false => by_design[i][k - inputs],
+            }),
         }
-        sum
-    };
-    Slopes {
-        by_input: with(&partial.inputs, &shift.by_input),
-        by_design: with(&partial.design, &shift.by_design),
+    }
+
+    /// The total derivatives from a gradient by unknowns, inputs and design variables, which is overwritten.
+    fn total(&self, gradient: &mut [f64]) -> Slopes<f64> {
+        let (by_unknown, own) = gradient.split_at_mut(self.rows.row_count());
+        for (rate, shift) in by_unknown.iter().zip(self.rows.iter()) {
+            add_to(own, *rate, shift);
+        }
+        Slopes {
+            by_input: own[..self.inputs].into(),
+            by_design: own[self.inputs..].into(),
+        }
     }
 }

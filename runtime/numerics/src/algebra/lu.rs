@@ -179,6 +179,38 @@ impl<T: Field> Lu<T> {
         }
         x
     }
+
+    /// Solves with the transposed matrix for several right-hand sides at once, the columns of a matrix; each has the bits
+    /// of [`Self::solve_transposed`].
+    #[inline(always)]
+    pub fn solve_transposed_columns(&self, right: &Matrix<T>) -> Matrix<T> {
+        let (n, count) = (right.row_count(), right.column_count());
+        let factors = &self.factors.as_flattened()[..n * n];
+        let mut y = right.clone();
+        let entries = y.as_flattened_mut();
+        for i in 0..n {
+            let (done, rest) = entries.split_at_mut(i * count);
+            let row = &mut rest[..count];
+            for k in 0..i {
+                subtract_row(row, factors[k * n + i], &done[k * count..(k + 1) * count]);
+            }
+            let pivot = factors[i * n + i];
+            row.iter_mut().for_each(|value| *value = *value / pivot);
+        }
+        for i in (0..n).rev() {
+            let (open, done) = entries.split_at_mut((i + 1) * count);
+            let row = &mut open[i * count..];
+            for k in i + 1..n {
+                let own = &done[(k - i - 1) * count..(k - i) * count];
+                subtract_row(row, factors[k * n + i], own);
+            }
+        }
+        let mut x = Matrix::zeros(n, count);
+        for (&place, row) in self.order.iter().zip(y.iter()) {
+            x[place].copy_from_slice(row);
+        }
+        x
+    }
 }
 
 /// `row - factor other`.
