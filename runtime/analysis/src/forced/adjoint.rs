@@ -114,19 +114,23 @@ pub(super) fn gradients(
 ) -> [Matrix; 2] {
     let (mechanism, motion) = (solved.mechanism, &vibration.motion());
     let n = mechanism.sizes().coordinates;
-    let lefts = Matrix::from_fn(2 * outputs.len(), n, |k, i| {
-        let left = outputs[k / 2].factors.left[i];
-        if k % 2 == 0 { left.re } else { left.im }
+    let count = outputs.len();
+    let lefts = Matrix::from_fn(2 * count, n, |k, i| {
+        PARTS[k / count](outputs[k % count].factors.left[i])
     });
     let [of_real, of_imaginary] = PARTS.map(|part| forms(solved, &lefts, motion, part));
-    let form = |signs: [f64; 2], [real, imaginary]: [&Matrix; 2]| {
-        Matrix::from_fn(outputs.len(), real.column_count(), |o, v| {
-            signs[0] * real[2 * o][v] + signs[1] * imaginary[2 * o + 1][v]
-        })
+    let joined = |re: &Matrix, im: &Matrix, sign: f64| {
+        let mut sum = Matrix::zeros(count, re.column_count());
+        let im = im.as_flattened().iter().skip(sum.as_flattened().len());
+        let pairs = re.as_flattened().iter().zip(im);
+        for (sum, (re, im)) in sum.as_flattened_mut().iter_mut().zip(pairs) {
+            *sum = re + sign * im;
+        }
+        sum
     };
     let mut total = [
-        form([1.0, -1.0], [&of_real, &of_imaginary]),
-        form([1.0, 1.0], [&of_imaginary, &of_real]),
+        joined(&of_real, &of_imaginary, -1.0),
+        joined(&of_imaginary, &of_real, 1.0),
     ];
     let mut room = Gradient::zeros(mechanism.sizes());
     for (total, part) in total.iter_mut().zip(PARTS) {

@@ -9,7 +9,7 @@
 //! `l^T D' z = 0`, provided that the force does not drive the direction, `l^T F = 0`. If it does, there is no response.
 
 use crate::Complex;
-use crate::algebra::{Lu, Matrix, Vector};
+use crate::algebra::{Lu, Matrix, Vector, product_complex};
 use crate::kernels::Linear;
 use crate::scalar::Real as _;
 
@@ -123,12 +123,19 @@ impl Scaled {
     pub(super) fn new(linear: &Linear, s: Complex) -> Self {
         let (k, c, m) = (&linear.stiffness, &linear.damping, &linear.mass);
         let (n, w) = (k.row_count(), s.norm());
-        let (rows, columns) = scales(&Matrix::from_fn(n, n, |i, j| {
-            exponent(k[i][j].abs() + w * (c[i][j].abs() + w * m[i][j].abs()))
-        }));
-        let matrix = Matrix::from_fn(n, n, |i, j| {
-            (s * (s * m[i][j] + c[i][j]) + k[i][j]) * (rows[i] * columns[j])
-        });
+        let entries = || {
+            let [k, c, m] = [k, c, m].map(Matrix::as_flattened);
+            k.iter().zip(c).zip(m).map(|((k, c), m)| (k, c, m))
+        };
+        let exponents = entries().map(|(k, c, m)| exponent(k.abs() + w * (c.abs() + w * m.abs())));
+        let (rows, columns) = scales(n, &exponents.collect::<Vec<i32>>());
+        let values = entries().map(|(k, c, m)| s * (s * m + c) + k);
+        let mut matrix = Matrix::from_rows(n, values.collect());
+        for (row, by_row) in matrix.iter_mut().zip(&rows) {
+            for (value, by_column) in row.iter_mut().zip(&columns) {
+                *value *= by_row * by_column;
+            }
+        }
         Self {
             rows,
             columns,
@@ -149,28 +156,29 @@ fn exponent(value: f64) -> i32 {
 }
 
 /// Powers of two that bring the largest element of every row and column near one, from the exponents of the elements.
-fn scales(exponents: &Matrix<i32>) -> (Vector, Vector) {
-    let n = exponents.row_count();
-    let (mut rows, mut columns) = (Vector::<i32>::zeros(n), Vector::<i32>::zeros(n));
+fn scales(n: usize, exponents: &[i32]) -> (Vector, Vector) {
+    let (mut rows, mut columns) = (vec![0; n], vec![0; n]);
     let root = |most: i32| match most > NONE / 2 {
         true => -((most + 1) >> 1),
         false => 0,
     };
+    let mut by_column = vec![NONE; n];
     for _ in 0..ROUNDS {
-        let (mut by_row, mut by_column) = (Vector::filled(n, NONE), Vector::filled(n, NONE));
-        for (i, row) in exponents.iter().enumerate() {
-            for (j, own) in row.iter().enumerate() {
-                let size = own + rows[i] + columns[j];
-                by_row[i] = size.max(by_row[i]);
-                by_column[j] = size.max(by_column[j]);
+        by_column.fill(NONE);
+        for (own, exponents) in rows.iter_mut().zip(exponents.chunks_exact(n.max(1))) {
+            let mut by_row = NONE;
+            for ((exponent, column), most) in exponents.iter().zip(&columns).zip(&mut by_column) {
+                by_row = by_row.max(exponent + column);
+                *most = (*most).max(exponent + *own);
             }
+            *own += root(by_row + *own);
         }
-        for i in 0..n {
-            rows[i] += root(by_row[i]);
-            columns[i] += root(by_column[i]);
+        for (own, most) in columns.iter_mut().zip(&by_column) {
+            *own += root(most + *own);
         }
     }
-    (rows.map(|k| 2_f64.powi(k)), columns.map(|k| 2_f64.powi(k)))
+    let powers = |exponents: Vec<i32>| exponents.into_iter().map(|k| 2_f64.powi(k)).collect();
+    (powers(rows), powers(columns))
 }
 
 /// Factors of a matrix; if elimination finds it singular, of one that differs by rounding.
@@ -225,7 +233,7 @@ fn refined(
             let mut residual = right.clone();
             scale_rows(&mut residual, of_right);
             let mut x = solve(&residual);
-            let image = product(matrix, &x);
+            let image = product_complex(matrix, &x);
             combine(&mut residual, &image, |a, b| a - b);
             combine(&mut x, &solve(&residual), |a, b| a + b);
             scale_rows(&mut x, of_solution);
@@ -245,20 +253,6 @@ fn scale_rows(matrix: &mut Matrix<Complex>, scales: &[f64]) {
 fn combine(a: &mut Matrix<Complex>, b: &Matrix<Complex>, f: impl Fn(Complex, Complex) -> Complex) {
     let pairs = a.as_flattened_mut().iter_mut().zip(b.as_flattened());
     pairs.for_each(|(a, b)| *a = f(*a, *b));
-}
-
-/// The product of two matrices.
-#[inline(always)]
-pub(super) fn product(a: &Matrix<Complex>, b: &Matrix<Complex>) -> Matrix<Complex> {
-    let mut product = Matrix::zeros(a.row_count(), b.column_count());
-    for (factors, sums) in a.iter().zip(product.iter_mut()) {
-        for (factor, row) in factors.iter().zip(b.iter()) {
-            for (sum, value) in sums.iter_mut().zip(row) {
-                *sum += factor * value;
-            }
-        }
-    }
-    product
 }
 
 pub(super) fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {

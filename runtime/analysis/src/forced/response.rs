@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use super::dynamic_stiffness::{DynamicStiffness, product};
+use super::dynamic_stiffness::DynamicStiffness;
 use super::forces::{Forces, Seen};
 use super::measure::Measure;
-use crate::algebra::{Matrix, Vector, largest};
+use crate::algebra::{Matrix, Vector, largest, product_complex};
 use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::modes::modes;
@@ -237,7 +237,7 @@ fn shares(
     }
     let forced = Matrix::from_fn(at.coordinates.len(), each.len(), |i, k| each[k][i]);
     let unknowns = stiffness.solve(&forced);
-    let seen = product(seen, &unknowns);
+    let seen = product_complex(seen, &unknowns);
     let share = |(k, excitation): (usize, usize)| {
         let mut outputs = forces.direct(excitation, turn(excitation));
         add(&mut outputs, &seen.column(k));

@@ -118,21 +118,18 @@ pub fn sensitivities(
 pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensitivity>, Error> {
     let (mechanism, at) = (solved.mechanism, solved.at);
     let shift = Shift::new(&equilibrium_shift(mechanism, at)?);
-    let outputs = mechanism.sizes().outputs;
+    let (n, outputs) = (at.coordinates.len(), mechanism.sizes().outputs);
     let mut harmonics = Vec::new();
     for vibration in &solved.vibrations {
         let adjoints = OutputAdjoint::each(solved, vibration, 0..outputs);
         let finite: Vec<&OutputAdjoint<'_>> = adjoints.iter().flatten().collect();
-        let [mut re, mut im] = gradients(solved, vibration, &finite);
-        let mut rows = re.iter_mut().zip(im.iter_mut());
+        let mut total = gradients(solved, vibration, &finite);
+        let mut places = 0..finite.len();
         let of_output = |own: &Option<OutputAdjoint<'_>>| {
             own.as_ref()?;
-            let (re, im) = rows.next()?;
-            let placed = [&*re, &*im];
-            if placed
-                .iter()
-                .any(|own| depends(at, &own[..at.coordinates.len()]))
-            {
+            let place = places.next()?;
+            let [re, im] = total.each_mut().map(|rows| &mut rows[place]);
+            if depends(at, &re[..n]) || depends(at, &im[..n]) {
                 return None;
             }
             let both = shift.total(re).zip(&shift.total(im));
