@@ -10,8 +10,8 @@
 use core::ops::Range;
 
 use super::response::{Solved, Vibration};
-use crate::algebra::{Matrix, Vector, dot_complex, times_columns};
-use crate::kernels::{Gradient, Kernel, Kernels, Sizes, gradient_results};
+use crate::algebra::{Matrix, Vector, add_to, dot_complex, times_columns};
+use crate::kernels::{Gradient, Kernel, Kernels, Sizes};
 use crate::modes::pencil_slope_times;
 use crate::scalar::Real as _;
 use crate::sensitivity::{BilinearForm, ComplexGradient};
@@ -71,7 +71,7 @@ impl<'a> OutputAdjoint<'a> {
             let finite = !vibration.stiffness.seen_by(&rows[output]);
             finite.then(|| {
                 let left = lefts.column(output - first);
-                let of_output = dot_complex(&solved.seen.row_slope(output, s), z);
+                let of_output = solved.seen.slope(output, s, z);
                 let factors = Factors {
                     slope: Complex::I * (of_output - dot_complex(&left, &of_matrices)),
                     left,
@@ -89,17 +89,13 @@ impl<'a> OutputAdjoint<'a> {
 
     /// The gradient of `-h` at fixed equilibrium.
     pub(super) fn gradient(&self) -> ComplexGradient {
-        let (n, u) = (
-            self.solved.at.coordinates.len(),
-            self.solved.at.inputs.len(),
-        );
-        gradients(self.solved, self.vibration, &[self]).map(|rows| {
-            let (coordinates, rest) = rows[0].split_at(n);
-            let (inputs, design) = rest.split_at(u);
+        gradients(self.solved, self.vibration, &[self]).map(|mut rows| {
+            let parts = results(self.solved.at, &mut rows[0]);
+            let [coordinates, inputs, design] = parts.map(|part| Vector::from(&*part));
             Gradient {
-                coordinates: coordinates.into(),
-                inputs: inputs.into(),
-                design: design.into(),
+                coordinates,
+                inputs,
+                design,
             }
         })
     }
@@ -132,17 +128,14 @@ pub(super) fn gradients(
         joined(&of_real, &of_imaginary, -1.0),
         joined(&of_imaginary, &of_real, 1.0),
     ];
-    let mut room = Gradient::zeros(mechanism.sizes());
+    let mut room = Vector::zeros(of_real.column_count());
     for (total, part) in total.iter_mut().zip(PARTS) {
         for call in vibration.calls(part) {
             let mut weights = Weights::of(mechanism.sizes(), vibration, motion, (call, 1.0));
             for (row, own) in total.iter_mut().zip(outputs) {
                 weights.set_output(own, &own.factors, (call, 1.0));
-                weights.gradient_into(mechanism, solved.at, &mut room);
-                let values = room.coordinates.iter().chain(&room.inputs);
-                for (sum, value) in row.iter_mut().zip(values.chain(&room.design)) {
-                    *sum -= value;
-                }
+                weights.gradient_into(mechanism, solved.at, results(solved.at, &mut room));
+                add_to(row, -1.0, &room);
             }
         }
     }
@@ -165,8 +158,6 @@ fn forms(solved: &Solved<'_>, lefts: &Matrix, motion: &Motion, part: Part) -> Ma
     let (u, b) = (at.inputs.len(), at.design.len());
     let mut gradients = Matrix::zeros(lefts.row_count(), n + u + b);
     for (left, row) in lefts.iter().zip(gradients.iter_mut()) {
-        let (by_coordinate, rest) = row.split_at_mut(n);
-        let (by_input, by_design) = rest.split_at_mut(u);
         mechanism.evaluate(
             Kernel::PencilGradient,
             &[
@@ -178,10 +169,17 @@ fn forms(solved: &Solved<'_>, lefts: &Matrix, motion: &Motion, part: Part) -> Ma
                 &velocity,
                 &position,
             ],
-            &mut [by_coordinate, by_input, by_design],
+            &mut results(at, row),
         );
     }
     gradients
+}
+
+/// The parts of a gradient by unknowns, inputs and design variables.
+pub(super) fn results<'a>(at: &Equilibrium, gradient: &'a mut [f64]) -> [&'a mut [f64]; 3] {
+    let (coordinates, rest) = gradient.split_at_mut(at.coordinates.len());
+    let (inputs, design) = rest.split_at_mut(at.inputs.len());
+    [coordinates, inputs, design]
 }
 
 type Part = fn(Complex) -> f64;
@@ -313,10 +311,9 @@ impl Weights {
         &self,
         mechanism: &dyn Kernels,
         at: &Equilibrium,
-        gradient: &mut Gradient,
+        mut results: [&mut [f64]; 3],
     ) {
         let state: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
-        let results = &mut gradient_results(gradient);
-        mechanism.evaluate(Kernel::ForcedGradient, &self.after(state), results);
+        mechanism.evaluate(Kernel::ForcedGradient, &self.after(state), &mut results);
     }
 }

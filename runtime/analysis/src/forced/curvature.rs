@@ -342,7 +342,7 @@ pub(super) fn frequency_rows(
     let sizes = mechanism.sizes();
     let (mut partial, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
     let weights = Weights::of_frequency(sizes, vibration);
-    weights.gradient_into(mechanism, at, &mut partial);
+    weights.gradient_into(mechanism, at, gradient_results(&mut partial));
     let w = adjoint.total(&mut partial, &mut room);
     let slopes = |own: &Gradient| Slopes {
         by_input: own.inputs.clone(),

@@ -121,6 +121,14 @@ pub(super) struct Scaled {
 
 impl Scaled {
     pub(super) fn new(linear: &Linear, s: Complex) -> Self {
+        f64::run(
+            #[inline(always)]
+            || Self::of(linear, s),
+        )
+    }
+
+    #[inline(always)]
+    fn of(linear: &Linear, s: Complex) -> Self {
         let (k, c, m) = (&linear.stiffness, &linear.damping, &linear.mass);
         let (n, w) = (k.row_count(), s.norm());
         let entries = || {
@@ -148,6 +156,7 @@ impl Scaled {
 const NONE: i32 = i32::MIN / 2;
 
 /// The power of two below a number that is not negative.
+#[inline(always)]
 fn exponent(value: f64) -> i32 {
     match value > 0.0 && value.is_finite() {
         true => (value.to_bits() >> 52) as i32 - 1023,
@@ -156,6 +165,7 @@ fn exponent(value: f64) -> i32 {
 }
 
 /// Powers of two that bring the largest element of every row and column near one, from the exponents of the elements.
+#[inline(always)]
 fn scales(n: usize, exponents: &[i32]) -> (Vector, Vector) {
     let (mut rows, mut columns) = (vec![0; n], vec![0; n]);
     let root = |most: i32| match most > NONE / 2 {

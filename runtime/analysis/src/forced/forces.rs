@@ -127,6 +127,13 @@ impl Seen {
         self.combined(output, [2.0 * s, Complex::ONE, Complex::ZERO])
     }
 
+    /// `dc/ds . z`.
+    pub(super) fn slope(&self, output: usize, s: Complex, z: &[Complex]) -> Complex {
+        let [acceleration, velocity, _] = &self.0;
+        let rows = acceleration[output].iter().zip(&velocity[output]);
+        rows.zip(z).map(|((a, v), z)| (2.0 * s * a + v) * z).sum()
+    }
+
     /// `d2c/ds2`.
     pub(super) fn row_curvature(&self, output: usize) -> Vector<Complex> {
         self.combined(output, [2.0.into(), Complex::ZERO, Complex::ZERO])

@@ -1,10 +1,11 @@
 //! Total first derivatives of forced vibrations.
 
-use super::adjoint::{OutputAdjoint, Weights, gradients};
+use super::adjoint::{OutputAdjoint, Weights, gradients, results};
 use super::measure::Measure;
-use super::response::{ForcedResponse, Harmonic, Solved, Vibration};
+use super::response::{ForcedResponse, Harmonic, Solved};
 use crate::algebra::{Matrix, Vector, add_to};
-use crate::kernels::{Gradient, Kernels};
+use crate::kernels::Kernels;
+use crate::scalar::Real as _;
 use crate::sensitivity::{EquilibriumShift, Slopes, depends, equilibrium_shift, outside_domain};
 use crate::{Complex, Equilibrium, Error, Output};
 
@@ -117,27 +118,33 @@ pub fn sensitivities(
 
 pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensitivity>, Error> {
     let (mechanism, at) = (solved.mechanism, solved.at);
-    let shift = Shift::new(&equilibrium_shift(mechanism, at)?);
+    let shift = equilibrium_shift(mechanism, at)?;
     let (n, outputs) = (at.coordinates.len(), mechanism.sizes().outputs);
     let mut harmonics = Vec::new();
     for vibration in &solved.vibrations {
         let adjoints = OutputAdjoint::each(solved, vibration, 0..outputs);
         let finite: Vec<&OutputAdjoint<'_>> = adjoints.iter().flatten().collect();
-        let mut total = gradients(solved, vibration, &finite);
+        let mut rows = gradients(solved, vibration, &finite);
+        let placed = |rows: &Matrix, k: usize| depends(at, &rows[k][..n]);
+        let placed: Vec<bool> = (0..finite.len())
+            .map(|k| rows.iter().any(|rows| placed(rows, k)))
+            .collect();
+        rows.iter_mut().for_each(|rows| add_shift(rows, &shift));
+        let [re, im] = &rows;
         let mut places = 0..finite.len();
         let of_output = |own: &Option<OutputAdjoint<'_>>| {
             own.as_ref()?;
-            let place = places.next()?;
-            let [re, im] = total.each_mut().map(|rows| &mut rows[place]);
-            if depends(at, &re[..n]) || depends(at, &im[..n]) {
-                return None;
-            }
-            let both = shift.total(re).zip(&shift.total(im));
-            Some(both.map(|(re, im)| -Complex::new(re, im)))
+            let k = places.next()?;
+            (!placed[k]).then(|| slopes(at, |j| -Complex::new(re[k][j], im[k][j])))
         };
+        let outputs = adjoints.iter().map(of_output).collect();
+        let mut row = Matrix::zeros(1, re.column_count());
+        let of_frequency = Weights::of_frequency(mechanism.sizes(), vibration);
+        of_frequency.gradient_into(mechanism, at, results(at, &mut row[0]));
+        add_shift(&mut row, &shift);
         let own = HarmonicSensitivity {
-            outputs: adjoints.iter().map(of_output).collect(),
-            frequency: shift.total(&mut frequency_gradient(solved, vibration)),
+            outputs,
+            frequency: slopes(at, |j| row[0][j]),
         };
         if !own.finite() {
             return Err(outside_domain(at));
@@ -147,44 +154,31 @@ pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensi
     Ok(harmonics)
 }
 
-/// The gradient of a frequency by unknowns, inputs and design variables.
-fn frequency_gradient(solved: &Solved<'_>, vibration: &Vibration) -> Vector {
-    let sizes = solved.mechanism.sizes();
-    let mut found = Gradient::zeros(sizes);
-    let weights = Weights::of_frequency(sizes, vibration);
-    weights.gradient_into(solved.mechanism, solved.at, &mut found);
-    let by_unknown = found.coordinates.iter().chain(&found.inputs);
-    by_unknown.chain(&found.design).copied().collect()
+/// Adds the effect of the shift of the equilibrium to gradients by unknowns, inputs and design variables, one row each.
+fn add_shift(gradients: &mut Matrix, shift: &EquilibriumShift) {
+    let (by_input, by_design) = (&shift.by_input, &shift.by_design);
+    f64::run(
+        #[inline(always)]
+        || {
+            for row in gradients.iter_mut() {
+                let (by_unknown, rest) = row.split_at_mut(by_design.row_count());
+                let (inputs, design) = rest.split_at_mut(by_input.column_count());
+                let shifts = by_input.iter().zip(by_design.iter());
+                for (rate, (by_input, by_design)) in by_unknown.iter().zip(shifts) {
+                    add_to(inputs, *rate, by_input);
+                    add_to(design, *rate, by_design);
+                }
+            }
+        },
+    );
 }
 
-/// The shift of the equilibrium by inputs, then design variables.
-struct Shift {
-    inputs: usize,
-    rows: Matrix,
-}
-
-impl Shift {
-    fn new(shift: &EquilibriumShift) -> Self {
-        let (inputs, by_design) = (shift.by_input.column_count(), &shift.by_design);
-        let count = inputs + by_design.column_count();
-        Self {
-            inputs,
-            rows: Matrix::from_fn(by_design.row_count(), count, |i, k| match k < inputs {
-                true => shift.by_input[i][k],
-                false => by_design[i][k - inputs],
-            }),
-        }
-    }
-
-    /// The total derivatives from a gradient by unknowns, inputs and design variables, which is overwritten.
-    fn total(&self, gradient: &mut [f64]) -> Slopes<f64> {
-        let (by_unknown, own) = gradient.split_at_mut(self.rows.row_count());
-        for (rate, shift) in by_unknown.iter().zip(self.rows.iter()) {
-            add_to(own, *rate, shift);
-        }
-        Slopes {
-            by_input: own[..self.inputs].into(),
-            by_design: own[self.inputs..].into(),
-        }
+/// Derivatives by inputs and design variables, which stand after those by unknowns.
+fn slopes<T: Copy + Default>(at: &Equilibrium, total: impl Fn(usize) -> T) -> Slopes<T> {
+    let first = at.coordinates.len();
+    let design = first + at.inputs.len();
+    Slopes {
+        by_input: Vector::from_fn(at.inputs.len(), |k| total(first + k)),
+        by_design: Vector::from_fn(at.design.len(), |k| total(design + k)),
     }
 }
