@@ -135,8 +135,8 @@ impl Scaled {
             let [k, c, m] = [k, c, m].map(Matrix::as_flattened);
             k.iter().zip(c).zip(m).map(|((k, c), m)| (k, c, m))
         };
-        let exponents = entries().map(|(k, c, m)| exponent(k.abs() + w * (c.abs() + w * m.abs())));
-        let (rows, columns) = scales(n, &exponents.collect::<Vec<i32>>());
+        let terms = entries().map(|(k, c, m)| k.abs() + w * (c.abs() + w * m.abs()));
+        let (rows, columns) = scales(n, &terms.map(twice_log2).collect::<Vec<i32>>());
         let values = entries().map(|(k, c, m)| s * (s * m + c) + k);
         let mut matrix = Matrix::from_rows(n, values.collect());
         for (row, by_row) in matrix.iter_mut().zip(&rows) {
@@ -152,42 +152,45 @@ impl Scaled {
     }
 }
 
-/// The exponent of an element that is zero or not finite.
+/// The logarithm of an element that is zero or not finite.
 const NONE: i32 = i32::MIN / 2;
 
-/// The power of two below a number that is not negative.
+/// Twice the logarithm to base two of a number that is not negative; odd between two powers.
 #[inline(always)]
-fn exponent(value: f64) -> i32 {
+fn twice_log2(value: f64) -> i32 {
+    const DIGITS: u64 = (1 << 52) - 1;
+    let bits = value.to_bits();
     match value > 0.0 && value.is_finite() {
-        true => (value.to_bits() >> 52) as i32 - 1023,
+        true => 2 * ((bits >> 52) as i32 - 1023) + i32::from(bits & DIGITS != 0),
         false => NONE,
     }
 }
 
-/// Powers of two that bring the largest element of every row and column near one, from the exponents of the elements.
+/// Powers of two that bring the largest element of every row and column near one, from twice the logarithms.
 #[inline(always)]
-fn scales(n: usize, exponents: &[i32]) -> (Vector, Vector) {
+fn scales(n: usize, logarithms: &[i32]) -> (Vector, Vector) {
     let (mut rows, mut columns) = (vec![0; n], vec![0; n]);
+    let mut by_column = vec![NONE; n];
+    // Half of the logarithm, rounded.
     let root = |most: i32| match most > NONE / 2 {
-        true => -((most + 1) >> 1),
+        true => (most + 2 * most.signum()) / 4 * 2,
         false => 0,
     };
-    let mut by_column = vec![NONE; n];
     for _ in 0..ROUNDS {
         by_column.fill(NONE);
-        for (own, exponents) in rows.iter_mut().zip(exponents.chunks_exact(n.max(1))) {
+        for (own, logarithms) in rows.iter_mut().zip(logarithms.chunks_exact(n.max(1))) {
             let mut by_row = NONE;
-            for ((exponent, column), most) in exponents.iter().zip(&columns).zip(&mut by_column) {
-                by_row = by_row.max(exponent + column);
-                *most = (*most).max(exponent + *own);
+            for ((size, column), most) in logarithms.iter().zip(&columns).zip(&mut by_column) {
+                by_row = by_row.max(size + column);
+                *most = (*most).max(size + *own);
             }
-            *own += root(by_row + *own);
+            *own -= root(by_row + *own);
         }
         for (own, most) in columns.iter_mut().zip(&by_column) {
-            *own += root(most + *own);
+            *own -= root(most + *own);
         }
     }
-    let powers = |exponents: Vec<i32>| exponents.into_iter().map(|k| 2_f64.powi(k)).collect();
+    let powers = |twice: Vec<i32>| twice.into_iter().map(|k| 2_f64.powi(k / 2)).collect();
     (powers(rows), powers(columns))
 }
 
