@@ -1,16 +1,20 @@
-//! The gradient of one output's amplitude at fixed equilibrium, by one adjoint.
+//! The gradients of the amplitudes of outputs at fixed equilibrium, by one adjoint each.
 //!
 //! With `D^T p = c`, the amplitude `y = c . z + d` has the derivatives of `h = c . z + d + p . (F - D z)`, in which `z`
-//! and `p` are held fixed. `h` is bilinear in complex numbers that hold still, so real kernels give its gradient: four
-//! calls for `p . D z`, one for each of the real and the imaginary part of the rest (two if excitations of one harmonic
-//! turn both ways). The frequency enters as `dh/dw` times the derivative of `w`.
+//! and `p` are held fixed. `h` is bilinear in complex numbers that hold still, so real kernels give its gradient: those
+//! of `l . D z` for real vectors `l` and each of the real and the imaginary part of `z`, and one call for each of the real
+//! and the imaginary part of the rest (two if excitations of one harmonic turn both ways). The vectors `l` are the parts
+//! of all `p`, or unit vectors, of which all these are sums, if there are fewer. The frequency enters as `dh/dw` times
+//! the derivative of `w`.
 
-use super::forces::Seen;
+use core::ops::Range;
+
 use super::response::{Solved, Vibration};
-use crate::algebra::{Vector, dot_complex};
-use crate::kernels::{Gradient, Kernel, Kernels, Linear, Sizes, gradient_results};
+use crate::algebra::{Matrix, Vector, add_to, dot_complex, times_columns};
+use crate::kernels::{Gradient, Kernel, Kernels, Sizes};
 use crate::modes::pencil_slope_times;
-use crate::sensitivity::{BilinearForm, ComplexGradient, form_gradient, subtract};
+use crate::scalar::Real as _;
+use crate::sensitivity::{BilinearForm, ComplexGradient};
 use crate::{Complex, Equilibrium};
 
 /// One output of a harmonic and its adjoint.
@@ -21,107 +25,188 @@ pub(super) struct OutputAdjoint<'a> {
     pub(super) factors: Factors,
 }
 
-/// What stands beside the kernels in `h`, or the change of it: each enters linearly.
+/// `s^2 z`, `s z`, `z`, or the change of them.
+pub(super) type Motion = [Vector<Complex>; 3];
+
+/// What stands beside kernels and motion in `h`, or the change of it: each enters linearly.
 pub(super) struct Factors {
     /// `p`.
     pub(super) left: Vector<Complex>,
-    /// `s^2 z`, `s z`, `z`.
-    pub(super) motion: [Vector<Complex>; 3],
     /// `dh/dw`.
     pub(super) slope: Complex,
 }
 
 impl Factors {
-    pub(super) fn form(&self) -> BilinearForm {
-        let [acceleration, velocity, position] = &self.motion;
+    pub(super) fn form(&self, motion: &Motion) -> BilinearForm {
+        let [acceleration, velocity, position] = motion;
         BilinearForm::new([&self.left, acceleration, velocity, position])
     }
 }
 
+impl Vibration {
+    pub(super) fn motion(&self) -> Motion {
+        let (s, z) = (self.harmonic.s(), &self.harmonic.unknowns);
+        [
+            z.map(|value| s * s * value),
+            z.map(|value| s * value),
+            z.clone(),
+        ]
+    }
+}
+
 impl<'a> OutputAdjoint<'a> {
-    /// `None` if the output sees a direction in which `D` vanishes: its derivatives are infinite.
-    pub(super) fn new(
+    /// Of several outputs; `None` for one that sees a direction in which `D` vanishes: its derivatives are infinite.
+    pub(super) fn each(
         solved: &'a Solved<'a>,
         vibration: &'a Vibration,
-        output: usize,
-    ) -> Option<Self> {
+        outputs: Range<usize>,
+    ) -> Vec<Option<Self>> {
         let harmonic = &vibration.harmonic;
         let (s, z) = (harmonic.s(), &harmonic.unknowns);
-        let left = (vibration.stiffness).solve_transposed(&solved.seen.row(output, s))?;
-        let factors = Factors {
-            slope: slope(&solved.seen, &solved.at.linear, output, (s, z, &left)),
-            motion: [
-                z.map(|value| s * s * value),
-                z.map(|value| s * value),
-                z.clone(),
-            ],
-            left,
+        let (first, rows) = (outputs.start, &vibration.seen);
+        let weights = Matrix::from_fn(z.len(), outputs.len(), |i, k| rows[first + k][i]);
+        let lefts = vibration.stiffness.solve_transposed(&weights);
+        let of_matrices = pencil_slope_times(&solved.at.linear, s, z);
+        let own = |output: usize| {
+            let finite = !vibration.stiffness.seen_by(&rows[output]);
+            finite.then(|| {
+                let left = lefts.column(output - first);
+                let of_output = solved.seen.slope(output, s, z);
+                let factors = Factors {
+                    slope: Complex::I * (of_output - dot_complex(&left, &of_matrices)),
+                    left,
+                };
+                Self {
+                    solved,
+                    vibration,
+                    output,
+                    factors,
+                }
+            })
         };
-        Some(Self {
-            solved,
-            vibration,
-            output,
-            factors,
-        })
+        outputs.map(own).collect()
     }
 
     /// The gradient of `-h` at fixed equilibrium.
     pub(super) fn gradient(&self) -> ComplexGradient {
-        let (mechanism, at) = (self.solved.mechanism, self.solved.at);
-        let zeros = || Gradient::zeros(mechanism.sizes());
-        let (mut total, mut room) = ([zeros(), zeros()], zeros());
-        form_gradient(mechanism, at, &self.factors.form(), &mut room, &mut total);
-        for (total, weights) in total.iter_mut().zip(self.weights(&self.factors, 1.0)) {
-            for weights in weights {
-                weights.gradient_into(mechanism, at, &mut room);
-                subtract(total, &room);
+        gradients(self.solved, self.vibration, &[self]).map(|mut rows| {
+            let parts = results(self.solved.at, &mut rows[0]);
+            let [coordinates, inputs, design] = parts.map(|part| Vector::from(&*part));
+            Gradient {
+                coordinates,
+                inputs,
+                design,
             }
-        }
-        total
-    }
-
-    /// The weights of the real and the imaginary part of `h`, for each direction in which excitations turn; what does
-    /// not depend on `factors` is multiplied by `fixed`.
-    pub(super) fn weights(&self, factors: &Factors, fixed: f64) -> [Vec<Weights>; 2] {
-        let sizes = self.solved.mechanism.sizes();
-        let shares = &self.vibration.harmonic.shares;
-        let turning = |part: Part| {
-            let each = [1.0, -1.0].into_iter();
-            let each = each.filter(|turn| shares.iter().any(|share| share.turn() == *turn));
-            each.enumerate()
-                .map(|(k, turn)| {
-                    let mut own = Weights::zeros(sizes);
-                    let members = shares.iter().filter(|share| share.turn() == turn);
-                    members.for_each(|share| own.share[share.excitation] = fixed);
-                    own.cosine = factors.left.map(part);
-                    own.sine = factors.left.map(|p| turn * part(Complex::new(p.im, -p.re)));
-                    own.direct_cosine[self.output] = fixed * part(Complex::ONE);
-                    own.direct_sine[self.output] = fixed * turn * part(-Complex::I);
-                    if k == 0 {
-                        own.output[self.output] = fixed;
-                        own.motion = (factors.motion.each_ref()).map(|x| x.map(part));
-                        let first = &shares[0];
-                        own.frequency[first.excitation] = first.turn() * part(factors.slope);
-                    }
-                    own
-                })
-                .collect()
-        };
-        [turning(|value| value.re), turning(|value| value.im)]
+        })
     }
 }
 
-type Part = fn(Complex) -> f64;
+/// The gradients of `-h` at fixed equilibrium, real and imaginary parts: a row for each output, by unknowns, inputs and
+/// design variables.
+pub(super) fn gradients(
+    solved: &Solved<'_>,
+    vibration: &Vibration,
+    outputs: &[&OutputAdjoint<'_>],
+) -> [Matrix; 2] {
+    let (mechanism, motion) = (solved.mechanism, &vibration.motion());
+    let n = mechanism.sizes().coordinates;
+    let count = outputs.len();
+    let lefts = Matrix::from_fn(2 * count, n, |k, i| {
+        PARTS[k / count](outputs[k % count].factors.left[i])
+    });
+    let [of_real, of_imaginary] = PARTS.map(|part| forms(solved, &lefts, motion, part));
+    let joined = |re: &Matrix, im: &Matrix, sign: f64| {
+        let mut sum = Matrix::zeros(count, re.column_count());
+        let im = im.as_flattened().iter().skip(sum.as_flattened().len());
+        let pairs = re.as_flattened().iter().zip(im);
+        for (sum, (re, im)) in sum.as_flattened_mut().iter_mut().zip(pairs) {
+            *sum = re + sign * im;
+        }
+        sum
+    };
+    let mut total = [
+        joined(&of_real, &of_imaginary, -1.0),
+        joined(&of_imaginary, &of_real, 1.0),
+    ];
+    let mut room = Vector::zeros(of_real.column_count());
+    for (total, part) in total.iter_mut().zip(PARTS) {
+        for call in vibration.calls(part) {
+            let mut weights = Weights::of(mechanism.sizes(), vibration, motion, (call, 1.0));
+            for (row, own) in total.iter_mut().zip(outputs) {
+                weights.set_output(own, &own.factors, (call, 1.0));
+                weights.gradient_into(mechanism, solved.at, results(solved.at, &mut room));
+                add_to(row, -1.0, &room);
+            }
+        }
+    }
+    total
+}
 
-/// `dh/dw = i (dc/ds . z - p . (2 s M + C) z)`.
-fn slope(
-    seen: &Seen,
-    linear: &Linear,
-    output: usize,
-    (s, z, p): (Complex, &[Complex], &[Complex]),
-) -> Complex {
-    let slope = pencil_slope_times(linear, s, z);
-    Complex::I * (dot_complex(&seen.row_slope(output, s), z) - dot_complex(p, &slope))
+/// The gradients of `l . (M a + C v + K x)` for each row `l` of a matrix, with a part of a motion.
+fn forms(solved: &Solved<'_>, lefts: &Matrix, motion: &Motion, part: Part) -> Matrix {
+    let n = lefts.column_count();
+    if lefts.row_count() > n {
+        let unit = Matrix::from_fn(n, n, |i, j| f64::from(u8::from(i == j)));
+        let each = forms(solved, &unit, motion, part);
+        return f64::run(
+            #[inline(always)]
+            || times_columns(lefts, &each),
+        );
+    }
+    let (mechanism, at) = (solved.mechanism, solved.at);
+    let [acceleration, velocity, position] = motion.each_ref().map(|own| own.map(part));
+    let (u, b) = (at.inputs.len(), at.design.len());
+    let mut gradients = Matrix::zeros(lefts.row_count(), n + u + b);
+    for (left, row) in lefts.iter().zip(gradients.iter_mut()) {
+        mechanism.evaluate(
+            Kernel::PencilGradient,
+            &[
+                &at.coordinates,
+                &at.inputs,
+                &at.design,
+                left,
+                &acceleration,
+                &velocity,
+                &position,
+            ],
+            &mut results(at, row),
+        );
+    }
+    gradients
+}
+
+/// The parts of a gradient by unknowns, inputs and design variables.
+pub(super) fn results<'a>(at: &Equilibrium, gradient: &'a mut [f64]) -> [&'a mut [f64]; 3] {
+    let (coordinates, rest) = gradient.split_at_mut(at.coordinates.len());
+    let (inputs, design) = rest.split_at_mut(at.inputs.len());
+    [coordinates, inputs, design]
+}
+
+type Part = fn(Complex) -> f64;
+/// The real and the imaginary part.
+pub(super) const PARTS: [Part; 2] = [|value| value.re, |value| value.im];
+
+/// A call of `forced_gradient`: of the real or the imaginary part of `h`, for the excitations that turn one way.
+#[derive(Clone, Copy)]
+pub(super) struct Call {
+    part: Part,
+    turn: f64,
+    /// What belongs to no excitation is in the first call.
+    first: bool,
+}
+
+impl Vibration {
+    /// The calls that make up a part of `h`.
+    pub(super) fn calls(&self, part: Part) -> impl Iterator<Item = Call> {
+        let shares = &self.harmonic.shares;
+        let turns = [1.0, -1.0].into_iter();
+        let turns = turns.filter(|turn| shares.iter().any(|share| share.turn() == *turn));
+        turns.enumerate().map(move |(k, turn)| Call {
+            part,
+            turn,
+            first: k == 0,
+        })
+    }
 }
 
 /// Arguments of `forced_gradient` after the state.
@@ -148,6 +233,49 @@ impl Weights {
             direct_cosine: Vector::zeros(o),
             direct_sine: Vector::zeros(o),
             frequency: Vector::zeros(e),
+        }
+    }
+
+    /// Of a call, without output; what does not depend on `motion` is multiplied by `fixed`.
+    pub(super) fn of(
+        sizes: Sizes,
+        vibration: &Vibration,
+        motion: &Motion,
+        (call, fixed): (Call, f64),
+    ) -> Self {
+        let mut own = Self::zeros(sizes);
+        let shares = vibration.harmonic.shares.iter();
+        let members = shares.filter(|share| share.turn() == call.turn);
+        members.for_each(|share| own.share[share.excitation] = fixed);
+        if call.first {
+            own.motion = motion.each_ref().map(|x| x.map(call.part));
+        }
+        own
+    }
+
+    /// For an output; what does not depend on `factors` is multiplied by `fixed`.
+    pub(super) fn set_output(
+        &mut self,
+        own: &OutputAdjoint<'_>,
+        factors: &Factors,
+        (call, fixed): (Call, f64),
+    ) {
+        let Call { part, turn, first } = call;
+        self.cosine.set(&factors.left, |p| part(*p));
+        let quadrature = |p: &Complex| turn * part(Complex::new(p.im, -p.re));
+        self.sine.set(&factors.left, quadrature);
+        let lists = [
+            &mut self.output,
+            &mut self.direct_cosine,
+            &mut self.direct_sine,
+        ];
+        lists.into_iter().for_each(|list| list.fill(0.0));
+        self.direct_cosine[own.output] = fixed * part(Complex::ONE);
+        self.direct_sine[own.output] = fixed * turn * part(-Complex::I);
+        if first {
+            self.output[own.output] = fixed;
+            let first = &own.vibration.harmonic.shares[0];
+            self.frequency[first.excitation] = first.turn() * part(factors.slope);
         }
     }
 
@@ -183,10 +311,9 @@ impl Weights {
         &self,
         mechanism: &dyn Kernels,
         at: &Equilibrium,
-        gradient: &mut Gradient,
+        mut results: [&mut [f64]; 3],
     ) {
         let state: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
-        let results = &mut gradient_results(gradient);
-        mechanism.evaluate(Kernel::ForcedGradient, &self.after(state), results);
+        mechanism.evaluate(Kernel::ForcedGradient, &self.after(state), &mut results);
     }
 }

@@ -1,12 +1,12 @@
 //! Total second derivatives of forced vibrations: the adjoint gradient, differentiated along the change of equilibrium,
 //! frequency, vibration and adjoint with each variable.
 
-use super::adjoint::{Factors, OutputAdjoint, Weights};
+use super::adjoint::{Factors, Motion, OutputAdjoint, PARTS, Weights};
 use super::forces::{Forces, Seen};
 use super::measure::Measure;
 use super::response::{Solved, Vibration};
 use super::sensitivities::{ForcedSensitivities, first_derivatives, modulus_slope};
-use crate::algebra::{Vector, dot_complex, times_complex};
+use crate::algebra::{Matrix, Vector, dot_complex, times_complex};
 use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_results};
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
@@ -110,21 +110,21 @@ pub fn second_derivatives(
     at: &Equilibrium,
 ) -> Result<ForcedCurvature, Error> {
     let solved = Solved::new(mechanism, at)?;
-    let first = first_derivatives(&solved)?;
+    let slopes = first_derivatives(&solved)?;
     let adjoint = Adjoint::new(mechanism, at)?;
     let all: Vec<Along<'_>> = (directions(mechanism, at)?.enumerate())
         .map(|(number, direction)| Along::new(mechanism, at, number, direction))
         .collect();
     let mut most = 0.0_f64;
     let mut harmonics = Vec::new();
-    for (vibration, own) in solved.vibrations.iter().zip(&first.harmonics) {
+    for (vibration, own) in solved.vibrations.iter().zip(&slopes) {
         let moved = all.iter().map(|along| along.of(vibration, &own.frequency));
         let moved: Vec<Moved<'_>> = moved.collect();
         let (_, frequency) = frequency_rows(mechanism, at, &adjoint, vibration, &all);
-        let of_output = |(o, slopes): (usize, &Option<Slopes<Complex>>)| {
+        let adjoints = OutputAdjoint::each(&solved, vibration, 0..mechanism.sizes().outputs);
+        let of_output = |(slopes, own): (&Option<Slopes<Complex>>, Option<OutputAdjoint<'_>>)| {
             slopes.as_ref()?;
-            let own = OutputAdjoint::new(&solved, vibration, o)?;
-            let (curved, _) = Curved::new(own, &adjoint);
+            let (curved, _) = Curved::new(own?, &adjoint);
             let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
             let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
             let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
@@ -133,7 +133,7 @@ pub fn second_derivatives(
         };
         let own = HarmonicCurvature {
             frequency: symmetric(&frequency, at.inputs.len(), f64::abs).0,
-            outputs: own.outputs.iter().enumerate().map(of_output).collect(),
+            outputs: own.outputs.iter().zip(adjoints).map(of_output).collect(),
         };
         if !own.finite() {
             return Err(outside_domain(at));
@@ -141,7 +141,10 @@ pub fn second_derivatives(
         harmonics.push(own);
     }
     Ok(ForcedCurvature {
-        first,
+        first: ForcedSensitivities {
+            response: solved.response(),
+            harmonics: slopes,
+        },
         harmonics,
         asymmetry: most,
     })
@@ -192,10 +195,16 @@ impl<'a> Along<'a> {
                 .zip(&force)
                 .for_each(|(sum, own)| *sum += own);
         }
+        let stiffness = &vibration.stiffness;
+        let finite = !stiffness.driven_by(&right);
         Moved {
             along: self,
             ds,
-            dz: vibration.stiffness.solve(&right),
+            dz: finite.then(|| {
+                stiffness
+                    .solve(&Matrix::from_rows(1, right.into()))
+                    .column(0)
+            }),
         }
     }
 }
@@ -232,10 +241,12 @@ impl<'a> Curved<'a> {
         moved: &Moved<'_>,
     ) -> Option<Slopes<Complex>> {
         let (at, along) = (self.own.solved.at, moved.along);
-        let change = self.change(moved)?;
+        let (vibration, fixed) = (self.own.vibration, &self.own.factors);
+        let motion = &vibration.motion();
+        let (change, motion_change) = &self.change(moved)?;
         let zeros = || Gradient::zeros(mechanism.sizes());
         let (mut total, mut room) = ([zeros(), zeros()], zeros());
-        let forms = (&self.own.factors.form(), &change.form());
+        let forms = (&fixed.form(motion), &change.form(motion_change));
         form_gradient_along(
             mechanism,
             at,
@@ -244,10 +255,16 @@ impl<'a> Curved<'a> {
             &mut room,
             &mut total,
         );
-        let weights = self.own.weights(&self.own.factors, 1.0);
-        let changes = self.own.weights(&change, 0.0);
-        for ((total, weights), changes) in total.iter_mut().zip(&weights).zip(&changes) {
-            for own in weights.iter().zip(changes) {
+        let weights = |motion, factors, of| {
+            let mut weights = Weights::of(mechanism.sizes(), vibration, motion, of);
+            weights.set_output(&self.own, factors, of);
+            weights
+        };
+        for (total, part) in total.iter_mut().zip(PARTS) {
+            for call in vibration.calls(part) {
+                let own = weights(motion, fixed, (call, 1.0));
+                let changes = weights(motion_change, change, (call, 0.0));
+                let own = (&own, &changes);
                 gradient_along(mechanism, at, own, &along.direction, &mut room);
                 subtract(total, &room);
             }
@@ -259,7 +276,7 @@ impl<'a> Curved<'a> {
     }
 
     /// How the factors of `h` change.
-    fn change(&self, moved: &Moved<'_>) -> Option<Factors> {
+    fn change(&self, moved: &Moved<'_>) -> Option<(Factors, Motion)> {
         let Moved { along, ds, dz } = moved;
         let (dz, ds) = (dz.as_ref()?, *ds);
         let (vibration, seen, o) = (self.own.vibration, &self.own.solved.seen, self.own.output);
@@ -269,11 +286,15 @@ impl<'a> Curved<'a> {
         let (dc, slope) = (along.seen.row(o, s), seen.row_slope(o, s));
         let of_matrices = pencil_times(&along.transposed, s, p);
         let of_frequency = pencil_slope_times(&transposed(linear), s, p);
-        let dp = vibration
-            .stiffness
-            .solve_transposed(&Vector::from_fn(n, |i| {
-                dc[i] + ds * (slope[i] - of_frequency[i]) - of_matrices[i]
-            }))?;
+        let right = Vector::from_fn(n, |i| {
+            dc[i] + ds * (slope[i] - of_frequency[i]) - of_matrices[i]
+        });
+        let stiffness = &vibration.stiffness;
+        if stiffness.seen_by(&right) {
+            return None;
+        }
+        let dp = stiffness.solve_transposed(&Matrix::from_rows(1, right.into()));
+        let dp = dp.column(0);
         let (dslope, bend) = (along.seen.row_slope(o, s), seen.row_curvature(o));
         let dslope = Vector::from_fn(n, |i| dslope[i] + ds * bend[i]);
         let inertia = times_complex(&linear.mass, z);
@@ -283,15 +304,13 @@ impl<'a> Curved<'a> {
         let form_change = dot_complex(&of_frequency, dz)
             + dot_complex(&dp, &pencil_slope_times(linear, s, z))
             + dot_complex(p, &moved);
-        Some(Factors {
-            motion: [
-                Vector::from_fn(n, |i| s * (2.0 * ds * z[i] + s * dz[i])),
-                Vector::from_fn(n, |i| ds * z[i] + s * dz[i]),
-                dz.clone(),
-            ],
-            slope: Complex::I * (seen_change - form_change),
-            left: dp,
-        })
+        let motion = [
+            Vector::from_fn(n, |i| s * (2.0 * ds * z[i] + s * dz[i])),
+            Vector::from_fn(n, |i| ds * z[i] + s * dz[i]),
+            dz.clone(),
+        ];
+        let slope = Complex::I * (seen_change - form_change);
+        Some((Factors { left: dp, slope }, motion))
     }
 }
 
@@ -323,7 +342,7 @@ pub(super) fn frequency_rows(
     let sizes = mechanism.sizes();
     let (mut partial, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
     let weights = Weights::of_frequency(sizes, vibration);
-    weights.gradient_into(mechanism, at, &mut partial);
+    weights.gradient_into(mechanism, at, gradient_results(&mut partial));
     let w = adjoint.total(&mut partial, &mut room);
     let slopes = |own: &Gradient| Slopes {
         by_input: own.inputs.clone(),

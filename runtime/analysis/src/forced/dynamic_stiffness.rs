@@ -9,13 +9,17 @@
 //! `l^T D' z = 0`, provided that the force does not drive the direction, `l^T F = 0`. If it does, there is no response.
 
 use crate::Complex;
-use crate::algebra::{Lu, Matrix, Vector};
+use crate::algebra::{Lu, Matrix, Vector, product_complex};
 use crate::kernels::Linear;
+use crate::scalar::Real as _;
 
 /// Rounding errors of a scaled element that a vanishing direction may hide behind, times the number of unknowns.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Share of a force along a vanishing direction that counts as none.
 const NOT_DRIVEN: f64 = 1e-9;
+/// Length that the inverse gives to a unit vector without a pattern, below which no direction vanishes: with one, the vector
+/// grows by the inverse of rounding, times its share along the direction.
+const REGULAR: f64 = 1e6;
 /// Steps of inverse iteration: each gains as many digits as the direction is separated by.
 const STEPS: usize = 3;
 /// Rounds of scaling.
@@ -40,21 +44,16 @@ struct Vanishing {
 impl DynamicStiffness {
     /// At `s = i w`; `None` if it is singular beyond what single modes explain.
     pub(super) fn new(linear: &Linear, s: Complex) -> Option<Self> {
-        let (c, m) = (&linear.damping, &linear.mass);
         let Scaled {
             rows,
             columns,
             mut matrix,
         } = Scaled::new(linear, s);
         let n = rows.len();
-        let slope = Matrix::from_fn(n, n, |i, j| {
-            (2.0 * s * m[i][j] + c[i][j]) * (rows[i] * columns[j])
-        });
         let mut vanishing = Vec::new();
         for _ in 0..=n {
             let (factors, regular) = factored(&matrix)?;
-            let (size, direction) = weakest(&factors, n);
-            if regular && size > ROUNDING * n as f64 {
+            let Some(direction) = vanishing_direction(&factors, regular, n) else {
                 return Some(Self {
                     rows,
                     columns,
@@ -62,7 +61,11 @@ impl DynamicStiffness {
                     factors,
                     vanishing,
                 });
-            }
+            };
+            let (c, m) = (&linear.damping, &linear.mass);
+            let slope = Matrix::from_fn(n, n, |i, j| {
+                (2.0 * s * m[i][j] + c[i][j]) * (rows[i] * columns[j])
+            });
             let column = unit(&times(&slope, &direction.right))?;
             let row = unit(&times(&slope.transpose(), &direction.left))?;
             for i in 0..n {
@@ -75,34 +78,36 @@ impl DynamicStiffness {
         None
     }
 
-    /// `D^-1 force`; `None` if the force drives a direction in which `D` vanishes.
-    pub(super) fn solve(&self, force: &[Complex]) -> Option<Vector<Complex>> {
-        let right = product(force, &self.rows);
+    /// Whether a force drives a direction in which `D` vanishes: then there is no response to it.
+    pub(super) fn driven_by(&self, force: &[Complex]) -> bool {
         let mut directions = self.vanishing.iter();
-        if directions.any(|own| drives(&right, &own.left)) {
-            return None;
-        }
-        let x = refined(
-            &right,
-            |right| self.factors.solve(right),
-            |x| times(&self.matrix, x),
-        );
-        Some(product(&x, &self.columns))
+        directions.any(|own| drives(&scaled(force, &self.rows), &own.left))
     }
 
-    /// `D^-T weights`; `None` if the weights see a direction in which `D` vanishes.
-    pub(super) fn solve_transposed(&self, weights: &[Complex]) -> Option<Vector<Complex>> {
-        let right = product(weights, &self.columns);
+    /// Whether weights see a direction in which `D` vanishes: then `D^-T weights` is infinite.
+    pub(super) fn seen_by(&self, weights: &[Complex]) -> bool {
         let mut directions = self.vanishing.iter();
-        if directions.any(|own| drives(&right, &own.right)) {
-            return None;
-        }
-        let x = refined(
-            &right,
-            |right| self.factors.solve_transposed(right),
-            |x| times_transposed(&self.matrix, x),
-        );
-        Some(product(&x, &self.rows))
+        directions.any(|own| drives(&scaled(weights, &self.columns), &own.right))
+    }
+
+    /// `D^-1 forces`, for forces that do not drive a direction in which `D` vanishes; one column each.
+    pub(super) fn solve(&self, forces: &Matrix<Complex>) -> Matrix<Complex> {
+        let scales = [&self.rows[..], &self.columns];
+        refined(
+            (&self.matrix, forces, scales),
+            #[inline(always)]
+            |right| self.factors.solve_columns(right),
+        )
+    }
+
+    /// `D^-T weights`, for weights that do not see a direction in which `D` vanishes; one column each.
+    pub(super) fn solve_transposed(&self, weights: &Matrix<Complex>) -> Matrix<Complex> {
+        let scales = [&self.columns[..], &self.rows];
+        refined(
+            (&self.matrix.transpose(), weights, scales),
+            #[inline(always)]
+            |right| self.factors.solve_transposed_columns(right),
+        )
     }
 }
 
@@ -116,15 +121,29 @@ pub(super) struct Scaled {
 
 impl Scaled {
     pub(super) fn new(linear: &Linear, s: Complex) -> Self {
+        f64::run(
+            #[inline(always)]
+            || Self::of(linear, s),
+        )
+    }
+
+    #[inline(always)]
+    fn of(linear: &Linear, s: Complex) -> Self {
         let (k, c, m) = (&linear.stiffness, &linear.damping, &linear.mass);
         let (n, w) = (k.row_count(), s.norm());
-        let terms = Matrix::from_fn(n, n, |i, j| {
-            k[i][j].abs() + w * (c[i][j].abs() + w * m[i][j].abs())
-        });
-        let (rows, columns) = scales(&terms);
-        let matrix = Matrix::from_fn(n, n, |i, j| {
-            (s * (s * m[i][j] + c[i][j]) + k[i][j]) * (rows[i] * columns[j])
-        });
+        let entries = || {
+            let [k, c, m] = [k, c, m].map(Matrix::as_flattened);
+            k.iter().zip(c).zip(m).map(|((k, c), m)| (k, c, m))
+        };
+        let terms = entries().map(|(k, c, m)| k.abs() + w * (c.abs() + w * m.abs()));
+        let (rows, columns) = scales(n, &terms.map(twice_log2).collect::<Vec<i32>>());
+        let values = entries().map(|(k, c, m)| s * (s * m + c) + k);
+        let mut matrix = Matrix::from_rows(n, values.collect());
+        for (row, by_row) in matrix.iter_mut().zip(&rows) {
+            for (value, by_column) in row.iter_mut().zip(&columns) {
+                *value *= by_row * by_column;
+            }
+        }
         Self {
             rows,
             columns,
@@ -133,25 +152,46 @@ impl Scaled {
     }
 }
 
-/// Powers of two that bring the largest element of every row and column near one.
-fn scales(terms: &Matrix) -> (Vector, Vector) {
-    let n = terms.row_count();
-    let (mut rows, mut columns) = (Vector::filled(n, 1.0), Vector::filled(n, 1.0));
-    let root = |most: f64| match most > 0.0 && most.is_finite() {
-        true => (-0.5 * most.log2()).round().exp2(),
-        false => 1.0,
+/// The logarithm of an element that is zero or not finite.
+const NONE: i32 = i32::MIN / 2;
+
+/// Twice the logarithm to base two of a number that is not negative; odd between two powers.
+#[inline(always)]
+fn twice_log2(value: f64) -> i32 {
+    const DIGITS: u64 = (1 << 52) - 1;
+    let bits = value.to_bits();
+    match value > 0.0 && value.is_finite() {
+        true => 2 * ((bits >> 52) as i32 - 1023) + i32::from(bits & DIGITS != 0),
+        false => NONE,
+    }
+}
+
+/// Powers of two that bring the largest element of every row and column near one, from twice the logarithms.
+#[inline(always)]
+fn scales(n: usize, logarithms: &[i32]) -> (Vector, Vector) {
+    let (mut rows, mut columns) = (vec![0; n], vec![0; n]);
+    let mut by_column = vec![NONE; n];
+    // Half of the logarithm, rounded.
+    let root = |most: i32| match most > NONE / 2 {
+        true => (most + 2 * most.signum()) / 4 * 2,
+        false => 0,
     };
     for _ in 0..ROUNDS {
-        let size = |i: usize, j: usize| terms[i][j] * rows[i] * columns[j];
-        let most = |of: &dyn Fn(usize) -> f64| root((0..n).map(of).fold(0.0, f64::max));
-        let by_row = Vector::from_fn(n, |i| most(&|j| size(i, j)));
-        let by_column = Vector::from_fn(n, |j| most(&|i| size(i, j)));
-        for i in 0..n {
-            rows[i] *= by_row[i];
-            columns[i] *= by_column[i];
+        by_column.fill(NONE);
+        for (own, logarithms) in rows.iter_mut().zip(logarithms.chunks_exact(n.max(1))) {
+            let mut by_row = NONE;
+            for ((size, column), most) in logarithms.iter().zip(&columns).zip(&mut by_column) {
+                by_row = by_row.max(size + column);
+                *most = (*most).max(size + *own);
+            }
+            *own -= root(by_row + *own);
+        }
+        for (own, most) in columns.iter_mut().zip(&by_column) {
+            *own -= root(most + *own);
         }
     }
-    (rows, columns)
+    let powers = |twice: Vec<i32>| twice.into_iter().map(|k| 2_f64.powi(k / 2)).collect();
+    (powers(rows), powers(columns))
 }
 
 /// Factors of a matrix; if elimination finds it singular, of one that differs by rounding.
@@ -166,19 +206,26 @@ pub(super) fn factored(matrix: &Matrix<Complex>) -> Option<(Lu<Complex>, bool)> 
     Some((Lu::of(near)?, false))
 }
 
-/// The smallest singular value and its directions, by inverse iteration.
-fn weakest(factors: &Lu<Complex>, n: usize) -> (f64, Vanishing) {
+/// A direction in which a matrix vanishes to working accuracy, by inverse iteration; `regular` says that elimination found
+/// none.
+fn vanishing_direction(factors: &Lu<Complex>, regular: bool, n: usize) -> Option<Vanishing> {
     let mut number = Numbers(n as u64);
-    let mut left = Vector::from_fn(n, |_| number.next());
+    let start = Vector::from_fn(n, |_| number.next());
+    let mut left = unit(&start).unwrap_or(start);
     let (mut right, mut size) = (Vector::zeros(n), 0.0);
     for _ in 0..STEPS {
         let conjugate = left.map(|value: Complex| value.conj());
-        right = unit(&factors.solve(&conjugate)).unwrap_or(conjugate);
+        let image = factors.solve(&conjugate);
+        if regular && norm(&image) < REGULAR {
+            return None;
+        }
+        right = unit(&image).unwrap_or(conjugate);
         let image = factors.solve_transposed(&right.map(|value| value.conj()));
         size = 1.0 / norm(&image);
         left = unit(&image).unwrap_or(left);
     }
-    (size, Vanishing { left, right })
+    let found = !(regular && size > ROUNDING * n as f64);
+    found.then_some(Vanishing { left, right })
 }
 
 /// Whether a force has a share along a direction.
@@ -187,16 +234,38 @@ fn drives(force: &[Complex], direction: &[Complex]) -> bool {
     along.norm() > NOT_DRIVEN * norm(force)
 }
 
-/// The solution, improved once by its residual.
+/// The solutions of a scaled system, each improved once by its residual, for columns that are not scaled; `scales` are
+/// those of the right-hand sides and of the solutions.
 fn refined(
-    right: &[Complex],
-    solve: impl Fn(&[Complex]) -> Vector<Complex>,
-    image: impl Fn(&[Complex]) -> Vector<Complex>,
-) -> Vector<Complex> {
-    let x = solve(right);
-    let image = image(&x);
-    let correction = solve(&Vector::from_fn(x.len(), |i| right[i] - image[i]));
-    Vector::from_fn(x.len(), |i| x[i] + correction[i])
+    (matrix, right, [of_right, of_solution]): (&Matrix<Complex>, &Matrix<Complex>, [&[f64]; 2]),
+    solve: impl Fn(&Matrix<Complex>) -> Matrix<Complex>,
+) -> Matrix<Complex> {
+    f64::run(
+        #[inline(always)]
+        || {
+            let mut residual = right.clone();
+            scale_rows(&mut residual, of_right);
+            let mut x = solve(&residual);
+            let image = product_complex(matrix, &x);
+            combine(&mut residual, &image, |a, b| a - b);
+            combine(&mut x, &solve(&residual), |a, b| a + b);
+            scale_rows(&mut x, of_solution);
+            x
+        },
+    )
+}
+
+#[inline(always)]
+fn scale_rows(matrix: &mut Matrix<Complex>, scales: &[f64]) {
+    for (row, scale) in matrix.iter_mut().zip(scales) {
+        row.iter_mut().for_each(|value| *value *= scale);
+    }
+}
+
+#[inline(always)]
+fn combine(a: &mut Matrix<Complex>, b: &Matrix<Complex>, f: impl Fn(Complex, Complex) -> Complex) {
+    let pairs = a.as_flattened_mut().iter_mut().zip(b.as_flattened());
+    pairs.for_each(|(a, b)| *a = f(*a, *b));
 }
 
 pub(super) fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
@@ -204,17 +273,7 @@ pub(super) fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> 
     matrix.iter().map(row).collect()
 }
 
-fn times_transposed(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
-    let mut sum = Vector::zeros(matrix.column_count());
-    for (row, x) in matrix.iter().zip(x) {
-        for (sum, a) in sum.iter_mut().zip(row) {
-            *sum += a * x;
-        }
-    }
-    sum
-}
-
-fn product(x: &[Complex], scales: &[f64]) -> Vector<Complex> {
+fn scaled(x: &[Complex], scales: &[f64]) -> Vector<Complex> {
     Vector::from_fn(x.len(), |i| x[i] * scales[i])
 }
 

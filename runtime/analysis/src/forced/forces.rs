@@ -113,9 +113,25 @@ impl Seen {
         self.combined(output, [s * s, s, Complex::ONE])
     }
 
+    /// `c` of every output, one row each.
+    pub(super) fn rows(&self, s: Complex) -> Matrix<Complex> {
+        let [acceleration, velocity, position] = &self.0;
+        let square = s * s;
+        Matrix::from_fn(position.row_count(), position.column_count(), |o, i| {
+            square * acceleration[o][i] + s * velocity[o][i] + position[o][i]
+        })
+    }
+
     /// `dc/ds`.
     pub(super) fn row_slope(&self, output: usize, s: Complex) -> Vector<Complex> {
         self.combined(output, [2.0 * s, Complex::ONE, Complex::ZERO])
+    }
+
+    /// `dc/ds . z`.
+    pub(super) fn slope(&self, output: usize, s: Complex, z: &[Complex]) -> Complex {
+        let [acceleration, velocity, _] = &self.0;
+        let rows = acceleration[output].iter().zip(&velocity[output]);
+        rows.zip(z).map(|((a, v), z)| (2.0 * s * a + v) * z).sum()
     }
 
     /// `d2c/ds2`.

@@ -64,7 +64,9 @@ pub(crate) fn along_input(
         slopes,
         along: rows.into_iter().next().ok_or(none.clone())?,
     };
-    let own = OutputAdjoint::new(&solved, vibration, output.index()).ok_or(none.clone())?;
+    let only = output.index()..output.index() + 1;
+    let own = OutputAdjoint::each(&solved, vibration, only);
+    let own = own.into_iter().flatten().next().ok_or(none.clone())?;
     let terms = terms(
         &at.linear,
         frequency.value,

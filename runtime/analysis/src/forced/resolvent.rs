@@ -19,7 +19,7 @@
 use super::dynamic_stiffness::{Scaled, factored, times};
 use super::forces::{Forces, Seen};
 use super::response::add;
-use crate::algebra::{Lu, Matrix, Vector};
+use crate::algebra::{Lu, Matrix, Vector, product_complex};
 use crate::kernels::{CurvatureKernels, Linear};
 use crate::sensitivity::{Direction, equilibrium_shift, outside_domain};
 use crate::{Complex, Equilibrium, Error};
@@ -95,8 +95,8 @@ impl<'a> Resolvent<'a> {
         let [mut small, mut left, mut right, mut rest] = [
             e.clone(),
             scaled.forced(l.clone()),
-            product(&c, r),
-            scaled.forced(product(&c, g)),
+            product_complex(&c, r),
+            scaled.forced(product_complex(&c, g)),
         ]
         .map(|value| Linearised {
             value,
@@ -111,22 +111,24 @@ impl<'a> Resolvent<'a> {
             let rate = turn * Forces::along(mechanism, at, &along).frequency(first);
             let ds = Complex::new(0.0, rate);
             let change = scaled.change(&at.linear, &along.linear(mechanism, at), s, ds);
-            let (changed_right, changed_left) = (product(&change, r), product(l, &change));
+            let (changed_right, changed_left) =
+                (product_complex(&change, r), product_complex(l, &change));
             let moved = Seen::along(mechanism, at, &along);
             let dc = rows(&|o| {
                 let (row, slope) = (moved.row(o, s), seen.row_slope(o, s));
                 Vector::from_fn(row.len(), |i| row[i] + slope[i] * ds)
             });
-            small.slopes.push(product(l, &changed_right));
+            small.slopes.push(product_complex(l, &changed_right));
             left.slopes
-                .push(scaled.forced(negated(product(&changed_left, g))));
-            let cg = product(&c, g);
-            right
-                .slopes
-                .push(difference(product(&dc, r), &product(&cg, &changed_right)));
-            let through = product(&product(&cg, &change), g);
+                .push(scaled.forced(negated(product_complex(&changed_left, g))));
+            let cg = product_complex(&c, g);
+            right.slopes.push(difference(
+                product_complex(&dc, r),
+                &product_complex(&cg, &changed_right),
+            ));
+            let through = product_complex(&product_complex(&cg, &change), g);
             rest.slopes
-                .push(scaled.forced(difference(product(&dc, g), &through)));
+                .push(scaled.forced(difference(product_complex(&dc, g), &through)));
         }
         Ok(Self {
             mechanism,
@@ -291,19 +293,6 @@ fn orthonormal(mut vectors: Vec<Vector<Complex>>) -> Option<Vec<Vector<Complex>>
         }
     }
     Some(vectors)
-}
-
-fn product(a: &Matrix<Complex>, b: &Matrix<Complex>) -> Matrix<Complex> {
-    let (rows, columns) = (a.row_count(), b.column_count());
-    let mut product = Matrix::zeros(rows, columns);
-    for i in 0..rows {
-        for (factor, row) in a[i].iter().zip(b.iter()) {
-            for (entry, value) in product[i].iter_mut().zip(row) {
-                *entry += factor * value;
-            }
-        }
-    }
-    product
 }
 
 fn negated(mut matrix: Matrix<Complex>) -> Matrix<Complex> {

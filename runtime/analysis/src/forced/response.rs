@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::dynamic_stiffness::DynamicStiffness;
 use super::forces::{Forces, Seen};
 use super::measure::Measure;
-use crate::algebra::{Vector, dot_complex, largest};
+use crate::algebra::{Matrix, Vector, largest, product_complex};
 use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::modes::modes;
@@ -113,6 +113,8 @@ pub(super) struct Solved<'a> {
 pub(super) struct Vibration {
     pub(super) harmonic: Harmonic,
     pub(super) stiffness: Rc<DynamicStiffness>,
+    /// How the outputs see the vibration, one row each.
+    pub(super) seen: Matrix<Complex>,
 }
 
 impl<'a> Solved<'a> {
@@ -152,12 +154,13 @@ impl<'a> Solved<'a> {
                 }
             };
             let members = (first..infos.len()).filter(|&k| infos[k].with == first);
-            let shares = members.map(|k| share(at, (&forces, &seen), (k, frequency), &stiffness));
-            let shares: Vec<Share> = shares.collect::<Result<_, _>>()?;
-            let harmonic = superposed(mechanism, frequency, shares);
+            let rows = seen.rows(Complex::new(0.0, frequency));
+            let shares = shares(at, &forces, members.collect(), (&stiffness, &rows));
+            let shares = shares.map_err(|driven| resonance(at, driven, frequency))?;
             vibrations.push(Vibration {
-                harmonic,
+                harmonic: superposed(mechanism, frequency, shares),
                 stiffness,
+                seen: rows,
             });
         }
         Ok(Self {
@@ -168,10 +171,10 @@ impl<'a> Solved<'a> {
         })
     }
 
-    pub(super) fn response(&self) -> ForcedResponse {
-        let each = self.vibrations.iter();
+    pub(super) fn response(self) -> ForcedResponse {
+        let each = self.vibrations.into_iter();
         ForcedResponse {
-            harmonics: each.map(|own| own.harmonic.clone()).collect(),
+            harmonics: each.map(|own| own.harmonic).collect(),
             inputs: self.at.inputs.clone(),
             description: self.at.description.clone(),
         }
@@ -216,27 +219,36 @@ fn closes(at: &Equilibrium, forces: &Forces) -> Result<(), Error> {
     Ok(())
 }
 
-/// The response to one excitation.
-fn share(
+/// The responses to excitations of one frequency; an error is an excitation in resonance.
+fn shares(
     at: &Equilibrium,
-    (forces, seen): (&Forces, &Seen),
-    (excitation, frequency): (usize, f64),
-    stiffness: &DynamicStiffness,
-) -> Result<Share, Error> {
-    let reversed = forces.frequency(excitation) < 0.0;
-    let turn = if reversed { -1.0 } else { 1.0 };
-    let unknowns = stiffness.solve(&forces.force(excitation, turn));
-    let unknowns = unknowns.ok_or_else(|| resonance(at, excitation, frequency))?;
-    let mut outputs = forces.direct(excitation, turn);
-    for (o, y) in outputs.iter_mut().enumerate() {
-        *y += dot_complex(&seen.row(o, Complex::new(0.0, frequency)), &unknowns);
+    forces: &Forces,
+    members: Vec<usize>,
+    (stiffness, seen): (&DynamicStiffness, &Matrix<Complex>),
+) -> Result<Vec<Share>, usize> {
+    let turn = |excitation: usize| match forces.frequency(excitation) < 0.0 {
+        true => -1.0,
+        false => 1.0,
+    };
+    let each = members.iter().map(|&own| forces.force(own, turn(own)));
+    let each: Vec<Vector<Complex>> = each.collect();
+    if let Some(driven) = each.iter().position(|force| stiffness.driven_by(force)) {
+        return Err(members[driven]);
     }
-    Ok(Share {
-        excitation,
-        reversed,
-        outputs,
-        unknowns,
-    })
+    let forced = Matrix::from_fn(at.coordinates.len(), each.len(), |i, k| each[k][i]);
+    let unknowns = stiffness.solve(&forced);
+    let seen = product_complex(seen, &unknowns);
+    let share = |(k, excitation): (usize, usize)| {
+        let mut outputs = forces.direct(excitation, turn(excitation));
+        add(&mut outputs, &seen.column(k));
+        Share {
+            excitation,
+            reversed: turn(excitation) < 0.0,
+            outputs,
+            unknowns: unknowns.column(k),
+        }
+    };
+    Ok(members.into_iter().enumerate().map(share).collect())
 }
 
 fn superposed(mechanism: &dyn Kernels, frequency: f64, shares: Vec<Share>) -> Harmonic {

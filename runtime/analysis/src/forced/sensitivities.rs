@@ -1,10 +1,11 @@
 //! Total first derivatives of forced vibrations.
 
-use super::adjoint::{OutputAdjoint, Weights};
+use super::adjoint::{OutputAdjoint, Weights, gradients, results};
 use super::measure::Measure;
 use super::response::{ForcedResponse, Harmonic, Solved};
 use crate::algebra::{Matrix, Vector, add_to};
-use crate::kernels::{Gradient, Kernels};
+use crate::kernels::Kernels;
+use crate::scalar::Real as _;
 use crate::sensitivity::{EquilibriumShift, Slopes, depends, equilibrium_shift, outside_domain};
 use crate::{Complex, Equilibrium, Error, Output};
 
@@ -108,54 +109,76 @@ pub fn sensitivities(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
 ) -> Result<ForcedSensitivities, Error> {
-    first_derivatives(&Solved::new(mechanism, at)?)
+    let solved = Solved::new(mechanism, at)?;
+    Ok(ForcedSensitivities {
+        harmonics: first_derivatives(&solved)?,
+        response: solved.response(),
+    })
 }
 
-pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<ForcedSensitivities, Error> {
+pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensitivity>, Error> {
     let (mechanism, at) = (solved.mechanism, solved.at);
     let shift = equilibrium_shift(mechanism, at)?;
-    let outputs = mechanism.sizes().outputs;
-    let mut room = Gradient::zeros(mechanism.sizes());
+    let (n, outputs) = (at.coordinates.len(), mechanism.sizes().outputs);
     let mut harmonics = Vec::new();
     for vibration in &solved.vibrations {
-        let of_frequency = Weights::of_frequency(mechanism.sizes(), vibration);
-        of_frequency.gradient_into(mechanism, at, &mut room);
-        let frequency = total(&room, &shift);
-        let of_output = |o: usize| {
-            let [re, im] = OutputAdjoint::new(solved, vibration, o)?.gradient();
-            let placed = [&re, &im];
-            if placed.iter().any(|own| depends(at, &own.coordinates)) {
-                return None;
-            }
-            let both = total(&re, &shift).zip(&total(&im, &shift));
-            Some(both.map(|(re, im)| -Complex::new(re, im)))
+        let adjoints = OutputAdjoint::each(solved, vibration, 0..outputs);
+        let finite: Vec<&OutputAdjoint<'_>> = adjoints.iter().flatten().collect();
+        let mut rows = gradients(solved, vibration, &finite);
+        let placed = |rows: &Matrix, k: usize| depends(at, &rows[k][..n]);
+        let placed: Vec<bool> = (0..finite.len())
+            .map(|k| rows.iter().any(|rows| placed(rows, k)))
+            .collect();
+        rows.iter_mut().for_each(|rows| add_shift(rows, &shift));
+        let [re, im] = &rows;
+        let mut places = 0..finite.len();
+        let of_output = |own: &Option<OutputAdjoint<'_>>| {
+            own.as_ref()?;
+            let k = places.next()?;
+            (!placed[k]).then(|| slopes(at, |j| -Complex::new(re[k][j], im[k][j])))
         };
+        let outputs = adjoints.iter().map(of_output).collect();
+        let mut row = Matrix::zeros(1, re.column_count());
+        let of_frequency = Weights::of_frequency(mechanism.sizes(), vibration);
+        of_frequency.gradient_into(mechanism, at, results(at, &mut row[0]));
+        add_shift(&mut row, &shift);
         let own = HarmonicSensitivity {
-            frequency,
-            outputs: (0..outputs).map(of_output).collect(),
+            outputs,
+            frequency: slopes(at, |j| row[0][j]),
         };
         if !own.finite() {
             return Err(outside_domain(at));
         }
         harmonics.push(own);
     }
-    Ok(ForcedSensitivities {
-        response: solved.response(),
-        harmonics,
-    })
+    Ok(harmonics)
 }
 
-/// The derivatives of a gradient's scalar with the shift of the equilibrium.
-fn total(partial: &Gradient, shift: &EquilibriumShift) -> Slopes<f64> {
-    let with = |own: &Vector, shift: &Matrix| {
-        let mut sum = own.clone();
-        for (rate, shift) in partial.coordinates.iter().zip(shift.iter()) {
-            add_to(&mut sum, *rate, shift);
-        }
-        sum
-    };
+/// Adds the effect of the shift of the equilibrium to gradients by unknowns, inputs and design variables, one row each.
+fn add_shift(gradients: &mut Matrix, shift: &EquilibriumShift) {
+    let (by_input, by_design) = (&shift.by_input, &shift.by_design);
+    f64::run(
+        #[inline(always)]
+        || {
+            for row in gradients.iter_mut() {
+                let (by_unknown, rest) = row.split_at_mut(by_design.row_count());
+                let (inputs, design) = rest.split_at_mut(by_input.column_count());
+                let shifts = by_input.iter().zip(by_design.iter());
+                for (rate, (by_input, by_design)) in by_unknown.iter().zip(shifts) {
+                    add_to(inputs, *rate, by_input);
+                    add_to(design, *rate, by_design);
+                }
+            }
+        },
+    );
+}
+
+/// Derivatives by inputs and design variables, which stand after those by unknowns.
+fn slopes<T: Copy + Default>(at: &Equilibrium, total: impl Fn(usize) -> T) -> Slopes<T> {
+    let first = at.coordinates.len();
+    let design = first + at.inputs.len();
     Slopes {
-        by_input: with(&partial.inputs, &shift.by_input),
-        by_design: with(&partial.design, &shift.by_design),
+        by_input: Vector::from_fn(at.inputs.len(), |k| total(first + k)),
+        by_design: Vector::from_fn(at.design.len(), |k| total(design + k)),
     }
 }

@@ -1,7 +1,7 @@
 //! Triangular factorisation of a general matrix.
 
 use super::for_size;
-use super::matrix::Matrix;
+use super::matrix::{Matrix, combine_rows};
 use super::vector::Vector;
 use crate::Complex;
 
@@ -120,18 +120,14 @@ impl<T: Field> Lu<T> {
         let entries = x.as_flattened_mut();
         for i in 0..n {
             let (done, rest) = entries.split_at_mut(i * count);
-            let row = &mut rest[..count];
-            for k in 0..i {
-                subtract_row(row, factors[i * n + k], &done[k * count..(k + 1) * count]);
-            }
+            let factor = |k: usize| factors[i * n + k];
+            combine_rows(&mut rest[..count], (done, i), factor, minus);
         }
         for i in (0..n).rev() {
             let (open, done) = entries.split_at_mut((i + 1) * count);
             let row = &mut open[i * count..];
-            for k in i + 1..n {
-                let own = &done[(k - i - 1) * count..(k - i) * count];
-                subtract_row(row, factors[i * n + k], own);
-            }
+            let factor = |k: usize| factors[i * n + i + 1 + k];
+            combine_rows(row, (done, n - i - 1), factor, minus);
             let pivot = factors[i * n + i];
             row.iter_mut().for_each(|value| *value = *value / pivot);
         }
@@ -179,14 +175,38 @@ impl<T: Field> Lu<T> {
         }
         x
     }
+
+    /// Solves with the transposed matrix for several right-hand sides at once, the columns of a matrix; each has the bits
+    /// of [`Self::solve_transposed`].
+    #[inline(always)]
+    pub fn solve_transposed_columns(&self, right: &Matrix<T>) -> Matrix<T> {
+        let (n, count) = (right.row_count(), right.column_count());
+        let factors = &self.factors.as_flattened()[..n * n];
+        let mut y = right.clone();
+        let entries = y.as_flattened_mut();
+        for i in 0..n {
+            let (done, rest) = entries.split_at_mut(i * count);
+            let row = &mut rest[..count];
+            combine_rows(row, (done, i), |k| factors[k * n + i], minus);
+            let pivot = factors[i * n + i];
+            row.iter_mut().for_each(|value| *value = *value / pivot);
+        }
+        for i in (0..n).rev() {
+            let (open, done) = entries.split_at_mut((i + 1) * count);
+            let factor = |k: usize| factors[(i + 1 + k) * n + i];
+            combine_rows(&mut open[i * count..], (done, n - i - 1), factor, minus);
+        }
+        let mut x = Matrix::zeros(n, count);
+        for (&place, row) in self.order.iter().zip(y.iter()) {
+            x[place].copy_from_slice(row);
+        }
+        x
+    }
 }
 
-/// `row - factor other`.
 #[inline(always)]
-fn subtract_row<T: Field>(row: &mut [T], factor: T, other: &[T]) {
-    for (value, other) in row.iter_mut().zip(other) {
-        *value = *value - factor * *other;
-    }
+fn minus<T: Field>(sum: T, factor: T, value: T) -> T {
+    sum - factor * value
 }
 
 /// The row with the largest element in column `k`, relative to its own size, that is not just the rounding of what has

@@ -215,17 +215,70 @@ pub fn times(matrix: &Matrix, x: &[f64]) -> Vector {
 /// `matrix x` for several vectors at once, the columns of `x`; each has the bits of [`times`].
 #[inline(always)]
 pub fn times_columns(matrix: &Matrix, x: &Matrix) -> Matrix {
-    let count = x.column_count();
-    let mut product = Matrix::zeros(matrix.row_count(), count);
-    for (row, sums) in matrix.iter().zip(product.iter_mut()) {
-        sums.fill(-0.0);
-        for (factor, values) in row.iter().zip(x.iter()) {
-            for (sum, value) in sums.iter_mut().zip(values) {
-                *sum += factor * value;
-            }
-        }
+    product(matrix, x, -0.0)
+}
+
+/// The product of two complex matrices.
+#[inline(always)]
+pub fn product_complex(a: &Matrix<Complex>, b: &Matrix<Complex>) -> Matrix<Complex> {
+    product(a, b, Complex::ZERO)
+}
+
+#[inline(always)]
+fn product<T>(a: &Matrix<T>, b: &Matrix<T>, zero: T) -> Matrix<T>
+where
+    T: Copy + Default + core::ops::Add<Output = T> + core::ops::Mul<Output = T>,
+{
+    let mut product = Matrix::zeros(a.rows, b.columns);
+    let rows = (b.as_flattened(), b.rows);
+    for (factors, sums) in a.iter().zip(product.iter_mut()) {
+        sums.fill(zero);
+        combine_rows(sums, rows, |k| factors[k], |sum, a, b| sum + a * b);
     }
     product
+}
+
+/// Applies `sum = f(sum, factor(k), row k)` to every entry of a row, for each of the rows stored one after the other.
+/// Sums stay in registers for as many entries as these hold.
+#[inline(always)]
+pub(super) fn combine_rows<T: Copy>(
+    sums: &mut [T],
+    (rows, count): (&[T], usize),
+    factor: impl Fn(usize) -> T,
+    f: impl Fn(T, T, T) -> T,
+) {
+    let places = (rows, count, sums.len());
+    let (wide, rest) = sums.as_chunks_mut::<8>();
+    let first = combine_chunks(wide, places, 0, &factor, &f);
+    let (wide, rest) = rest.as_chunks_mut::<4>();
+    let first = combine_chunks(wide, places, first, &factor, &f);
+    let (wide, rest) = rest.as_chunks_mut::<2>();
+    let first = combine_chunks(wide, places, first, &factor, &f);
+    combine_chunks(rest.as_chunks_mut::<1>().0, places, first, &factor, &f);
+}
+
+/// [`combine_rows`] for chunks of a row that begin at column `first`; returns the column after them.
+#[inline(always)]
+fn combine_chunks<T: Copy, const W: usize>(
+    chunks: &mut [[T; W]],
+    (rows, count, columns): (&[T], usize, usize),
+    mut first: usize,
+    factor: &impl Fn(usize) -> T,
+    f: &impl Fn(T, T, T) -> T,
+) -> usize {
+    for chunk in chunks {
+        let mut sums = *chunk;
+        for k in 0..count {
+            let factor = factor(k);
+            let values = &rows[k * columns + first..][..W];
+            for j in 0..W {
+                sums[j] = f(sums[j], factor, values[j]);
+            }
+        }
+        *chunk = sums;
+        first += W;
+    }
+    first
 }
 
 /// `matrix x` for a complex vector.

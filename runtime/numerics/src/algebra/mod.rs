@@ -30,8 +30,8 @@ pub use vector::Vector;
 pub use cholesky::{Cholesky, factor_rows, solve_rows};
 pub use lu::{Field, Lu};
 pub use matrix::{
-    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, times, times_columns,
-    times_complex,
+    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, product_complex, times,
+    times_columns, times_complex,
 };
 pub use vector::{
     Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,

@@ -4,6 +4,7 @@ use super::pencil::Direction;
 use super::{check_state, place, redundancy};
 use crate::algebra::{Lu, Matrix, Vector, all_finite_matrix};
 use crate::kernels::Kernels;
+use crate::scalar::Real as _;
 use crate::{Description, Equilibrium, Error, Shared};
 
 /// Derivatives of the equilibrium coordinates.
@@ -81,7 +82,10 @@ fn unit(size: usize, k: usize) -> Vector {
 
 /// `-Khat^-1 partials`.
 fn solve_columns(factors: &Lu<f64>, mut partials: Matrix) -> Matrix {
-    partials = factors.solve_columns(&partials);
+    partials = f64::run(
+        #[inline(always)]
+        || factors.solve_columns(&partials),
+    );
     partials
         .as_flattened_mut()
         .iter_mut()
