@@ -27,13 +27,19 @@ impl Jacobians {
     /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the unknowns.
     pub(crate) fn new(g: &mut Graph, context: &Context, e: &Equations) -> Self {
         let (s, runs) = (context.symbols, context.runs);
-        let outward = context.outward_order();
+        let outward = outward(context);
         let running = vec![g.zero(); s.running.ids.len()];
-        let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
-        let mass = mass_matrix(g, context, &kinematics);
+        let mass = match context.sections.rows.is_empty() {
+            true => {
+                let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
+                mass_matrix(g, context, &kinematics)
+            }
+            false => columns(g, &e.parts.inertial, &runs.acceleration),
+        };
         // the acceleration of a coasting coordinate is the rate of an unknown
         let symmetric = context.topology.coasting.is_empty();
         let mass = runs.matrix(g, &mass, symmetric, &outward);
+        let mass = context.sections.matrix(g, &mass, symmetric);
         let [mass, damping, stiffness] = of_inertia(g, context, e, mass);
 
         let applied = &e.parts.applied;
@@ -69,9 +75,9 @@ fn of_inertia(
     mass: Vec<Vec<ExprId>>,
 ) -> [Vec<Vec<ExprId>>; 3] {
     let (s, runs, inertial) = (context.symbols, context.runs, &e.parts.inertial);
-    let outward = context.outward_order();
+    let outward = outward(context);
     let still = |g: &mut Graph, roots: &[ExprId]| {
-        let zeros = vec![g.zero(); s.q.ids.len()];
+        let zeros = vec![g.zero(); runs.position.ids.len()];
         let rates = runs.velocity.with(&zeros);
         let all: Vec<_> = rates.chain(runs.acceleration.with(&zeros)).collect();
         let roots = substitute(g, roots, &all);
@@ -135,7 +141,15 @@ fn summed(
     outward: &[usize],
 ) -> Vec<Vec<ExprId>> {
     let symmetric = is_symmetric(g, context, columns);
-    context.runs.matrix(g, columns, symmetric, outward)
+    let summed = context.runs.matrix(g, columns, symmetric, outward);
+    context.sections.matrix(g, &summed, symmetric)
+}
+
+/// [`Context::outward_order`], and sections last.
+fn outward(context: &Context) -> Vec<usize> {
+    let mut order = context.outward_order();
+    order.resize(context.runs.position.ids.len(), usize::MAX);
+    order
 }
 
 fn is_symmetric(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>]) -> bool {

@@ -9,9 +9,11 @@ mod pair;
 mod perpendiculars;
 mod rolling;
 mod slip_axes;
+mod strain;
 mod transmitted;
 
 pub(super) use constraints::{constraint_rows, held};
 pub(super) use force_context::ForceContext;
 pub(super) use forces::exerted;
+pub(super) use strain::{elastic_energy, strained};
 pub(super) use transmitted::transmitted;

@@ -1,5 +1,6 @@
 //! How the bodies move.
 
+mod beam;
 mod frame;
 mod kinematics;
 mod orientation;
@@ -8,6 +9,7 @@ mod step_axis;
 mod tree;
 mod wrench;
 
+pub(super) use beam::{BeamMotion, curvature};
 pub(super) use frame::{FrameMotion, second_rate};
 pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};
 pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zero};

@@ -1,8 +1,10 @@
 //! The motion of a mechanism in two forms: in the common frame, and in the form needed for inertia and weight.
 
 use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
-use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection, Layout, Selection};
+use crate::base::ids::{BeamId, ExprId};
+use crate::mechanics::setup::{
+    Context, CoordinateMotion, ForceSelection, Layout, OfBeam, Selection,
+};
 use crate::model::mechanism::Motion;
 
 use super::kinematics::Kinematics;
@@ -21,6 +23,10 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
         velocity: symbols.velocity.values[k],
         acceleration: symbols.acceleration.values[k],
     });
+    let beams = (0..context.mechanism.beams.len()).map(BeamId::new);
+    let turns = beams
+        .map(|id| context.sections.by_unknowns(g, symbols, id))
+        .collect();
     let layout = Layout::common(context.mechanism.bodies.len());
     let still = Vector3::zero(g);
     Kinematics::new(
@@ -28,7 +34,7 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
         context.mechanism,
         context.topology,
         context.values,
-        motions,
+        (motions, turns),
         &layout,
         still,
     )
@@ -43,12 +49,19 @@ pub(crate) fn for_inertia(
     selection: ForceSelection,
 ) -> Kinematics {
     let mut motions = motions(g, context, running, |k| context.runs.motion(k));
+    let beams = (0..context.mechanism.beams.len()).map(BeamId::new);
+    let mut turns: Vec<OfBeam<CoordinateMotion>> = beams
+        .map(|id| context.sections.by_themselves(g, id))
+        .collect();
     let zero = g.zero();
     if selection.inertia == Selection::None {
-        for motion in &mut motions {
-            motion.velocity = zero;
-            motion.acceleration = zero;
-        }
+        let still = |motion: CoordinateMotion| CoordinateMotion {
+            position: motion.position,
+            velocity: zero,
+            acceleration: zero,
+        };
+        motions = motions.into_iter().map(still).collect();
+        turns = turns.iter().map(|own| own.map(still)).collect();
     }
     let ground = match selection.gravity {
         true => context.values.vector(g, &context.mechanism.gravity).neg(g),
@@ -60,7 +73,7 @@ pub(crate) fn for_inertia(
         context.mechanism,
         context.topology,
         context.values,
-        motions,
+        (motions, turns),
         layout,
         ground,
     )

@@ -11,6 +11,7 @@ use proc_macro2::Ident;
 use self::quantities::Quantities;
 pub(super) use self::shapes::SHAPES;
 use self::shapes::SYNONYMS;
+use super::beams;
 use super::coordinates;
 use super::joints::kinds::Kind;
 use super::resolver::Resolver;
@@ -95,6 +96,9 @@ impl Resolver<'_> {
         let is_massless = |term: &&Term| term.shape.word == "massless";
         if let Some(massless) = body.terms.iter().find(is_massless) {
             return self.massless(body, massless);
+        }
+        if let Some(beam) = body.terms.iter().find(|term| term.shape.word == beams::WORD) {
+            return self.beam(body, beam).map(|()| Vec::new());
         }
         let right = self.first_is_solid(body);
         let resolved: Vec<Option<Part>> = body

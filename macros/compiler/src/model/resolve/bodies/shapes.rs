@@ -97,7 +97,7 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
 ];
 
 /// Names of the shapes in other tools.
-pub(super) const SYNONYMS: [(&str, &str); 23] = [
+pub(super) const SYNONYMS: [(&str, &str); 22] = [
     ("none", "massless"),
     ("weightless", "massless"),
     ("empty", "massless"),
@@ -105,7 +105,6 @@ pub(super) const SYNONYMS: [(&str, &str); 23] = [
     ("point_mass", "point"),
     ("particle", "point"),
     ("bar", "rod"),
-    ("beam", "rod"),
     ("link", "rod"),
     ("stick", "rod"),
     ("disc", "disk"),

@@ -1,0 +1,206 @@
+//! How the sections of a beam move.
+
+use crate::algebra::{Graph, Matrix3, Vector3};
+use crate::base::ids::{BeamId, ExprId};
+use crate::base::legendre::Gauss;
+use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
+use crate::model::mechanism::Mechanism;
+
+use super::frame::FrameMotion;
+
+/// Motion of the sections of a beam, in the axes of the motion of its root.
+#[derive(Clone, Debug)]
+pub(crate) struct BeamMotion {
+    /// At the places of quadrature.
+    pub(crate) sections: Vec<SectionMotion>,
+    pub(crate) stations: Vec<StationMotion>,
+}
+
+/// Motion of a section.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SectionMotion {
+    /// Its axes: along the beam, and the two across it. Its origin is that of the root.
+    pub(crate) frame: FrameMotion,
+    /// The axes of the beam at the root.
+    axes: Matrix3,
+    /// The Rodrigues vector along them.
+    turn: Vector3,
+    /// `1 / (1 + |turn|^2 / 4)`.
+    factor: ExprId,
+    /// Angular velocity relative to the root.
+    pub(crate) relative: Vector3,
+}
+
+/// A station: its section, and where it is.
+#[derive(Clone, Debug)]
+pub(crate) struct StationMotion {
+    pub(crate) section: SectionMotion,
+    /// Share of the direction of each section in its place, m.
+    pub(crate) reach: Vec<ExprId>,
+    /// Velocity of its origin relative to the root.
+    pub(crate) velocity: Vector3,
+}
+
+impl BeamMotion {
+    pub(crate) fn new(
+        g: &mut Graph,
+        mechanism: &Mechanism,
+        values: &Values,
+        id: BeamId,
+        root: &FrameMotion,
+        turns: &OfBeam<CoordinateMotion>,
+    ) -> Self {
+        let beam = &mechanism.beams[id.index()];
+        let name = mechanism.bodies[beam.body.index()].name.to_string();
+        let own_axes = Matrix3([0, 1, 2].map(|k| values.vector(g, &beam.axes[k])));
+        let axes = Matrix3(own_axes.0.map(|axis| root.orientation.express(g, axis)));
+        let start = root.departing(g);
+        let mut bent = |turn: &[CoordinateMotion; 3], label: String| {
+            SectionMotion::new(g, &start, own_axes, axes, *turn, &label)
+        };
+        let sections: Vec<SectionMotion> = turns
+            .rotations
+            .iter()
+            .enumerate()
+            .map(|(k, turn)| bent(turn, format!("{name}_section_{k}")))
+            .collect();
+        let ends: Vec<SectionMotion> = turns
+            .stations
+            .iter()
+            .enumerate()
+            .map(|(k, turn)| bent(turn, format!("{name}_station_{k}")))
+            .collect();
+        let length = values.scalar(g, &beam.length);
+        let rule = Gauss {
+            points: beam.sections.iter().map(|(place, ..)| *place).collect(),
+            weights: beam.sections.iter().map(|(_, weight, _)| *weight).collect(),
+        };
+        let stations = beam.stations.iter().zip(ends).map(|(station, section)| {
+            let reach: Vec<ExprId> = rule
+                .integrals_to(station.place)
+                .into_iter()
+                .map(|share| g.scale(share, length))
+                .collect();
+            StationMotion::new(g, &sections, section, own_axes, reach)
+        });
+        Self {
+            stations: stations.collect(),
+            sections,
+        }
+    }
+}
+
+impl SectionMotion {
+    /// A section that has turned by a Rodrigues vector: `R = 1 + f (S + S^2 / 2)` with `S = [turn]x` and
+    /// `f = 1 / (1 + |turn|^2 / 4)`; its angular velocity is `f (turn' + turn x turn' / 2)`.
+    fn new(
+        g: &mut Graph,
+        root: &FrameMotion,
+        own_axes: Matrix3,
+        axes: Matrix3,
+        turns: [CoordinateMotion; 3],
+        name: &str,
+    ) -> Self {
+        let turn = Vector3(turns.map(|own| own.position));
+        let rate = Vector3(turns.map(|own| own.velocity));
+        let second = Vector3(turns.map(|own| own.acceleration));
+        let factor = factor(g, turn);
+        g.set_name(factor, || format!("{name}_factor"));
+        let half = g.scale(0.5, factor);
+        let identity = Matrix3::identity(g);
+        let columns = identity.0.map(|axis| {
+            let once = turn.cross(g, axis);
+            let twice = turn.cross(g, once).scale(g, half);
+            let once = once.scale(g, factor);
+            axis.add(g, once).add(g, twice)
+        });
+        let rotation = Matrix3(columns);
+        let twist = |g: &mut Graph, rate: Vector3| {
+            let across = turn.cross(g, rate);
+            let half_of_it = Vector3(across.0.map(|own| g.scale(0.5, own)));
+            rate.add(g, half_of_it).scale(g, factor)
+        };
+        let spin = twist(g, rate);
+        let growth = twist(g, second);
+        let along = turn.dot(g, rate);
+        let shrinking = g.mul(half, along);
+        let lost = spin.scale(g, shrinking);
+        let growth = growth.sub(g, lost);
+        let [relative, growth] = [spin, growth].map(|vector| axes.apply(g, vector));
+        let own_axes_turned = own_axes.multiply(g, rotation);
+        Self {
+            frame: root.bent(g, (own_axes_turned, relative, growth), name),
+            axes,
+            turn,
+            factor,
+            relative,
+        }
+    }
+
+    /// Power of a moment per unit rate of each component of the Rodrigues vector: `f (m - turn x m / 2)`.
+    pub(crate) fn project(&self, g: &mut Graph, moment: Vector3) -> [ExprId; 3] {
+        let own = self.axes.transpose().apply(g, moment);
+        let across = self.turn.cross(g, own);
+        let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+        own.sub(g, half).scale(g, self.factor).0
+    }
+
+    /// The direction of the beam, and its second time derivative.
+    pub(crate) fn arms(&self) -> [(Vector3, Vector3); 3] {
+        self.frame.axes()
+    }
+}
+
+/// `1 / (1 + |turn|^2 / 4)`.
+fn factor(g: &mut Graph, turn: Vector3) -> ExprId {
+    let one = g.constant(1.0);
+    let square = turn.dot(g, turn);
+    let quarter = g.scale(0.25, square);
+    let denominator = g.add(one, quarter);
+    g.div(one, denominator)
+}
+
+/// Twist rate and curvatures along the axes of a section that has turned by a Rodrigues vector, times the length:
+/// `f (slope - turn x slope / 2)`.
+pub(crate) fn curvature(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
+    let factor = factor(g, turn);
+    let across = turn.cross(g, slope);
+    let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+    slope.sub(g, half).scale(g, factor)
+}
+
+impl StationMotion {
+    fn new(
+        g: &mut Graph,
+        sections: &[SectionMotion],
+        section: SectionMotion,
+        own_axes: Matrix3,
+        reach: Vec<ExprId>,
+    ) -> Self {
+        let zero = Vector3::zero(g);
+        let (mut offset, mut rate, mut carried, mut second) = (zero, zero, zero, zero);
+        for (own, &share) in sections.iter().zip(&reach) {
+            let [(along, along_second), ..] = own.arms();
+            let arm = along.scale(g, share);
+            offset = offset.add(g, arm);
+            let leaving = own.relative.cross(g, arm);
+            rate = rate.add(g, leaving);
+            let turning = own.frame.angular_velocity.cross(g, arm);
+            carried = carried.add(g, turning);
+            let share = along_second.scale(g, share);
+            second = second.add(g, share);
+        }
+        let frame = FrameMotion {
+            offset,
+            velocity: section.frame.velocity.add(g, carried),
+            acceleration: section.frame.acceleration.add(g, second),
+            ..section.frame
+        };
+        let frame = frame.rotated(g, Some(own_axes.transpose()));
+        Self {
+            section: SectionMotion { frame, ..section },
+            reach,
+            velocity: rate,
+        }
+    }
+}

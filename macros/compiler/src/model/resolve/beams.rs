@@ -1,0 +1,270 @@
+//! Beams: a section, a material, and the number of coordinates for each way to turn.
+
+mod materials;
+mod sections;
+mod stations;
+
+pub(super) use self::materials::Properties;
+pub(super) use self::stations::Stations;
+
+use proc_macro2::Ident;
+
+use self::sections::Table;
+use super::arguments::{Arguments, Signature};
+use super::expected::Expected;
+use super::resolver::Resolver;
+use super::typed::ValueContext;
+use crate::base::dimension::Dimension;
+use crate::base::legendre::Gauss;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::Section;
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::simplify;
+use crate::syntax::ast::{self, Ast, ItemKind, Term, Value, ValueKind};
+
+/// Most coordinates of one component: beyond, polynomials gain nothing over two beams in series.
+const MOST: usize = 16;
+
+/// A beam as declared; its stations are known once everything has been resolved.
+#[derive(Clone, Debug)]
+pub(super) struct Declared {
+    length: Expr,
+    axes: [Vector; 3],
+    counts: [usize; 3],
+    sections: Vec<(f64, f64, Section)>,
+    lag: Expr,
+}
+
+const BEAM: Signature<()> = Signature::new(
+    "beam",
+    &["length", "along", "up"],
+    "beam(length: 1 m, along: x, up: z, section: rectangle(width: 40 mm, height: 6 mm), material: steel)",
+    (),
+)
+.optional(&[
+    "section",
+    "material",
+    "density",
+    "modulus",
+    "shear_modulus",
+    "poisson",
+    "mass_per_length",
+    "stiffness_y",
+    "stiffness_z",
+    "torsion_stiffness",
+    "inertia_y",
+    "inertia_z",
+    "bending",
+    "bending_y",
+    "bending_z",
+    "torsion",
+    "twist",
+    "lag",
+    "points",
+])
+.refusing(&[
+    ("mass", "give a `section` with a density, or `mass_per_length`"),
+    ("shear", "a beam does not shear; thick ones need other tools for now"),
+    ("stretch", "a beam keeps its length"),
+    ("axis", "the beam runs `along` its axis; `up` is the direction of the height of its section"),
+]);
+
+/// The word among the shapes.
+pub(super) const WORD: &str = "beam";
+
+/// The number of beams in a declaration.
+pub(super) fn declared(ast: &Ast) -> usize {
+    let is_beam = |item: &&ast::Item| match &item.kind {
+        ItemKind::Body(body) => body.terms.iter().any(|term| term.shape.word == WORD),
+        _ => false,
+    };
+    ast.items.iter().filter(is_beam).count()
+}
+
+impl Resolver<'_> {
+    /// A beam stands alone: no other shape can be added to it.
+    pub(super) fn beam(&mut self, body: &ast::Body, beam: &Term) -> Option<()> {
+        let word = &beam.shape.word;
+        if body.terms.len() > 1 || beam.hole {
+            let message = "`beam` stands alone: it cannot be part of a sum";
+            let help = "weld another body to its root or its tip by a `fixed` joint";
+            self.diagnostics.error_with_help(word, message, help);
+            return None;
+        }
+        if let Some(placement) = &beam.placement {
+            let message = "a beam starts at the origin of its frame";
+            let help = "place the joint instead";
+            self.diagnostics
+                .error_with_help(placement.keyword, message, help);
+            return None;
+        }
+        static SIGNATURE: Signature<()> = BEAM;
+        let arguments = self.arguments(&beam.shape, &SIGNATURE);
+        let declared = self.beam_of(&body.name, word, &arguments);
+        let is_right = declared.is_some();
+        self.stations.declare(&body.name, declared);
+        is_right.then_some(())
+    }
+
+    fn beam_of(&mut self, name: &Ident, word: &Ident, given: &Arguments<'_>) -> Option<Declared> {
+        let length = given.get("length").and_then(|value| {
+            let length = self.scalar_of(value, Dimension::LENGTH, "`length`")?;
+            self.require_of_beam(name, "length", &length, Dimension::LENGTH, value);
+            Some(length)
+        });
+        let axes = self.axes_of_beam(given);
+        let table = self.table(name, word, given);
+        let twist = match given.get("twist") {
+            Some(value) => self.scalar_of(value, Expected::angle(), "`twist`"),
+            None => Some(Expr::Number(0.0)),
+        };
+        let lag = match given.get("lag") {
+            Some(value) => self.scalar_of(value, Dimension::TIME, "`lag`"),
+            None => Some(Expr::Number(0.0)),
+        };
+        let counts = self.counts(word, given, table.as_ref());
+        let points = self.points_of_beam(given, counts);
+        let (length, axes, table, twist) = (length?, axes?, table?, twist?);
+        let counts = counts?;
+        let rule = Gauss::new(points?);
+        let places = rule.points.iter().zip(&rule.weights);
+        let sections = places.map(|(&place, &weight)| {
+            let section = table.section(place, &twist);
+            (place, weight, section)
+        });
+        let sections: Vec<_> = sections.collect();
+        self.require_sections(name, word, counts, &sections);
+        Some(Declared {
+            length,
+            axes,
+            counts,
+            sections,
+            lag: lag?,
+        })
+    }
+
+    /// Along the beam, the axis of bending about which the height stands, and up.
+    fn axes_of_beam(&mut self, given: &Arguments<'_>) -> Option<[Vector; 3]> {
+        let mut direction = |name: &str| {
+            let value = given.get(name)?;
+            Some((self.direction(value, ValueContext::Parameter)?, value))
+        };
+        let (along, up) = (direction("along"), direction("up"));
+        let ((along, _), (up, at)) = (along?, up?);
+        if let Expr::Number(cosine) = simplify::dot(&along, &up)
+            && cosine.abs() > 1e-9
+        {
+            let message = "`up` must be perpendicular to `along`";
+            let help = "it is the direction of the height of the section";
+            self.diagnostics.error_with_help(at.extent, message, help);
+            return None;
+        }
+        let across = simplify::cross(&up, &along);
+        Some([along, across, up])
+    }
+
+    /// The number of coordinates of twist, of bending about the second axis and about the third.
+    fn counts(
+        &mut self,
+        word: &Ident,
+        given: &Arguments<'_>,
+        table: Option<&Table>,
+    ) -> Option<[usize; 3]> {
+        let mut count = |name: &str| match given.get(name) {
+            Some(value) => self.whole(value, name, 0..=MOST).map(Some),
+            None => Some(None),
+        };
+        let [torsion, bending, y, z] =
+            ["torsion", "bending", "bending_y", "bending_z"].map(&mut count);
+        let (torsion, bending, y, z) = (torsion?, bending?, y?, z?);
+        let both = bending.or((y.is_none() && z.is_none()).then_some(5)).unwrap_or(0);
+        let (y, z) = (y.unwrap_or(both), z.unwrap_or(both));
+        let twists = table.is_some_and(Table::knows_torsion);
+        let torsion = torsion.unwrap_or(if twists && y > 0 && z > 0 { 2 } else { 0 });
+        if torsion + y + z == 0 {
+            let message = "this beam has no coordinates: it is rigid";
+            let help = "give `bending: 5`, `bending_y`, `bending_z` or `torsion`, or use a `rod`";
+            self.diagnostics.error_with_help(word, message, help);
+            return None;
+        }
+        Some([torsion, y, z])
+    }
+
+    fn points_of_beam(&mut self, given: &Arguments<'_>, counts: Option<[usize; 3]>) -> Option<usize> {
+        let most = counts?.into_iter().max()?;
+        match given.get("points") {
+            Some(value) => self.whole(value, "points", most..=2 * MOST),
+            None => Some(most + 2),
+        }
+    }
+
+    /// A whole number that is written as one.
+    fn whole(
+        &mut self,
+        value: &Value,
+        name: &str,
+        range: std::ops::RangeInclusive<usize>,
+    ) -> Option<usize> {
+        if let ValueKind::Number(number, None) = value.kind
+            && number.fract() == 0.0
+            && range.contains(&(number as usize))
+            && number >= 0.0
+        {
+            return Some(number as usize);
+        }
+        let message = format!(
+            "`{name}` is a whole number from {} to {}",
+            range.start(),
+            range.end()
+        );
+        self.diagnostics.error(value.extent, message);
+        None
+    }
+
+    fn require_of_beam(
+        &mut self,
+        name: &Ident,
+        what: &str,
+        value: &Expr,
+        dimension: Dimension,
+        at: &Value,
+    ) {
+        self.requirements.push(Requirement {
+            what: format!("the {what} of `{name}`"),
+            values: vec![value.clone()],
+            demand: Demand::Positive(dimension),
+            extent: at.extent,
+        });
+    }
+
+    /// Mass and stiffness must be positive all along the beam, also within the tolerances.
+    fn require_sections(
+        &mut self,
+        name: &Ident,
+        word: &Ident,
+        counts: [usize; 3],
+        sections: &[(f64, f64, Section)],
+    ) {
+        let mut demands = vec![(
+            "mass per length",
+            Dimension::LINE_DENSITY,
+            (|section: &Section| section.mass.clone()) as fn(&Section) -> Expr,
+        )];
+        let stiffness = Dimension::new(3, 1, -2);
+        let of: [(&str, fn(&Section) -> Expr); 3] = [
+            ("torsional stiffness", |section| section.stiffness[0].clone()),
+            ("bending stiffness about y", |section| section.stiffness[1].clone()),
+            ("bending stiffness about z", |section| section.stiffness[2].clone()),
+        ];
+        let used = of.into_iter().zip(counts).filter(|(_, count)| *count > 0);
+        demands.extend(used.map(|((what, of), _)| (what, stiffness, of)));
+        for (what, dimension, of) in demands {
+            self.requirements.push(Requirement {
+                what: format!("the {what} of `{name}`"),
+                values: sections.iter().map(|(_, _, section)| of(section)).collect(),
+                demand: Demand::Positive(dimension),
+                extent: word.into(),
+            });
+        }
+    }
+}
