@@ -43,8 +43,8 @@ use self::resolver::Resolver;
 use self::scope::Scope;
 use super::expression::Vector;
 use super::mechanism::{
-    Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output, Point,
-    Steady,
+    Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output,
+    Point, Steady,
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;

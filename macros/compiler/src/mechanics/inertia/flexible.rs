@@ -121,7 +121,10 @@ impl BeamInertia {
             let minus = g.neg(sine);
             let share = g.scale(*weight, length);
             // The distance along the second axis is that from the third.
-            let axes = [(about_z, [zero, cosine, sine]), (about_y, [zero, minus, cosine])];
+            let axes = [
+                (about_z, [zero, cosine, sine]),
+                (about_y, [zero, minus, cosine]),
+            ];
             for (inertia, components) in axes {
                 if g.is(inertia, 0.0) {
                     continue;

@@ -6,8 +6,8 @@ use crate::mechanics::motion::{FrameMotion, Kinematics, Wrench, for_inertia};
 use crate::mechanics::setup::{Context, ForceSelection};
 use crate::model::mechanism::Frame;
 
-use super::flexible::{BeamInertia, FromStations};
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
+use super::flexible::{BeamInertia, FromStations};
 
 /// Inertia minus weight.
 pub(crate) struct Inertial {

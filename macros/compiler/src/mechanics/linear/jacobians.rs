@@ -6,7 +6,7 @@ use crate::base::ids::ExprId;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::inertia::mass_matrix;
 use crate::mechanics::motion::for_inertia;
-use crate::mechanics::setup::{Context, ForceSelection, at_rest, columns, vanish};
+use crate::mechanics::setup::{Context, ForceSelection, Mirrored, at_rest, columns, vanish};
 
 use super::columns::{added, transposed};
 
@@ -39,7 +39,11 @@ impl Jacobians {
         // the acceleration of a coasting coordinate is the rate of an unknown
         let symmetric = context.topology.coasting.is_empty();
         let mass = runs.matrix(g, &mass, symmetric, &outward);
-        let mass = context.sections.matrix(g, &mass, symmetric);
+        let mirrored = match symmetric {
+            true => Mirrored::Equal,
+            false => Mirrored::Unrelated,
+        };
+        let mass = context.sections.matrix(g, &mass, mirrored);
         let [mass, damping, stiffness] = of_inertia(g, context, e, mass);
 
         let applied = &e.parts.applied;
@@ -140,9 +144,16 @@ fn summed(
     columns: &[Vec<ExprId>],
     outward: &[usize],
 ) -> Vec<Vec<ExprId>> {
-    let symmetric = is_symmetric(g, context, columns);
+    let mirrored = if is_mirrored(g, context, columns, Graph::sub) {
+        Mirrored::Equal
+    } else if !context.sections.rows.is_empty() && is_mirrored(g, context, columns, Graph::add) {
+        Mirrored::Opposite
+    } else {
+        Mirrored::Unrelated
+    };
+    let symmetric = mirrored == Mirrored::Equal;
     let summed = context.runs.matrix(g, columns, symmetric, outward);
-    context.sections.matrix(g, &summed, symmetric)
+    context.sections.matrix(g, &summed, mirrored)
 }
 
 /// [`Context::outward_order`], and sections last.
@@ -153,10 +164,20 @@ fn outward(context: &Context) -> Vec<usize> {
 }
 
 fn is_symmetric(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>]) -> bool {
+    is_mirrored(g, context, columns, Graph::sub)
+}
+
+/// Whether the difference or the sum of mirrored entries vanishes.
+fn is_mirrored(
+    g: &mut Graph,
+    context: &Context,
+    columns: &[Vec<ExprId>],
+    compared: fn(&mut Graph, ExprId, ExprId) -> ExprId,
+) -> bool {
     let mut asymmetry = Vec::new();
     for (j, column) in columns.iter().enumerate() {
         for (i, mirrored) in columns[..j].iter().enumerate() {
-            asymmetry.push(g.sub(column[i], mirrored[j]));
+            asymmetry.push(compared(g, column[i], mirrored[j]));
         }
     }
     vanish(g, context, &asymmetry).into_iter().all(|zero| zero)

@@ -12,16 +12,15 @@ struct Strain {
     stiffness: [ExprId; 3],
 }
 
-fn strains(
-    g: &mut Graph,
-    context: &Context,
-    id: BeamId,
-    turns: &OfBeam<ExprId>,
-) -> Vec<Strain> {
+fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>) -> Vec<Strain> {
     let beam = &context.mechanism.beams[id.index()];
     let values = context.values;
     let length = values.scalar(g, &beam.length);
-    let sections = beam.sections.iter().zip(&turns.rotations).zip(&turns.slopes);
+    let sections = beam
+        .sections
+        .iter()
+        .zip(&turns.rotations)
+        .zip(&turns.slopes);
     sections
         .map(|(((_, weight, section), turn), slope)| {
             let bent = curvature(g, Vector3(*turn), Vector3(*slope));
@@ -68,7 +67,9 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     let mut along = vec![g.zero(); sections.rows.len()];
     for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
         let turns = sections.by_themselves(g, id).map(|own| own.position);
-        let lag = context.values.scalar(g, &context.mechanism.beams[id.index()].lag);
+        let lag = context
+            .values
+            .scalar(g, &context.mechanism.beams[id.index()].lag);
         let rows = sections.of(id);
         let rows = rows.rotations.iter().zip(&rows.slopes);
         for (strain, (turn, slope)) in strains(g, context, id, &turns).iter().zip(rows) {
@@ -77,9 +78,9 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
             let energy = strain.energy(g);
             let mut forces = gradient(g, energy, &ids);
             if !g.is(lag, 0.0) {
-                let rates = own.iter().map(|&row| {
-                    (sections.position.ids[row], sections.velocity.values[row])
-                });
+                let rates = own
+                    .iter()
+                    .map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
                 let direction = Direction::new("_rate", rates.collect());
                 let rates = derivatives_along(g, &strain.curvatures, &direction);
                 for k in 0..3 {

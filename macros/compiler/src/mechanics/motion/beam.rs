@@ -23,10 +23,7 @@ pub(crate) struct SectionMotion {
     pub(crate) frame: FrameMotion,
     /// The axes of the beam at the root.
     axes: Matrix3,
-    /// The Rodrigues vector along them.
-    turn: Vector3,
-    /// `1 / (1 + |turn|^2 / 4)`.
-    factor: ExprId,
+    turn: Turn,
     /// Angular velocity relative to the root.
     pub(crate) relative: Vector3,
 }
@@ -39,6 +36,15 @@ pub(crate) struct StationMotion {
     pub(crate) reach: Vec<ExprId>,
     /// Velocity of its origin relative to the root.
     pub(crate) velocity: Vector3,
+}
+
+/// How a section has turned, along the axes of the beam at the root.
+#[derive(Clone, Copy, Debug)]
+enum Turn {
+    /// By an angle about one of them.
+    Angle(usize),
+    /// By a Rodrigues vector, with `1 / (1 + |turn|^2 / 4)`.
+    Rodrigues(Vector3, ExprId),
 }
 
 impl BeamMotion {
@@ -91,8 +97,9 @@ impl BeamMotion {
 }
 
 impl SectionMotion {
-    /// A section that has turned by a Rodrigues vector: `R = 1 + f (S + S^2 / 2)` with `S = [turn]x` and
-    /// `f = 1 / (1 + |turn|^2 / 4)`; its angular velocity is `f (turn' + turn x turn' / 2)`.
+    /// A section that has turned by an angle if the beam turns about one axis only, otherwise by a Rodrigues vector:
+    /// `R = 1 + f (S + S^2 / 2)` with `S = [turn]x` and `f = 1 / (1 + |turn|^2 / 4)`; its angular velocity is
+    /// `f (turn' + turn x turn' / 2)`.
     fn new(
         g: &mut Graph,
         root: &FrameMotion,
@@ -104,6 +111,18 @@ impl SectionMotion {
         let turn = Vector3(turns.map(|own| own.position));
         let rate = Vector3(turns.map(|own| own.velocity));
         let second = Vector3(turns.map(|own| own.acceleration));
+        if let Some(axis) = only_axis(g, turn) {
+            let unit = Matrix3::identity(g).0[axis];
+            let rotation = Matrix3::rotation(g, unit, turn.0[axis]);
+            let [relative, growth] = [rate, second].map(|vector| axes.apply(g, vector));
+            let turned = own_axes.multiply(g, rotation);
+            return Self {
+                frame: root.bent(g, (turned, relative, growth), name),
+                axes,
+                turn: Turn::Angle(axis),
+                relative,
+            };
+        }
         let factor = factor(g, turn);
         g.set_name(factor, || format!("{name}_factor"));
         let half = g.scale(0.5, factor);
@@ -131,23 +150,41 @@ impl SectionMotion {
         Self {
             frame: root.bent(g, (own_axes_turned, relative, growth), name),
             axes,
-            turn,
-            factor,
+            turn: Turn::Rodrigues(turn, factor),
             relative,
         }
     }
 
-    /// Power of a moment per unit rate of each component of the Rodrigues vector: `f (m - turn x m / 2)`.
+    /// Power of a moment per unit rate of the angle, or of each component of the Rodrigues vector:
+    /// `f (m - turn x m / 2)`.
     pub(crate) fn project(&self, g: &mut Graph, moment: Vector3) -> [ExprId; 3] {
         let own = self.axes.transpose().apply(g, moment);
-        let across = self.turn.cross(g, own);
-        let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
-        own.sub(g, half).scale(g, self.factor).0
+        match self.turn {
+            Turn::Angle(axis) => {
+                let mut powers = [g.zero(); 3];
+                powers[axis] = own.0[axis];
+                powers
+            }
+            Turn::Rodrigues(turn, factor) => {
+                let across = turn.cross(g, own);
+                let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+                own.sub(g, half).scale(g, factor).0
+            }
+        }
     }
 
     /// The direction of the beam, and its second time derivative.
     pub(crate) fn arms(&self) -> [(Vector3, Vector3); 3] {
         self.frame.axes()
+    }
+}
+
+/// The only axis about which a section turns.
+fn only_axis(g: &Graph, turn: Vector3) -> Option<usize> {
+    let turns: Vec<usize> = (0..3).filter(|&k| !g.is(turn.0[k], 0.0)).collect();
+    match turns[..] {
+        [axis] => Some(axis),
+        _ => None,
     }
 }
 
@@ -160,9 +197,12 @@ fn factor(g: &mut Graph, turn: Vector3) -> ExprId {
     g.div(one, denominator)
 }
 
-/// Twist rate and curvatures along the axes of a section that has turned by a Rodrigues vector, times the length:
-/// `f (slope - turn x slope / 2)`.
+/// Twist rate and curvatures along the axes of a section, times the length: the slope of its angle, or if it has turned
+/// by a Rodrigues vector, `f (slope - turn x slope / 2)`.
 pub(crate) fn curvature(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
+    if only_axis(g, turn).is_some() {
+        return slope;
+    }
     let factor = factor(g, turn);
     let across = turn.cross(g, slope);
     let half = Vector3(across.0.map(|value| g.scale(0.5, value)));

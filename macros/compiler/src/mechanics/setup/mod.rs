@@ -31,6 +31,6 @@ pub(super) use mass_distribution::{Arm, MassDistribution};
 pub(super) use probe::{RandomState, probe, vanish};
 pub(super) use rows::{Row, Source};
 pub(super) use runs::{BodyLayout, Layout, Runs};
-pub(super) use sections::{OfBeam, Sections};
+pub(super) use sections::{Mirrored, OfBeam, Sections};
 pub(super) use symbols::{Pencil, SymbolList, Symbols};
 pub(super) use values::{State, Values};

@@ -18,6 +18,14 @@ use super::symbols::{SymbolList, Symbols};
 /// The motion of three components: of a Rodrigues vector, or of its slope.
 pub(crate) type Components<T> = [T; 3];
 
+/// How the entries of a matrix on the two sides of its diagonal are related.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mirrored {
+    Equal,
+    Opposite,
+    Unrelated,
+}
+
 /// One component of a section's rotation or slope, as a sum over the unknowns.
 #[derive(Clone, Debug)]
 pub(crate) struct SectionRow {
@@ -101,9 +109,8 @@ impl Sections {
         }
         let stations = beam.stations.iter().enumerate();
         let stations = stations.map(|(k, station)| {
-            [0, 1, 2].map(|component| {
-                row(format!("station_{k}"), component, integrals, station.place)
-            })
+            [0, 1, 2]
+                .map(|component| row(format!("station_{k}"), component, integrals, station.place))
         });
         let stations = stations.collect();
         OfBeam {
@@ -200,7 +207,7 @@ impl Sections {
         &self,
         g: &mut Graph,
         columns: &[Vec<ExprId>],
-        symmetric: bool,
+        mirrored: Mirrored,
     ) -> Vec<Vec<ExprId>> {
         if self.rows.is_empty() {
             return columns.to_vec();
@@ -208,11 +215,12 @@ impl Sections {
         let size = columns.len();
         let columns: Vec<Vec<ExprId>> = (0..size)
             .map(|j| {
-                let entry = |i: usize| match symmetric && i > j {
-                    true => columns[i][j],
-                    false => columns[j][i],
+                let mut entry = |i: usize| match mirrored {
+                    Mirrored::Equal if i > j => columns[i][j],
+                    Mirrored::Opposite if i > j => g.neg(columns[i][j]),
+                    _ => columns[j][i],
                 };
-                (0..size).map(entry).collect()
+                (0..size).map(&mut entry).collect()
             })
             .collect();
         let rows: Vec<Vec<ExprId>> = (0..size)

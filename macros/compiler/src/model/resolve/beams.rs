@@ -10,7 +10,8 @@ pub(super) use self::stations::Stations;
 use proc_macro2::Ident;
 
 use self::sections::Table;
-use super::arguments::{Arguments, Signature};
+use super::arguments::Arguments;
+use super::bodies::Row;
 use super::expected::Expected;
 use super::resolver::Resolver;
 use super::typed::ValueContext;
@@ -35,11 +36,12 @@ pub(super) struct Declared {
     lag: Expr,
 }
 
-const BEAM: Signature<()> = Signature::new(
+/// What a beam takes. It is no shape that others can be added to, so nothing reads it as one.
+pub(super) const BEAM: Row = Row::new(
     "beam",
     &["length", "along", "up"],
     "beam(length: 1 m, along: x, up: z, section: rectangle(width: 40 mm, height: 6 mm), material: steel)",
-    (),
+    |_| None,
 )
 .optional(&[
     "section",
@@ -70,7 +72,7 @@ const BEAM: Signature<()> = Signature::new(
 ]);
 
 /// The word among the shapes.
-pub(super) const WORD: &str = "beam";
+pub(super) const WORD: &str = BEAM.word;
 
 /// The number of beams in a declaration.
 pub(super) fn declared(ast: &Ast) -> usize {
@@ -98,7 +100,7 @@ impl Resolver<'_> {
                 .error_with_help(placement.keyword, message, help);
             return None;
         }
-        static SIGNATURE: Signature<()> = BEAM;
+        static SIGNATURE: Row = BEAM;
         let arguments = self.arguments(&beam.shape, &SIGNATURE);
         let declared = self.beam_of(&body.name, word, &arguments);
         let is_right = declared.is_some();
@@ -177,7 +179,9 @@ impl Resolver<'_> {
         let [torsion, bending, y, z] =
             ["torsion", "bending", "bending_y", "bending_z"].map(&mut count);
         let (torsion, bending, y, z) = (torsion?, bending?, y?, z?);
-        let both = bending.or((y.is_none() && z.is_none()).then_some(5)).unwrap_or(0);
+        let both = bending
+            .or((y.is_none() && z.is_none()).then_some(5))
+            .unwrap_or(0);
         let (y, z) = (y.unwrap_or(both), z.unwrap_or(both));
         let twists = table.is_some_and(Table::knows_torsion);
         let torsion = torsion.unwrap_or(if twists && y > 0 && z > 0 { 2 } else { 0 });
@@ -190,7 +194,11 @@ impl Resolver<'_> {
         Some([torsion, y, z])
     }
 
-    fn points_of_beam(&mut self, given: &Arguments<'_>, counts: Option<[usize; 3]>) -> Option<usize> {
+    fn points_of_beam(
+        &mut self,
+        given: &Arguments<'_>,
+        counts: Option<[usize; 3]>,
+    ) -> Option<usize> {
         let most = counts?.into_iter().max()?;
         match given.get("points") {
             Some(value) => self.whole(value, "points", most..=2 * MOST),
@@ -252,9 +260,15 @@ impl Resolver<'_> {
         )];
         let stiffness = Dimension::new(3, 1, -2);
         let of: [(&str, fn(&Section) -> Expr); 3] = [
-            ("torsional stiffness", |section| section.stiffness[0].clone()),
-            ("bending stiffness about y", |section| section.stiffness[1].clone()),
-            ("bending stiffness about z", |section| section.stiffness[2].clone()),
+            ("torsional stiffness", |section| {
+                section.stiffness[0].clone()
+            }),
+            ("bending stiffness about y", |section| {
+                section.stiffness[1].clone()
+            }),
+            ("bending stiffness about z", |section| {
+                section.stiffness[2].clone()
+            }),
         ];
         let used = of.into_iter().zip(counts).filter(|(_, count)| *count > 0);
         demands.extend(used.map(|((what, of), _)| (what, stiffness, of)));

@@ -9,8 +9,8 @@ use std::rc::Rc;
 use proc_macro2::Ident;
 
 use self::quantities::Quantities;
-pub(super) use self::shapes::SHAPES;
 use self::shapes::SYNONYMS;
+pub(super) use self::shapes::{Row, SHAPES};
 use super::beams;
 use super::coordinates;
 use super::joints::kinds::Kind;
@@ -97,7 +97,11 @@ impl Resolver<'_> {
         if let Some(massless) = body.terms.iter().find(is_massless) {
             return self.massless(body, massless);
         }
-        if let Some(beam) = body.terms.iter().find(|term| term.shape.word == beams::WORD) {
+        if let Some(beam) = body
+            .terms
+            .iter()
+            .find(|term| term.shape.word == beams::WORD)
+        {
             return self.beam(body, beam).map(|()| Vec::new());
         }
         let right = self.first_is_solid(body);

@@ -108,8 +108,12 @@ impl Resolver<'_> {
         let station = self.station(&joint.from, place);
         if station.is_none() {
             let message = "before `to` stands a place along a beam: `at tip` or `at 0.4 length`";
-            let help = format!("place the joint after its sides: `from {0} to {1} at ...`", joint.from, joint.to);
-            self.diagnostics.error_with_help(place.extent, message, help);
+            let help = format!(
+                "place the joint after its sides: `from {0} to {1} at ...`",
+                joint.from, joint.to
+            );
+            self.diagnostics
+                .error_with_help(place.extent, message, help);
         }
         station.flatten()
     }
@@ -123,7 +127,9 @@ impl Resolver<'_> {
     ) -> Option<(usize, Option<Frame>)> {
         let offset = placement.offset.as_ref()?;
         let sides = [(0, &joint.from), (1, &joint.to)];
-        let meant = sides.into_iter().filter(|(_, name)| on.is_none_or(|on| on == *name));
+        let meant = sides
+            .into_iter()
+            .filter(|(_, name)| on.is_none_or(|on| on == *name));
         let meant: Vec<_> = meant.filter(|(_, name)| self.is_beam(name)).collect();
         let (side, name) = match (&meant[..], &offset.kind) {
             ([only], _) => *only,
@@ -135,11 +141,7 @@ impl Resolver<'_> {
     }
 
     /// The placements on both sides; at most one each. A place along a beam replaces the side's frame.
-    fn placements(
-        &mut self,
-        joint: &ast::Joint,
-        frames: [&mut Option<Frame>; 2],
-    ) -> Option<Sides> {
+    fn placements(&mut self, joint: &ast::Joint, frames: [&mut Option<Frame>; 2]) -> Option<Sides> {
         let mut stations: [Option<Option<Frame>>; 2] = [None, None];
         let mut sides: Sides = [None, None];
         let mut seen = [false; 2];

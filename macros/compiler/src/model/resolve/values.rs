@@ -159,7 +159,8 @@ impl Resolver<'_> {
                         )
                     }
                     Meaning::Material => {
-                        "it is the `material` of a beam; name a number by `design` or `let`".to_string()
+                        "it is the `material` of a beam; name a number by `design` or `let`"
+                            .to_string()
                     }
                     Meaning::Force(_) | Meaning::Excitation => {
                         "repeat its expression, or name the shared part with `let`".to_string()

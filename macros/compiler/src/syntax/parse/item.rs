@@ -200,8 +200,7 @@ fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
     }))
 }
 
-const MATERIAL: &str =
-    "write `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
+const MATERIAL: &str = "write `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
 
 fn material(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let help = |error: Box<Diagnostic>| Box::new(error.with_help(MATERIAL));

@@ -11,9 +11,7 @@ use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::Section;
 use crate::model::rules::physical::Demand;
-use crate::model::simplify::{
-    add, call, divide, multiply, power_integer, subtract,
-};
+use crate::model::simplify::{add, call, divide, multiply, power_integer, subtract};
 use crate::syntax::ast::{NamedCall, ValueKind};
 
 /// Kinds of section.
@@ -74,7 +72,12 @@ pub(super) struct Table {
 
 impl Resolver<'_> {
     /// The section of a beam, from its arguments.
-    pub(super) fn table(&mut self, name: &Ident, word: &Ident, given: &Arguments<'_>) -> Option<Table> {
+    pub(super) fn table(
+        &mut self,
+        name: &Ident,
+        word: &Ident,
+        given: &Arguments<'_>,
+    ) -> Option<Table> {
         let material = self.material_of(name, given);
         let by_numbers = [
             "mass_per_length",
@@ -84,7 +87,9 @@ impl Resolver<'_> {
             "inertia_y",
             "inertia_z",
         ];
-        let numbers = by_numbers.iter().find_map(|name| Some((name, given.get(name)?)));
+        let numbers = by_numbers
+            .iter()
+            .find_map(|name| Some((name, given.get(name)?)));
         match (given.get("section"), numbers) {
             (Some(_), Some((name, value))) => {
                 let message = format!("a beam takes `section` or `{name}`, not both");
@@ -95,7 +100,8 @@ impl Resolver<'_> {
                 let ValueKind::Sections(calls) = &value.kind else {
                     let message = "`section` is a shape";
                     let help = "write `section: rectangle(width: 40 mm, height: 6 mm)`";
-                    self.diagnostics.error_with_help(value.extent, message, help);
+                    self.diagnostics
+                        .error_with_help(value.extent, message, help);
                     return None;
                 };
                 self.shaped(name, word, calls, material?)
@@ -117,7 +123,8 @@ impl Resolver<'_> {
             }
             (None, None) => {
                 let message = "`beam` needs a `section`, or `mass_per_length` and stiffnesses";
-                let help = "write `section: rectangle(width: 40 mm, height: 6 mm), material: steel`";
+                let help =
+                    "write `section: rectangle(width: 40 mm, height: 6 mm), material: steel`";
                 self.diagnostics.error_with_help(word, message, help);
                 None
             }
@@ -219,12 +226,13 @@ impl Resolver<'_> {
             lengths.push((length, value));
         }
         if let (Kind::Tube, [(Some(outer), _), (Some(inner), at)]) = (kind, &lengths[..]) {
-            self.requirements.push(crate::model::rules::physical::Requirement {
-                what: format!("the inner radius of `{name}`"),
-                values: vec![inner.clone(), outer.clone()],
-                demand: Demand::BelowOuter,
-                extent: at.extent,
-            });
+            self.requirements
+                .push(crate::model::rules::physical::Requirement {
+                    what: format!("the inner radius of `{name}`"),
+                    values: vec![inner.clone(), outer.clone()],
+                    demand: Demand::BelowOuter,
+                    extent: at.extent,
+                });
         }
         lengths.into_iter().map(|(length, _)| length).collect()
     }

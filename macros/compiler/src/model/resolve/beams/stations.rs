@@ -35,7 +35,11 @@ impl Resolver<'_> {
         frame: &Ident,
         place: &Value,
     ) -> Option<Option<Frame>> {
-        let beam = self.stations.beams.iter().position(|(name, _)| name == frame);
+        let beam = self
+            .stations
+            .beams
+            .iter()
+            .position(|(name, _)| name == frame);
         let fraction = match &place.kind {
             ValueKind::Fraction(fraction) => *fraction,
             ValueKind::Name(word) if beam.is_some() && word == "tip" => 1.0,
@@ -45,7 +49,8 @@ impl Resolver<'_> {
         let Some(beam) = beam else {
             let message = format!("`{frame}` is not a beam: it has no places along it");
             let help = format!("place it by a vector: `{frame} at [0.1 m, 0, 0]`");
-            self.diagnostics.error_with_help(place.extent, message, help);
+            self.diagnostics
+                .error_with_help(place.extent, message, help);
             return Some(None);
         };
         if !(0.0..=1.0).contains(&fraction) {
@@ -57,7 +62,11 @@ impl Resolver<'_> {
         if fraction == 0.0 {
             return Some(root);
         }
-        let known = self.stations.used.iter().position(|own| *own == (beam, fraction));
+        let known = self
+            .stations
+            .used
+            .iter()
+            .position(|own| *own == (beam, fraction));
         let index = known.unwrap_or_else(|| {
             self.stations.used.push((beam, fraction));
             self.stations.used.len() - 1
@@ -105,7 +114,9 @@ impl Resolver<'_> {
                 parts: Vec::new(),
             });
             let of_beam = stations.used[..index].iter().filter(|own| own.0 == *beam);
-            let root = bodies.iter().position(|body| body.name == stations.beams[*beam].0);
+            let root = bodies
+                .iter()
+                .position(|body| body.name == stations.beams[*beam].0);
             joints.push(Joint {
                 name,
                 word: "flexure",

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::arguments::Signature;
+use super::super::beams::BEAM;
 use super::super::placements::zero;
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
@@ -94,6 +95,7 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
         "density",
         "the volume of a `rigid` body is not known: give its `mass`",
     )]),
+    BEAM,
 ];
 
 /// Names of the shapes in other tools.
