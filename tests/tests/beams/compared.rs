@@ -5,23 +5,23 @@ use eigentol_interpreter::Interpreted;
 use serde_json::Value;
 
 /// A file of reference values.
-pub fn truth(text: &str) -> Value {
+pub(crate) fn truth(text: &str) -> Value {
     serde_json::from_str(text).expect("reference values")
 }
 
-pub fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     let list = value.as_array().expect("a list").iter();
     list.map(|number| number.as_f64().expect("a number"))
         .collect()
 }
 
 /// A parameter of a case.
-pub fn parameter(case: &Value, name: &str) -> f64 {
+pub(crate) fn parameter(case: &Value, name: &str) -> f64 {
     case["parameters"][name].as_f64().unwrap_or(0.0)
 }
 
 /// `design NAME = VALUE UNIT;` for each parameter.
-pub fn design(case: &Value, parameters: &[(&str, &str)]) -> String {
+pub(crate) fn design(case: &Value, parameters: &[(&str, &str)]) -> String {
     let each = parameters.iter().map(|(name, unit)| {
         let value = parameter(case, name);
         format!("design {name} = {value} {unit};")
@@ -30,15 +30,15 @@ pub fn design(case: &Value, parameters: &[(&str, &str)]) -> String {
 }
 
 /// The largest errors that are allowed, mode by mode: of frequencies, of first and of second derivatives, relative.
-pub struct Bars<'a> {
-    pub values: &'a [f64],
-    pub first: &'a [f64],
-    pub second: &'a [f64],
+pub(crate) struct Bars<'a> {
+    pub(crate) values: &'a [f64],
+    pub(crate) first: &'a [f64],
+    pub(crate) second: &'a [f64],
 }
 
 /// Solves a beam at one speed and compares what a case lists about its lowest modes. `skipped` modes come before the
 /// first that is listed.
-pub fn study(text: &str, speed: Option<f64>) -> Study<Interpreted> {
+pub(crate) fn study(text: &str, speed: Option<f64>) -> Study<Interpreted> {
     let machine =
         Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes:?}"));
     let study = Study::new(machine);
@@ -57,7 +57,7 @@ fn close(found: f64, expected: f64, scale: f64, bar: f64, what: &str) {
 }
 
 /// Compares frequencies, and if the case has them, first and second derivatives by its design variables.
-pub fn compare(
+pub(crate) fn compare(
     what: &str,
     study: &Study<Interpreted>,
     case: &Value,

@@ -52,6 +52,15 @@ pub fn derive(
             }
         }
     };
+    for beam in &mechanism.beams {
+        if beam.name != beam.whole.to_string() {
+            let root = &mechanism.bodies[beam.body.index()].name;
+            functions.free.notes.push(format!(
+                "`{}` carries loads between its ends, so it is split there: `{}` starts at `{root}`",
+                beam.whole, beam.name
+            ));
+        }
+    }
     if !standing.is_empty() {
         functions.free.notes.push(format!(
             "slip depends on {}: no coasting, only standing still, so free like other coordinates",

@@ -1,5 +1,7 @@
 //! Flexible bodies: rods whose sections turn by polynomials of the place along them.
 
+use proc_macro2::Ident;
+
 use super::expression::{Expr, Vector};
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 
@@ -8,6 +10,10 @@ use crate::base::ids::{BodyId, CoordinateId, JointId};
 /// follow by integration.
 #[derive(Clone, Debug)]
 pub struct Beam {
+    /// Its name: of the declared beam, with a number if loads split this into several.
+    pub name: String,
+    /// The declared name.
+    pub whole: Ident,
     /// The body whose frame is fixed in the section at the root.
     pub body: BodyId,
     /// Length, m.

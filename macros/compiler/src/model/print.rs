@@ -1,5 +1,6 @@
 //! A mechanism as text, for snapshots: every value in SI, with names resolved.
 
+mod beam;
 mod constraint;
 mod elements;
 mod excitation;
@@ -59,6 +60,9 @@ impl Display for Mechanism {
         }
         for body in &self.bodies {
             writeln!(f, "body {}: {}", body.name, names.parts(&body.parts))?;
+        }
+        for beam in &self.beams {
+            names.beam(f, beam)?;
         }
         for joint in &self.joints {
             writeln!(

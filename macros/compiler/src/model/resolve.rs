@@ -169,7 +169,7 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
     let constraints = resolver.constraints();
     let steady = resolver.steady_values();
     let outputs = resolver.outputs();
-    let beams = resolver.beams(&mut bodies, &mut joints);
+    let beams = resolver.beams(&mut bodies, &mut joints, &points);
     Items {
         beams,
         inputs,
@@ -216,7 +216,7 @@ fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
         && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations
         && joints == count(ast, |kind| matches!(kind, ItemKind::Joint(_))) + stations
         && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams
-        && mechanism.beams.len() == beams::declared(ast)
+        && (beams::declared(ast) == 0) == mechanism.beams.is_empty()
         && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
 }
 

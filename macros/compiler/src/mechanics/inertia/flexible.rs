@@ -60,7 +60,7 @@ impl BeamInertia {
     pub(crate) fn new(g: &mut Graph, context: &Context, id: BeamId) -> Self {
         let beam = &context.mechanism.beams[id.index()];
         let values = context.values;
-        let name = context.mechanism.bodies[beam.body.index()].name.to_string();
+        let name = beam.name.clone();
         let length = values.scalar(g, &beam.length);
         let square = g.mul(length, length);
         let cube = g.mul(square, length);

@@ -57,7 +57,7 @@ impl BeamMotion {
         turns: &OfBeam<CoordinateMotion>,
     ) -> Self {
         let beam = &mechanism.beams[id.index()];
-        let name = mechanism.bodies[beam.body.index()].name.to_string();
+        let name = beam.name.clone();
         let own_axes = Matrix3([0, 1, 2].map(|k| values.vector(g, &beam.axes[k])));
         let axes = Matrix3(own_axes.0.map(|axis| root.orientation.express(g, axis)));
         let start = root.departing(g);

@@ -71,20 +71,14 @@ impl Sections {
     pub(crate) fn new(g: &mut Graph, mechanism: &Mechanism, topology: &Topology) -> Self {
         let mut this = Self::default();
         for beam in &mechanism.beams {
-            let own = this.beam(g, mechanism, topology, beam);
+            let own = this.beam(g, topology, beam);
             this.beams.push(own);
         }
         this
     }
 
-    fn beam(
-        &mut self,
-        g: &mut Graph,
-        mechanism: &Mechanism,
-        topology: &Topology,
-        beam: &Beam,
-    ) -> OfBeam<Option<usize>> {
-        let name = mechanism.bodies[beam.body.index()].name.to_string();
+    fn beam(&mut self, g: &mut Graph, topology: &Topology, beam: &Beam) -> OfBeam<Option<usize>> {
+        let name = beam.name.clone();
         let mut row = |label: String, component: usize, factors: fn(usize, f64) -> Vec<f64>, x| {
             let ids = &beam.coordinates[component];
             let last = ids.len().checked_sub(1)?;

@@ -32,8 +32,24 @@ pub(super) struct Declared {
     length: Expr,
     axes: [Vector; 3],
     counts: [usize; 3],
-    sections: Vec<(f64, f64, Section)>,
+    points: usize,
+    table: Table,
+    twist: Expr,
     lag: Expr,
+}
+
+impl Declared {
+    /// The sections of a part of it: their places within the part, their weights, and what they are.
+    fn sections(&self, start: f64, end: f64) -> Vec<(f64, f64, Section)> {
+        let rule = Gauss::new(self.points);
+        let places = rule.points.into_iter().zip(rule.weights);
+        places
+            .map(|(place, weight)| {
+                let of_whole = start + (end - start) * place;
+                (place, weight, self.table.section(of_whole, &self.twist))
+            })
+            .collect()
+    }
 }
 
 /// What a beam takes. It is no shape that others can be added to, so nothing reads it as one.
@@ -127,22 +143,17 @@ impl Resolver<'_> {
         let counts = self.counts(word, given, table.as_ref());
         let points = self.points_of_beam(given, counts);
         let (length, axes, table, twist) = (length?, axes?, table?, twist?);
-        let counts = counts?;
-        let rule = Gauss::new(points?);
-        let places = rule.points.iter().zip(&rule.weights);
-        let sections = places.map(|(&place, &weight)| {
-            let section = table.section(place, &twist);
-            (place, weight, section)
-        });
-        let sections: Vec<_> = sections.collect();
-        self.require_sections(name, word, counts, &sections);
-        Some(Declared {
+        let declared = Declared {
             length,
             axes,
-            counts,
-            sections,
+            counts: counts?,
+            points: points?,
+            table,
+            twist,
             lag: lag?,
-        })
+        };
+        self.require_sections(name, word, &declared);
+        Some(declared)
     }
 
     /// Along the beam, the axis of bending about which the height stands, and up.
@@ -246,13 +257,9 @@ impl Resolver<'_> {
     }
 
     /// Mass and stiffness must be positive all along the beam, also within the tolerances.
-    fn require_sections(
-        &mut self,
-        name: &Ident,
-        word: &Ident,
-        counts: [usize; 3],
-        sections: &[(f64, f64, Section)],
-    ) {
+    fn require_sections(&mut self, name: &Ident, word: &Ident, declared: &Declared) {
+        // Dimensions change linearly: what is positive at both ends is so between them.
+        let ends = [0.0, 1.0].map(|place| declared.table.section(place, &declared.twist));
         let mut demands = vec![(
             "mass per length",
             Dimension::LINE_DENSITY,
@@ -270,12 +277,15 @@ impl Resolver<'_> {
                 section.stiffness[2].clone()
             }),
         ];
-        let used = of.into_iter().zip(counts).filter(|(_, count)| *count > 0);
+        let used = of
+            .into_iter()
+            .zip(declared.counts)
+            .filter(|(_, count)| *count > 0);
         demands.extend(used.map(|((what, of), _)| (what, stiffness, of)));
         for (what, dimension, of) in demands {
             self.requirements.push(Requirement {
                 what: format!("the {what} of `{name}`"),
-                values: sections.iter().map(|(_, _, section)| of(section)).collect(),
+                values: ends.iter().map(of).collect(),
                 demand: Demand::Positive(dimension),
                 extent: word.into(),
             });

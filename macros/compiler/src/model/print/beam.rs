@@ -1,0 +1,43 @@
+//! Beams as text.
+
+use std::fmt::{self, Formatter};
+
+use super::super::mechanism::{Beam, Section};
+use super::Names;
+
+impl Names<'_> {
+    /// The beam, its sections at the places of quadrature, and its stations.
+    pub(super) fn beam(&self, f: &mut Formatter, beam: &Beam) -> fmt::Result {
+        let body = &self.0.bodies[beam.body.index()].name;
+        let [along, across, up] = beam.axes.each_ref().map(|axis| self.vector(axis));
+        let [torsion, y, z] = beam.coordinates.each_ref().map(Vec::len);
+        writeln!(
+            f,
+            "beam {}: on {body} length {} along {along} across {across} up {up} torsion {torsion} bending_y {y} bending_z {z} lag {}",
+            beam.name,
+            self.scalar(&beam.length),
+            self.scalar(&beam.lag)
+        )?;
+        for (place, weight, section) in &beam.sections {
+            let Section {
+                mass,
+                inertia,
+                stiffness,
+                twist,
+            } = section;
+            let [twisting, about_y, about_z] = stiffness.each_ref().map(|own| self.scalar(own));
+            let [inertia_y, inertia_z] = inertia.each_ref().map(|own| self.scalar(own));
+            writeln!(
+                f,
+                "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} twist {}",
+                self.scalar(mass),
+                self.scalar(twist)
+            )?;
+        }
+        for station in &beam.stations {
+            let body = &self.0.bodies[station.body.index()].name;
+            writeln!(f, "  station {body} at {}", station.place)?;
+        }
+        Ok(())
+    }
+}
