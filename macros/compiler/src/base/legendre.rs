@@ -22,6 +22,18 @@ pub fn integrals(n: usize, x: f64) -> Vec<f64> {
     (0..=n).map(of).collect()
 }
 
+/// The derivatives of the polynomials.
+pub fn derivatives(n: usize, x: f64) -> Vec<f64> {
+    let p = polynomials(n, x);
+    let mut slopes: Vec<f64> = vec![0.0; n + 1];
+    // P_j' - P_{j-2}' = 2 (2 j - 1) P_{j-1}
+    for j in 1..=n {
+        let before = if j >= 2 { slopes[j - 2] } else { 0.0 };
+        slopes[j] = before + 2.0 * (2.0 * j as f64 - 1.0) * p[j - 1];
+    }
+    slopes
+}
+
 /// Gauss-Legendre quadrature on [0, 1]: exact for polynomials of degree `2 n - 1`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gauss {
@@ -64,6 +76,24 @@ impl Gauss {
     }
 }
 
+impl Gauss {
+    /// The slopes at each point of the polynomials that are one at one of the points and zero at all others.
+    pub fn slopes(&self) -> Vec<Vec<f64>> {
+        let n = self.points.len();
+        let at = |x: f64| {
+            let slopes = derivatives(n - 1, x);
+            let of = |(&point, &weight): (&f64, &f64)| {
+                let here = polynomials(n - 1, point);
+                let terms = here.iter().zip(&slopes).enumerate();
+                let sum: f64 = terms.map(|(j, (p, d))| (2 * j + 1) as f64 * p * d).sum();
+                weight * sum
+            };
+            self.points.iter().zip(&self.weights).map(of).collect()
+        };
+        self.points.iter().map(|&x| at(x)).collect()
+    }
+}
+
 /// `P_n` and its slope, inside (0, 1).
 fn with_slope(n: usize, x: f64) -> (f64, f64) {
     let p = polynomials(n, x);
@@ -103,6 +133,19 @@ mod tests {
                     let expected = f64::powi(x, power + 1) / f64::from(power + 1);
                     assert!((sum - expected).abs() < 1e-13, "{n} {x} {power}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_powers() {
+        let rule = Gauss::new(6);
+        for (x, own) in rule.points.iter().zip(rule.slopes()) {
+            for power in 1..6 {
+                let terms = rule.points.iter().zip(&own);
+                let sum: f64 = terms.map(|(p, w)| w * p.powi(power)).sum();
+                let expected = f64::from(power) * x.powi(power - 1);
+                assert!((sum - expected).abs() < 1e-12, "{x} {power}");
             }
         }
     }

@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use super::expression::{Expr, Vector};
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 
-/// A geometrically exact rod that keeps its length. Its sections turn relative to the root by the Rodrigues vector
+/// A geometrically exact rod. Its sections turn relative to the root by the Rodrigues vector
 /// `psi(x) = sum_j q_j I_j(x)`, with `I_j` the integrals of the shifted Legendre polynomials from 0 to `x`; their places
 /// follow by integration.
 #[derive(Clone, Debug)]
@@ -22,6 +22,10 @@ pub struct Beam {
     pub axes: [Vector; 3],
     /// For each axis, the coordinates by which sections turn about it.
     pub coordinates: [Vec<CoordinateId>; 3],
+    /// Coordinates of the strain along the beam, and of shear along the second and the third axis.
+    pub strains: [Vec<CoordinateId>; 3],
+    /// Whether sections shear as the change of the bending moments requires.
+    pub static_shear: bool,
     /// Places of quadrature as fractions of the length, their weights, and the sections there.
     pub sections: Vec<(f64, f64, Section)>,
     /// Sections to which something is attached.
@@ -39,6 +43,8 @@ pub struct Section {
     pub inertia: [Expr; 2],
     /// Stiffness against twist, and against bending about the second and the third axis, N m^2.
     pub stiffness: [Expr; 3],
+    /// Stiffness against stretch, and against shear along the second and the third axis, N; zero if not known.
+    pub against_strain: [Expr; 3],
     /// The angle by which its axes are turned about the beam before it bends, rad.
     pub twist: Expr,
 }

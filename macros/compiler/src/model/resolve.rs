@@ -209,7 +209,8 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
 /// Whether every declared body, joint and constraint has become an entry.
 fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
     let stations: usize = mechanism.beams.iter().map(|beam| beam.stations.len()).sum();
-    let of_beams = mechanism.beams.iter().flat_map(|beam| &beam.coordinates);
+    let of_beams =
+        (mechanism.beams.iter()).flat_map(|beam| beam.coordinates.iter().chain(&beam.strains));
     let of_beams: usize = of_beams.map(Vec::len).sum();
     let (bodies, joints) = (mechanism.bodies.len(), mechanism.joints.len());
     !ast.unread.iter().any(Unread::may_connect)

@@ -22,15 +22,16 @@ pub(crate) struct BeamInertia {
     second: Vec<Vec<ExprId>>,
 }
 
-/// An arm: a direction in a section, by its components along the beam and along the two axes across it.
+/// An arm of a section: the direction of the beam there, or a direction across the section by its components.
 struct Arm {
     section: usize,
-    components: [ExprId; 3],
+    across: Option<[ExprId; 2]>,
 }
 
 /// An arm in motion.
 pub(crate) struct MovingArm {
     section: usize,
+    is_direction: bool,
     pub(crate) vector: Vector3,
     second_rate: Vector3,
     pub(crate) rate: Vector3,
@@ -54,6 +55,8 @@ pub(crate) struct BeamLoad {
     pub(crate) moment: Vector3,
     /// By section, then by station: the moment that turns it.
     turning: Vec<Vector3>,
+    /// By section: the force on its direction.
+    pulling: Vec<Vector3>,
 }
 
 impl BeamInertia {
@@ -68,7 +71,7 @@ impl BeamInertia {
             points: beam.sections.iter().map(|(place, ..)| *place).collect(),
             weights: beam.sections.iter().map(|(_, weight, _)| *weight).collect(),
         };
-        let (one, zero) = (g.constant(1.0), g.zero());
+        let zero = g.zero();
         let reach: Vec<Vec<f64>> = rule.points.iter().map(|x| rule.integrals_to(*x)).collect();
         let masses: Vec<ExprId> = beam
             .sections
@@ -103,7 +106,7 @@ impl BeamInertia {
             this.first.push(g.mul(share, square));
             this.arms.push(Arm {
                 section: k,
-                components: [one, zero, zero],
+                across: None,
             });
             for j in 0..=k {
                 let share = weighted(g, &|a| reach[a][k] * reach[a][j]);
@@ -121,10 +124,7 @@ impl BeamInertia {
             let minus = g.neg(sine);
             let share = g.scale(*weight, length);
             // The distance along the second axis is that from the third.
-            let axes = [
-                (about_z, [zero, cosine, sine]),
-                (about_y, [zero, minus, cosine]),
-            ];
+            let axes = [(about_z, [cosine, sine]), (about_y, [minus, cosine])];
             for (inertia, components) in axes {
                 if g.is(inertia, 0.0) {
                     continue;
@@ -136,12 +136,12 @@ impl BeamInertia {
         this
     }
 
-    fn add(&mut self, g: &mut Graph, section: usize, components: [ExprId; 3], second: ExprId) {
+    fn add(&mut self, g: &mut Graph, section: usize, components: [ExprId; 2], second: ExprId) {
         let zero = g.zero();
         self.first.push(zero);
         self.arms.push(Arm {
             section,
-            components,
+            across: Some(components),
         });
         for row in &mut self.second {
             row.push(zero);
@@ -158,8 +158,19 @@ impl BeamInertia {
         let arms = self.arms.iter().zip(&self.first);
         arms.map(|(arm, &first)| {
             let own = &motion.sections[arm.section];
+            let Some(components) = &arm.across else {
+                let own = &motion.directions[arm.section];
+                return MovingArm {
+                    section: arm.section,
+                    is_direction: true,
+                    vector: own.vector,
+                    rate: own.rate,
+                    second_rate: own.second_rate,
+                    first,
+                };
+            };
             let (mut vector, mut second_rate) = (Vector3::zero(g), Vector3::zero(g));
-            for ((axis, rate), &share) in own.arms().into_iter().zip(&arm.components) {
+            for ((axis, rate), &share) in own.arms().into_iter().skip(1).zip(components) {
                 let along = axis.scale(g, share);
                 vector = vector.add(g, along);
                 let along = rate.scale(g, share);
@@ -167,6 +178,7 @@ impl BeamInertia {
             }
             MovingArm {
                 section: arm.section,
+                is_direction: false,
                 rate: own.frame.angular_velocity.cross(g, vector),
                 vector,
                 second_rate,
@@ -209,6 +221,7 @@ impl BeamInertia {
             force: zero,
             moment: zero,
             turning: vec![zero; motion.sections.len()],
+            pulling: vec![zero; motion.sections.len()],
         };
         for (k, (arm, second)) in moving.iter().zip(&self.second).enumerate() {
             let mut bracket = root.acceleration.scale(g, arm.first);
@@ -218,6 +231,9 @@ impl BeamInertia {
             }
             if let Some(passed) = from.brackets.get(k) {
                 bracket = bracket.add(g, *passed);
+            }
+            if arm.is_direction {
+                load.pulling[arm.section] = bracket;
             }
             let share = arm.second_rate.scale(g, arm.first);
             load.force = load.force.add(g, share);
@@ -263,14 +279,15 @@ impl FromStations {
     /// The moments that turn sections and stations, without inertia.
     pub(crate) fn turning(&self, g: &mut Graph, motion: &BeamMotion) -> BeamLoad {
         let zero = Vector3::zero(g);
-        let sections = motion.sections.iter().zip(&self.brackets);
-        let mut turning: Vec<Vector3> = sections
-            .map(|(section, bracket)| section.arms()[0].0.cross(g, *bracket))
+        let directions = motion.directions.iter().zip(&self.brackets);
+        let mut turning: Vec<Vector3> = directions
+            .map(|(own, bracket)| own.vector.cross(g, *bracket))
             .collect();
         let moment = turning.iter().fold(zero, |sum, own| sum.add(g, *own));
         turning.extend(&self.moments);
         BeamLoad {
             force: zero,
+            pulling: self.brackets.clone(),
             moment,
             turning,
         }
@@ -287,6 +304,11 @@ impl BeamLoad {
         motion: &BeamMotion,
         along: &mut [ExprId],
     ) {
+        for (direction, force) in motion.directions.iter().zip(&self.pulling) {
+            for (row, power) in direction.project(g, *force) {
+                along[row] = g.add(along[row], power);
+            }
+        }
         let rows = sections.of(id);
         let rows = rows.rotations.iter().chain(&rows.stations);
         let stations = motion.stations.iter().map(|own| &own.section);

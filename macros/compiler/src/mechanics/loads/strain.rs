@@ -2,56 +2,68 @@
 
 use crate::algebra::{Direction, Graph, Unary, Vector3, derivatives_along, gradient};
 use crate::base::ids::{BeamId, ExprId, SymbolId};
-use crate::mechanics::motion::curvature;
+use crate::mechanics::motion::{self, bend};
 use crate::mechanics::setup::{Context, OfBeam};
 
-/// The curvatures of a section along its own axes, times the length, and its stiffnesses over the length times its
-/// share of it.
+/// What strains at a section, and the stiffness against it: curvatures along its own axes times the length, stretch and
+/// shear, each with the stiffness that gives energy over the length that the section stands for.
 struct Strain {
-    curvatures: [ExprId; 3],
-    stiffness: [ExprId; 3],
+    values: Vec<ExprId>,
+    stiffness: Vec<ExprId>,
 }
 
 fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>) -> Vec<Strain> {
     let beam = &context.mechanism.beams[id.index()];
     let values = context.values;
     let length = values.scalar(g, &beam.length);
+    let stretched = motion::strains(g, context, id, turns);
     let sections = beam
         .sections
         .iter()
         .zip(&turns.rotations)
         .zip(&turns.slopes);
     sections
-        .map(|(((_, weight, section), turn), slope)| {
-            let bent = curvature(g, Vector3(*turn), Vector3(*slope));
+        .zip(stretched)
+        .map(|((((_, weight, section), turn), slope), stretched)| {
+            let bent = bend(g, Vector3(*turn), Vector3(*slope));
             let twist = values.scalar(g, &section.twist);
-            let (sine, cosine) = (g.unary(Unary::Sin, twist), g.unary(Unary::Cos, twist));
-            let [x, y, z] = bent.0;
-            let (ay, az) = (g.mul(cosine, y), g.mul(sine, z));
-            let (by, bz) = (g.mul(sine, y), g.mul(cosine, z));
-            let curvatures = [x, g.add(ay, az), g.sub(bz, by)];
-            let stiffness = section.stiffness.each_ref().map(|stiffness| {
+            let [_, shear_y, shear_z] = stretched;
+            let [bent_y, bent_z] = along_own_axes(g, [bent.0[1], bent.0[2]], twist);
+            let [shear_y, shear_z] = along_own_axes(g, [shear_y, shear_z], twist);
+            let mut strain = Strain {
+                values: vec![bent.0[0], bent_y, bent_z, stretched[0], shear_y, shear_z],
+                stiffness: Vec::new(),
+            };
+            for stiffness in &section.stiffness {
                 let stiffness = values.scalar(g, stiffness);
                 let share = g.scale(*weight, stiffness);
-                g.div(share, length)
-            });
-            Strain {
-                curvatures,
-                stiffness,
+                strain.stiffness.push(g.div(share, length));
             }
+            for stiffness in &section.against_strain {
+                let stiffness = values.scalar(g, stiffness);
+                let share = g.scale(*weight, stiffness);
+                strain.stiffness.push(g.mul(share, length));
+            }
+            strain
         })
         .collect()
 }
 
+/// Components along axes that have been turned by an angle.
+fn along_own_axes(g: &mut Graph, [y, z]: [ExprId; 2], angle: ExprId) -> [ExprId; 2] {
+    let (sine, cosine) = (g.unary(Unary::Sin, angle), g.unary(Unary::Cos, angle));
+    let (a, b) = (g.mul(cosine, y), g.mul(sine, z));
+    let (c, d) = (g.mul(sine, y), g.mul(cosine, z));
+    [g.add(a, b), g.sub(d, c)]
+}
+
 impl Strain {
-    /// `sum D kappa^2 / 2` over the length that the section stands for.
+    /// Half the sum of stiffness times squared strain.
     fn energy(&self, g: &mut Graph) -> ExprId {
-        let terms: Vec<ExprId> = self
-            .curvatures
-            .iter()
-            .zip(&self.stiffness)
-            .map(|(&curvature, &stiffness)| {
-                let square = g.mul(curvature, curvature);
+        let pairs = self.values.iter().zip(&self.stiffness);
+        let terms: Vec<ExprId> = pairs
+            .map(|(&value, &stiffness)| {
+                let square = g.mul(value, value);
                 let twice = g.mul(stiffness, square);
                 g.scale(0.5, twice)
             })
@@ -61,7 +73,7 @@ impl Strain {
 }
 
 /// Forces along the rows of the sections, with the sign of inertia: elastic, and if the material lags, those of
-/// moments `D (kappa + lag kappa')`.
+/// stresses proportional to the strain and `lag` times its rate.
 pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     let sections = context.sections;
     let mut along = vec![g.zero(); sections.rows.len()];
@@ -71,9 +83,10 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
             .values
             .scalar(g, &context.mechanism.beams[id.index()].lag);
         let rows = sections.of(id);
-        let rows = rows.rotations.iter().zip(&rows.slopes);
-        for (strain, (turn, slope)) in strains(g, context, id, &turns).iter().zip(rows) {
-            let own: Vec<usize> = turn.iter().chain(slope).flatten().copied().collect();
+        for (k, strain) in strains(g, context, id, &turns).iter().enumerate() {
+            let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
+            let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
+            let own: Vec<usize> = own.copied().collect();
             let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
             let energy = strain.energy(g);
             let mut forces = gradient(g, energy, &ids);
@@ -82,11 +95,11 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
                     .iter()
                     .map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
                 let direction = Direction::new("_rate", rates.collect());
-                let rates = derivatives_along(g, &strain.curvatures, &direction);
-                for k in 0..3 {
-                    let moment = g.mul(strain.stiffness[k], rates[k]);
+                let rates = derivatives_along(g, &strain.values, &direction);
+                for (k, rate) in rates.into_iter().enumerate() {
+                    let moment = g.mul(strain.stiffness[k], rate);
                     let moment = g.mul(lag, moment);
-                    let slopes = gradient(g, strain.curvatures[k], &ids);
+                    let slopes = gradient(g, strain.values[k], &ids);
                     for (force, slope) in forces.iter_mut().zip(slopes) {
                         let share = g.mul(moment, slope);
                         *force = g.add(*force, share);

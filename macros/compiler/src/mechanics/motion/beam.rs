@@ -7,12 +7,14 @@ use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
 use crate::model::mechanism::Mechanism;
 
 use super::frame::FrameMotion;
+use super::strain::Heading;
 
 /// Motion of the sections of a beam, in the axes of the motion of its root.
 #[derive(Clone, Debug)]
 pub(crate) struct BeamMotion {
     /// At the places of quadrature.
     pub(crate) sections: Vec<SectionMotion>,
+    pub(crate) directions: Vec<DirectionMotion>,
     pub(crate) stations: Vec<StationMotion>,
 }
 
@@ -22,10 +24,22 @@ pub(crate) struct SectionMotion {
     /// Its axes: along the beam, and the two across it. Its origin is that of the root.
     pub(crate) frame: FrameMotion,
     /// The axes of the beam at the root.
-    axes: Matrix3,
+    pub(crate) axes: Matrix3,
     turn: Turn,
     /// Angular velocity relative to the root.
     pub(crate) relative: Vector3,
+}
+
+/// The direction of a beam at a section.
+#[derive(Clone, Debug)]
+pub(crate) struct DirectionMotion {
+    pub(crate) vector: Vector3,
+    pub(crate) rate: Vector3,
+    pub(crate) second_rate: Vector3,
+    /// Velocity relative to the root.
+    leaving: Vector3,
+    /// Derivatives by the strains, by row of the sections.
+    slopes: Vec<(usize, Vector3)>,
 }
 
 /// A station: its section, and where it is.
@@ -54,7 +68,7 @@ impl BeamMotion {
         values: &Values,
         id: BeamId,
         root: &FrameMotion,
-        turns: &OfBeam<CoordinateMotion>,
+        (turns, headings): &(OfBeam<CoordinateMotion>, Vec<Heading>),
     ) -> Self {
         let beam = &mechanism.beams[id.index()];
         let name = beam.name.clone();
@@ -76,6 +90,10 @@ impl BeamMotion {
             .enumerate()
             .map(|(k, turn)| bent(turn, format!("{name}_station_{k}")))
             .collect();
+        let directions = sections.iter().zip(headings);
+        let directions: Vec<DirectionMotion> = directions
+            .map(|(section, heading)| DirectionMotion::new(g, section, heading))
+            .collect();
         let length = values.scalar(g, &beam.length);
         let rule = Gauss {
             points: beam.sections.iter().map(|(place, ..)| *place).collect(),
@@ -87,12 +105,47 @@ impl BeamMotion {
                 .into_iter()
                 .map(|share| g.scale(share, length))
                 .collect();
-            StationMotion::new(g, &sections, section, own_axes, reach)
+            StationMotion::new(g, &directions, section, own_axes, reach)
         });
         Self {
             stations: stations.collect(),
             sections,
+            directions,
         }
+    }
+}
+
+impl DirectionMotion {
+    fn new(g: &mut Graph, section: &SectionMotion, heading: &Heading) -> Self {
+        let frame = &section.frame;
+        let axes = frame.orientation.axes;
+        let apply = |g: &mut Graph, v: Vector3| axes.apply(g, v);
+        let vector = apply(g, heading.value);
+        let growing = apply(g, heading.rate);
+        let growth = apply(g, heading.second);
+        let turning = frame.angular_velocity.cross(g, vector);
+        let coriolis = frame.angular_velocity.cross(g, growing);
+        let coriolis = Vector3(coriolis.0.map(|own| g.scale(2.0, own)));
+        let carried = frame.axes_second_rate.apply(g, heading.value);
+        let leaving = section.relative.cross(g, vector);
+        let slopes = heading.slopes.iter();
+        Self {
+            vector,
+            rate: turning.add(g, growing),
+            second_rate: carried.add(g, coriolis).add(g, growth),
+            leaving: leaving.add(g, growing),
+            slopes: slopes
+                .map(|(row, slope)| (*row, apply(g, *slope)))
+                .collect(),
+        }
+    }
+
+    /// Power of a force on the direction per unit rate of each row of the sections by which it strains.
+    pub(crate) fn project(&self, g: &mut Graph, force: Vector3) -> Vec<(usize, ExprId)> {
+        let slopes = self.slopes.iter();
+        slopes
+            .map(|(row, slope)| (*row, slope.dot(g, force)))
+            .collect()
     }
 }
 
@@ -173,7 +226,7 @@ impl SectionMotion {
         }
     }
 
-    /// The direction of the beam, and its second time derivative.
+    /// The axes, and their second time derivatives.
     pub(crate) fn arms(&self) -> [(Vector3, Vector3); 3] {
         self.frame.axes()
     }
@@ -197,9 +250,29 @@ fn factor(g: &mut Graph, turn: Vector3) -> ExprId {
     g.div(one, denominator)
 }
 
+/// The change along the length of [`bend`], from the slope of the slope.
+pub(crate) fn bend_change(g: &mut Graph, turn: Vector3, slope: Vector3, curl: Vector3) -> Vector3 {
+    if only_axis(g, turn).is_some() {
+        return curl;
+    }
+    let factor = factor(g, turn);
+    let part = |g: &mut Graph, slope: Vector3| {
+        let across = turn.cross(g, slope);
+        let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+        slope.sub(g, half).scale(g, factor)
+    };
+    let (bent, change) = (part(g, slope), part(g, curl));
+    // f' = -f^2 turn . slope / 2
+    let along = turn.dot(g, slope);
+    let half = g.scale(0.5, factor);
+    let shrinking = g.mul(half, along);
+    let lost = bent.scale(g, shrinking);
+    change.sub(g, lost)
+}
+
 /// Twist rate and curvatures along the axes of a section, times the length: the slope of its angle, or if it has turned
 /// by a Rodrigues vector, `f (slope - turn x slope / 2)`.
-pub(crate) fn curvature(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
+pub(crate) fn bend(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
     if only_axis(g, turn).is_some() {
         return slope;
     }
@@ -212,23 +285,24 @@ pub(crate) fn curvature(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3
 impl StationMotion {
     fn new(
         g: &mut Graph,
-        sections: &[SectionMotion],
+        directions: &[DirectionMotion],
         section: SectionMotion,
         own_axes: Matrix3,
         reach: Vec<ExprId>,
     ) -> Self {
         let zero = Vector3::zero(g);
         let (mut offset, mut rate, mut carried, mut second) = (zero, zero, zero, zero);
-        for (own, &share) in sections.iter().zip(&reach) {
-            let [(along, along_second), ..] = own.arms();
-            let arm = along.scale(g, share);
-            offset = offset.add(g, arm);
-            let leaving = own.relative.cross(g, arm);
-            rate = rate.add(g, leaving);
-            let turning = own.frame.angular_velocity.cross(g, arm);
-            carried = carried.add(g, turning);
-            let share = along_second.scale(g, share);
-            second = second.add(g, share);
+        for (own, &share) in directions.iter().zip(&reach) {
+            let sums = [
+                (&mut offset, own.vector),
+                (&mut rate, own.leaving),
+                (&mut carried, own.rate),
+                (&mut second, own.second_rate),
+            ];
+            for (sum, term) in sums {
+                let term = term.scale(g, share);
+                *sum = sum.add(g, term);
+            }
         }
         let frame = FrameMotion {
             offset,

@@ -22,6 +22,7 @@ use crate::topology::Topology;
 use super::beam::BeamMotion;
 use super::frame::FrameMotion;
 use super::step_axis::StepAxis;
+use super::strain::Heading;
 
 /// Motion of a body, and of the joint that carries it.
 #[derive(Clone, Debug)]
@@ -40,6 +41,9 @@ pub(crate) struct BodyMotion {
     /// The beam whose station the body is, and which station.
     pub(crate) flexure: Option<(BeamId, usize)>,
 }
+
+/// How a beam bends: the motion of its sections, and its directions relative to them.
+pub(crate) type Bending = (OfBeam<CoordinateMotion>, Vec<Heading>);
 
 /// The place of a joint on the body nearer to the ground.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +85,7 @@ impl Kinematics {
         mechanism: &Mechanism,
         topology: &Topology,
         values: &Values,
-        (coordinates, turns): (Vec<CoordinateMotion>, Vec<OfBeam<CoordinateMotion>>),
+        (coordinates, turns): (Vec<CoordinateMotion>, Vec<Bending>),
         layout: &Layout,
         ground_acceleration: Vector3,
     ) -> Self {
@@ -100,6 +104,7 @@ impl Kinematics {
         };
         let nothing = BeamMotion {
             sections: Vec::new(),
+            directions: Vec::new(),
             stations: Vec::new(),
         };
         let mut this = Self {

@@ -2,12 +2,11 @@
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{BeamId, ExprId};
-use crate::mechanics::setup::{
-    Context, CoordinateMotion, ForceSelection, Layout, OfBeam, Selection,
-};
+use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection, Layout, Selection};
 use crate::model::mechanism::Motion;
 
-use super::kinematics::Kinematics;
+use super::kinematics::{Bending, Kinematics};
+use super::strain::{headings, headings_in_unknowns};
 
 /// Motion of every frame with the running coordinates at zero.
 pub(crate) fn in_common_frame_at_zero(g: &mut Graph, context: &Context) -> Kinematics {
@@ -25,7 +24,10 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
     });
     let beams = (0..context.mechanism.beams.len()).map(BeamId::new);
     let turns = beams
-        .map(|id| context.sections.by_unknowns(g, symbols, id))
+        .map(|id| {
+            let turns = context.sections.by_unknowns(g, symbols, id);
+            (turns, headings_in_unknowns(g, context, id))
+        })
         .collect();
     let layout = Layout::common(context.mechanism.bodies.len());
     let still = Vector3::zero(g);
@@ -50,18 +52,24 @@ pub(crate) fn for_inertia(
 ) -> Kinematics {
     let mut motions = motions(g, context, running, |k| context.runs.motion(k));
     let beams = (0..context.mechanism.beams.len()).map(BeamId::new);
-    let mut turns: Vec<OfBeam<CoordinateMotion>> = beams
-        .map(|id| context.sections.by_themselves(g, id))
+    let moves = selection.inertia != Selection::None;
+    let mut turns: Vec<Bending> = beams
+        .map(|id| {
+            let turns = context.sections.by_themselves(g, id);
+            (turns, headings(g, context, id, moves))
+        })
         .collect();
     let zero = g.zero();
-    if selection.inertia == Selection::None {
+    if !moves {
         let still = |motion: CoordinateMotion| CoordinateMotion {
             position: motion.position,
             velocity: zero,
             acceleration: zero,
         };
         motions = motions.into_iter().map(still).collect();
-        turns = turns.iter().map(|own| own.map(still)).collect();
+        for (turns, _) in &mut turns {
+            *turns = turns.map(still);
+        }
     }
     let ground = match selection.gravity {
         true => context.values.vector(g, &context.mechanism.gravity).neg(g),

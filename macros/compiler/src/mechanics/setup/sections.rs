@@ -8,7 +8,7 @@
 
 use crate::algebra::{Graph, Stage};
 use crate::base::ids::{BeamId, ExprId, SymbolId};
-use crate::base::legendre::{integrals, polynomials};
+use crate::base::legendre::{derivatives, integrals, polynomials};
 use crate::model::mechanism::{Beam, Mechanism};
 use crate::topology::Topology;
 
@@ -40,6 +40,10 @@ pub(crate) struct OfBeam<T> {
     pub(crate) rotations: Vec<Components<T>>,
     /// Slopes of the rotations there, along the length as a fraction.
     pub(crate) slopes: Vec<Components<T>>,
+    /// Slopes of the slopes, where sections shear with the change of the moments.
+    pub(crate) curls: Vec<Components<T>>,
+    /// Strain along the beam and shear across it, where these are coordinates.
+    pub(crate) strains: Vec<Components<T>>,
     /// Rotations of the stations.
     pub(crate) stations: Vec<Components<T>>,
 }
@@ -52,6 +56,8 @@ impl<T: Copy> OfBeam<T> {
         OfBeam {
             rotations: all(&self.rotations),
             slopes: all(&self.slopes),
+            curls: all(&self.curls),
+            strains: all(&self.strains),
             stations: all(&self.stations),
         }
     }
@@ -80,7 +86,10 @@ impl Sections {
     fn beam(&mut self, g: &mut Graph, topology: &Topology, beam: &Beam) -> OfBeam<Option<usize>> {
         let name = beam.name.clone();
         let mut row = |label: String, component: usize, factors: fn(usize, f64) -> Vec<f64>, x| {
-            let ids = &beam.coordinates[component];
+            let ids = match label.starts_with("strain") {
+                true => &beam.strains[component],
+                false => &beam.coordinates[component],
+            };
             let last = ids.len().checked_sub(1)?;
             let factors = factors(last, x);
             let unknown = |id| topology.free.iter().position(|own| own == id);
@@ -94,12 +103,18 @@ impl Sections {
             self.push(g, &label, weights)
         };
         let (mut rotations, mut slopes) = (Vec::new(), Vec::new());
+        let (mut curls, mut strains) = (Vec::new(), Vec::new());
         for (k, (place, ..)) in beam.sections.iter().enumerate() {
             let mut rows = |what: &str, factors| {
                 [0, 1, 2].map(|component| row(format!("{what}_{k}"), component, factors, *place))
             };
             rotations.push(rows("section", integrals));
             slopes.push(rows("slope", polynomials));
+            curls.push(match beam.static_shear {
+                true => rows("curl", derivatives),
+                false => [None; 3],
+            });
+            strains.push(rows("strain", polynomials));
         }
         let stations = beam.stations.iter().enumerate();
         let stations = stations.map(|(k, station)| {
@@ -110,6 +125,8 @@ impl Sections {
         OfBeam {
             rotations,
             slopes,
+            curls,
+            strains,
             stations,
         }
     }

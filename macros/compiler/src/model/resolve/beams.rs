@@ -32,6 +32,8 @@ pub(super) struct Declared {
     length: Expr,
     axes: [Vector; 3],
     counts: [usize; 3],
+    strains: [usize; 3],
+    static_shear: bool,
     points: usize,
     table: Table,
     twist: Expr,
@@ -72,18 +74,21 @@ pub(super) const BEAM: Row = Row::new(
     "torsion_stiffness",
     "inertia_y",
     "inertia_z",
+    "axial_stiffness",
+    "shear_stiffness_y",
+    "shear_stiffness_z",
     "bending",
     "bending_y",
     "bending_z",
     "torsion",
+    "shear",
+    "stretch",
     "twist",
     "lag",
     "points",
 ])
 .refusing(&[
     ("mass", "give a `section` with a density, or `mass_per_length`"),
-    ("shear", "a beam does not shear; thick ones need other tools for now"),
-    ("stretch", "a beam keeps its length"),
     ("axis", "the beam runs `along` its axis; `up` is the direction of the height of its section"),
 ]);
 
@@ -141,12 +146,15 @@ impl Resolver<'_> {
             None => Some(Expr::Number(0.0)),
         };
         let counts = self.counts(word, given, table.as_ref());
-        let points = self.points_of_beam(given, counts);
+        let strains = self.strains_of_beam(given, counts);
+        let points = self.points_of_beam(given, counts, strains);
         let (length, axes, table, twist) = (length?, axes?, table?, twist?);
         let declared = Declared {
             length,
             axes,
             counts: counts?,
+            strains: strains?.0,
+            static_shear: strains?.1,
             points: points?,
             table,
             twist,
@@ -196,7 +204,8 @@ impl Resolver<'_> {
         let (y, z) = (y.unwrap_or(both), z.unwrap_or(both));
         let twists = table.is_some_and(Table::knows_torsion);
         let torsion = torsion.unwrap_or(if twists && y > 0 && z > 0 { 2 } else { 0 });
-        if torsion + y + z == 0 {
+        let stretches = given.get("stretch").is_some();
+        if torsion + y + z == 0 && !stretches {
             let message = "this beam has no coordinates: it is rigid";
             let help = "give `bending: 5`, `bending_y`, `bending_z` or `torsion`, or use a `rod`";
             self.diagnostics.error_with_help(word, message, help);
@@ -205,12 +214,42 @@ impl Resolver<'_> {
         Some([torsion, y, z])
     }
 
+    /// The numbers of coordinates of stretch and of shear along the second and the third axis, and whether shear is
+    /// static.
+    fn strains_of_beam(
+        &mut self,
+        given: &Arguments<'_>,
+        counts: Option<[usize; 3]>,
+    ) -> Option<([usize; 3], bool)> {
+        let stretch = match given.get("stretch") {
+            Some(value) => self.whole(value, "stretch", 1..=MOST),
+            None => Some(0),
+        };
+        let [_, about_y, about_z] = counts?;
+        let Some(value) = given.get("shear") else {
+            return Some(([stretch?, 0, 0], false));
+        };
+        if matches!(&value.kind, ValueKind::Name(word) if word == "static") {
+            return Some(([stretch?, 0, 0], true));
+        }
+        let is_number = matches!(value.kind, ValueKind::Number(..));
+        if !is_number {
+            let message = "`shear` is `static` or a number of coordinates";
+            self.diagnostics.error(value.extent, message);
+            return None;
+        }
+        let shear = self.whole(value, "shear", 1..=MOST)?;
+        let along = |bends: usize| if bends > 0 { shear } else { 0 };
+        Some(([stretch?, along(about_z), along(about_y)], false))
+    }
+
     fn points_of_beam(
         &mut self,
         given: &Arguments<'_>,
         counts: Option<[usize; 3]>,
+        strains: Option<([usize; 3], bool)>,
     ) -> Option<usize> {
-        let most = counts?.into_iter().max()?;
+        let most = counts?.into_iter().chain(strains?.0).max()?;
         match given.get("points") {
             Some(value) => self.whole(value, "points", most..=2 * MOST),
             None => Some(most + 2),
@@ -277,6 +316,30 @@ impl Resolver<'_> {
                 section.stiffness[2].clone()
             }),
         ];
+        let [about_y, about_z] = [declared.counts[1], declared.counts[2]];
+        let shears = |strains: usize, bends: usize| match declared.static_shear {
+            true => bends,
+            false => strains,
+        };
+        let strained: [(&str, fn(&Section) -> Expr, usize); 3] = [
+            (
+                "axial stiffness",
+                |section| section.against_strain[0].clone(),
+                declared.strains[0],
+            ),
+            (
+                "shear stiffness along y",
+                |section| section.against_strain[1].clone(),
+                shears(declared.strains[1], about_z),
+            ),
+            (
+                "shear stiffness along z",
+                |section| section.against_strain[2].clone(),
+                shears(declared.strains[2], about_y),
+            ),
+        ];
+        let strained = strained.into_iter().filter(|(.., count)| *count > 0);
+        demands.extend(strained.map(|(what, of, _)| (what, Dimension::FORCE, of)));
         let used = of
             .into_iter()
             .zip(declared.counts)

@@ -69,6 +69,15 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
     })
 }
 
+/// Reads a word that could not be a name.
+fn keyword(tokens: &mut Tokens) -> Parsed<Value> {
+    let Some(word) = tokens.ident() else {
+        return tokens.expected("a word");
+    };
+    let extent = Extent::from(&word);
+    Ok(Value::new(ValueKind::Name(word), extent))
+}
+
 /// Reads `SHAPE(...)` or `SHAPE(...) to SHAPE(...)`.
 fn sections(tokens: &mut Tokens) -> Parsed<Value> {
     const SECTION: &str = "a cross-section such as `rectangle(width: 8 mm, height: 2 mm)`";
@@ -87,6 +96,8 @@ pub(super) fn argument(tokens: &mut Tokens) -> Parsed<Argument> {
     colon(tokens)?;
     let value = match tokens.peek_call() {
         true if name == "section" => sections(tokens)?,
+        // Rust reserves the word, so it cannot be a name.
+        _ if name == "shear" && tokens.peek_word("static") => keyword(tokens)?,
         _ => value(tokens)?,
     };
     let of = match tokens.word("of") {

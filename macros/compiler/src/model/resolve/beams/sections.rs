@@ -23,6 +23,8 @@ enum Kind {
     Numbers,
 }
 
+/// How many numbers describe a section.
+const NUMBERS: usize = 9;
 const BENDING: Dimension = Dimension::new(3, 1, -2);
 const INERTIA: Dimension = Dimension::new(1, 1, 0);
 
@@ -46,7 +48,16 @@ static KINDS: [Signature<Kind>; 4] = [
         "section(mass: 0.5 kg/m, EIy: 40 N*m^2, EIz: 300 N*m^2, GJ: 15 N*m^2)",
         Kind::Numbers,
     )
-    .optional(&["EIy", "EIz", "GJ", "inertia_y", "inertia_z"]),
+    .optional(&[
+        "EIy",
+        "EIz",
+        "GJ",
+        "inertia_y",
+        "inertia_z",
+        "EA",
+        "GAy",
+        "GAz",
+    ]),
 ];
 
 const SYNONYMS: [(&str, &str); 7] = [
@@ -86,6 +97,9 @@ impl Resolver<'_> {
             "torsion_stiffness",
             "inertia_y",
             "inertia_z",
+            "axial_stiffness",
+            "shear_stiffness_y",
+            "shear_stiffness_z",
         ];
         let numbers = by_numbers
             .iter()
@@ -107,8 +121,7 @@ impl Resolver<'_> {
                 self.shaped(name, word, calls, material?)
             }
             (None, Some(_)) => {
-                let order = [0, 1, 2, 3, 4, 5].map(|k| by_numbers[k]);
-                let ends = self.numbers(given, order)?;
+                let ends = self.numbers(given, by_numbers)?;
                 if matches!(ends[0], Expr::Number(0.0)) {
                     let message = "`beam` needs `mass_per_length`";
                     self.diagnostics.error(word, message);
@@ -131,8 +144,9 @@ impl Resolver<'_> {
         }
     }
 
-    /// Mass, stiffness about y, about z and against twist, and the two inertias; zero if not given.
-    fn numbers(&mut self, given: &Arguments<'_>, names: [&str; 6]) -> Option<Vec<Expr>> {
+    /// Mass, stiffness about y, about z and against twist, the two inertias, stiffness against stretch and against shear
+    /// along y and z; zero if not given.
+    fn numbers(&mut self, given: &Arguments<'_>, names: [&str; NUMBERS]) -> Option<Vec<Expr>> {
         let dimensions = [
             Dimension::LINE_DENSITY,
             BENDING,
@@ -140,6 +154,9 @@ impl Resolver<'_> {
             BENDING,
             INERTIA,
             INERTIA,
+            Dimension::FORCE,
+            Dimension::FORCE,
+            Dimension::FORCE,
         ];
         let all: Vec<Option<Expr>> = names
             .into_iter()
@@ -212,7 +229,17 @@ impl Resolver<'_> {
             Kind::Circle => &["radius"],
             Kind::Tube => &["outer", "inner"],
             Kind::Numbers => {
-                let order = ["mass", "EIy", "EIz", "GJ", "inertia_y", "inertia_z"];
+                let order = [
+                    "mass",
+                    "EIy",
+                    "EIz",
+                    "GJ",
+                    "inertia_y",
+                    "inertia_z",
+                    "EA",
+                    "GAy",
+                    "GAz",
+                ];
                 return self.numbers(given, order);
             }
         };
@@ -274,11 +301,22 @@ impl Table {
             })
             .collect();
         let twist = multiply(Expr::Number(place), twist.clone());
-        if let [mass, about_y, about_z, torsion, inertia_y, inertia_z] = &at[..] {
+        if let [
+            mass,
+            about_y,
+            about_z,
+            torsion,
+            inertia_y,
+            inertia_z,
+            against_strain @ ..,
+        ] = &at[..]
+            && let [axial, shear_y, shear_z] = against_strain
+        {
             return Section {
                 mass: mass.clone(),
                 inertia: [inertia_y.clone(), inertia_z.clone()],
                 stiffness: [torsion.clone(), about_y.clone(), about_z.clone()],
+                against_strain: [axial.clone(), shear_y.clone(), shear_z.clone()],
                 twist,
             };
         }
@@ -292,7 +330,14 @@ impl Table {
             modulus,
             shear_modulus,
         } = &self.material;
+        let shear = match (self.shear_coefficient(&at), shear_modulus) {
+            (Some(coefficient), Some(shear_modulus)) => {
+                multiply(coefficient, multiply(shear_modulus.clone(), area.clone()))
+            }
+            _ => Expr::Number(0.0),
+        };
         Section {
+            against_strain: [of(modulus, area.clone()), shear.clone(), shear],
             mass: of(density, area),
             inertia: [of(density, second_y.clone()), of(density, second_z.clone())],
             stiffness: [
@@ -302,6 +347,35 @@ impl Table {
             ],
             twist,
         }
+    }
+
+    /// The share of the area that carries shear: of a rectangle and of a circle or tube by Cowper (1966).
+    fn shear_coefficient(&self, dimensions: &[Expr]) -> Option<Expr> {
+        let Properties {
+            modulus,
+            shear_modulus,
+            ..
+        } = &self.material;
+        let twice = multiply(Expr::Number(2.0), shear_modulus.clone()?);
+        let poisson = subtract(divide(modulus.clone()?, twice), Expr::Number(1.0));
+        let line = |constant: f64, slope: f64| {
+            let rising = multiply(Expr::Number(slope), poisson.clone());
+            add(Expr::Number(constant), rising)
+        };
+        if self.kind == Kind::Rectangle {
+            return Some(divide(line(10.0, 10.0), line(12.0, 11.0)));
+        }
+        let hollow = match dimensions {
+            [outer, inner] => power_integer(divide(inner.clone(), outer.clone()), 2),
+            _ => Expr::Number(0.0),
+        };
+        let square = power_integer(add(Expr::Number(1.0), hollow.clone()), 2);
+        let above = multiply(line(6.0, 6.0), square.clone());
+        let below = add(
+            multiply(line(7.0, 6.0), square),
+            multiply(line(20.0, 12.0), hollow),
+        );
+        Some(divide(above, below))
     }
 
     /// Area, second moments about the second and the third axis, and the constant of torsion.

@@ -234,6 +234,7 @@ impl Resolver<'_> {
             ids
         };
         let [torsion, y, z] = declared.counts;
+        let [stretch, shear_y, shear_z] = declared.strains;
         Beam {
             name: piece.name.clone(),
             whole: whole.clone(),
@@ -245,6 +246,12 @@ impl Resolver<'_> {
                 component("bend_y", y),
                 component("bend_z", z),
             ],
+            strains: [
+                component("stretch", stretch),
+                component("shear_y", shear_y),
+                component("shear_z", shear_z),
+            ],
+            static_shear: declared.static_shear,
             sections: declared.sections(start, piece.end),
             stations,
             lag: declared.lag.clone(),
