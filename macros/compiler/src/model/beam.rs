@@ -30,6 +30,8 @@ pub struct Beam {
     pub sections: Vec<(f64, f64, Section)>,
     /// Sections to which something is attached.
     pub stations: Vec<Station>,
+    /// Speed at which its material turns about the bent axis, rad/s, beside the sections' own motion.
+    pub spin: Expr,
     /// Time that the rate of strain is multiplied by, s: moments are proportional to the strain and to this.
     pub lag: Expr,
 }

@@ -482,6 +482,17 @@ pub enum ForceLaw {
         /// Whether the components are in the axes of the point and follow it; otherwise they are in the ground's axes.
         following: bool,
     },
+    /// Forces per length along a beam.
+    Distributed {
+        /// The declared name of the beam.
+        on: Ident,
+        /// In the ground's axes, N/m.
+        force: Vector,
+        /// Along the axes of the sections, which it follows, N/m.
+        follower: Vector,
+        /// Resistance of a medium at rest, N s/m^2.
+        damping: Expr,
+    },
     /// Resistance of a medium at rest: force `-damping v` and moment `-turning_damping omega`, absolute velocities. The
     /// external, non-rotating damping of rotor dynamics.
     Drag {

@@ -300,6 +300,8 @@ pub struct Body {
     pub name: Ident,
     /// The terms that it consists of, in order: `disk(...) + rod(...) at [0, 0, 10 cm] - cylinder(...)`.
     pub terms: Vec<Term>,
+    /// `spinning at SPEED`: a beam that turns about its own bent axis.
+    pub spinning: Option<Value>,
 }
 
 /// A shape that is added to a body or cut out of it.

@@ -181,6 +181,9 @@ fn body(body: &Body) -> String {
         let placement = placed(term.placement.as_ref());
         let _ = write!(text, "{sign}{}{placement}", call(&term.shape));
     }
+    if let Some(speed) = &body.spinning {
+        let _ = write!(text, " spinning at {}", value(speed));
+    }
     text
 }
 

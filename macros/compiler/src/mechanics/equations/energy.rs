@@ -108,6 +108,7 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
             | ForceLaw::Generalized { .. }
             | ForceLaw::Bushing { .. }
             | ForceLaw::Load { .. }
+            | ForceLaw::Distributed { .. }
             | ForceLaw::Drag { .. } => continue,
         };
         energy = g.add(energy, share);

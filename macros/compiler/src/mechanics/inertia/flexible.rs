@@ -20,6 +20,10 @@ pub(crate) struct BeamInertia {
     /// By arm.
     first: Vec<ExprId>,
     second: Vec<Vec<ExprId>>,
+    /// By section: angular momentum about its axis by which its material spins beside it; empty if none does.
+    spin: Vec<ExprId>,
+    /// Twice the energy of this spin.
+    energy_of_spin: ExprId,
 }
 
 /// An arm of a section: the direction of the beam there, or a direction across the section by its components.
@@ -100,7 +104,10 @@ impl BeamInertia {
             arms: Vec::new(),
             first: Vec::new(),
             second: vec![vec![zero; n]; n],
+            spin: Vec::new(),
+            energy_of_spin: zero,
         };
+        let spin = values.scalar(g, &beam.spin);
         for k in 0..n {
             let share = weighted(g, &|a| reach[a][k]);
             this.first.push(g.mul(share, square));
@@ -123,6 +130,14 @@ impl BeamInertia {
             let (sine, cosine) = (g.unary(Unary::Sin, twist), g.unary(Unary::Cos, twist));
             let minus = g.neg(sine);
             let share = g.scale(*weight, length);
+            if !g.is(spin, 0.0) {
+                let polar = g.add(about_y, about_z);
+                let inertia = g.mul(share, polar);
+                let momentum = g.mul(inertia, spin);
+                let energy = g.mul(momentum, spin);
+                this.energy_of_spin = g.add(this.energy_of_spin, energy);
+                this.spin.push(momentum);
+            }
             // The distance along the second axis is that from the third.
             let axes = [(about_z, [cosine, sine]), (about_y, [minus, cosine])];
             for (inertia, components) in axes {
@@ -192,7 +207,13 @@ impl BeamInertia {
     pub(crate) fn twice_kinetic(&self, g: &mut Graph, motion: &BeamMotion, v: Vector3) -> ExprId {
         let moving = self.moving(g, motion);
         let speed = v.dot(g, v);
-        let mut terms = vec![g.mul(self.mass, speed)];
+        let mut terms = vec![g.mul(self.mass, speed), self.energy_of_spin];
+        for (section, &momentum) in motion.sections.iter().zip(&self.spin) {
+            let [(axis, _), ..] = section.arms();
+            let along = section.frame.angular_velocity.dot(g, axis);
+            let product = g.mul(momentum, along);
+            terms.push(g.scale(2.0, product));
+        }
         for (arm, second) in moving.iter().zip(&self.second) {
             let along = v.dot(g, arm.rate);
             let double = g.scale(2.0, arm.first);
@@ -242,6 +263,14 @@ impl BeamInertia {
             let turning = &mut load.turning[arm.section];
             *turning = turning.add(g, moment);
         }
+        for (k, &momentum) in self.spin.iter().enumerate() {
+            let section = &motion.sections[k];
+            let [(axis, _), ..] = section.arms();
+            let turning = section.frame.angular_velocity.cross(g, axis);
+            let moment = turning.scale(g, momentum);
+            load.moment = load.moment.add(g, moment);
+            load.turning[k] = load.turning[k].add(g, moment);
+        }
         load.turning.extend(&from.moments);
         load
     }
@@ -274,6 +303,13 @@ impl FromStations {
             *bracket = bracket.add(g, part);
         }
         self.moments[station] = self.moments[station].add(g, moment);
+    }
+
+    /// Takes away forces on the directions.
+    pub(crate) fn subtract_distributed(&mut self, g: &mut Graph, forces: &[Vector3]) {
+        for (bracket, force) in self.brackets.iter_mut().zip(forces) {
+            *bracket = bracket.sub(g, *force);
+        }
     }
 
     /// The moments that turn sections and stations, without inertia.

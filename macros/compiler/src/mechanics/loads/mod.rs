@@ -3,6 +3,7 @@
 mod applied;
 mod closure;
 mod constraints;
+mod distributed;
 mod force_context;
 mod forces;
 mod pair;

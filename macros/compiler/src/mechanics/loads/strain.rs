@@ -79,6 +79,8 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     let mut along = vec![g.zero(); sections.rows.len()];
     for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
         let turns = sections.by_themselves(g, id).map(|own| own.position);
+        let beam = &context.mechanism.beams[id.index()];
+        let spin = context.values.scalar(g, &beam.spin);
         let lag = context
             .values
             .scalar(g, &context.mechanism.beams[id.index()].lag);
@@ -95,7 +97,12 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
                     .iter()
                     .map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
                 let direction = Direction::new("_rate", rates.collect());
-                let rates = derivatives_along(g, &strain.values, &direction);
+                let mut rates = derivatives_along(g, &strain.values, &direction);
+                // material that spins beside its section sees the strain turn backwards
+                let [y, z] = [strain.values[1], strain.values[2]];
+                let (forwards, backwards) = (g.mul(spin, z), g.mul(spin, y));
+                rates[1] = g.add(rates[1], forwards);
+                rates[2] = g.sub(rates[2], backwards);
                 for (k, rate) in rates.into_iter().enumerate() {
                     let moment = g.mul(strain.stiffness[k], rate);
                     let moment = g.mul(lag, moment);

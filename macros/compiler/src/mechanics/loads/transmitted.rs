@@ -55,6 +55,9 @@ pub(crate) fn transmitted(
     };
     let mut wrenches = vec![nothing; mechanism.bodies.len()];
     let mut on_stations = FromStations::nothing(g, context);
+    for (on, forces) in on_stations.iter_mut().zip(&applied.on_directions) {
+        on.subtract_distributed(g, forces);
+    }
     for branch in topology.branches.iter().rev() {
         let body = branch.body.index();
         let name = mechanism.bodies[body].name.to_string();

@@ -18,9 +18,10 @@ impl Names<'_> {
         };
         writeln!(
             f,
-            "beam {}: on {body} length {} along {along} across {across} up {up} torsion {torsion} bending_y {y} bending_z {z} stretch {stretch} shear {shear} lag {}",
+            "beam {}: on {body} length {} along {along} across {across} up {up} torsion {torsion} bending_y {y} bending_z {z} stretch {stretch} shear {shear} spin {} lag {}",
             beam.name,
             self.scalar(&beam.length),
+            self.scalar(&beam.spin),
             self.scalar(&beam.lag)
         )?;
         for (place, weight, section) in &beam.sections {

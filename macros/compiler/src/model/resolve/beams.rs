@@ -37,6 +37,7 @@ pub(super) struct Declared {
     points: usize,
     table: Table,
     twist: Expr,
+    spin: Expr,
     lag: Expr,
 }
 
@@ -123,13 +124,23 @@ impl Resolver<'_> {
         }
         static SIGNATURE: Row = BEAM;
         let arguments = self.arguments(&beam.shape, &SIGNATURE);
-        let declared = self.beam_of(&body.name, word, &arguments);
+        let declared = self.beam_of(body, word, &arguments);
         let is_right = declared.is_some();
         self.stations.declare(&body.name, declared);
         is_right.then_some(())
     }
 
-    fn beam_of(&mut self, name: &Ident, word: &Ident, given: &Arguments<'_>) -> Option<Declared> {
+    fn beam_of(
+        &mut self,
+        body: &ast::Body,
+        word: &Ident,
+        given: &Arguments<'_>,
+    ) -> Option<Declared> {
+        let name = &body.name;
+        let spin = match &body.spinning {
+            Some(value) => self.scalar_of(value, Dimension::RATE, "the speed of spinning"),
+            None => Some(Expr::Number(0.0)),
+        };
         let length = given.get("length").and_then(|value| {
             let length = self.scalar_of(value, Dimension::LENGTH, "`length`")?;
             self.require_of_beam(name, "length", &length, Dimension::LENGTH, value);
@@ -158,8 +169,12 @@ impl Resolver<'_> {
             points: points?,
             table,
             twist,
+            spin: spin?,
             lag: lag?,
         };
+        if let Some(value) = &body.spinning {
+            self.require_round(value, &declared)?;
+        }
         self.require_sections(name, word, &declared);
         Some(declared)
     }
@@ -276,6 +291,27 @@ impl Resolver<'_> {
             range.end()
         );
         self.diagnostics.error(value.extent, message);
+        None
+    }
+
+    /// A beam that turns about its own axis is steady only if it is the same in all directions.
+    fn require_round(&mut self, at: &Value, declared: &Declared) -> Option<()> {
+        let section = declared.table.section(0.0, &declared.twist);
+        let [_, about_y, about_z] = &section.stiffness;
+        let [inertia_y, inertia_z] = &section.inertia;
+        let [_, y, z] = declared.counts;
+        let problem = if y != z {
+            "bends in one plane more than in the other"
+        } else if about_y != about_z || inertia_y != inertia_z {
+            "is not round"
+        } else if declared.twist != Expr::Number(0.0) {
+            "is twisted"
+        } else {
+            return Some(());
+        };
+        let message = format!("a beam that spins and {problem} has no steady motion");
+        let help = "use a `circle` or a `tube`, or the same number for both planes, with the same `bending`";
+        self.diagnostics.error_with_help(at.extent, message, help);
         None
     }
 

@@ -32,7 +32,18 @@ pub(super) fn body(tokens: &mut Tokens) -> Parsed<ItemKind> {
         } else if tokens.sign('-').is_some() {
             true
         } else {
-            return Ok(ItemKind::Body(Body { name, terms }));
+            let spinning = match tokens.word("spinning") {
+                Some(_) => {
+                    tokens.expect_word("at")?;
+                    Some(value(tokens)?)
+                }
+                None => None,
+            };
+            return Ok(ItemKind::Body(Body {
+                name,
+                terms,
+                spinning,
+            }));
         };
     }
 }

@@ -90,6 +90,7 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
             "load",
             "follower",
             "drag",
+            "distributed",
             "harmonic",
         ],
     ),

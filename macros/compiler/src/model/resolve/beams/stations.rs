@@ -254,6 +254,7 @@ impl Resolver<'_> {
             static_shear: declared.static_shear,
             sections: declared.sections(start, piece.end),
             stations,
+            spin: declared.spin.clone(),
             lag: declared.lag.clone(),
         }
     }
