@@ -8,7 +8,13 @@
 mod bent;
 #[path = "beams/compared.rs"]
 mod compared;
+#[path = "beams/composed.rs"]
+mod composed;
+#[path = "beams/damped.rs"]
+mod damped;
 #[path = "beams/rotating.rs"]
 mod rotating;
+#[path = "beams/strained.rs"]
+mod strained;
 #[path = "beams/twisted.rs"]
 mod twisted;

@@ -36,12 +36,14 @@ pub(crate) struct Bars<'a> {
     pub(crate) second: &'a [f64],
 }
 
-/// Solves a beam at one speed and compares what a case lists about its lowest modes. `skipped` modes come before the
-/// first that is listed.
+/// A machine read from text.
+pub(crate) fn machine(text: &str) -> Interpreted {
+    Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes:?}"))
+}
+
+/// A machine at one speed, if it has a speed.
 pub(crate) fn study(text: &str, speed: Option<f64>) -> Study<Interpreted> {
-    let machine =
-        Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes:?}"));
-    let study = Study::new(machine);
+    let study = Study::new(machine(text));
     match speed {
         Some(speed) => study.input(Input::new(0), speed),
         None => study,

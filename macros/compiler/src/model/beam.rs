@@ -28,6 +28,8 @@ pub struct Beam {
     pub static_shear: bool,
     /// Places of quadrature as fractions of the length, their weights, and the sections there.
     pub sections: Vec<(f64, f64, Section)>,
+    /// The section at the root.
+    pub root: Section,
     /// Sections to which something is attached.
     pub stations: Vec<Station>,
     /// Speed at which its material turns about the bent axis, rad/s, beside the sections' own motion.
@@ -56,6 +58,8 @@ pub struct Section {
 pub struct Station {
     /// Its place as a fraction of the length.
     pub place: f64,
+    /// Its cross-section.
+    pub section: Section,
     /// The massless body that moves with it.
     pub body: BodyId,
     /// What connects this to the root.

@@ -155,6 +155,11 @@ impl Names<'_> {
                 let name = &self.0.constraints[id.index()].name;
                 format!("reaction({name}).{component}")
             }
+            Expr::Bent(id, component) => {
+                let kind = ["curvature", "moment"][component / 3];
+                let name = &self.0.points[id.index()].name;
+                format!("{kind}({name}).{}", AXES[component % 3])
+            }
             Expr::Exerted(id, component) => {
                 let name = &self.0.forces[id.index()].name;
                 format!("exerted({name}).{component}")

@@ -1,9 +1,10 @@
 //! Elasticity and damping of the material of beams.
 
 use crate::algebra::{Direction, Graph, Unary, Vector3, derivatives_along, gradient};
-use crate::base::ids::{BeamId, ExprId, SymbolId};
+use crate::base::ids::{BeamId, ExprId, PointId, SymbolId};
 use crate::mechanics::motion::{self, bend};
-use crate::mechanics::setup::{Context, OfBeam};
+use crate::mechanics::setup::{Context, OfBeam, Sections};
+use crate::model::mechanism::Frame;
 
 /// What strains at a section, and the stiffness against it: curvatures along its own axes times the length, stretch and
 /// shear, each with the stiffness that gives energy over the length that the section stands for.
@@ -119,6 +120,56 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
         }
     }
     along
+}
+
+/// Twist rate, curvatures and elastic moment of a beam at a point of it; see [`Expr::Bent`](crate::model::expression::Expr::Bent).
+pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [ExprId; 6] {
+    let mechanism = context.mechanism;
+    let zero = g.zero();
+    let frame = mechanism.points[point.index()].frame;
+    let place = mechanism.beams.iter().find_map(|beam| {
+        let station = beam
+            .stations
+            .iter()
+            .find(|own| Frame::Body(own.body) == frame);
+        let root = (Frame::Body(beam.body) == frame).then_some((beam, 0.0, &beam.root));
+        station.map(|own| (beam, own.place, &own.section)).or(root)
+    });
+    let Some((beam, place, section)) = place else {
+        return [zero; 6];
+    };
+    let [turn, slope] = Sections::at(g, context.symbols, context.topology, beam, place);
+    let values = context.values;
+    let length = values.scalar(g, &beam.length);
+    let bent = bend(g, Vector3(turn), Vector3(slope));
+    let bent = bent.0.map(|own| g.div(own, length));
+    let lag = values.scalar(g, &beam.lag);
+    let spin = values.scalar(g, &beam.spin);
+    let (unknowns, rates) = (&context.symbols.q, &context.symbols.velocity);
+    let moving = Direction::new("_rate", unknowns.with(&rates.values).collect());
+    let rates = derivatives_along(g, &bent, &moving);
+    // material that spins beside its section sees the strain turn backwards
+    let (forwards, backwards) = (g.mul(spin, bent[2]), g.mul(spin, bent[1]));
+    let rates = [
+        rates[0],
+        g.add(rates[1], forwards),
+        g.sub(rates[2], backwards),
+    ];
+    let [x, y, z] = [0, 1, 2].map(|k| {
+        let lagging = g.mul(lag, rates[k]);
+        g.add(bent[k], lagging)
+    });
+    let twist = values.scalar(g, &section.twist);
+    let [against_twist, about_y, about_z] = section
+        .stiffness
+        .each_ref()
+        .map(|own| values.scalar(g, own));
+    let own = along_own_axes(g, [y, z], twist);
+    let own = [g.mul(about_y, own[0]), g.mul(about_z, own[1])];
+    let back = g.neg(twist);
+    let [my, mz] = along_own_axes(g, own, back);
+    let mx = g.mul(against_twist, x);
+    [bent[0], bent[1], bent[2], mx, my, mz]
 }
 
 /// Elastic energy of all beams, in terms of the unknowns.

@@ -185,6 +185,31 @@ impl Sections {
         })
     }
 
+    /// Rotation and slope at any place of a beam, by the unknowns.
+    pub(crate) fn at(
+        g: &mut Graph,
+        symbols: &Symbols,
+        topology: &Topology,
+        beam: &Beam,
+        place: f64,
+    ) -> [Components<ExprId>; 2] {
+        [integrals as fn(usize, f64) -> Vec<f64>, polynomials].map(|factors| {
+            [0, 1, 2].map(|component| {
+                let ids = &beam.coordinates[component];
+                let factors = factors(ids.len(), place);
+                let terms: Vec<ExprId> = ids
+                    .iter()
+                    .zip(factors)
+                    .filter_map(|(id, factor)| {
+                        let unknown = topology.free.iter().position(|own| own == id)?;
+                        Some(g.scale(factor, symbols.q.values[unknown]))
+                    })
+                    .collect();
+                g.sum(terms)
+            })
+        })
+    }
+
     /// Each symbol as a sum over the unknowns: for substitution.
     pub(crate) fn sums(&self, g: &mut Graph, symbols: &Symbols) -> Vec<(SymbolId, ExprId)> {
         let lists = [

@@ -42,6 +42,10 @@ pub(super) struct Declared {
 }
 
 impl Declared {
+    fn section(&self, place: f64) -> Section {
+        self.table.section(place, &self.twist)
+    }
+
     /// The sections of a part of it: their places within the part, their weights, and what they are.
     fn sections(&self, start: f64, end: f64) -> Vec<(f64, f64, Section)> {
         let rule = Gauss::new(self.points);
@@ -49,7 +53,7 @@ impl Declared {
         places
             .map(|(place, weight)| {
                 let of_whole = start + (end - start) * place;
-                (place, weight, self.table.section(of_whole, &self.twist))
+                (place, weight, self.section(of_whole))
             })
             .collect()
     }
@@ -296,7 +300,7 @@ impl Resolver<'_> {
 
     /// A beam that turns about its own axis is steady only if it is the same in all directions.
     fn require_round(&mut self, at: &Value, declared: &Declared) -> Option<()> {
-        let section = declared.table.section(0.0, &declared.twist);
+        let section = declared.section(0.0);
         let [_, about_y, about_z] = &section.stiffness;
         let [inertia_y, inertia_z] = &section.inertia;
         let [_, y, z] = declared.counts;
@@ -334,7 +338,7 @@ impl Resolver<'_> {
     /// Mass and stiffness must be positive all along the beam, also within the tolerances.
     fn require_sections(&mut self, name: &Ident, word: &Ident, declared: &Declared) {
         // Dimensions change linearly: what is positive at both ends is so between them.
-        let ends = [0.0, 1.0].map(|place| declared.table.section(place, &declared.twist));
+        let ends = [0.0, 1.0].map(|place| declared.section(place));
         let mut demands = vec![(
             "mass per length",
             Dimension::LINE_DENSITY,

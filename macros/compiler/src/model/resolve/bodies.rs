@@ -107,7 +107,8 @@ impl Resolver<'_> {
         if let Some(speed) = &body.spinning {
             let message = "only a `beam` can spin about its own bent axis";
             let help = "turn the body by a joint: `revolute(x) ... driven at omega`";
-            self.diagnostics.error_with_help(speed.extent, message, help);
+            self.diagnostics
+                .error_with_help(speed.extent, message, help);
             return None;
         }
         let right = self.first_is_solid(body);

@@ -214,6 +214,7 @@ impl Resolver<'_> {
             });
             stations.push(Station {
                 place: (place - start) / share,
+                section: declared.section(*place),
                 body: *body,
                 joint,
             });
@@ -252,6 +253,7 @@ impl Resolver<'_> {
                 component("shear_z", shear_z),
             ],
             static_shear: declared.static_shear,
+            root: declared.section(start),
             sections: declared.sections(start, piece.end),
             stations,
             spin: declared.spin.clone(),
