@@ -334,6 +334,9 @@ impl Fixing<'_> {
                 damping: v(damping),
                 turning_damping: v(turning_damping),
             },
+            declared::ForceLaw::Distributed { .. } => {
+                unreachable!("no machine that the oracle evaluates has forces along beams")
+            }
         }
     }
 

@@ -11,6 +11,8 @@ eigentol_symbolic::id! {
     ConstantId;
     /// A body; the ground has none.
     BodyId;
+    /// A beam.
+    BeamId;
     /// A joint.
     JointId;
     /// A joint coordinate, free, driven or coasting, in order of declaration.

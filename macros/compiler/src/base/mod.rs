@@ -3,6 +3,7 @@
 pub mod diagnostics;
 pub mod dimension;
 pub mod ids;
+pub mod legendre;
 pub mod nearest;
 pub mod span;
 pub mod units;

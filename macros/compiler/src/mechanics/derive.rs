@@ -18,7 +18,7 @@ use super::kernels::{
 };
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
-use super::setup::{Context, Excited, Runs, Symbols, Values};
+use super::setup::{Context, Excited, Runs, Sections, Symbols, Values};
 
 /// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
 /// unless only the kernels are wanted, if a motion moves no mass or nothing balances a load: errors that only the
@@ -52,6 +52,15 @@ pub fn derive(
             }
         }
     };
+    for beam in &mechanism.beams {
+        if beam.name != beam.whole.to_string() {
+            let root = &mechanism.bodies[beam.body.index()].name;
+            functions.free.notes.push(format!(
+                "`{}` carries loads between its ends, so it is split there: `{}` starts at `{root}`",
+                beam.whole, beam.name
+            ));
+        }
+    }
     if !standing.is_empty() {
         functions.free.notes.push(format!(
             "slip depends on {}: no coasting, only standing still, so free like other coordinates",
@@ -71,6 +80,7 @@ fn derived(
     let symbols = Symbols::new(g, mechanism, topology);
     let values = Values::new(g, mechanism, &symbols);
     let runs = Runs::new(g, mechanism, topology, &values, &symbols);
+    let sections = Sections::new(g, mechanism, topology);
     let at_peace = Excited::default();
     let unconstrained = Context {
         mechanism,
@@ -78,13 +88,14 @@ fn derived(
         symbols: &symbols,
         values: &values,
         runs: &runs,
+        sections: &sections,
         rows: &[],
         excited: &at_peace,
     };
     let rows = constraint_rows(g, &unconstrained);
     let labels: Vec<String> = rows.iter().map(|row| row.label.replace('.', "_")).collect();
     let symbols = symbols.clone().with_reactions(g, &labels);
-    let runs = runs.with_reactions(&symbols);
+    let runs = runs.with_reactions(&symbols).with_sections(&sections);
     let values = Values::new(g, mechanism, &symbols);
     let context = Context {
         mechanism,
@@ -92,6 +103,7 @@ fn derived(
         symbols: &symbols,
         values: &values,
         runs: &runs,
+        sections: &sections,
         rows: &rows,
         excited: &at_peace,
     };

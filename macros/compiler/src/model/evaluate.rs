@@ -54,6 +54,7 @@ impl<'a> Values<'a> {
             | Expr::Reaction(..)
             | Expr::ConstraintReaction(..)
             | Expr::Exerted(..)
+            | Expr::Bent(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => f64::NAN,
             Expr::Negate(a) => -part(a),

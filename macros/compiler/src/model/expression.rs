@@ -43,6 +43,10 @@ pub enum Expr {
     /// Component of what a force element exerts (in outputs). Bushing: 0 to 2 the force and 3 to 5 the moment of `from` on
     /// `to`, in the axes of `from`. Between two points along their line: 0 the tension.
     Exerted(ForceId, usize),
+    /// Component of what a beam does at a point of it (in outputs), in the axes of the section before it was twisted: 0 to
+    /// 2 twist rate and curvatures, 1/m; 3 to 5 the moment that the outer part exerts on the inner one, N m, due to these
+    /// and, if the material lags, their rates.
+    Bent(PointId, usize),
     /// Kinetic energy in steady motion (in outputs).
     KineticEnergy,
     /// Energy of gravity, springs and potentials, zero at the ground's origin and at free lengths (in outputs).

@@ -9,6 +9,7 @@
 
 use proc_macro2::Ident;
 
+pub use super::beam::{Beam, Section, Station};
 pub use super::constraint::{Constraint, ConstraintLaw};
 pub use super::excitation::{Deviation, Excitation, ExcitationLaw, Frequency, ShakenBy};
 use super::expression::{Expr, Matrix, Vector};
@@ -16,7 +17,7 @@ pub use super::shape::Shape;
 pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
 use crate::base::dimension::Dimension;
-use crate::base::ids::{BodyId, CoordinateId, JointId, PointId};
+use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId, PointId};
 use crate::base::spline::{Piece, Spline};
 
 /// A declared mechanism. Every `Ident` keeps the span of its declaration.
@@ -46,6 +47,8 @@ pub struct Mechanism {
     pub kernels_only: bool,
     /// Bodies.
     pub bodies: Vec<Body>,
+    /// Flexible bodies.
+    pub beams: Vec<Beam>,
     /// Joints.
     pub joints: Vec<Joint>,
     /// Joint coordinates, in the order of their joints.
@@ -82,6 +85,17 @@ impl Mechanism {
         let coasts =
             |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
         joint.closing == Some(Closing::Planar) && joint.steps.iter().all(coasts)
+    }
+
+    /// Whether a body has a mass of its own.
+    pub fn has_mass(&self, body: BodyId) -> bool {
+        !self.bodies[body.index()].parts.is_empty() || self.beam(body).is_some()
+    }
+
+    /// The beam that a body is.
+    pub fn beam(&self, body: BodyId) -> Option<BeamId> {
+        let place = self.beams.iter().position(|beam| beam.body == body);
+        place.map(BeamId::new)
     }
 
     /// Design variables that nothing refers to.
@@ -214,7 +228,7 @@ pub enum Frame {
 pub struct Body {
     /// Declared name.
     pub name: Ident,
-    /// The pieces that make up its mass; none if massless.
+    /// The pieces that make up its rigid mass; none if massless or a beam.
     pub parts: Vec<Part>,
 }
 
@@ -262,6 +276,8 @@ pub struct Joint {
     pub to_placement: Placement,
     /// Whether it is declared as the joint that closes a loop: it has no coordinates, and its motions become equations.
     pub cut: bool,
+    /// The beam between its sides, and the number of the station on the `to` side; `None` for all declared joints.
+    pub flexure: Option<(BeamId, usize)>,
 }
 
 /// Joints that can be written as equations, by the motions they leave free.
@@ -465,6 +481,17 @@ pub enum ForceLaw {
         moment: Vector,
         /// Whether the components are in the axes of the point and follow it; otherwise they are in the ground's axes.
         following: bool,
+    },
+    /// Forces per length along a beam.
+    Distributed {
+        /// The declared name of the beam.
+        on: Ident,
+        /// In the ground's axes, N/m.
+        force: Vector,
+        /// Along the axes of the sections, which it follows, N/m.
+        follower: Vector,
+        /// Resistance of a medium at rest, N s/m^2.
+        damping: Expr,
     },
     /// Resistance of a medium at rest: force `-damping v` and moment `-turning_damping omega`, absolute velocities. The
     /// external, non-rotating damping of rotor dynamics.

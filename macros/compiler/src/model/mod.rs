@@ -1,5 +1,6 @@
 //! The mechanism in the user's terms: names resolved to ids, values in SI, every rule checked.
 
+pub mod beam;
 pub mod constraint;
 pub mod elements;
 pub mod evaluate;

@@ -1,5 +1,6 @@
 //! A mechanism as text, for snapshots: every value in SI, with names resolved.
 
+mod beam;
 mod constraint;
 mod elements;
 mod excitation;
@@ -59,6 +60,9 @@ impl Display for Mechanism {
         }
         for body in &self.bodies {
             writeln!(f, "body {}: {}", body.name, names.parts(&body.parts))?;
+        }
+        for beam in &self.beams {
+            names.beam(f, beam)?;
         }
         for joint in &self.joints {
             writeln!(
@@ -150,6 +154,11 @@ impl Names<'_> {
             Expr::ConstraintReaction(id, component) => {
                 let name = &self.0.constraints[id.index()].name;
                 format!("reaction({name}).{component}")
+            }
+            Expr::Bent(id, component) => {
+                let kind = ["curvature", "moment"][component / 3];
+                let name = &self.0.points[id.index()].name;
+                format!("{kind}({name}).{}", AXES[component % 3])
             }
             Expr::Exerted(id, component) => {
                 let name = &self.0.forces[id.index()].name;

@@ -4,6 +4,7 @@
 
 mod arguments;
 mod bare;
+mod beams;
 mod bodies;
 mod constants;
 mod constraints;
@@ -42,8 +43,8 @@ use self::resolver::Resolver;
 use self::scope::Scope;
 use super::expression::Vector;
 use super::mechanism::{
-    Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output, Point,
-    Steady,
+    Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output,
+    Point, Steady,
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
@@ -98,6 +99,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         length,
         kernels_only: items.kernels_only,
         bodies: items.bodies,
+        beams: items.beams,
         joints: items.joints,
         coordinates: resolver.declared_coordinates,
         points: items.points,
@@ -130,6 +132,7 @@ struct Items {
     gravity: Vector,
     kernels_only: bool,
     bodies: Vec<Body>,
+    beams: Vec<Beam>,
     joints: Vec<Joint>,
     points: Vec<Point>,
     forces: Vec<Force>,
@@ -155,8 +158,9 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
     resolver.named_constants();
     let gravity = resolver.gravity();
     let kernels_only = resolver.kernels_only();
-    let bodies = resolver.bodies();
-    let joints = resolver.joints();
+    resolver.materials();
+    let mut bodies = resolver.bodies();
+    let mut joints = resolver.joints();
     resolver.require_inertias(&joints);
     let points = resolver.points();
     let mut forces = resolver.forces();
@@ -165,7 +169,9 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
     let constraints = resolver.constraints();
     let steady = resolver.steady_values();
     let outputs = resolver.outputs();
+    let beams = resolver.beams(&mut bodies, &mut joints, &points);
     Items {
+        beams,
         inputs,
         design,
         gravity,
@@ -202,10 +208,16 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
 
 /// Whether every declared body, joint and constraint has become an entry.
 fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
+    let stations: usize = mechanism.beams.iter().map(|beam| beam.stations.len()).sum();
+    let of_beams =
+        (mechanism.beams.iter()).flat_map(|beam| beam.coordinates.iter().chain(&beam.strains));
+    let of_beams: usize = of_beams.map(Vec::len).sum();
+    let (bodies, joints) = (mechanism.bodies.len(), mechanism.joints.len());
     !ast.unread.iter().any(Unread::may_connect)
-        && mechanism.bodies.len() == count(ast, |kind| matches!(kind, ItemKind::Body(_)))
-        && mechanism.joints.len() == count(ast, |kind| matches!(kind, ItemKind::Joint(_)))
-        && mechanism.coordinates.len() == coordinates::declared(ast).len()
+        && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations
+        && joints == count(ast, |kind| matches!(kind, ItemKind::Joint(_))) + stations
+        && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams
+        && (beams::declared(ast) == 0) == mechanism.beams.is_empty()
         && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
 }
 

@@ -21,7 +21,7 @@ pub struct Member {
 pub fn groups(bodies: usize, joints: &[Joint]) -> Vec<Vec<Member>> {
     let welds: Vec<&Joint> = joints
         .iter()
-        .filter(|joint| joint.steps.is_empty())
+        .filter(|joint| joint.steps.is_empty() && joint.flexure.is_none())
         .collect();
     let mut seen = vec![false; bodies];
     reach(Frame::Ground, &welds, &mut seen);

@@ -34,7 +34,7 @@ pub struct Unread {
 impl Unread {
     /// Whether it may be a body, a joint or a constraint; false only if its keyword says otherwise.
     pub fn may_connect(&self) -> bool {
-        const OTHERS: [&str; 12] = [
+        const OTHERS: [&str; 13] = [
             "input",
             "design",
             "let",
@@ -45,6 +45,7 @@ impl Unread {
             "force",
             "every",
             "unbalance",
+            "material",
             "steady",
             "output",
         ];
@@ -98,6 +99,8 @@ pub enum ItemKind {
     Every(Every),
     /// `unbalance NAME: on BODY, ...;`
     Unbalance(Unbalance),
+    /// `material NAME: QUANTITY VALUE, ...;`
+    Material(Material),
     /// `constraint NAME: KIND(...);`
     Constraint(Constraint),
     /// `steady UNKNOWN = VALUE;`
@@ -123,6 +126,7 @@ impl ItemKind {
             ItemKind::Point(point) => Some(&point.name),
             ItemKind::Force(force) => Some(&force.name),
             ItemKind::Unbalance(unbalance) => Some(&unbalance.name),
+            ItemKind::Material(material) => Some(&material.name),
             ItemKind::Constraint(constraint) => Some(&constraint.name),
         }
     }
@@ -296,6 +300,8 @@ pub struct Body {
     pub name: Ident,
     /// The terms that it consists of, in order: `disk(...) + rod(...) at [0, 0, 10 cm] - cylinder(...)`.
     pub terms: Vec<Term>,
+    /// `spinning at SPEED`: a beam that turns about its own bent axis.
+    pub spinning: Option<Value>,
 }
 
 /// A shape that is added to a body or cut out of it.
@@ -316,6 +322,14 @@ pub struct NamedCall {
     pub word: Ident,
     /// The arguments; `None` if there are no parentheses.
     pub arguments: Option<Vec<Argument>>,
+}
+
+impl NamedCall {
+    /// The values of the arguments, last first.
+    fn values(&self) -> impl Iterator<Item = &Value> {
+        let arguments = self.arguments.iter().flatten().rev();
+        arguments.map(|argument| &argument.value)
+    }
 }
 
 /// A named argument.
@@ -340,6 +354,8 @@ pub struct Joint {
     pub arguments: Option<Vec<JointArgument>>,
     /// Frame before `to`.
     pub from: Ident,
+    /// The place along a beam before `to`.
+    pub from_station: Option<Value>,
     /// Frame after `to`.
     pub to: Ident,
     /// Placements, drives and other clauses of the joint, in order.
@@ -455,6 +471,15 @@ pub struct Unbalance {
     pub at: Option<Value>,
 }
 
+/// A material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Name.
+    pub name: Ident,
+    /// `material` with its properties as named arguments.
+    pub call: NamedCall,
+}
+
 /// A force on every free coordinate of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Every {
@@ -501,6 +526,10 @@ pub enum ValueKind {
     Call(Ident, Vec<Value>),
     /// `a.x`.
     Component(Box<Value>, Ident),
+    /// `tube(outer: a, inner: b) to tube(outer: c, inner: d)`: cross-sections, only as an argument.
+    Sections(Vec<NamedCall>),
+    /// `0.4 length`: a place along a beam, only after `at`.
+    Fraction(f64),
     /// `(a)`: kept in the tree because `(3 kg) * m` is not `3 kg * m`.
     Parenthesised(Box<Value>),
 }
@@ -571,7 +600,10 @@ impl Value {
     pub fn new(kind: ValueKind, extent: impl Into<Extent>) -> Self {
         let tallest = |values: &[Value]| values.iter().map(|value| value.height).max();
         let below = match &kind {
-            ValueKind::Number(..) | ValueKind::Name(_) => None,
+            ValueKind::Number(..)
+            | ValueKind::Name(_)
+            | ValueKind::Fraction(_)
+            | ValueKind::Sections(_) => None,
             ValueKind::Vector(values, _) | ValueKind::Call(_, values) => tallest(values),
             ValueKind::Negate(of) | ValueKind::Component(of, _) => Some(of.height),
             ValueKind::Parenthesised(of) => Some(of.height),
@@ -610,7 +642,11 @@ impl Value {
         while let Some(value) = rest.pop() {
             parts.push(value);
             match &value.kind {
-                ValueKind::Number(..) | ValueKind::Name(_) => {}
+                ValueKind::Number(..) | ValueKind::Name(_) | ValueKind::Fraction(_) => {}
+                ValueKind::Sections(calls) => {
+                    let arguments = calls.iter().rev().flat_map(NamedCall::values);
+                    rest.extend(arguments);
+                }
                 ValueKind::Vector(values, _) | ValueKind::Call(_, values) => {
                     rest.extend(values.iter().rev());
                 }

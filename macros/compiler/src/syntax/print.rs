@@ -104,6 +104,13 @@ fn item(kind: &ItemKind) -> String {
             }
             text
         }
+        ItemKind::Material(material) => {
+            let properties = material.call.arguments.iter().flatten();
+            let properties: Vec<String> = properties
+                .map(|own| format!("{} {}", own.name, value(&own.value)))
+                .collect();
+            format!("material {}: {}", material.name, properties.join(", "))
+        }
         ItemKind::Every(every) => format!("every {}: {}", every.quantity, call(&every.law)),
         ItemKind::Constraint(constraint) => {
             format!("constraint {}: {}", constraint.name, call(&constraint.law))
@@ -174,6 +181,9 @@ fn body(body: &Body) -> String {
         let placement = placed(term.placement.as_ref());
         let _ = write!(text, "{sign}{}{placement}", call(&term.shape));
     }
+    if let Some(speed) = &body.spinning {
+        let _ = write!(text, " spinning at {}", value(speed));
+    }
     text
 }
 
@@ -183,7 +193,11 @@ fn joint(joint: &Joint) -> String {
         let arguments: Vec<String> = arguments.iter().map(joint_argument).collect();
         let _ = write!(text, "({})", arguments.join(", "));
     }
-    let _ = write!(text, " from {} to {}", joint.from, joint.to);
+    let _ = write!(text, " from {}", joint.from);
+    if let Some(station) = &joint.from_station {
+        let _ = write!(text, " at {}", value(station));
+    }
+    let _ = write!(text, " to {}", joint.to);
     for (index, clause) in joint.clauses.iter().enumerate() {
         let is_placement = matches!(clause, JointClause::Placement { .. });
         if index > 0 || !is_placement {
@@ -281,6 +295,11 @@ pub fn value(tree: &Value) -> String {
         }
         ValueKind::Call(function, arguments) => format!("{function}({})", list(arguments)),
         ValueKind::Component(of, axis) => format!("{}.{axis}", value(of)),
+        ValueKind::Sections(calls) => {
+            let calls: Vec<String> = calls.iter().map(call).collect();
+            calls.join(" to ")
+        }
+        ValueKind::Fraction(fraction) => format!("{fraction:?} length"),
         ValueKind::Parenthesised(inner) => format!("({})", value(inner)),
     }
 }

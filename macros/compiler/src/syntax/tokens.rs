@@ -114,6 +114,12 @@ impl<'a> Tokens<'a> {
     }
 
     /// Whether a sign and a shape with named arguments are next: the next term of a body, not of a sum.
+    /// Whether a word with parentheses follows.
+    pub(super) fn peek_call(&self) -> bool {
+        let mut ahead = *self;
+        ahead.ident().is_some() && ahead.group(Delimiter::Parenthesis).is_some()
+    }
+
     pub(super) fn peek_shape(&self) -> bool {
         let mut ahead = *self;
         (ahead.sign('+').is_some() || ahead.sign('-').is_some())

@@ -33,6 +33,7 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
             | ForceLaw::Tension { .. }
             | ForceLaw::Bushing { .. }
             | ForceLaw::Load { .. }
+            | ForceLaw::Distributed { .. }
             | ForceLaw::Drag { .. } => {}
         }
     }

@@ -10,7 +10,7 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
     // Children come after their parents, so in reverse order the mass beyond each body is already known.
     for branch in topology.branches.iter().rev() {
         let body = branch.body.index();
-        if !mechanism.bodies[body].parts.is_empty() {
+        if mechanism.has_mass(branch.body) {
             carries_mass[body] = true;
         }
         if let (true, Frame::Body(parent)) = (carries_mass[body], branch.parent) {

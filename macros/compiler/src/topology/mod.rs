@@ -25,6 +25,12 @@ pub struct Topology {
 }
 
 impl Topology {
+    /// Whether another body hangs on this one.
+    pub fn carries(&self, body: BodyId) -> bool {
+        let mut branches = self.branches.iter();
+        branches.any(|branch| branch.parent == Frame::Body(body))
+    }
+
     /// Coordinates that run in steady motion: driven ones, then coasting ones.
     pub fn running(&self) -> impl Iterator<Item = CoordinateId> + '_ {
         self.driven.iter().chain(&self.coasting).copied()

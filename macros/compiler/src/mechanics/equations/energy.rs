@@ -1,7 +1,9 @@
 //! Kinetic and potential energy, for outputs.
 
 use crate::algebra::Graph;
-use crate::base::ids::{BodyId, ExprId};
+use crate::base::ids::{BeamId, BodyId, ExprId};
+use crate::mechanics::inertia::BeamInertia;
+use crate::mechanics::loads::elastic_energy;
 use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, MassDistribution};
 use crate::model::mechanism::ForceLaw;
@@ -37,6 +39,12 @@ pub(crate) fn kinetic(g: &mut Graph, context: &Context, kinematics: &Kinematics)
             twice = g.add(twice, sum);
         }
     }
+    for (index, beam) in context.mechanism.beams.iter().enumerate() {
+        let inertia = BeamInertia::new(g, context, BeamId::new(index));
+        let v = kinematics.of(beam.body).frame.velocity;
+        let share = inertia.twice_kinetic(g, &kinematics.beams[index], v);
+        twice = g.add(twice, share);
+    }
     g.scale(0.5, twice)
 }
 
@@ -58,6 +66,19 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
             energy = g.sub(energy, work);
         }
     }
+    for (index, beam) in context.mechanism.beams.iter().enumerate() {
+        let inertia = BeamInertia::new(g, context, BeamId::new(index));
+        let position = kinematics.of(beam.body).frame.position;
+        let mut first = position.scale(g, inertia.mass);
+        for arm in inertia.moving(g, &kinematics.beams[index]) {
+            let share = arm.vector.scale(g, arm.first);
+            first = first.add(g, share);
+        }
+        let work = gravity.dot(g, first);
+        energy = g.sub(energy, work);
+    }
+    let strained = elastic_energy(g, context);
+    energy = g.add(energy, strained);
     for force in &context.mechanism.forces {
         let share = match &force.law {
             ForceLaw::CoordinateSpring {
@@ -87,6 +108,7 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
             | ForceLaw::Generalized { .. }
             | ForceLaw::Bushing { .. }
             | ForceLaw::Load { .. }
+            | ForceLaw::Distributed { .. }
             | ForceLaw::Drag { .. } => continue,
         };
         energy = g.add(energy, share);

@@ -3,7 +3,7 @@
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{ConstraintId, ExprId, JointId};
 use crate::mechanics::inertia::inertial_at;
-use crate::mechanics::loads::{ForceContext, exerted, held, transmitted};
+use crate::mechanics::loads::{ForceContext, bent_at, exerted, held, transmitted};
 use crate::mechanics::motion::{Kinematics, Wrench};
 use crate::mechanics::setup::{Context, ForceSelection, Source, State};
 use crate::model::expression::Expr;
@@ -23,6 +23,7 @@ pub(crate) fn outputs(
         reactions: reactions(g, context, running, kinematics),
         constraints: constraint_reactions(g, context, kinematics),
         exerted: exerted_by_forces(g, context, kinematics),
+        bent: bent_beams(g, context),
         kinetic: kinetic(g, context, kinematics),
         potential: potential(g, context, kinematics),
     };
@@ -43,6 +44,8 @@ struct Everything<'a> {
     constraints: Vec<[ExprId; 6]>,
     /// By force id.
     exerted: Vec<[ExprId; 6]>,
+    /// By point id.
+    bent: Vec<[ExprId; 6]>,
     kinetic: ExprId,
     potential: ExprId,
 }
@@ -59,6 +62,7 @@ impl State for Everything<'_> {
             Expr::Reaction(joint, component) => self.reaction(*joint, *component),
             Expr::ConstraintReaction(id, component) => self.constraints[id.index()][*component],
             Expr::Exerted(force, component) => self.exerted[force.index()][*component],
+            Expr::Bent(point, component) => self.bent[point.index()][*component],
             Expr::KineticEnergy => self.kinetic,
             Expr::PotentialEnergy => self.potential,
             _ => self.kinematics.leaf(leaf),
@@ -165,6 +169,19 @@ fn constraint_reactions(
         }
     })
     .collect()
+}
+
+/// Curvature and moment of the beams at the points of which an output asks for them, zeros elsewhere.
+fn bent_beams(g: &mut Graph, context: &Context) -> Vec<[ExprId; 6]> {
+    let mechanism = context.mechanism;
+    let mut all = vec![[g.zero(); 6]; mechanism.points.len()];
+    let outputs = mechanism.outputs.iter();
+    for leaf in outputs.flat_map(|output| output.value.leaves()) {
+        if let Expr::Bent(point, _) = leaf {
+            all[point.index()] = bent_at(g, context, *point);
+        }
+    }
+    all
 }
 
 /// What each force element exerts; only where an output asks for it, zeros elsewhere.

@@ -2,15 +2,16 @@
 
 use crate::algebra::Graph;
 use crate::base::ids::ExprId;
-use crate::mechanics::inertia::inertial_at;
-use crate::mechanics::loads::transmitted;
+use crate::mechanics::inertia::{Inertial, inertial_at};
+use crate::mechanics::loads::{strained, transmitted};
 use crate::mechanics::motion::Kinematics;
-use crate::mechanics::setup::{Context, ForceSelection};
+use crate::mechanics::setup::{Context, ForceSelection, Selection};
 
 /// The residual in two parts. The total is their sum once the first has been transformed from absolute angles to the
 /// unknowns.
 pub(crate) struct Residual {
-    /// By unknown: inertia minus weight, in terms of the absolute angles.
+    /// By unknown, then by row of the sections of beams: inertia minus weight and the strain of beams, in terms of the
+    /// absolute angles and the sections.
     pub(crate) inertial: Vec<ExprId>,
     /// By unknown: forces and constraints, with the sign of inertia.
     pub(crate) applied: Vec<ExprId>,
@@ -26,7 +27,17 @@ impl Residual {
         kinematics: &Kinematics,
         selection: ForceSelection,
     ) -> Self {
-        let inertial = inertial_at(g, context, running, selection).along;
+        let Inertial {
+            along: inertial,
+            along_sections,
+            ..
+        } = inertial_at(g, context, running, selection);
+        let strained = match selection.forces {
+            Selection::All => strained(g, context),
+            Selection::One(_) | Selection::None => vec![g.zero(); along_sections.len()],
+        };
+        let sections = along_sections.into_iter().zip(strained);
+        let sections: Vec<ExprId> = sections.map(|(a, b)| g.add(a, b)).collect();
         let loads = transmitted(g, context, kinematics, selection);
         let topology = context.topology;
         let moving = || topology.free.iter().chain(&topology.coasting);
@@ -35,6 +46,7 @@ impl Residual {
             inertial: moving()
                 .map(|id| inertial[id.index()])
                 .chain(zeros)
+                .chain(sections)
                 .collect(),
             applied: moving()
                 .map(|id| loads.along[id.index()])
@@ -46,6 +58,7 @@ impl Residual {
     /// The sum of both parts.
     pub(crate) fn total(&self, g: &mut Graph, context: &Context) -> Vec<ExprId> {
         let inertial = context.runs.forces(g, &self.inertial);
+        let inertial = context.sections.forces(g, &inertial);
         let inertial = context.in_unknowns(g, &inertial);
         let sums: Vec<ExprId> = inertial
             .into_iter()

@@ -15,6 +15,8 @@ use crate::mechanics::motion::{BodyMotion, Kinematics};
 use crate::mechanics::setup::{Context, ForceSelection, MassDistribution};
 use crate::model::mechanism::Frame;
 
+use super::flexible::BeamInertia;
+
 /// A mass distribution about the origin of a body, in body axes: `integral rho dm = first` and
 /// `integral rho rho^T dm = isotropic 1 + second`.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +73,8 @@ impl AugmentedBody {
 /// Whether the inertia force of a body and everything it carries is the total mass times the acceleration of the
 /// joint's seat, plus a remainder that does not depend on the motion of the seat.
 pub(crate) fn rides_on_seat(g: &Graph, motion: &BodyMotion) -> bool {
-    motion.frame.offset == motion.seat.offset
+    motion.flexure.is_none()
+        && motion.frame.offset == motion.seat.offset
         && motion.steps.iter().all(|step| step.slide.is_none())
         && motion.steps.iter().all(|step| step.point.is_zero(g))
 }
@@ -89,6 +92,10 @@ pub(crate) fn augmented_bodies(
         if selection.gravity || selection.inertia.contains(id) {
             for piece in MassDistribution::of(g, context, id) {
                 augmented.add(g, &piece);
+            }
+            if let Some(beam) = context.mechanism.beam(id) {
+                let mass = BeamInertia::new(g, context, beam).mass;
+                augmented.mass = g.add(augmented.mass, mass);
             }
         }
         bodies.push(augmented);

@@ -3,7 +3,7 @@
 use crate::algebra::{Evaluator, Graph};
 use crate::base::ids::ExprId;
 use crate::mechanics::setup::{
-    Context, Excited, ForceSelection, Runs, Symbols, Values, columns, probe, vanish,
+    Context, Excited, ForceSelection, Runs, Sections, Symbols, Values, columns, probe, vanish,
 };
 use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
@@ -24,6 +24,7 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
         symbols: &symbols,
         values: &values,
         runs: &runs,
+        sections: &Sections::default(),
         rows: &[],
         excited: &Excited::default(),
     };

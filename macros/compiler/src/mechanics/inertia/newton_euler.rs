@@ -7,11 +7,14 @@ use crate::mechanics::setup::{Context, ForceSelection};
 use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
+use super::flexible::{BeamInertia, FromStations};
 
 /// Inertia minus weight.
 pub(crate) struct Inertial {
     /// By coordinate id: along the coordinate, or along the absolute angle if its body continues a run.
     pub(crate) along: Vec<ExprId>,
+    /// By row of the sections of beams.
+    pub(crate) along_sections: Vec<ExprId>,
     /// By body id: for the body and everything it carries, about its origin, in the axes of its motion.
     pub(crate) wrenches: Vec<Wrench>,
 }
@@ -72,11 +75,23 @@ pub(crate) fn inertial(
         moment: zero,
     };
     let mut wrenches = vec![nothing; mechanism.bodies.len()];
+    let mut along_sections = vec![g.zero(); context.sections.rows.len()];
+    let mut from_stations = FromStations::nothing(g, context);
     for branch in context.topology.branches.iter().rev() {
         let index = branch.body.index();
         let motion = kinematics.of(branch.body);
         let name = mechanism.bodies[index].name.to_string();
-        let own = own_load(g, &bodies[index], &motion.frame, &gathered[index]);
+        let mut own = own_load(g, &bodies[index], &motion.frame, &gathered[index]);
+        if let Some(id) = mechanism.beam(branch.body) {
+            let (beam, from) = (&kinematics.beams[id.index()], &from_stations[id.index()]);
+            let load = match selection.gravity || selection.inertia.contains(branch.body) {
+                true => BeamInertia::new(g, context, id).load(g, beam, &motion.frame, from),
+                false => from.turning(g, beam),
+            };
+            load.add_along(g, context.sections, id, beam, &mut along_sections);
+            own.force = own.force.add(g, load.force);
+            own.moment = own.moment.add(g, load.moment);
+        }
         let rest = own.force.set_name(g, &format!("{name}_rest_of_force"));
         let by_mass = motion.frame.acceleration.scale(g, bodies[index].mass);
         let force = by_mass
@@ -104,7 +119,10 @@ pub(crate) fn inertial(
         let moment = write(moment);
         let at = &mut gathered[parent.index()];
         at.rest = at.rest.add(g, handed);
-        if rides {
+        if let Some((beam, station)) = motion.flexure {
+            let beam = beam.index();
+            from_stations[beam].add(g, &kinematics.beams[beam], station, [handed, moment]);
+        } else if rides {
             for (bracket, &arm) in at.brackets.iter_mut().zip(&motion.seat.arm.0) {
                 let share = handed.scale(g, arm);
                 *bracket = bracket.add(g, share);
@@ -119,7 +137,11 @@ pub(crate) fn inertial(
         };
         *slot = slot.add(g, moment);
     }
-    Inertial { along, wrenches }
+    Inertial {
+        along,
+        along_sections,
+        wrenches,
+    }
 }
 
 /// The part of the force that does not depend on the origin's acceleration, and the moment without the moments passed

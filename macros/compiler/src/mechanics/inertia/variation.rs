@@ -215,11 +215,12 @@ impl Carried {
     }
 }
 
-/// Derivatives of inertia minus weight by the unknowns with the running coordinates at `running`; `None` if runs prevail
-/// or a coordinate coasts.
+/// Derivatives of inertia minus weight by the unknowns with the running coordinates at `running`; `None` if runs prevail,
+/// a coordinate coasts, or a body bends.
 pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) -> Option<Variation> {
     let topology = context.topology;
-    if !topology.coasting.is_empty() || context.runs.prevail() {
+    let beams = !context.mechanism.beams.is_empty();
+    if beams || !topology.coasting.is_empty() || context.runs.prevail() {
         return None;
     }
     taken(|| "variation: walks over bodies".into());

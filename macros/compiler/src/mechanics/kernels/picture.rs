@@ -101,6 +101,7 @@ fn forces(forces: &[Force]) -> impl Iterator<Item = PictureLink> + '_ {
             | ForceLaw::Generalized { .. }
             | ForceLaw::Potential { .. }
             | ForceLaw::Load { .. }
+            | ForceLaw::Distributed { .. }
             | ForceLaw::Drag { .. } => return None,
         };
         Some(PictureLink {

@@ -6,7 +6,7 @@ use crate::base::ids::ExprId;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::inertia::mass_matrix;
 use crate::mechanics::motion::for_inertia;
-use crate::mechanics::setup::{Context, ForceSelection, at_rest, columns, vanish};
+use crate::mechanics::setup::{Context, ForceSelection, Mirrored, at_rest, columns, vanish};
 
 use super::columns::{added, transposed};
 
@@ -27,13 +27,23 @@ impl Jacobians {
     /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the unknowns.
     pub(crate) fn new(g: &mut Graph, context: &Context, e: &Equations) -> Self {
         let (s, runs) = (context.symbols, context.runs);
-        let outward = context.outward_order();
+        let outward = outward(context);
         let running = vec![g.zero(); s.running.ids.len()];
-        let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
-        let mass = mass_matrix(g, context, &kinematics);
+        let mass = match context.sections.rows.is_empty() {
+            true => {
+                let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
+                mass_matrix(g, context, &kinematics)
+            }
+            false => columns(g, &e.parts.inertial, &runs.acceleration),
+        };
         // the acceleration of a coasting coordinate is the rate of an unknown
         let symmetric = context.topology.coasting.is_empty();
         let mass = runs.matrix(g, &mass, symmetric, &outward);
+        let mirrored = match symmetric {
+            true => Mirrored::Equal,
+            false => Mirrored::Unrelated,
+        };
+        let mass = context.sections.matrix(g, &mass, mirrored);
         let [mass, damping, stiffness] = of_inertia(g, context, e, mass);
 
         let applied = &e.parts.applied;
@@ -69,9 +79,9 @@ fn of_inertia(
     mass: Vec<Vec<ExprId>>,
 ) -> [Vec<Vec<ExprId>>; 3] {
     let (s, runs, inertial) = (context.symbols, context.runs, &e.parts.inertial);
-    let outward = context.outward_order();
+    let outward = outward(context);
     let still = |g: &mut Graph, roots: &[ExprId]| {
-        let zeros = vec![g.zero(); s.q.ids.len()];
+        let zeros = vec![g.zero(); runs.position.ids.len()];
         let rates = runs.velocity.with(&zeros);
         let all: Vec<_> = rates.chain(runs.acceleration.with(&zeros)).collect();
         let roots = substitute(g, roots, &all);
@@ -134,15 +144,40 @@ fn summed(
     columns: &[Vec<ExprId>],
     outward: &[usize],
 ) -> Vec<Vec<ExprId>> {
-    let symmetric = is_symmetric(g, context, columns);
-    context.runs.matrix(g, columns, symmetric, outward)
+    let mirrored = if is_mirrored(g, context, columns, Graph::sub) {
+        Mirrored::Equal
+    } else if !context.sections.rows.is_empty() && is_mirrored(g, context, columns, Graph::add) {
+        Mirrored::Opposite
+    } else {
+        Mirrored::Unrelated
+    };
+    let symmetric = mirrored == Mirrored::Equal;
+    let summed = context.runs.matrix(g, columns, symmetric, outward);
+    context.sections.matrix(g, &summed, mirrored)
+}
+
+/// [`Context::outward_order`], and sections last.
+fn outward(context: &Context) -> Vec<usize> {
+    let mut order = context.outward_order();
+    order.resize(context.runs.position.ids.len(), usize::MAX);
+    order
 }
 
 fn is_symmetric(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>]) -> bool {
+    is_mirrored(g, context, columns, Graph::sub)
+}
+
+/// Whether the difference or the sum of mirrored entries vanishes.
+fn is_mirrored(
+    g: &mut Graph,
+    context: &Context,
+    columns: &[Vec<ExprId>],
+    compared: fn(&mut Graph, ExprId, ExprId) -> ExprId,
+) -> bool {
     let mut asymmetry = Vec::new();
     for (j, column) in columns.iter().enumerate() {
         for (i, mirrored) in columns[..j].iter().enumerate() {
-            asymmetry.push(g.sub(column[i], mirrored[j]));
+            asymmetry.push(compared(g, column[i], mirrored[j]));
         }
     }
     vanish(g, context, &asymmetry).into_iter().all(|zero| zero)

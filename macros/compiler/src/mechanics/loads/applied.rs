@@ -29,6 +29,8 @@ pub(crate) struct AppliedForces {
     pub(crate) on_bodies: Vec<Loads>,
     /// Generalised force by coordinate id.
     pub(crate) on_coordinates: Vec<ExprId>,
+    /// By beam and section: the force on the direction there, times its share in the places where forces act.
+    pub(crate) on_directions: Vec<Vec<Vector3>>,
 }
 
 impl AppliedForces {
@@ -37,6 +39,11 @@ impl AppliedForces {
         Self {
             on_bodies: vec![Loads::new(); mechanism.bodies.len()],
             on_coordinates: vec![g.zero(); mechanism.coordinates.len()],
+            on_directions: mechanism
+                .beams
+                .iter()
+                .map(|beam| vec![Vector3::zero(g); beam.sections.len()])
+                .collect(),
         }
     }
 

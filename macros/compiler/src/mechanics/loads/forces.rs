@@ -7,13 +7,14 @@
 //! are taken over the joints between the two ends (`mechanics/motion/tree.rs`), so a common drive leaves no trace.
 
 use crate::algebra::{Graph, Matrix3, Vector3, gradient};
-use crate::base::ids::{ExprId, ForceId, PointId};
+use crate::base::ids::{BeamId, ExprId, ForceId, PointId};
 use crate::mechanics::motion::Wrench;
 use crate::mechanics::setup::{ForceSelection, State};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Force, ForceLaw, Frame};
 
 use super::applied::AppliedForces;
+use super::distributed::PerLength;
 use super::force_context::ForceContext;
 
 /// Evaluates the force elements.
@@ -110,6 +111,22 @@ impl AppliedForces {
                     false => Wrench { force, moment },
                 };
                 self.apply(g, force_context, *point, load, Frame::Ground);
+            }
+            ForceLaw::Distributed {
+                on,
+                force,
+                follower,
+                damping,
+            } => {
+                let load = PerLength {
+                    force,
+                    follower,
+                    damping,
+                };
+                let beams = context.mechanism.beams.iter().enumerate();
+                for (index, _) in beams.filter(|(_, beam)| beam.whole == *on) {
+                    self.distribute(g, force_context, BeamId::new(index), &load);
+                }
             }
             // force = -damping v, moment = -turning_damping omega, both absolute
             ForceLaw::Drag {

@@ -3,15 +3,18 @@
 mod applied;
 mod closure;
 mod constraints;
+mod distributed;
 mod force_context;
 mod forces;
 mod pair;
 mod perpendiculars;
 mod rolling;
 mod slip_axes;
+mod strain;
 mod transmitted;
 
 pub(super) use constraints::{constraint_rows, held};
 pub(super) use force_context::ForceContext;
 pub(super) use forces::exerted;
+pub(super) use strain::{bent_at, elastic_energy, strained};
 pub(super) use transmitted::transmitted;

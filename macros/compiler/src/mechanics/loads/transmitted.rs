@@ -2,7 +2,8 @@
 //! ground and projected on the joint axes.
 
 use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::base::ids::{BeamId, ExprId};
+use crate::mechanics::inertia::FromStations;
 use crate::mechanics::motion::{Kinematics, Wrench};
 use crate::mechanics::setup::{Context, ForceSelection};
 use crate::model::mechanism::Frame;
@@ -53,6 +54,10 @@ pub(crate) fn transmitted(
         moment: zero,
     };
     let mut wrenches = vec![nothing; mechanism.bodies.len()];
+    let mut on_stations = FromStations::nothing(g, context);
+    for (on, forces) in on_stations.iter_mut().zip(&applied.on_directions) {
+        on.subtract_distributed(g, forces);
+    }
     for branch in topology.branches.iter().rev() {
         let body = branch.body.index();
         let name = mechanism.bodies[body].name.to_string();
@@ -62,6 +67,11 @@ pub(crate) fn transmitted(
             load.force.set_name(g, &format!("{name}_total_force"));
             load.moment.set_name(g, &format!("{name}_total_moment"));
             wrenches[body] = wrenches[body].add(g, load);
+            if let Some((beam, station)) = motion.flexure {
+                let beam = beam.index();
+                let load = [load.force, load.moment];
+                on_stations[beam].add(g, &kinematics.beams[beam], station, load);
+            }
             for step in &motion.steps {
                 let power = step.project(g, load.force, load.moment);
                 let slot = &mut along[step.coordinate.index()];
@@ -77,6 +87,19 @@ pub(crate) fn transmitted(
                 };
                 add_load(g, &mut loads[parent.index()], closing, moved);
             }
+        }
+    }
+    let mut along_sections = vec![g.zero(); context.sections.rows.len()];
+    for (index, on) in on_stations.iter().enumerate() {
+        let (id, beam) = (BeamId::new(index), &kinematics.beams[index]);
+        let load = on.turning(g, beam);
+        load.add_along(g, context.sections, id, beam, &mut along_sections);
+    }
+    for (row, force) in context.sections.rows.iter().zip(along_sections) {
+        for (unknown, factor) in &row.weights {
+            let share = g.scale(*factor, force);
+            let slot = &mut along[topology.free[*unknown].index()];
+            *slot = g.add(*slot, share);
         }
     }
     Transmitted {

@@ -19,11 +19,11 @@ pub(crate) struct FrameMotion {
     pub(crate) angular_velocity: Vector3,
     pub(crate) angular_acceleration: Vector3,
     /// Angular velocity and acceleration before the last turn, or before all turns of a run.
-    before_turn: (Vector3, Vector3),
+    pub(super) before_turn: (Vector3, Vector3),
     /// `W = [alpha]x + [omega]x [omega]x`: takes a body-fixed vector to its second time derivative.
-    second_rate: Matrix3,
+    pub(super) second_rate: Matrix3,
     /// Second time derivatives of the axes: `W` applied to each.
-    axes_second_rate: Matrix3,
+    pub(super) axes_second_rate: Matrix3,
 }
 
 impl FrameMotion {
@@ -161,6 +161,32 @@ impl FrameMotion {
         let before = (self.angular_velocity, self.angular_acceleration);
         let orientation = self.orientation.then_turned(g, axis, motion.position, name);
         self.spun(g, before, direction, motion, orientation, name)
+    }
+
+    /// The frame turned by a rotation that changes: `omega += relative`, `alpha += growth + omega x relative`.
+    pub(crate) fn bent(
+        self,
+        g: &mut Graph,
+        (rotation, relative, growth): (Matrix3, Vector3, Vector3),
+        name: &str,
+    ) -> Self {
+        let before = (self.angular_velocity, self.angular_acceleration);
+        let gyroscopic = before.0.cross(g, relative);
+        let omega = before.0.add(g, relative);
+        let alpha = before.1.add(g, growth).add(g, gyroscopic);
+        let angular_velocity = omega.set_name(g, &format!("{name}_angular_velocity"));
+        let angular_acceleration = alpha.set_name(g, &format!("{name}_angular_acceleration"));
+        let orientation = self.orientation.then_fixed(g, Some(rotation));
+        let second_rate = second_rate(g, angular_velocity, angular_acceleration);
+        Self {
+            orientation,
+            angular_velocity,
+            angular_acceleration,
+            before_turn: (angular_velocity, angular_acceleration),
+            second_rate,
+            axes_second_rate: second_rate.multiply(g, orientation.axes),
+            ..self
+        }
     }
 
     /// The frame after one more turn of a run about the same axis; `motion` is the sum over the run.

@@ -13,14 +13,16 @@
 //! vehicle.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
-use crate::base::ids::{BodyId, ExprId};
-use crate::mechanics::setup::{BodyLayout, CoordinateMotion, Layout, State, Values};
+use crate::base::ids::{BeamId, BodyId, ExprId};
+use crate::mechanics::setup::{BodyLayout, CoordinateMotion, Layout, OfBeam, State, Values};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Placement, StepMotion};
 use crate::topology::Topology;
 
+use super::beam::BeamMotion;
 use super::frame::FrameMotion;
 use super::step_axis::StepAxis;
+use super::strain::Heading;
 
 /// Motion of a body, and of the joint that carries it.
 #[derive(Clone, Debug)]
@@ -36,7 +38,12 @@ pub(crate) struct BodyMotion {
     pub(crate) seat: Seat,
     /// Transforms a vector from the axes of this body's motion to those of its parent's; `None` if they are the same.
     pub(crate) to_parent: Option<Matrix3>,
+    /// The beam whose station the body is, and which station.
+    pub(crate) flexure: Option<(BeamId, usize)>,
 }
+
+/// How a beam bends: the motion of its sections, and its directions relative to them.
+pub(crate) type Bending = (OfBeam<CoordinateMotion>, Vec<Heading>);
 
 /// The place of a joint on the body nearer to the ground.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +71,8 @@ pub(crate) struct Kinematics {
     pub(crate) ground: FrameMotion,
     /// By body id.
     pub(crate) bodies: Vec<BodyMotion>,
+    /// By beam id.
+    pub(crate) beams: Vec<BeamMotion>,
     /// By point id.
     pub(crate) points: Vec<PointMotion>,
 }
@@ -76,7 +85,7 @@ impl Kinematics {
         mechanism: &Mechanism,
         topology: &Topology,
         values: &Values,
-        coordinates: Vec<CoordinateMotion>,
+        (coordinates, turns): (Vec<CoordinateMotion>, Vec<Bending>),
         layout: &Layout,
         ground_acceleration: Vector3,
     ) -> Self {
@@ -91,11 +100,18 @@ impl Kinematics {
                 offset: ground.position,
             },
             to_parent: None,
+            flexure: None,
+        };
+        let nothing = BeamMotion {
+            sections: Vec::new(),
+            directions: Vec::new(),
+            stations: Vec::new(),
         };
         let mut this = Self {
             coordinates,
             ground,
             bodies: vec![placeholder; mechanism.bodies.len()],
+            beams: vec![nothing; mechanism.beams.len()],
             points: Vec::new(),
         };
         for branch in &topology.branches {
@@ -105,7 +121,15 @@ impl Kinematics {
             let gliding = mechanism.glides(joint);
             let place = layout.of(branch.body);
             let walk = (branch.reversed, gliding);
-            let motion = this.body(g, values, joint, walk, place, &parent, &name);
+            let motion = match joint.flexure {
+                Some(flexure) => this.station(g, flexure, place, &parent, &name),
+                None => this.body(g, values, joint, walk, place, &parent, &name),
+            };
+            if let Some(id) = mechanism.beam(branch.body) {
+                let turns = &turns[id.index()];
+                this.beams[id.index()] =
+                    BeamMotion::new(g, mechanism, values, id, &motion.frame, turns);
+            }
             this.bodies[branch.body.index()] = motion;
         }
         for point in &mechanism.points {
@@ -266,6 +290,39 @@ impl Kinematics {
                 offset: joint_frame.offset,
             },
             to_parent,
+            flexure: None,
+        }
+    }
+
+    /// A station of a beam, carried by the root of the beam.
+    fn station(
+        &self,
+        g: &mut Graph,
+        (beam, station): (BeamId, usize),
+        layout: BodyLayout,
+        parent: &FrameMotion,
+        name: &str,
+    ) -> BodyMotion {
+        let mut frame = self.beams[beam.index()].stations[station].section.frame;
+        frame.position = parent.position.add(g, frame.offset);
+        frame.set_names(g, name);
+        let back = frame.offset.neg(g);
+        let zero = Vector3::zero(g);
+        let to_parent = layout.own_axes.then_some(frame.orientation.axes);
+        if to_parent.is_some() {
+            frame = frame.along_own_axes(g);
+        }
+        BodyMotion {
+            frame,
+            from_axes: parent.orientation.axes,
+            from_origin: back,
+            steps: Vec::new(),
+            seat: Seat {
+                arm: zero,
+                offset: zero,
+            },
+            to_parent,
+            flexure: Some((beam, station)),
         }
     }
 }

@@ -1,16 +1,20 @@
 //! How the bodies move.
 
+mod beam;
 mod frame;
 mod kinematics;
 mod orientation;
 mod recursions;
 mod step_axis;
+mod strain;
 mod tree;
 mod wrench;
 
+pub(super) use beam::{BeamMotion, bend};
 pub(super) use frame::{FrameMotion, second_rate};
 pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};
 pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zero};
 pub(super) use step_axis::StepAxis;
+pub(super) use strain::strains;
 pub(super) use tree::Tree;
 pub(super) use wrench::Wrench;

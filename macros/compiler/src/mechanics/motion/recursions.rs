@@ -1,11 +1,12 @@
 //! The motion of a mechanism in two forms: in the common frame, and in the form needed for inertia and weight.
 
 use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::base::ids::{BeamId, ExprId};
 use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection, Layout, Selection};
 use crate::model::mechanism::Motion;
 
-use super::kinematics::Kinematics;
+use super::kinematics::{Bending, Kinematics};
+use super::strain::{headings, headings_in_unknowns};
 
 /// Motion of every frame with the running coordinates at zero.
 pub(crate) fn in_common_frame_at_zero(g: &mut Graph, context: &Context) -> Kinematics {
@@ -21,6 +22,13 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
         velocity: symbols.velocity.values[k],
         acceleration: symbols.acceleration.values[k],
     });
+    let beams = (0..context.mechanism.beams.len()).map(BeamId::new);
+    let turns = beams
+        .map(|id| {
+            let turns = context.sections.by_unknowns(g, symbols, id);
+            (turns, headings_in_unknowns(g, context, id))
+        })
+        .collect();
     let layout = Layout::common(context.mechanism.bodies.len());
     let still = Vector3::zero(g);
     Kinematics::new(
@@ -28,7 +36,7 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
         context.mechanism,
         context.topology,
         context.values,
-        motions,
+        (motions, turns),
         &layout,
         still,
     )
@@ -43,11 +51,24 @@ pub(crate) fn for_inertia(
     selection: ForceSelection,
 ) -> Kinematics {
     let mut motions = motions(g, context, running, |k| context.runs.motion(k));
+    let beams = (0..context.mechanism.beams.len()).map(BeamId::new);
+    let moves = selection.inertia != Selection::None;
+    let mut turns: Vec<Bending> = beams
+        .map(|id| {
+            let turns = context.sections.by_themselves(g, id);
+            (turns, headings(g, context, id, moves))
+        })
+        .collect();
     let zero = g.zero();
-    if selection.inertia == Selection::None {
-        for motion in &mut motions {
-            motion.velocity = zero;
-            motion.acceleration = zero;
+    if !moves {
+        let still = |motion: CoordinateMotion| CoordinateMotion {
+            position: motion.position,
+            velocity: zero,
+            acceleration: zero,
+        };
+        motions = motions.into_iter().map(still).collect();
+        for (turns, _) in &mut turns {
+            *turns = turns.map(still);
         }
     }
     let ground = match selection.gravity {
@@ -60,7 +81,7 @@ pub(crate) fn for_inertia(
         context.mechanism,
         context.topology,
         context.values,
-        motions,
+        (motions, turns),
         layout,
         ground,
     )

@@ -68,6 +68,12 @@ impl Tree {
             let Some(branch) = self.parent(at) else { break };
             let motion = kinematics.of(branch.body);
             let arm = position.sub(g, motion.frame.position);
+            if let Some((beam, station)) = motion.flexure {
+                let own = &kinematics.beams[beam.index()].stations[station];
+                let turning = own.section.relative.cross(g, arm);
+                velocity = velocity.add(g, own.velocity).add(g, turning);
+                angular = angular.add(g, own.section.relative);
+            }
             for step in &motion.steps {
                 let rate = kinematics.coordinates[step.coordinate.index()].velocity;
                 let share = step.velocity(g, arm).scale(g, rate);

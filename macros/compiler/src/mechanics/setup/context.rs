@@ -8,6 +8,7 @@ use crate::topology::Topology;
 use super::excited::Excited;
 use super::rows::{Row, Source};
 use super::runs::Runs;
+use super::sections::Sections;
 use super::symbols::Symbols;
 use super::values::Values;
 
@@ -19,6 +20,8 @@ pub(crate) struct Context<'a> {
     pub(crate) values: &'a Values<'a>,
     /// The coordinates in which inertia and weight are derived.
     pub(crate) runs: &'a Runs,
+    /// The sections of beams.
+    pub(crate) sections: &'a Sections,
     /// The equations of constraints.
     pub(crate) rows: &'a [Row],
     /// What excitations add.
@@ -69,9 +72,10 @@ impl Context<'_> {
         moving.map(place).chain(reactions).collect()
     }
 
-    /// Replaces each absolute angle by its sum of joint angles.
+    /// Replaces each absolute angle by its sum of joint angles, and each section's rotation by its sum of coordinates.
     pub(crate) fn in_unknowns(&self, g: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
-        let sums = self.runs.sums(g, self.symbols);
+        let mut sums = self.runs.sums(g, self.symbols);
+        sums.extend(self.sections.sums(g, self.symbols));
         substitute(g, roots, &sums)
     }
 }

@@ -18,6 +18,7 @@ mod mass_distribution;
 mod probe;
 mod rows;
 mod runs;
+mod sections;
 mod symbols;
 mod values;
 
@@ -30,5 +31,6 @@ pub(super) use mass_distribution::{Arm, MassDistribution};
 pub(super) use probe::{RandomState, probe, vanish};
 pub(super) use rows::{Row, Source};
 pub(super) use runs::{BodyLayout, Layout, Runs};
+pub(super) use sections::{Mirrored, OfBeam, Sections};
 pub(super) use symbols::{Pencil, SymbolList, Symbols};
 pub(super) use values::{State, Values};

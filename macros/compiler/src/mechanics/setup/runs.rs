@@ -23,6 +23,7 @@ use crate::model::mechanism::{Frame, Joint, Mechanism, Motion, StepMotion};
 use crate::topology::{Branch, Topology};
 
 use super::coordinate::CoordinateMotion;
+use super::sections::Sections;
 use super::symbols::{SymbolList, Symbols};
 use super::values::Values;
 
@@ -113,7 +114,9 @@ impl Runs {
         for branch in &topology.branches {
             let joint = &mechanism.joints[branch.joint.index()];
             let body = branch.body.index();
-            layout[body].own_axes = !in_run[body] && !mechanism.glides(joint);
+            // A station that carries nothing is best written in the axes of its beam.
+            let bare = joint.flexure.is_some() && !topology.carries(branch.body);
+            layout[body].own_axes = !in_run[body] && !mechanism.glides(joint) && !bare;
         }
         let mut this = Self {
             layout: Layout(layout),
@@ -150,6 +153,20 @@ impl Runs {
             let known = list.ids.len();
             list.ids.extend(&all.ids[known..]);
             list.values.extend(&all.values[known..]);
+        }
+        self
+    }
+
+    /// Adds the sections of beams to the unknowns.
+    pub(crate) fn with_sections(mut self, sections: &Sections) -> Self {
+        let lists = [
+            (&mut self.position, &sections.position),
+            (&mut self.velocity, &sections.velocity),
+            (&mut self.acceleration, &sections.acceleration),
+        ];
+        for (list, own) in lists {
+            list.ids.extend(&own.ids);
+            list.values.extend(&own.values);
         }
         self
     }

@@ -114,6 +114,7 @@ impl<'a> Values<'a> {
             | Expr::Reaction(..)
             | Expr::ConstraintReaction(..)
             | Expr::Exerted(..)
+            | Expr::Bent(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => state.leaf(value),
             Expr::Add(a, b) => binary(g, Operator::Add, a, b),

@@ -78,6 +78,17 @@ impl Names<'_> {
                 v(force),
                 v(moment)
             ),
+            ForceLaw::Distributed {
+                on,
+                force,
+                follower,
+                damping,
+            } => format!(
+                "distributed on {on} force {} follower {} damping {}",
+                v(force),
+                v(follower),
+                s(damping)
+            ),
             ForceLaw::Drag {
                 point: at,
                 damping,

@@ -9,8 +9,9 @@ use std::rc::Rc;
 use proc_macro2::Ident;
 
 use self::quantities::Quantities;
-pub(super) use self::shapes::SHAPES;
 use self::shapes::SYNONYMS;
+pub(super) use self::shapes::{Row, SHAPES};
+use super::beams;
 use super::coordinates;
 use super::joints::kinds::Kind;
 use super::resolver::Resolver;
@@ -95,6 +96,20 @@ impl Resolver<'_> {
         let is_massless = |term: &&Term| term.shape.word == "massless";
         if let Some(massless) = body.terms.iter().find(is_massless) {
             return self.massless(body, massless);
+        }
+        if let Some(beam) = body
+            .terms
+            .iter()
+            .find(|term| term.shape.word == beams::WORD)
+        {
+            return self.beam(body, beam).map(|()| Vec::new());
+        }
+        if let Some(speed) = &body.spinning {
+            let message = "only a `beam` can spin about its own bent axis";
+            let help = "turn the body by a joint: `revolute(x) ... driven at omega`";
+            self.diagnostics
+                .error_with_help(speed.extent, message, help);
+            return None;
         }
         let right = self.first_is_solid(body);
         let resolved: Vec<Option<Part>> = body

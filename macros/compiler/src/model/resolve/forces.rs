@@ -116,6 +116,13 @@ pub(super) const LAWS: &[Row] = &[
     )
     .at_least_one(&["damping", "turning_damping"]),
     Row::new(
+        "distributed",
+        &["on"],
+        "distributed(on: blade, force: [0, 0, -5] N/m)",
+        Reader::Law(|resolver, arguments| resolver.distributed(arguments)),
+    )
+    .at_least_one(&["force", "follower", "damping"]),
+    Row::new(
         "harmonic",
         &[],
         "harmonic(at: p, force: [0, 0, 1] N, frequency: 50 Hz)",

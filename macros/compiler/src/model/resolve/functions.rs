@@ -31,7 +31,7 @@ enum Needs {
 use Needs::{Arguments, Places, Rates, Solution};
 
 /// Every function with its arguments.
-const SIGNATURES: [(&str, &[&str], Needs); 23] = [
+const SIGNATURES: [(&str, &[&str], Needs); 25] = [
     ("sqrt", &["x"], Arguments),
     ("sin", &["angle"], Arguments),
     ("cos", &["angle"], Arguments),
@@ -53,6 +53,8 @@ const SIGNATURES: [(&str, &[&str], Needs); 23] = [
     ("reaction_force", &["joint"], Solution),
     ("reaction_moment", &["joint"], Solution),
     ("reaction", &["constraint"], Solution),
+    ("curvature", &["point"], Solution),
+    ("moment", &["point"], Solution),
     ("kinetic_energy", &[], Solution),
     ("potential_energy", &[], Solution),
 ];

@@ -14,7 +14,7 @@ use super::resolver::Resolver;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::base::nearest::suggestion;
 use crate::model::mechanism::{Coordinate, Frame, Joint, Placement};
-use crate::syntax::ast::{self, JointClause};
+use crate::syntax::ast::{self, JointClause, Value, ValueKind};
 
 /// Placements on the `from` and the `to` side.
 type Sides = [Option<Placement>; 2];
@@ -31,9 +31,13 @@ impl Resolver<'_> {
     fn joint(&mut self, joint: &ast::Joint, id: JointId) -> Option<Joint> {
         let kind = self.kind(joint);
         let steps = kind.and_then(|kind| self.steps(joint, id, kind));
-        let (from, to) = (self.frame(&joint.from), self.frame(&joint.to));
+        let mut from = match &joint.from_station {
+            Some(place) => self.from_station(joint, place),
+            None => self.frame(&joint.from),
+        };
+        let mut to = self.frame(&joint.to);
+        let sides = self.placements(joint, [&mut from, &mut to]);
         let apart = self.distinct(joint, from, to);
-        let sides = self.placements(joint);
         let motions = self.drives(joint, id, kind);
         let cut = self.cut(joint, kind);
         let (kind, [from_placement, to_placement]) = (kind?, sides?);
@@ -59,6 +63,7 @@ impl Resolver<'_> {
             from_placement: from_placement.unwrap_or_else(unplaced),
             to_placement: to_placement.unwrap_or_else(unplaced),
             cut,
+            flexure: None,
         })
     }
 
@@ -99,8 +104,45 @@ impl Resolver<'_> {
         Some(())
     }
 
-    /// The placements on both sides; at most one each.
-    fn placements(&mut self, joint: &ast::Joint) -> Option<Sides> {
+    fn from_station(&mut self, joint: &ast::Joint, place: &Value) -> Option<Frame> {
+        let station = self.station(&joint.from, place);
+        if station.is_none() {
+            let message = "before `to` stands a place along a beam: `at tip` or `at 0.4 length`";
+            let help = format!(
+                "place the joint after its sides: `from {0} to {1} at ...`",
+                joint.from, joint.to
+            );
+            self.diagnostics
+                .error_with_help(place.extent, message, help);
+        }
+        station.flatten()
+    }
+
+    /// The station of a beam that a placement means, and the side it is on.
+    fn station_of(
+        &mut self,
+        joint: &ast::Joint,
+        placement: &ast::Placement,
+        on: Option<&Ident>,
+    ) -> Option<(usize, Option<Frame>)> {
+        let offset = placement.offset.as_ref()?;
+        let sides = [(0, &joint.from), (1, &joint.to)];
+        let meant = sides
+            .into_iter()
+            .filter(|(_, name)| on.is_none_or(|on| on == *name));
+        let meant: Vec<_> = meant.filter(|(_, name)| self.is_beam(name)).collect();
+        let (side, name) = match (&meant[..], &offset.kind) {
+            ([only], _) => *only,
+            ([_, to, ..], _) => *to,
+            ([], ValueKind::Fraction(_)) => (0, &joint.from),
+            ([], _) => return None,
+        };
+        Some((side, self.station(name, offset)?))
+    }
+
+    /// The placements on both sides; at most one each. A place along a beam replaces the side's frame.
+    fn placements(&mut self, joint: &ast::Joint, frames: [&mut Option<Frame>; 2]) -> Option<Sides> {
+        let mut stations: [Option<Option<Frame>>; 2] = [None, None];
         let mut sides: Sides = [None, None];
         let mut seen = [false; 2];
         let mut all_right = true;
@@ -108,9 +150,25 @@ impl Resolver<'_> {
             let JointClause::Placement { placement, on } = clause else {
                 continue;
             };
-            let resolved = self.placement(Some(placement), "a joint's place");
+            let station = self.station_of(joint, placement, on.as_ref());
+            let turned = ast::Placement {
+                offset: None,
+                ..placement.clone()
+            };
+            let rest = match station {
+                Some(_) => &turned,
+                None => placement,
+            };
+            let resolved = self.placement(Some(rest), "a joint's place");
             all_right &= resolved.is_some();
-            let Some(side) = self.side(joint, on.as_ref()) else {
+            let side = match station {
+                Some((side, frame)) => {
+                    stations[side] = Some(frame);
+                    Some(side)
+                }
+                None => self.side(joint, on.as_ref()),
+            };
+            let Some(side) = side else {
                 all_right = false;
                 continue;
             };
@@ -125,6 +183,11 @@ impl Resolver<'_> {
             }
             seen[side] = true;
             sides[side] = resolved;
+        }
+        for (frame, station) in frames.into_iter().zip(stations) {
+            if let Some(station) = station {
+                *frame = station;
+            }
         }
         all_right.then_some(sides)
     }

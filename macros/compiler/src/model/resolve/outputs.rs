@@ -14,8 +14,7 @@ impl Resolver<'_> {
             let ItemKind::Point(point) = &item.kind else {
                 continue;
             };
-            let frame = self.frame(&point.frame);
-            let placement = self.placement(point.placement.as_ref(), "a point's place");
+            let (frame, placement) = self.placed_frame(&point.frame, point.placement.as_ref());
             if let (Some(frame), Some(placement)) = (frame, placement) {
                 points.push(Point {
                     name: point.name.clone(),

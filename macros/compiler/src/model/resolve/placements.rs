@@ -1,11 +1,13 @@
 //! Placements of one frame in another, for joints, points and the shapes of a body.
 
+use proc_macro2::Ident;
+
 use super::directions::axis;
 use super::expected::Expected;
 use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::model::expression::{Expr, Vector};
-use crate::model::mechanism::Placement;
+use crate::model::mechanism::{Frame, Placement};
 use crate::syntax::ast::{self, ValueKind};
 use crate::syntax::print;
 
@@ -23,6 +25,26 @@ pub(super) fn unplaced() -> Placement {
 }
 
 impl Resolver<'_> {
+    /// A frame and a place on it, which may be a station of a beam.
+    pub(super) fn placed_frame(
+        &mut self,
+        frame: &Ident,
+        placement: Option<&ast::Placement>,
+    ) -> (Option<Frame>, Option<Placement>) {
+        let what = "a point's place";
+        let offset = placement.and_then(|own| Some((own, own.offset.as_ref()?)));
+        if let Some((placement, offset)) = offset
+            && let Some(station) = self.station(frame, offset)
+        {
+            let turned = ast::Placement {
+                offset: None,
+                ..placement.clone()
+            };
+            return (station, self.placement(Some(&turned), what));
+        }
+        (self.frame(frame), self.placement(placement, what))
+    }
+
     /// A placement; the identity if none is given. `what` names the thing being placed.
     pub(super) fn placement(
         &mut self,

@@ -1,5 +1,6 @@
 //! The data that the steps of resolution share; each step is a file that adds its methods.
 
+use super::beams::{self, Properties, Stations};
 use super::coordinates::{self, Declared};
 use super::exerted::Exerted;
 use super::joints::kinds::Kind;
@@ -32,6 +33,8 @@ pub(super) struct Resolver<'a> {
     pub(super) declared_coordinates: Vec<Coordinate>,
     pub(super) exerted: Vec<Option<Exerted>>,
     pub(super) parts: Vec<Option<Vec<Part>>>,
+    pub(super) materials: Vec<(String, Option<Properties>)>,
+    pub(super) stations: Stations,
     pub(super) given_inertias: Vec<GivenInertia>,
     pub(super) requirements: Vec<Requirement>,
     /// The shortest and the longest length that is written, m; the first is the greater one if there is none.
@@ -62,6 +65,8 @@ impl<'a> Resolver<'a> {
             declared_coordinates: Vec::new(),
             exerted: Vec::new(),
             parts: Vec::new(),
+            materials: Vec::new(),
+            stations: Stations::default(),
             given_inertias: Vec::new(),
             requirements: Vec::new(),
             lengths: [f64::INFINITY, 0.0],
@@ -115,7 +120,8 @@ impl<'a> Resolver<'a> {
     /// doubt.
     pub(super) fn can_move(&self) -> bool {
         let moves = |coordinate: &Declared| !coordinate.motion.is_given() && !coordinate.cut;
-        self.coordinates.iter().any(moves) || self.may_have_more_coordinates()
+        let bends = beams::declared(self.ast) > 0;
+        bends || self.coordinates.iter().any(moves) || self.may_have_more_coordinates()
     }
 
     /// Whether there is a joint of an unknown kind, or an item that could not be read.

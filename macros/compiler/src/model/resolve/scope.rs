@@ -31,6 +31,7 @@ pub(super) enum Meaning {
     Point(PointId),
     Force(ForceId),
     Excitation,
+    Material,
     Constraint(ConstraintId),
     Output,
     /// Belongs to something that could not be read, or to several things: uses of the name are not checked.
@@ -56,6 +57,7 @@ impl Meaning {
             Meaning::Point(_) => "a point",
             Meaning::Force(_) => "a force",
             Meaning::Excitation => "an excitation",
+            Meaning::Material => "a material",
             Meaning::Constraint(_) => "a constraint",
             Meaning::Output => "an output",
             Meaning::Unclear => "something",
@@ -103,6 +105,7 @@ impl Scope {
                 ItemKind::Force(force) if force.is_harmonic() => Meaning::Excitation,
                 ItemKind::Force(_) => Meaning::Force(ForceId::new(next(8))),
                 ItemKind::Unbalance(_) => Meaning::Excitation,
+                ItemKind::Material(_) => Meaning::Material,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
                 ItemKind::Gravity(_)

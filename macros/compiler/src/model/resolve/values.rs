@@ -38,6 +38,16 @@ impl Resolver<'_> {
             ValueKind::Call(function, arguments) => self.call(function, arguments, place),
             ValueKind::Component(of, axis) => self.component(of, axis, place),
             ValueKind::Parenthesised(inner) => self.value(inner, place),
+            ValueKind::Sections(_) => {
+                let message = "a cross-section belongs to a beam";
+                self.diagnostics.error(value.extent, message);
+                None
+            }
+            ValueKind::Fraction(_) => {
+                let message = "a fraction of a length is a place on a beam";
+                self.diagnostics.error(value.extent, message);
+                None
+            }
         }
     }
 
@@ -140,12 +150,17 @@ impl Resolver<'_> {
             | Meaning::Point(_)
             | Meaning::Force(_)
             | Meaning::Excitation
+            | Meaning::Material
             | Meaning::Constraint(_) => {
                 let help = match meaning {
                     Meaning::Constraint(_) => {
                         format!(
                             "what it exerts is an output: `reaction({text})` or `reaction_force({text})`"
                         )
+                    }
+                    Meaning::Material => {
+                        "it is the `material` of a beam; name a number by `design` or `let`"
+                            .to_string()
                     }
                     Meaning::Force(_) | Meaning::Excitation => {
                         "repeat its expression, or name the shared part with `let`".to_string()

@@ -2,12 +2,13 @@
 
 use proc_macro2::Delimiter;
 
-use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term};
+use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term, Value, ValueKind};
 use super::super::tokens::{Parsed, Tokens};
 use super::names::{colon, declared_name};
 use super::placement::placement;
 use super::value::value;
 use super::words::DECIMAL_POINT;
+use crate::base::span::Extent;
 
 const SHAPE: &str = "a shape such as `rod` or `massless`";
 
@@ -31,7 +32,18 @@ pub(super) fn body(tokens: &mut Tokens) -> Parsed<ItemKind> {
         } else if tokens.sign('-').is_some() {
             true
         } else {
-            return Ok(ItemKind::Body(Body { name, terms }));
+            let spinning = match tokens.word("spinning") {
+                Some(_) => {
+                    tokens.expect_word("at")?;
+                    Some(value(tokens)?)
+                }
+                None => None,
+            };
+            return Ok(ItemKind::Body(Body {
+                name,
+                terms,
+                spinning,
+            }));
         };
     }
 }
@@ -68,11 +80,37 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
     })
 }
 
+/// Reads a word that could not be a name.
+fn keyword(tokens: &mut Tokens) -> Parsed<Value> {
+    let Some(word) = tokens.ident() else {
+        return tokens.expected("a word");
+    };
+    let extent = Extent::from(&word);
+    Ok(Value::new(ValueKind::Name(word), extent))
+}
+
+/// Reads `SHAPE(...)` or `SHAPE(...) to SHAPE(...)`.
+fn sections(tokens: &mut Tokens) -> Parsed<Value> {
+    const SECTION: &str = "a cross-section such as `rectangle(width: 8 mm, height: 2 mm)`";
+    let start = Extent::from(tokens.span());
+    let mut calls = vec![named_call(tokens, SECTION)?];
+    while tokens.word("to").is_some() {
+        calls.push(named_call(tokens, SECTION)?);
+    }
+    let extent = start.to(tokens.last);
+    Ok(Value::new(ValueKind::Sections(calls), extent))
+}
+
 /// Reads `NAME: VALUE` or `NAME: VALUE of DRIVE`.
 pub(super) fn argument(tokens: &mut Tokens) -> Parsed<Argument> {
     let name = tokens.name("an argument")?;
     colon(tokens)?;
-    let value = value(tokens)?;
+    let value = match tokens.peek_call() {
+        true if name == "section" => sections(tokens)?,
+        // Rust reserves the word, so it cannot be a name.
+        _ if name == "shear" && tokens.peek_word("static") => keyword(tokens)?,
+        _ => value(tokens)?,
+    };
     let of = match tokens.word("of") {
         Some(_) => Some(tokens.name("a driven or coasting coordinate")?),
         None => None,

@@ -3,8 +3,8 @@
 use proc_macro2::Ident;
 
 use super::super::ast::{
-    Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Named, NamedCall, Point,
-    Unbalance,
+    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named,
+    NamedCall, Point, Unbalance,
 };
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
@@ -44,6 +44,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "force" => force,
         "every" => every,
         "unbalance" => return unbalance(tokens),
+        "material" => return material(tokens),
         "constraint" => constraint,
         "steady" => |tokens| named(tokens).map(ItemKind::Steady),
         "output" => |tokens| named(tokens).map(ItemKind::Output),
@@ -196,6 +197,37 @@ fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
             arguments: Some(arguments),
         },
         at,
+    }))
+}
+
+const MATERIAL: &str = "write `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
+
+fn material(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let help = |error: Box<Diagnostic>| Box::new(error.with_help(MATERIAL));
+    let Some(word) = tokens.ident() else {
+        return tokens.expected("`material`");
+    };
+    let name = declared_name(tokens)?;
+    colon(tokens).map_err(help)?;
+    let mut arguments = Vec::new();
+    loop {
+        let name = tokens.name("a property such as `density`").map_err(help)?;
+        let value = value(tokens)?;
+        arguments.push(Argument {
+            name,
+            value,
+            of: None,
+        });
+        if tokens.sign(',').is_none() {
+            break;
+        }
+    }
+    Ok(ItemKind::Material(Material {
+        name,
+        call: NamedCall {
+            word,
+            arguments: Some(arguments),
+        },
     }))
 }
 

@@ -6,7 +6,7 @@ use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClaus
 use super::super::tokens::{Parsed, Tokens};
 use super::body::named_call;
 use super::names::{colon, declared_name};
-use super::placement::placement;
+use super::placement::{place, placement};
 use super::value::value;
 use super::words::DECIMAL_POINT;
 
@@ -21,6 +21,10 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
     };
     tokens.expect_word("from")?;
     let from = tokens.name("a body or `ground`")?;
+    let from_station = match tokens.word("at") {
+        Some(_) => Some(place(tokens)?),
+        None => None,
+    };
     tokens.expect_word("to")?;
     let to = tokens.name("a body or `ground`")?;
     let mut clauses = Vec::new();
@@ -45,6 +49,7 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
         kind,
         arguments,
         from,
+        from_station,
         to,
         clauses,
     }))

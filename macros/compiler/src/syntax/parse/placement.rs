@@ -2,9 +2,10 @@
 
 use proc_macro2::Delimiter;
 
-use super::super::ast::{Placement, Value};
+use super::super::ast::{Placement, Value, ValueKind};
 use super::super::tokens::{Parsed, Tokens};
 use super::value::value;
+use crate::base::span::Extent;
 
 /// Reads a placement if one is next.
 pub(super) fn placement(tokens: &mut Tokens) -> Parsed<Option<Placement>> {
@@ -13,7 +14,7 @@ pub(super) fn placement(tokens: &mut Tokens) -> Parsed<Option<Placement>> {
     }
     let keyword = tokens.span().into();
     let offset = match tokens.word("at") {
-        Some(_) => Some(value(tokens)?),
+        Some(_) => Some(place(tokens)?),
         None => None,
     };
     let mut rotations = Vec::new();
@@ -25,6 +26,21 @@ pub(super) fn placement(tokens: &mut Tokens) -> Parsed<Option<Placement>> {
         rotations,
         keyword,
     }))
+}
+
+/// Reads a vector, `tip`, or a fraction of a beam such as `0.4 length`.
+pub(super) fn place(tokens: &mut Tokens) -> Parsed<Value> {
+    let mut ahead = *tokens;
+    let fraction = ahead
+        .literal()
+        .and_then(|literal| literal.to_string().parse().ok());
+    let Some(fraction) = fraction.filter(|_| ahead.peek_word("length")) else {
+        return value(tokens);
+    };
+    let start = Extent::from(tokens.span());
+    tokens.literal();
+    let end = tokens.expect_word("length")?;
+    Ok(Value::new(ValueKind::Fraction(fraction), start.to(end)))
 }
 
 fn rotation(tokens: &mut Tokens) -> Parsed<(Value, Value)> {

@@ -20,8 +20,8 @@ pub(super) const KEYWORDS: [&str; 14] = [
     "output",
 ];
 
-/// A word that starts an item but may also be a name.
-const ALSO_A_NAME: &str = "unbalance";
+/// Words that start an item but may also be names.
+const ALSO_NAMES: [&str; 2] = ["unbalance", "material"];
 
 /// Names of items in other tools and languages.
 const SYNONYMS: [(&str, &str); 28] = [
@@ -60,7 +60,7 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
     (
         "body",
         &[
-            "massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid",
+            "massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid", "beam",
         ],
     ),
     (
@@ -90,6 +90,7 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
             "load",
             "follower",
             "drag",
+            "distributed",
             "harmonic",
         ],
     ),
@@ -109,15 +110,16 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
 /// The replacement for an unknown word at the start of an item.
 pub(super) fn instead_of(unknown: &str) -> String {
     let inside = INSIDE.iter().find(|(_, words)| words.contains(&unknown));
-    let known = KEYWORDS.into_iter().chain([ALSO_A_NAME]);
+    let known = KEYWORDS.into_iter().chain(ALSO_NAMES);
     match (inside, suggestion(unknown, known, &SYNONYMS)) {
         (Some((keyword, _)), _) => {
             format!("a `{unknown}` is a {keyword}: write `{keyword} NAME: {unknown} ...;`")
         }
         (None, Some(known)) => format!("did you mean `{known}`?"),
         (None, None) => format!(
-            "an item starts with one of {}, {ALSO_A_NAME}",
-            KEYWORDS.join(", ")
+            "an item starts with one of {}, {}",
+            KEYWORDS.join(", "),
+            ALSO_NAMES.join(", ")
         ),
     }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::arguments::Signature;
+use super::super::beams::BEAM;
 use super::super::placements::zero;
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
@@ -94,10 +95,11 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
         "density",
         "the volume of a `rigid` body is not known: give its `mass`",
     )]),
+    BEAM,
 ];
 
 /// Names of the shapes in other tools.
-pub(super) const SYNONYMS: [(&str, &str); 23] = [
+pub(super) const SYNONYMS: [(&str, &str); 22] = [
     ("none", "massless"),
     ("weightless", "massless"),
     ("empty", "massless"),
@@ -105,7 +107,6 @@ pub(super) const SYNONYMS: [(&str, &str); 23] = [
     ("point_mass", "point"),
     ("particle", "point"),
     ("bar", "rod"),
-    ("beam", "rod"),
     ("link", "rod"),
     ("stick", "rod"),
     ("disc", "disk"),

@@ -6,6 +6,7 @@ use super::super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::base::ids::PointId;
 use crate::model::mechanism::ForceLaw;
+use crate::syntax::ast::ValueKind;
 
 impl Resolver<'_> {
     pub(super) fn load(&mut self, arguments: &Arguments, following: bool) -> Option<ForceLaw> {
@@ -17,6 +18,30 @@ impl Resolver<'_> {
             force: force?,
             moment: moment?,
             following,
+        })
+    }
+
+    pub(super) fn distributed(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let on = arguments.get("on").and_then(|value| match &value.kind {
+            ValueKind::Name(name) if self.is_beam(name) => Some(name.clone()),
+            _ => {
+                let message = "`on` is the name of a beam";
+                let help = "a force at one place of a body is a `load`";
+                self.diagnostics
+                    .error_with_help(value.extent, message, help);
+                None
+            }
+        });
+        let per_length = Dimension::STIFFNESS;
+        let force = self.vector_or_zero(arguments, "force", per_length);
+        let follower = self.vector_or_zero(arguments, "follower", per_length);
+        let damping = Some(Dimension::new(-1, 1, -1).into());
+        let damping = self.coefficient_or_zero(arguments, "damping", damping);
+        Some(ForceLaw::Distributed {
+            on: on?,
+            force: force?,
+            follower: follower?,
+            damping: damping?,
         })
     }
 

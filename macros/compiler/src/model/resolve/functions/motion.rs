@@ -47,6 +47,7 @@ impl Resolver<'_> {
             }
             ("reaction_force" | "reaction_moment", [joint]) => self.reaction_vector(name, joint)?,
             ("reaction", [constraint]) => self.reaction_number(constraint)?,
+            ("curvature" | "moment", [point]) => self.bent(name, point)?,
             ("kinetic_energy", []) => Typed::Scalar(Expr::KineticEnergy, energy),
             ("potential_energy", []) => {
                 self.energy_is_known(function)?;
@@ -95,6 +96,28 @@ impl Resolver<'_> {
             "write the force as a `potential`, or leave out this output",
         );
         None
+    }
+
+    /// Curvature or moment of a beam at a point of it.
+    fn bent(&mut self, function: &str, point: &Value) -> Option<Typed> {
+        let name = self.name_of(point, "point")?;
+        let id = self.point_named(name)?;
+        let mut points = self.ast.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Point(point) if point.name == *name => Some(&point.frame),
+            _ => None,
+        });
+        if !points.next().is_some_and(|frame| self.is_beam(frame)) {
+            let message = format!("`{name}` is not on a beam: it has no {function}");
+            let help = "declare a point of the beam: `point gauge: blade at 0.3 length;`";
+            self.diagnostics.error_with_help(name, message, help);
+            return None;
+        }
+        let (first, dimension) = match function {
+            "curvature" => (0, Dimension::new(-1, 0, 0)),
+            _ => (3, Dimension::MOMENT),
+        };
+        let components = [0, 1, 2].map(|axis| Expr::Bent(id, first + axis));
+        Some(Typed::Vector(components, Quantity::Of(dimension)))
     }
 
     fn position_of(&mut self, point: &Value) -> Option<Vector> {

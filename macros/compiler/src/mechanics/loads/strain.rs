@@ -1,0 +1,186 @@
+//! Elasticity and damping of the material of beams.
+
+use crate::algebra::{Direction, Graph, Unary, Vector3, derivatives_along, gradient};
+use crate::base::ids::{BeamId, ExprId, PointId, SymbolId};
+use crate::mechanics::motion::{self, bend};
+use crate::mechanics::setup::{Context, OfBeam, Sections};
+use crate::model::mechanism::Frame;
+
+/// What strains at a section, and the stiffness against it: curvatures along its own axes times the length, stretch and
+/// shear, each with the stiffness that gives energy over the length that the section stands for.
+struct Strain {
+    values: Vec<ExprId>,
+    stiffness: Vec<ExprId>,
+}
+
+fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>) -> Vec<Strain> {
+    let beam = &context.mechanism.beams[id.index()];
+    let values = context.values;
+    let length = values.scalar(g, &beam.length);
+    let stretched = motion::strains(g, context, id, turns);
+    let sections = beam
+        .sections
+        .iter()
+        .zip(&turns.rotations)
+        .zip(&turns.slopes);
+    sections
+        .zip(stretched)
+        .map(|((((_, weight, section), turn), slope), stretched)| {
+            let bent = bend(g, Vector3(*turn), Vector3(*slope));
+            let twist = values.scalar(g, &section.twist);
+            let [_, shear_y, shear_z] = stretched;
+            let [bent_y, bent_z] = along_own_axes(g, [bent.0[1], bent.0[2]], twist);
+            let [shear_y, shear_z] = along_own_axes(g, [shear_y, shear_z], twist);
+            let mut strain = Strain {
+                values: vec![bent.0[0], bent_y, bent_z, stretched[0], shear_y, shear_z],
+                stiffness: Vec::new(),
+            };
+            for stiffness in &section.stiffness {
+                let stiffness = values.scalar(g, stiffness);
+                let share = g.scale(*weight, stiffness);
+                strain.stiffness.push(g.div(share, length));
+            }
+            for stiffness in &section.against_strain {
+                let stiffness = values.scalar(g, stiffness);
+                let share = g.scale(*weight, stiffness);
+                strain.stiffness.push(g.mul(share, length));
+            }
+            strain
+        })
+        .collect()
+}
+
+/// Components along axes that have been turned by an angle.
+fn along_own_axes(g: &mut Graph, [y, z]: [ExprId; 2], angle: ExprId) -> [ExprId; 2] {
+    let (sine, cosine) = (g.unary(Unary::Sin, angle), g.unary(Unary::Cos, angle));
+    let (a, b) = (g.mul(cosine, y), g.mul(sine, z));
+    let (c, d) = (g.mul(sine, y), g.mul(cosine, z));
+    [g.add(a, b), g.sub(d, c)]
+}
+
+impl Strain {
+    /// Half the sum of stiffness times squared strain.
+    fn energy(&self, g: &mut Graph) -> ExprId {
+        let pairs = self.values.iter().zip(&self.stiffness);
+        let terms: Vec<ExprId> = pairs
+            .map(|(&value, &stiffness)| {
+                let square = g.mul(value, value);
+                let twice = g.mul(stiffness, square);
+                g.scale(0.5, twice)
+            })
+            .collect();
+        g.sum(terms)
+    }
+}
+
+/// Forces along the rows of the sections, with the sign of inertia: elastic, and if the material lags, those of
+/// stresses proportional to the strain and `lag` times its rate.
+pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
+    let sections = context.sections;
+    let mut along = vec![g.zero(); sections.rows.len()];
+    for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
+        let turns = sections.by_themselves(g, id).map(|own| own.position);
+        let beam = &context.mechanism.beams[id.index()];
+        let spin = context.values.scalar(g, &beam.spin);
+        let lag = context
+            .values
+            .scalar(g, &context.mechanism.beams[id.index()].lag);
+        let rows = sections.of(id);
+        for (k, strain) in strains(g, context, id, &turns).iter().enumerate() {
+            let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
+            let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
+            let own: Vec<usize> = own.copied().collect();
+            let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
+            let energy = strain.energy(g);
+            let mut forces = gradient(g, energy, &ids);
+            if !g.is(lag, 0.0) {
+                let rates = own
+                    .iter()
+                    .map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
+                let direction = Direction::new("_rate", rates.collect());
+                let mut rates = derivatives_along(g, &strain.values, &direction);
+                // material that spins beside its section sees the strain turn backwards
+                let [y, z] = [strain.values[1], strain.values[2]];
+                let (forwards, backwards) = (g.mul(spin, z), g.mul(spin, y));
+                rates[1] = g.add(rates[1], forwards);
+                rates[2] = g.sub(rates[2], backwards);
+                for (k, rate) in rates.into_iter().enumerate() {
+                    let moment = g.mul(strain.stiffness[k], rate);
+                    let moment = g.mul(lag, moment);
+                    let slopes = gradient(g, strain.values[k], &ids);
+                    for (force, slope) in forces.iter_mut().zip(slopes) {
+                        let share = g.mul(moment, slope);
+                        *force = g.add(*force, share);
+                    }
+                }
+            }
+            for (row, force) in own.into_iter().zip(forces) {
+                along[row] = g.add(along[row], force);
+            }
+        }
+    }
+    along
+}
+
+/// Twist rate, curvatures and elastic moment of a beam at a point of it; see [`Expr::Bent`](crate::model::expression::Expr::Bent).
+pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [ExprId; 6] {
+    let mechanism = context.mechanism;
+    let zero = g.zero();
+    let frame = mechanism.points[point.index()].frame;
+    let place = mechanism.beams.iter().find_map(|beam| {
+        let station = beam
+            .stations
+            .iter()
+            .find(|own| Frame::Body(own.body) == frame);
+        let root = (Frame::Body(beam.body) == frame).then_some((beam, 0.0, &beam.root));
+        station.map(|own| (beam, own.place, &own.section)).or(root)
+    });
+    let Some((beam, place, section)) = place else {
+        return [zero; 6];
+    };
+    let [turn, slope] = Sections::at(g, context.symbols, context.topology, beam, place);
+    let values = context.values;
+    let length = values.scalar(g, &beam.length);
+    let bent = bend(g, Vector3(turn), Vector3(slope));
+    let bent = bent.0.map(|own| g.div(own, length));
+    let lag = values.scalar(g, &beam.lag);
+    let spin = values.scalar(g, &beam.spin);
+    let (unknowns, rates) = (&context.symbols.q, &context.symbols.velocity);
+    let moving = Direction::new("_rate", unknowns.with(&rates.values).collect());
+    let rates = derivatives_along(g, &bent, &moving);
+    // material that spins beside its section sees the strain turn backwards
+    let (forwards, backwards) = (g.mul(spin, bent[2]), g.mul(spin, bent[1]));
+    let rates = [
+        rates[0],
+        g.add(rates[1], forwards),
+        g.sub(rates[2], backwards),
+    ];
+    let [x, y, z] = [0, 1, 2].map(|k| {
+        let lagging = g.mul(lag, rates[k]);
+        g.add(bent[k], lagging)
+    });
+    let twist = values.scalar(g, &section.twist);
+    let [against_twist, about_y, about_z] = section
+        .stiffness
+        .each_ref()
+        .map(|own| values.scalar(g, own));
+    let own = along_own_axes(g, [y, z], twist);
+    let own = [g.mul(about_y, own[0]), g.mul(about_z, own[1])];
+    let back = g.neg(twist);
+    let [my, mz] = along_own_axes(g, own, back);
+    let mx = g.mul(against_twist, x);
+    [bent[0], bent[1], bent[2], mx, my, mz]
+}
+
+/// Elastic energy of all beams, in terms of the unknowns.
+pub(crate) fn elastic_energy(g: &mut Graph, context: &Context) -> ExprId {
+    let mut terms = Vec::new();
+    for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
+        let turns = context.sections.by_unknowns(g, context.symbols, id);
+        let turns = turns.map(|own| own.position);
+        for strain in strains(g, context, id, &turns) {
+            terms.push(strain.energy(g));
+        }
+    }
+    g.sum(terms)
+}

@@ -1,0 +1,320 @@
+//! How the sections of a beam move.
+
+use crate::algebra::{Graph, Matrix3, Vector3};
+use crate::base::ids::{BeamId, ExprId};
+use crate::base::legendre::Gauss;
+use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
+use crate::model::mechanism::Mechanism;
+
+use super::frame::FrameMotion;
+use super::strain::Heading;
+
+/// Motion of the sections of a beam, in the axes of the motion of its root.
+#[derive(Clone, Debug)]
+pub(crate) struct BeamMotion {
+    /// At the places of quadrature.
+    pub(crate) sections: Vec<SectionMotion>,
+    pub(crate) directions: Vec<DirectionMotion>,
+    pub(crate) stations: Vec<StationMotion>,
+}
+
+/// Motion of a section.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SectionMotion {
+    /// Its axes: along the beam, and the two across it. Its origin is that of the root.
+    pub(crate) frame: FrameMotion,
+    /// The axes of the beam at the root.
+    pub(crate) axes: Matrix3,
+    turn: Turn,
+    /// Angular velocity relative to the root.
+    pub(crate) relative: Vector3,
+}
+
+/// The direction of a beam at a section.
+#[derive(Clone, Debug)]
+pub(crate) struct DirectionMotion {
+    pub(crate) vector: Vector3,
+    pub(crate) rate: Vector3,
+    pub(crate) second_rate: Vector3,
+    /// Velocity relative to the root.
+    leaving: Vector3,
+    /// Derivatives by the strains, by row of the sections.
+    slopes: Vec<(usize, Vector3)>,
+}
+
+/// A station: its section, and where it is.
+#[derive(Clone, Debug)]
+pub(crate) struct StationMotion {
+    pub(crate) section: SectionMotion,
+    /// Share of the direction of each section in its place, m.
+    pub(crate) reach: Vec<ExprId>,
+    /// Velocity of its origin relative to the root.
+    pub(crate) velocity: Vector3,
+}
+
+/// How a section has turned, along the axes of the beam at the root.
+#[derive(Clone, Copy, Debug)]
+enum Turn {
+    /// By an angle about one of them.
+    Angle(usize),
+    /// By a Rodrigues vector, with `1 / (1 + |turn|^2 / 4)`.
+    Rodrigues(Vector3, ExprId),
+}
+
+impl BeamMotion {
+    pub(crate) fn new(
+        g: &mut Graph,
+        mechanism: &Mechanism,
+        values: &Values,
+        id: BeamId,
+        root: &FrameMotion,
+        (turns, headings): &(OfBeam<CoordinateMotion>, Vec<Heading>),
+    ) -> Self {
+        let beam = &mechanism.beams[id.index()];
+        let name = beam.name.clone();
+        let own_axes = Matrix3([0, 1, 2].map(|k| values.vector(g, &beam.axes[k])));
+        let axes = Matrix3(own_axes.0.map(|axis| root.orientation.express(g, axis)));
+        let start = root.departing(g);
+        let mut bent = |turn: &[CoordinateMotion; 3], label: String| {
+            SectionMotion::new(g, &start, own_axes, axes, *turn, &label)
+        };
+        let sections: Vec<SectionMotion> = turns
+            .rotations
+            .iter()
+            .enumerate()
+            .map(|(k, turn)| bent(turn, format!("{name}_section_{k}")))
+            .collect();
+        let ends: Vec<SectionMotion> = turns
+            .stations
+            .iter()
+            .enumerate()
+            .map(|(k, turn)| bent(turn, format!("{name}_station_{k}")))
+            .collect();
+        let directions = sections.iter().zip(headings);
+        let directions: Vec<DirectionMotion> = directions
+            .map(|(section, heading)| DirectionMotion::new(g, section, heading))
+            .collect();
+        let length = values.scalar(g, &beam.length);
+        let rule = Gauss {
+            points: beam.sections.iter().map(|(place, ..)| *place).collect(),
+            weights: beam.sections.iter().map(|(_, weight, _)| *weight).collect(),
+        };
+        let stations = beam.stations.iter().zip(ends).map(|(station, section)| {
+            let reach: Vec<ExprId> = rule
+                .integrals_to(station.place)
+                .into_iter()
+                .map(|share| g.scale(share, length))
+                .collect();
+            StationMotion::new(g, &directions, section, own_axes, reach)
+        });
+        Self {
+            stations: stations.collect(),
+            sections,
+            directions,
+        }
+    }
+}
+
+impl DirectionMotion {
+    fn new(g: &mut Graph, section: &SectionMotion, heading: &Heading) -> Self {
+        let frame = &section.frame;
+        let axes = frame.orientation.axes;
+        let apply = |g: &mut Graph, v: Vector3| axes.apply(g, v);
+        let vector = apply(g, heading.value);
+        let growing = apply(g, heading.rate);
+        let growth = apply(g, heading.second);
+        let turning = frame.angular_velocity.cross(g, vector);
+        let coriolis = frame.angular_velocity.cross(g, growing);
+        let coriolis = Vector3(coriolis.0.map(|own| g.scale(2.0, own)));
+        let carried = frame.axes_second_rate.apply(g, heading.value);
+        let leaving = section.relative.cross(g, vector);
+        let slopes = heading.slopes.iter();
+        Self {
+            vector,
+            rate: turning.add(g, growing),
+            second_rate: carried.add(g, coriolis).add(g, growth),
+            leaving: leaving.add(g, growing),
+            slopes: slopes
+                .map(|(row, slope)| (*row, apply(g, *slope)))
+                .collect(),
+        }
+    }
+
+    /// Power of a force on the direction per unit rate of each row of the sections by which it strains.
+    pub(crate) fn project(&self, g: &mut Graph, force: Vector3) -> Vec<(usize, ExprId)> {
+        let slopes = self.slopes.iter();
+        slopes
+            .map(|(row, slope)| (*row, slope.dot(g, force)))
+            .collect()
+    }
+}
+
+impl SectionMotion {
+    /// A section that has turned by an angle if the beam turns about one axis only, otherwise by a Rodrigues vector:
+    /// `R = 1 + f (S + S^2 / 2)` with `S = [turn]x` and `f = 1 / (1 + |turn|^2 / 4)`; its angular velocity is
+    /// `f (turn' + turn x turn' / 2)`.
+    fn new(
+        g: &mut Graph,
+        root: &FrameMotion,
+        own_axes: Matrix3,
+        axes: Matrix3,
+        turns: [CoordinateMotion; 3],
+        name: &str,
+    ) -> Self {
+        let turn = Vector3(turns.map(|own| own.position));
+        let rate = Vector3(turns.map(|own| own.velocity));
+        let second = Vector3(turns.map(|own| own.acceleration));
+        if let Some(axis) = only_axis(g, turn) {
+            let unit = Matrix3::identity(g).0[axis];
+            let rotation = Matrix3::rotation(g, unit, turn.0[axis]);
+            let [relative, growth] = [rate, second].map(|vector| axes.apply(g, vector));
+            let turned = own_axes.multiply(g, rotation);
+            return Self {
+                frame: root.bent(g, (turned, relative, growth), name),
+                axes,
+                turn: Turn::Angle(axis),
+                relative,
+            };
+        }
+        let factor = factor(g, turn);
+        g.set_name(factor, || format!("{name}_factor"));
+        let half = g.scale(0.5, factor);
+        let identity = Matrix3::identity(g);
+        let columns = identity.0.map(|axis| {
+            let once = turn.cross(g, axis);
+            let twice = turn.cross(g, once).scale(g, half);
+            let once = once.scale(g, factor);
+            axis.add(g, once).add(g, twice)
+        });
+        let rotation = Matrix3(columns);
+        let twist = |g: &mut Graph, rate: Vector3| {
+            let across = turn.cross(g, rate);
+            let half_of_it = Vector3(across.0.map(|own| g.scale(0.5, own)));
+            rate.add(g, half_of_it).scale(g, factor)
+        };
+        let spin = twist(g, rate);
+        let growth = twist(g, second);
+        let along = turn.dot(g, rate);
+        let shrinking = g.mul(half, along);
+        let lost = spin.scale(g, shrinking);
+        let growth = growth.sub(g, lost);
+        let [relative, growth] = [spin, growth].map(|vector| axes.apply(g, vector));
+        let own_axes_turned = own_axes.multiply(g, rotation);
+        Self {
+            frame: root.bent(g, (own_axes_turned, relative, growth), name),
+            axes,
+            turn: Turn::Rodrigues(turn, factor),
+            relative,
+        }
+    }
+
+    /// Power of a moment per unit rate of the angle, or of each component of the Rodrigues vector:
+    /// `f (m - turn x m / 2)`.
+    pub(crate) fn project(&self, g: &mut Graph, moment: Vector3) -> [ExprId; 3] {
+        let own = self.axes.transpose().apply(g, moment);
+        match self.turn {
+            Turn::Angle(axis) => {
+                let mut powers = [g.zero(); 3];
+                powers[axis] = own.0[axis];
+                powers
+            }
+            Turn::Rodrigues(turn, factor) => {
+                let across = turn.cross(g, own);
+                let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+                own.sub(g, half).scale(g, factor).0
+            }
+        }
+    }
+
+    /// The axes, and their second time derivatives.
+    pub(crate) fn arms(&self) -> [(Vector3, Vector3); 3] {
+        self.frame.axes()
+    }
+}
+
+/// The only axis about which a section turns.
+fn only_axis(g: &Graph, turn: Vector3) -> Option<usize> {
+    let turns: Vec<usize> = (0..3).filter(|&k| !g.is(turn.0[k], 0.0)).collect();
+    match turns[..] {
+        [axis] => Some(axis),
+        _ => None,
+    }
+}
+
+/// `1 / (1 + |turn|^2 / 4)`.
+fn factor(g: &mut Graph, turn: Vector3) -> ExprId {
+    let one = g.constant(1.0);
+    let square = turn.dot(g, turn);
+    let quarter = g.scale(0.25, square);
+    let denominator = g.add(one, quarter);
+    g.div(one, denominator)
+}
+
+/// The change along the length of [`bend`], from the slope of the slope.
+pub(crate) fn bend_change(g: &mut Graph, turn: Vector3, slope: Vector3, curl: Vector3) -> Vector3 {
+    if only_axis(g, turn).is_some() {
+        return curl;
+    }
+    let factor = factor(g, turn);
+    let part = |g: &mut Graph, slope: Vector3| {
+        let across = turn.cross(g, slope);
+        let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+        slope.sub(g, half).scale(g, factor)
+    };
+    let (bent, change) = (part(g, slope), part(g, curl));
+    // f' = -f^2 turn . slope / 2
+    let along = turn.dot(g, slope);
+    let half = g.scale(0.5, factor);
+    let shrinking = g.mul(half, along);
+    let lost = bent.scale(g, shrinking);
+    change.sub(g, lost)
+}
+
+/// Twist rate and curvatures along the axes of a section, times the length: the slope of its angle, or if it has turned
+/// by a Rodrigues vector, `f (slope - turn x slope / 2)`.
+pub(crate) fn bend(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
+    if only_axis(g, turn).is_some() {
+        return slope;
+    }
+    let factor = factor(g, turn);
+    let across = turn.cross(g, slope);
+    let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+    slope.sub(g, half).scale(g, factor)
+}
+
+impl StationMotion {
+    fn new(
+        g: &mut Graph,
+        directions: &[DirectionMotion],
+        section: SectionMotion,
+        own_axes: Matrix3,
+        reach: Vec<ExprId>,
+    ) -> Self {
+        let zero = Vector3::zero(g);
+        let (mut offset, mut rate, mut carried, mut second) = (zero, zero, zero, zero);
+        for (own, &share) in directions.iter().zip(&reach) {
+            let sums = [
+                (&mut offset, own.vector),
+                (&mut rate, own.leaving),
+                (&mut carried, own.rate),
+                (&mut second, own.second_rate),
+            ];
+            for (sum, term) in sums {
+                let term = term.scale(g, share);
+                *sum = sum.add(g, term);
+            }
+        }
+        let frame = FrameMotion {
+            offset,
+            velocity: section.frame.velocity.add(g, carried),
+            acceleration: section.frame.acceleration.add(g, second),
+            ..section.frame
+        };
+        let frame = frame.rotated(g, Some(own_axes.transpose()));
+        Self {
+            section: SectionMotion { frame, ..section },
+            reach,
+            velocity: rate,
+        }
+    }
+}

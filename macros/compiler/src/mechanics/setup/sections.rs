@@ -1,0 +1,287 @@
+//! The sections of beams as the coordinates of inertia and elasticity.
+//!
+//! A beam's coordinates are few, but each of them turns every section. Inertia, weight and elasticity are therefore
+//! derived as if each section turned by itself: by its own Rodrigues vector, and at the places of quadrature by the
+//! slope of this vector along the beam. Matrices between sections are short, and a product with constant numbers,
+//! the values of the polynomials at the sections, turns them into those of the coordinates, as the sums along a run do
+//! for absolute angles ([`Runs`](super::runs::Runs)). Nothing is expanded in powers of the coordinates.
+
+use crate::algebra::{Graph, Stage};
+use crate::base::ids::{BeamId, ExprId, SymbolId};
+use crate::base::legendre::{derivatives, integrals, polynomials};
+use crate::model::mechanism::{Beam, Mechanism};
+use crate::topology::Topology;
+
+use super::coordinate::CoordinateMotion;
+use super::symbols::{SymbolList, Symbols};
+
+/// The motion of three components: of a Rodrigues vector, or of its slope.
+pub(crate) type Components<T> = [T; 3];
+
+/// How the entries of a matrix on the two sides of its diagonal are related.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mirrored {
+    Equal,
+    Opposite,
+    Unrelated,
+}
+
+/// One component of a section's rotation or slope, as a sum over the unknowns.
+#[derive(Clone, Debug)]
+pub(crate) struct SectionRow {
+    /// Unknowns with their factors.
+    pub(crate) weights: Vec<(usize, f64)>,
+}
+
+/// The rows of one beam; `None` where nothing turns.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct OfBeam<T> {
+    /// Rotations at the places of quadrature.
+    pub(crate) rotations: Vec<Components<T>>,
+    /// Slopes of the rotations there, along the length as a fraction.
+    pub(crate) slopes: Vec<Components<T>>,
+    /// Slopes of the slopes, where sections shear with the change of the moments.
+    pub(crate) curls: Vec<Components<T>>,
+    /// Strain along the beam and shear across it, where these are coordinates.
+    pub(crate) strains: Vec<Components<T>>,
+    /// Rotations of the stations.
+    pub(crate) stations: Vec<Components<T>>,
+}
+
+impl<T: Copy> OfBeam<T> {
+    pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> OfBeam<U> {
+        let mut all = |list: &[Components<T>]| -> Vec<Components<U>> {
+            list.iter().map(|own| own.map(&mut change)).collect()
+        };
+        OfBeam {
+            rotations: all(&self.rotations),
+            slopes: all(&self.slopes),
+            curls: all(&self.curls),
+            strains: all(&self.strains),
+            stations: all(&self.stations),
+        }
+    }
+}
+
+/// The rows of all beams, with symbols for each.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sections {
+    pub(crate) rows: Vec<SectionRow>,
+    beams: Vec<OfBeam<Option<usize>>>,
+    pub(crate) position: SymbolList,
+    pub(crate) velocity: SymbolList,
+    pub(crate) acceleration: SymbolList,
+}
+
+impl Sections {
+    pub(crate) fn new(g: &mut Graph, mechanism: &Mechanism, topology: &Topology) -> Self {
+        let mut this = Self::default();
+        for beam in &mechanism.beams {
+            let own = this.beam(g, topology, beam);
+            this.beams.push(own);
+        }
+        this
+    }
+
+    fn beam(&mut self, g: &mut Graph, topology: &Topology, beam: &Beam) -> OfBeam<Option<usize>> {
+        let name = beam.name.clone();
+        let mut row = |label: String, component: usize, factors: fn(usize, f64) -> Vec<f64>, x| {
+            let ids = match label.starts_with("strain") {
+                true => &beam.strains[component],
+                false => &beam.coordinates[component],
+            };
+            let last = ids.len().checked_sub(1)?;
+            let factors = factors(last, x);
+            let unknown = |id| topology.free.iter().position(|own| own == id);
+            let weights: Vec<(usize, f64)> = ids
+                .iter()
+                .zip(factors)
+                .filter(|(_, factor)| factor.abs() > 1e-15)
+                .filter_map(|(id, factor)| Some((unknown(id)?, factor)))
+                .collect();
+            let label = format!("{name}_{label}_{}", ["x", "y", "z"][component]);
+            self.push(g, &label, weights)
+        };
+        let (mut rotations, mut slopes) = (Vec::new(), Vec::new());
+        let (mut curls, mut strains) = (Vec::new(), Vec::new());
+        for (k, (place, ..)) in beam.sections.iter().enumerate() {
+            let mut rows = |what: &str, factors| {
+                [0, 1, 2].map(|component| row(format!("{what}_{k}"), component, factors, *place))
+            };
+            rotations.push(rows("section", integrals));
+            slopes.push(rows("slope", polynomials));
+            curls.push(match beam.static_shear {
+                true => rows("curl", derivatives),
+                false => [None; 3],
+            });
+            strains.push(rows("strain", polynomials));
+        }
+        let stations = beam.stations.iter().enumerate();
+        let stations = stations.map(|(k, station)| {
+            [0, 1, 2]
+                .map(|component| row(format!("station_{k}"), component, integrals, station.place))
+        });
+        let stations = stations.collect();
+        OfBeam {
+            rotations,
+            slopes,
+            curls,
+            strains,
+            stations,
+        }
+    }
+
+    fn push(&mut self, g: &mut Graph, label: &str, weights: Vec<(usize, f64)>) -> Option<usize> {
+        if weights.is_empty() {
+            return None;
+        }
+        let lists = [
+            (&mut self.position, Stage::Configuration, ""),
+            (&mut self.velocity, Stage::Rate, "rate_"),
+            (&mut self.acceleration, Stage::Rate, "acceleration_"),
+        ];
+        for (list, stage, prefix) in lists {
+            let (id, value) = g.symbol(format!("{prefix}{label}"), stage);
+            list.ids.push(id);
+            list.values.push(value);
+        }
+        self.rows.push(SectionRow { weights });
+        Some(self.rows.len() - 1)
+    }
+
+    /// The rows of a beam.
+    pub(crate) fn of(&self, beam: BeamId) -> &OfBeam<Option<usize>> {
+        &self.beams[beam.index()]
+    }
+
+    /// The motion of a beam's sections by their own symbols.
+    pub(crate) fn by_themselves(&self, g: &mut Graph, beam: BeamId) -> OfBeam<CoordinateMotion> {
+        let zero = g.zero();
+        self.of(beam).map(|row| CoordinateMotion {
+            position: row.map_or(zero, |row| self.position.values[row]),
+            velocity: row.map_or(zero, |row| self.velocity.values[row]),
+            acceleration: row.map_or(zero, |row| self.acceleration.values[row]),
+        })
+    }
+
+    /// The motion of a beam's sections by the unknowns.
+    pub(crate) fn by_unknowns(
+        &self,
+        g: &mut Graph,
+        symbols: &Symbols,
+        beam: BeamId,
+    ) -> OfBeam<CoordinateMotion> {
+        let zero = g.zero();
+        self.of(beam).map(|row| {
+            let mut sum = |list: &SymbolList| match row {
+                Some(row) => self.rows[row].combined(g, &list.values),
+                None => zero,
+            };
+            CoordinateMotion {
+                position: sum(&symbols.q),
+                velocity: sum(&symbols.velocity),
+                acceleration: sum(&symbols.acceleration),
+            }
+        })
+    }
+
+    /// Rotation and slope at any place of a beam, by the unknowns.
+    pub(crate) fn at(
+        g: &mut Graph,
+        symbols: &Symbols,
+        topology: &Topology,
+        beam: &Beam,
+        place: f64,
+    ) -> [Components<ExprId>; 2] {
+        [integrals as fn(usize, f64) -> Vec<f64>, polynomials].map(|factors| {
+            [0, 1, 2].map(|component| {
+                let ids = &beam.coordinates[component];
+                let factors = factors(ids.len(), place);
+                let terms: Vec<ExprId> = ids
+                    .iter()
+                    .zip(factors)
+                    .filter_map(|(id, factor)| {
+                        let unknown = topology.free.iter().position(|own| own == id)?;
+                        Some(g.scale(factor, symbols.q.values[unknown]))
+                    })
+                    .collect();
+                g.sum(terms)
+            })
+        })
+    }
+
+    /// Each symbol as a sum over the unknowns: for substitution.
+    pub(crate) fn sums(&self, g: &mut Graph, symbols: &Symbols) -> Vec<(SymbolId, ExprId)> {
+        let lists = [
+            (&self.position, &symbols.q),
+            (&self.velocity, &symbols.velocity),
+            (&self.acceleration, &symbols.acceleration),
+        ];
+        let mut sums = Vec::new();
+        for (own, unknowns) in lists {
+            for (row, id) in self.rows.iter().zip(&own.ids) {
+                sums.push((*id, row.combined(g, &unknowns.values)));
+            }
+        }
+        sums
+    }
+
+    /// Forces along the unknowns, from forces along the unknowns followed by those along the sections.
+    pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
+        let (own, sections) = along.split_at(along.len() - self.rows.len());
+        let mut terms: Vec<Vec<ExprId>> = own.iter().map(|own| vec![*own]).collect();
+        for (row, force) in self.rows.iter().zip(sections) {
+            for (unknown, factor) in &row.weights {
+                terms[*unknown].push(g.scale(*factor, *force));
+            }
+        }
+        terms.into_iter().map(|terms| g.sum(terms)).collect()
+    }
+
+    /// Transforms a matrix by columns from the unknowns and the sections to the unknowns.
+    pub(crate) fn matrix(
+        &self,
+        g: &mut Graph,
+        columns: &[Vec<ExprId>],
+        mirrored: Mirrored,
+    ) -> Vec<Vec<ExprId>> {
+        if self.rows.is_empty() {
+            return columns.to_vec();
+        }
+        let size = columns.len();
+        let columns: Vec<Vec<ExprId>> = (0..size)
+            .map(|j| {
+                let mut entry = |i: usize| match mirrored {
+                    Mirrored::Equal if i > j => columns[i][j],
+                    Mirrored::Opposite if i > j => g.neg(columns[i][j]),
+                    _ => columns[j][i],
+                };
+                (0..size).map(&mut entry).collect()
+            })
+            .collect();
+        let rows: Vec<Vec<ExprId>> = (0..size)
+            .map(|i| {
+                let row: Vec<ExprId> = columns.iter().map(|column| column[i]).collect();
+                self.forces(g, &row)
+            })
+            .collect();
+        let n = size - self.rows.len();
+        (0..n)
+            .map(|j| {
+                let column: Vec<ExprId> = rows.iter().map(|row| row[j]).collect();
+                self.forces(g, &column)
+            })
+            .collect()
+    }
+}
+
+impl SectionRow {
+    fn combined(&self, g: &mut Graph, unknowns: &[ExprId]) -> ExprId {
+        let terms: Vec<ExprId> = self
+            .weights
+            .iter()
+            .map(|(unknown, factor)| g.scale(*factor, unknowns[*unknown]))
+            .collect();
+        g.sum(terms)
+    }
+}

@@ -1,0 +1,67 @@
+//! Flexible bodies: rods whose sections turn by polynomials of the place along them.
+
+use proc_macro2::Ident;
+
+use super::expression::{Expr, Vector};
+use crate::base::ids::{BodyId, CoordinateId, JointId};
+
+/// A geometrically exact rod. Its sections turn relative to the root by the Rodrigues vector
+/// `psi(x) = sum_j q_j I_j(x)`, with `I_j` the integrals of the shifted Legendre polynomials from 0 to `x`; their places
+/// follow by integration.
+#[derive(Clone, Debug)]
+pub struct Beam {
+    /// Its name: of the declared beam, with a number if loads split this into several.
+    pub name: String,
+    /// The declared name.
+    pub whole: Ident,
+    /// The body whose frame is fixed in the section at the root.
+    pub body: BodyId,
+    /// Length, m.
+    pub length: Expr,
+    /// Unit vectors in the frame of the root: along the beam, and across it, by which its sections are described.
+    pub axes: [Vector; 3],
+    /// For each axis, the coordinates by which sections turn about it.
+    pub coordinates: [Vec<CoordinateId>; 3],
+    /// Coordinates of the strain along the beam, and of shear along the second and the third axis.
+    pub strains: [Vec<CoordinateId>; 3],
+    /// Whether sections shear as the change of the bending moments requires.
+    pub static_shear: bool,
+    /// Places of quadrature as fractions of the length, their weights, and the sections there.
+    pub sections: Vec<(f64, f64, Section)>,
+    /// The section at the root.
+    pub root: Section,
+    /// Sections to which something is attached.
+    pub stations: Vec<Station>,
+    /// Speed at which its material turns about the bent axis, rad/s, beside the sections' own motion.
+    pub spin: Expr,
+    /// Time that the rate of strain is multiplied by, s: moments are proportional to the strain and to this.
+    pub lag: Expr,
+}
+
+/// A cross-section, per unit of length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Mass, kg/m.
+    pub mass: Expr,
+    /// Mass times squared distance from the second and from the third axis, kg m.
+    pub inertia: [Expr; 2],
+    /// Stiffness against twist, and against bending about the second and the third axis, N m^2.
+    pub stiffness: [Expr; 3],
+    /// Stiffness against stretch, and against shear along the second and the third axis, N; zero if not known.
+    pub against_strain: [Expr; 3],
+    /// The angle by which its axes are turned about the beam before it bends, rad.
+    pub twist: Expr,
+}
+
+/// A section with a frame of its own.
+#[derive(Clone, Debug)]
+pub struct Station {
+    /// Its place as a fraction of the length.
+    pub place: f64,
+    /// Its cross-section.
+    pub section: Section,
+    /// The massless body that moves with it.
+    pub body: BodyId,
+    /// What connects this to the root.
+    pub joint: JointId,
+}

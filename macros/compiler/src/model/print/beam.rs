@@ -1,0 +1,51 @@
+//! Beams as text.
+
+use std::fmt::{self, Formatter};
+
+use super::super::mechanism::{Beam, Section};
+use super::Names;
+
+impl Names<'_> {
+    /// The beam, its sections at the places of quadrature, and its stations.
+    pub(super) fn beam(&self, f: &mut Formatter, beam: &Beam) -> fmt::Result {
+        let body = &self.0.bodies[beam.body.index()].name;
+        let [along, across, up] = beam.axes.each_ref().map(|axis| self.vector(axis));
+        let [torsion, y, z] = beam.coordinates.each_ref().map(Vec::len);
+        let [stretch, shear_y, shear_z] = beam.strains.each_ref().map(Vec::len);
+        let shear = match beam.static_shear {
+            true => "static".to_owned(),
+            false => format!("{shear_y} {shear_z}"),
+        };
+        writeln!(
+            f,
+            "beam {}: on {body} length {} along {along} across {across} up {up} torsion {torsion} bending_y {y} bending_z {z} stretch {stretch} shear {shear} spin {} lag {}",
+            beam.name,
+            self.scalar(&beam.length),
+            self.scalar(&beam.spin),
+            self.scalar(&beam.lag)
+        )?;
+        for (place, weight, section) in &beam.sections {
+            let Section {
+                mass,
+                inertia,
+                stiffness,
+                against_strain,
+                twist,
+            } = section;
+            let [twisting, about_y, about_z] = stiffness.each_ref().map(|own| self.scalar(own));
+            let [axial, shear_y, shear_z] = against_strain.each_ref().map(|own| self.scalar(own));
+            let [inertia_y, inertia_z] = inertia.each_ref().map(|own| self.scalar(own));
+            writeln!(
+                f,
+                "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {}",
+                self.scalar(mass),
+                self.scalar(twist)
+            )?;
+        }
+        for station in &beam.stations {
+            let body = &self.0.bodies[station.body.index()].name;
+            writeln!(f, "  station {body} at {}", station.place)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,397 @@
+//! Beams: a section, a material, and the number of coordinates for each way to turn.
+
+mod materials;
+mod sections;
+mod stations;
+
+pub(super) use self::materials::Properties;
+pub(super) use self::stations::Stations;
+
+use proc_macro2::Ident;
+
+use self::sections::Table;
+use super::arguments::Arguments;
+use super::bodies::Row;
+use super::expected::Expected;
+use super::resolver::Resolver;
+use super::typed::ValueContext;
+use crate::base::dimension::Dimension;
+use crate::base::legendre::Gauss;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::Section;
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::simplify;
+use crate::syntax::ast::{self, Ast, ItemKind, Term, Value, ValueKind};
+
+/// Most coordinates of one component: beyond, polynomials gain nothing over two beams in series.
+const MOST: usize = 16;
+
+/// A beam as declared; its stations are known once everything has been resolved.
+#[derive(Clone, Debug)]
+pub(super) struct Declared {
+    length: Expr,
+    axes: [Vector; 3],
+    counts: [usize; 3],
+    strains: [usize; 3],
+    static_shear: bool,
+    points: usize,
+    table: Table,
+    twist: Expr,
+    spin: Expr,
+    lag: Expr,
+}
+
+impl Declared {
+    fn section(&self, place: f64) -> Section {
+        self.table.section(place, &self.twist)
+    }
+
+    /// The sections of a part of it: their places within the part, their weights, and what they are.
+    fn sections(&self, start: f64, end: f64) -> Vec<(f64, f64, Section)> {
+        let rule = Gauss::new(self.points);
+        let places = rule.points.into_iter().zip(rule.weights);
+        places
+            .map(|(place, weight)| {
+                let of_whole = start + (end - start) * place;
+                (place, weight, self.section(of_whole))
+            })
+            .collect()
+    }
+}
+
+/// What a beam takes. It is no shape that others can be added to, so nothing reads it as one.
+pub(super) const BEAM: Row = Row::new(
+    "beam",
+    &["length", "along", "up"],
+    "beam(length: 1 m, along: x, up: z, section: rectangle(width: 40 mm, height: 6 mm), material: steel)",
+    |_| None,
+)
+.optional(&[
+    "section",
+    "material",
+    "density",
+    "modulus",
+    "shear_modulus",
+    "poisson",
+    "mass_per_length",
+    "stiffness_y",
+    "stiffness_z",
+    "torsion_stiffness",
+    "inertia_y",
+    "inertia_z",
+    "axial_stiffness",
+    "shear_stiffness_y",
+    "shear_stiffness_z",
+    "bending",
+    "bending_y",
+    "bending_z",
+    "torsion",
+    "shear",
+    "stretch",
+    "twist",
+    "lag",
+    "points",
+])
+.refusing(&[
+    ("mass", "give a `section` with a density, or `mass_per_length`"),
+    ("axis", "the beam runs `along` its axis; `up` is the direction of the height of its section"),
+]);
+
+/// The word among the shapes.
+pub(super) const WORD: &str = BEAM.word;
+
+/// The number of beams in a declaration.
+pub(super) fn declared(ast: &Ast) -> usize {
+    let is_beam = |item: &&ast::Item| match &item.kind {
+        ItemKind::Body(body) => body.terms.iter().any(|term| term.shape.word == WORD),
+        _ => false,
+    };
+    ast.items.iter().filter(is_beam).count()
+}
+
+impl Resolver<'_> {
+    /// A beam stands alone: no other shape can be added to it.
+    pub(super) fn beam(&mut self, body: &ast::Body, beam: &Term) -> Option<()> {
+        let word = &beam.shape.word;
+        if body.terms.len() > 1 || beam.hole {
+            let message = "`beam` stands alone: it cannot be part of a sum";
+            let help = "weld another body to its root or its tip by a `fixed` joint";
+            self.diagnostics.error_with_help(word, message, help);
+            return None;
+        }
+        if let Some(placement) = &beam.placement {
+            let message = "a beam starts at the origin of its frame";
+            let help = "place the joint instead";
+            self.diagnostics
+                .error_with_help(placement.keyword, message, help);
+            return None;
+        }
+        static SIGNATURE: Row = BEAM;
+        let arguments = self.arguments(&beam.shape, &SIGNATURE);
+        let declared = self.beam_of(body, word, &arguments);
+        let is_right = declared.is_some();
+        self.stations.declare(&body.name, declared);
+        is_right.then_some(())
+    }
+
+    fn beam_of(
+        &mut self,
+        body: &ast::Body,
+        word: &Ident,
+        given: &Arguments<'_>,
+    ) -> Option<Declared> {
+        let name = &body.name;
+        let spin = match &body.spinning {
+            Some(value) => self.scalar_of(value, Dimension::RATE, "the speed of spinning"),
+            None => Some(Expr::Number(0.0)),
+        };
+        let length = given.get("length").and_then(|value| {
+            let length = self.scalar_of(value, Dimension::LENGTH, "`length`")?;
+            self.require_of_beam(name, "length", &length, Dimension::LENGTH, value);
+            Some(length)
+        });
+        let axes = self.axes_of_beam(given);
+        let table = self.table(name, word, given);
+        let twist = match given.get("twist") {
+            Some(value) => self.scalar_of(value, Expected::angle(), "`twist`"),
+            None => Some(Expr::Number(0.0)),
+        };
+        let lag = match given.get("lag") {
+            Some(value) => self.scalar_of(value, Dimension::TIME, "`lag`"),
+            None => Some(Expr::Number(0.0)),
+        };
+        let counts = self.counts(word, given, table.as_ref());
+        let strains = self.strains_of_beam(given, counts);
+        let points = self.points_of_beam(given, counts, strains);
+        let (length, axes, table, twist) = (length?, axes?, table?, twist?);
+        let declared = Declared {
+            length,
+            axes,
+            counts: counts?,
+            strains: strains?.0,
+            static_shear: strains?.1,
+            points: points?,
+            table,
+            twist,
+            spin: spin?,
+            lag: lag?,
+        };
+        if let Some(value) = &body.spinning {
+            self.require_round(value, &declared)?;
+        }
+        self.require_sections(name, word, &declared);
+        Some(declared)
+    }
+
+    /// Along the beam, the axis of bending about which the height stands, and up.
+    fn axes_of_beam(&mut self, given: &Arguments<'_>) -> Option<[Vector; 3]> {
+        let mut direction = |name: &str| {
+            let value = given.get(name)?;
+            Some((self.direction(value, ValueContext::Parameter)?, value))
+        };
+        let (along, up) = (direction("along"), direction("up"));
+        let ((along, _), (up, at)) = (along?, up?);
+        if let Expr::Number(cosine) = simplify::dot(&along, &up)
+            && cosine.abs() > 1e-9
+        {
+            let message = "`up` must be perpendicular to `along`";
+            let help = "it is the direction of the height of the section";
+            self.diagnostics.error_with_help(at.extent, message, help);
+            return None;
+        }
+        let across = simplify::cross(&up, &along);
+        Some([along, across, up])
+    }
+
+    /// The number of coordinates of twist, of bending about the second axis and about the third.
+    fn counts(
+        &mut self,
+        word: &Ident,
+        given: &Arguments<'_>,
+        table: Option<&Table>,
+    ) -> Option<[usize; 3]> {
+        let mut count = |name: &str| match given.get(name) {
+            Some(value) => self.whole(value, name, 0..=MOST).map(Some),
+            None => Some(None),
+        };
+        let [torsion, bending, y, z] =
+            ["torsion", "bending", "bending_y", "bending_z"].map(&mut count);
+        let (torsion, bending, y, z) = (torsion?, bending?, y?, z?);
+        let both = bending
+            .or((y.is_none() && z.is_none()).then_some(5))
+            .unwrap_or(0);
+        let (y, z) = (y.unwrap_or(both), z.unwrap_or(both));
+        let twists = table.is_some_and(Table::knows_torsion);
+        let torsion = torsion.unwrap_or(if twists && y > 0 && z > 0 { 2 } else { 0 });
+        let stretches = given.get("stretch").is_some();
+        if torsion + y + z == 0 && !stretches {
+            let message = "this beam has no coordinates: it is rigid";
+            let help = "give `bending: 5`, `bending_y`, `bending_z` or `torsion`, or use a `rod`";
+            self.diagnostics.error_with_help(word, message, help);
+            return None;
+        }
+        Some([torsion, y, z])
+    }
+
+    /// The numbers of coordinates of stretch and of shear along the second and the third axis, and whether shear is
+    /// static.
+    fn strains_of_beam(
+        &mut self,
+        given: &Arguments<'_>,
+        counts: Option<[usize; 3]>,
+    ) -> Option<([usize; 3], bool)> {
+        let stretch = match given.get("stretch") {
+            Some(value) => self.whole(value, "stretch", 1..=MOST),
+            None => Some(0),
+        };
+        let [_, about_y, about_z] = counts?;
+        let Some(value) = given.get("shear") else {
+            return Some(([stretch?, 0, 0], false));
+        };
+        if matches!(&value.kind, ValueKind::Name(word) if word == "static") {
+            return Some(([stretch?, 0, 0], true));
+        }
+        let is_number = matches!(value.kind, ValueKind::Number(..));
+        if !is_number {
+            let message = "`shear` is `static` or a number of coordinates";
+            self.diagnostics.error(value.extent, message);
+            return None;
+        }
+        let shear = self.whole(value, "shear", 1..=MOST)?;
+        let along = |bends: usize| if bends > 0 { shear } else { 0 };
+        Some(([stretch?, along(about_z), along(about_y)], false))
+    }
+
+    fn points_of_beam(
+        &mut self,
+        given: &Arguments<'_>,
+        counts: Option<[usize; 3]>,
+        strains: Option<([usize; 3], bool)>,
+    ) -> Option<usize> {
+        let most = counts?.into_iter().chain(strains?.0).max()?;
+        match given.get("points") {
+            Some(value) => self.whole(value, "points", most..=2 * MOST),
+            None => Some(most + 2),
+        }
+    }
+
+    /// A whole number that is written as one.
+    fn whole(
+        &mut self,
+        value: &Value,
+        name: &str,
+        range: std::ops::RangeInclusive<usize>,
+    ) -> Option<usize> {
+        if let ValueKind::Number(number, None) = value.kind
+            && number.fract() == 0.0
+            && range.contains(&(number as usize))
+            && number >= 0.0
+        {
+            return Some(number as usize);
+        }
+        let message = format!(
+            "`{name}` is a whole number from {} to {}",
+            range.start(),
+            range.end()
+        );
+        self.diagnostics.error(value.extent, message);
+        None
+    }
+
+    /// A beam that turns about its own axis is steady only if it is the same in all directions.
+    fn require_round(&mut self, at: &Value, declared: &Declared) -> Option<()> {
+        let section = declared.section(0.0);
+        let [_, about_y, about_z] = &section.stiffness;
+        let [inertia_y, inertia_z] = &section.inertia;
+        let [_, y, z] = declared.counts;
+        let problem = if y != z {
+            "bends in one plane more than in the other"
+        } else if about_y != about_z || inertia_y != inertia_z {
+            "is not round"
+        } else if declared.twist != Expr::Number(0.0) {
+            "is twisted"
+        } else {
+            return Some(());
+        };
+        let message = format!("a beam that spins and {problem} has no steady motion");
+        let help = "use a `circle` or a `tube`, or the same number for both planes, with the same `bending`";
+        self.diagnostics.error_with_help(at.extent, message, help);
+        None
+    }
+
+    fn require_of_beam(
+        &mut self,
+        name: &Ident,
+        what: &str,
+        value: &Expr,
+        dimension: Dimension,
+        at: &Value,
+    ) {
+        self.requirements.push(Requirement {
+            what: format!("the {what} of `{name}`"),
+            values: vec![value.clone()],
+            demand: Demand::Positive(dimension),
+            extent: at.extent,
+        });
+    }
+
+    /// Mass and stiffness must be positive all along the beam, also within the tolerances.
+    fn require_sections(&mut self, name: &Ident, word: &Ident, declared: &Declared) {
+        // Dimensions change linearly: what is positive at both ends is so between them.
+        let ends = [0.0, 1.0].map(|place| declared.section(place));
+        let mut demands = vec![(
+            "mass per length",
+            Dimension::LINE_DENSITY,
+            (|section: &Section| section.mass.clone()) as fn(&Section) -> Expr,
+        )];
+        let stiffness = Dimension::new(3, 1, -2);
+        let of: [(&str, fn(&Section) -> Expr); 3] = [
+            ("torsional stiffness", |section| {
+                section.stiffness[0].clone()
+            }),
+            ("bending stiffness about y", |section| {
+                section.stiffness[1].clone()
+            }),
+            ("bending stiffness about z", |section| {
+                section.stiffness[2].clone()
+            }),
+        ];
+        let [about_y, about_z] = [declared.counts[1], declared.counts[2]];
+        let shears = |strains: usize, bends: usize| match declared.static_shear {
+            true => bends,
+            false => strains,
+        };
+        let strained: [(&str, fn(&Section) -> Expr, usize); 3] = [
+            (
+                "axial stiffness",
+                |section| section.against_strain[0].clone(),
+                declared.strains[0],
+            ),
+            (
+                "shear stiffness along y",
+                |section| section.against_strain[1].clone(),
+                shears(declared.strains[1], about_z),
+            ),
+            (
+                "shear stiffness along z",
+                |section| section.against_strain[2].clone(),
+                shears(declared.strains[2], about_y),
+            ),
+        ];
+        let strained = strained.into_iter().filter(|(.., count)| *count > 0);
+        demands.extend(strained.map(|(what, of, _)| (what, Dimension::FORCE, of)));
+        let used = of
+            .into_iter()
+            .zip(declared.counts)
+            .filter(|(_, count)| *count > 0);
+        demands.extend(used.map(|((what, of), _)| (what, stiffness, of)));
+        for (what, dimension, of) in demands {
+            self.requirements.push(Requirement {
+                what: format!("the {what} of `{name}`"),
+                values: ends.iter().map(of).collect(),
+                demand: Demand::Positive(dimension),
+                extent: word.into(),
+            });
+        }
+    }
+}

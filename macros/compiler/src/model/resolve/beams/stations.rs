@@ -1,0 +1,298 @@
+//! Places along beams to which something is attached.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::Ident;
+
+use super::super::coordinates;
+use super::super::placements::unplaced;
+use super::super::resolver::Resolver;
+use super::Declared;
+use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId};
+use crate::model::expression::Expr;
+use crate::model::mechanism::{
+    Beam, Body, Coordinate, CoordinateQuantity, Frame, Joint, Motion, Point, Station,
+};
+use crate::model::simplify;
+use crate::syntax::ast::{ItemKind, Value, ValueKind};
+
+/// The beams of a declaration and the stations used so far. Every beam has a station at its tip.
+#[derive(Debug, Default)]
+pub(in crate::model::resolve) struct Stations {
+    beams: Vec<(Ident, Option<Declared>)>,
+    /// The beam and the fraction of its length.
+    used: Vec<(usize, f64)>,
+}
+
+/// The first number of what beams add.
+struct First {
+    body: usize,
+    joint: usize,
+    coordinate: usize,
+}
+
+/// A part of a beam that nothing interrupts.
+struct Piece {
+    name: String,
+    /// Where it starts, and the body there.
+    root: (f64, BodyId),
+    end: f64,
+    /// Its stations, from the root outwards; the last is its end.
+    stations: Vec<(f64, BodyId)>,
+}
+
+impl Stations {
+    pub(super) fn declare(&mut self, name: &Ident, beam: Option<Declared>) {
+        self.used.push((self.beams.len(), 1.0));
+        self.beams.push((name.clone(), beam));
+    }
+}
+
+impl Resolver<'_> {
+    /// The station that a place means on a frame: `tip`, `root` or a fraction of the length of a beam; `None` if it is
+    /// an ordinary place, with an inner `None` if it is wrong.
+    pub(in crate::model::resolve) fn station(
+        &mut self,
+        frame: &Ident,
+        place: &Value,
+    ) -> Option<Option<Frame>> {
+        let beam = self
+            .stations
+            .beams
+            .iter()
+            .position(|(name, _)| name == frame);
+        let fraction = match &place.kind {
+            ValueKind::Fraction(fraction) => *fraction,
+            ValueKind::Name(word) if beam.is_some() && word == "tip" => 1.0,
+            ValueKind::Name(word) if beam.is_some() && word == "root" => 0.0,
+            _ => return None,
+        };
+        let Some(beam) = beam else {
+            let message = format!("`{frame}` is not a beam: it has no places along it");
+            let help = format!("place it by a vector: `{frame} at [0.1 m, 0, 0]`");
+            self.diagnostics
+                .error_with_help(place.extent, message, help);
+            return Some(None);
+        };
+        if !(0.0..=1.0).contains(&fraction) {
+            let message = format!("{fraction} is outside the beam, which goes from 0 to 1 length");
+            self.diagnostics.error(place.extent, message);
+            return Some(None);
+        }
+        let root = self.frame(frame);
+        if fraction == 0.0 {
+            return Some(root);
+        }
+        let known = self
+            .stations
+            .used
+            .iter()
+            .position(|own| *own == (beam, fraction));
+        let index = known.unwrap_or_else(|| {
+            self.stations.used.push((beam, fraction));
+            self.stations.used.len() - 1
+        });
+        let bodies = self.items_that(|kind| matches!(kind, ItemKind::Body(_)));
+        root.map(|_| Some(Frame::Body(BodyId::new(bodies + index))))
+    }
+
+    pub(in crate::model::resolve) fn is_beam(&self, name: &Ident) -> bool {
+        self.stations.beams.iter().any(|(own, _)| own == name)
+    }
+
+    fn items_that(&self, is: fn(&ItemKind) -> bool) -> usize {
+        self.ast.items.iter().filter(|item| is(&item.kind)).count()
+    }
+
+    /// The beams with their stations, which are added to the bodies and joints, and their coordinates. A beam is split
+    /// where a load stands on it: its moment has a kink there, which no polynomial has.
+    pub(in crate::model::resolve) fn beams(
+        &mut self,
+        bodies: &mut Vec<Body>,
+        joints: &mut Vec<Joint>,
+        points: &[Point],
+    ) -> Vec<Beam> {
+        let stations = std::mem::take(&mut self.stations);
+        let first = First {
+            body: self.items_that(|kind| matches!(kind, ItemKind::Body(_))),
+            joint: coordinates::joints(self.ast).count(),
+            coordinate: self.coordinates.len(),
+        };
+        let mut beams = Vec::new();
+        let is_whole = bodies.len() == first.body
+            && joints.len() == first.joint
+            && self.declared_coordinates.len() == first.coordinate
+            && stations.beams.iter().all(|(_, beam)| beam.is_some());
+        if !is_whole {
+            return beams;
+        }
+        let loaded = self.loaded(joints, points);
+        for (index, (beam, place)) in stations.used.iter().enumerate() {
+            let name = &stations.beams[*beam].0;
+            let word = match *place == 1.0 {
+                true => "tip".to_owned(),
+                false => format!("station_{index}"),
+            };
+            bodies.push(Body {
+                name: self.unused(&format!("{name}_{word}"), name),
+                parts: Vec::new(),
+            });
+        }
+        for (index, (name, declared)) in stations.beams.iter().enumerate() {
+            let root = bodies.iter().position(|body| body.name == *name);
+            let (Some(declared), Some(root)) = (declared, root) else {
+                continue;
+            };
+            let mut own: Vec<(f64, BodyId)> = stations
+                .used
+                .iter()
+                .enumerate()
+                .filter(|(_, (beam, _))| *beam == index)
+                .map(|(k, (_, place))| (*place, BodyId::new(first.body + k)))
+                .collect();
+            own.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let ends: Vec<(f64, BodyId)> = own
+                .iter()
+                .filter(|(place, body)| *place == 1.0 || loaded.contains(&Frame::Body(*body)))
+                .copied()
+                .collect();
+            let mut start = (0.0, BodyId::new(root));
+            for (number, end) in ends.iter().enumerate() {
+                let name = match ends.len() {
+                    1 => name.to_string(),
+                    _ => format!("{name}_{}", number + 1),
+                };
+                let within = own
+                    .iter()
+                    .filter(|(place, _)| start.0 < *place && *place <= end.0);
+                let piece = Piece {
+                    name,
+                    root: start,
+                    end: end.0,
+                    stations: within.copied().collect(),
+                };
+                beams.push(self.piece(
+                    &stations.beams[index].0,
+                    declared,
+                    piece,
+                    beams.len(),
+                    bodies,
+                    joints,
+                ));
+                start = *end;
+            }
+        }
+        beams
+    }
+
+    /// A part of a beam between loads, or all of it.
+    fn piece(
+        &mut self,
+        whole: &Ident,
+        declared: &Declared,
+        piece: Piece,
+        number: usize,
+        bodies: &[Body],
+        joints: &mut Vec<Joint>,
+    ) -> Beam {
+        let (start, root) = piece.root;
+        let share = piece.end - start;
+        let mut stations = Vec::new();
+        for (place, body) in &piece.stations {
+            let joint = JointId::new(joints.len());
+            joints.push(Joint {
+                name: bodies[body.index()].name.clone(),
+                word: "flexure",
+                closing: None,
+                steps: Vec::new(),
+                from: Frame::Body(root),
+                to: Frame::Body(*body),
+                from_placement: unplaced(),
+                to_placement: unplaced(),
+                cut: false,
+                flexure: Some((BeamId::new(number), stations.len())),
+            });
+            stations.push(Station {
+                place: (place - start) / share,
+                section: declared.section(*place),
+                body: *body,
+                joint,
+            });
+        }
+        let joint = JointId::new(joints.len() - 1);
+        let mut component = |word: &str, count: usize| -> Vec<CoordinateId> {
+            let mut ids = Vec::new();
+            for k in 0..count {
+                ids.push(CoordinateId::new(self.declared_coordinates.len()));
+                let name = self.unused(&format!("{}_{word}_{k}", piece.name), whole);
+                self.declared_coordinates.push(Coordinate {
+                    name,
+                    joint,
+                    quantity: CoordinateQuantity::Angle,
+                    motion: Motion::Free,
+                });
+            }
+            ids
+        };
+        let [torsion, y, z] = declared.counts;
+        let [stretch, shear_y, shear_z] = declared.strains;
+        Beam {
+            name: piece.name.clone(),
+            whole: whole.clone(),
+            body: root,
+            length: simplify::multiply(Expr::Number(share), declared.length.clone()),
+            axes: declared.axes.clone(),
+            coordinates: [
+                component("torsion", torsion),
+                component("bend_y", y),
+                component("bend_z", z),
+            ],
+            strains: [
+                component("stretch", stretch),
+                component("shear_y", shear_y),
+                component("shear_z", shear_z),
+            ],
+            static_shear: declared.static_shear,
+            root: declared.section(start),
+            sections: declared.sections(start, piece.end),
+            stations,
+            spin: declared.spin.clone(),
+            lag: declared.lag.clone(),
+        }
+    }
+
+    /// The bodies on which loads stand: those with a joint, or with a point that a force, a constraint or an excitation
+    /// names.
+    fn loaded(&self, joints: &[Joint], points: &[Point]) -> Vec<Frame> {
+        let mut names = BTreeSet::new();
+        for item in &self.ast.items {
+            let call = match &item.kind {
+                ItemKind::Force(force) => &force.law,
+                ItemKind::Constraint(constraint) => &constraint.law,
+                _ => continue,
+            };
+            let arguments = call.arguments.iter().flatten();
+            names.extend(
+                arguments
+                    .flat_map(|own| own.value.names())
+                    .map(Ident::to_string),
+            );
+        }
+        let of_joints = joints.iter().flat_map(|joint| [joint.from, joint.to]);
+        let of_points = points
+            .iter()
+            .filter(|point| names.contains(&point.name.to_string()));
+        of_joints
+            .chain(of_points.map(|point| point.frame))
+            .collect()
+    }
+
+    /// A name that nothing else has.
+    fn unused(&self, wanted: &str, at: &Ident) -> Ident {
+        let mut name = wanted.to_owned();
+        while self.scope.find(&name).is_some() {
+            name.push('_');
+        }
+        Ident::new(&name, at.span())
+    }
+}

@@ -1,0 +1,20 @@
+//! Beams against reference values that were computed without polynomials (transfer matrices, shooting): frequencies and
+//! their total derivatives, at rest, spinning, pretwisted, tapered, with a heavy tip and bent far.
+//!
+//! The reference values are those of `tests/truth/flexible`. With ten coordinates the lowest modes are exact to rounding
+//! and each higher one is less so; the bars say how much, mode by mode.
+
+#[path = "beams/bent.rs"]
+mod bent;
+#[path = "beams/compared.rs"]
+mod compared;
+#[path = "beams/composed.rs"]
+mod composed;
+#[path = "beams/damped.rs"]
+mod damped;
+#[path = "beams/rotating.rs"]
+mod rotating;
+#[path = "beams/strained.rs"]
+mod strained;
+#[path = "beams/twisted.rs"]
+mod twisted;
