@@ -4,7 +4,7 @@ mod vibration {
     mod bands;
     mod closed_forms;
     mod exceedance;
-    mod rigid_rotor;
     mod requirements;
+    mod rigid_rotor;
     mod shares;
 }

@@ -53,7 +53,7 @@ pub fn derive(
         }
     };
     for beam in &mechanism.beams {
-        if beam.name != beam.whole.to_string() {
+        if beam.whole != beam.name {
             let root = &mechanism.bodies[beam.body.index()].name;
             functions.free.notes.push(format!(
                 "`{}` carries loads between its ends, so it is split there: `{}` starts at `{root}`",

@@ -19,7 +19,10 @@ pub fn share_sensitivities(
     let mut each: Vec<Vibration> = solved.vibrations.iter().flat_map(alone).collect();
     each.sort_by_key(|own| own.harmonic.shares[0].excitation);
     solved.vibrations = each;
-    first_derivatives(&solved)
+    Ok(ForcedSensitivities {
+        harmonics: first_derivatives(&solved)?,
+        response: solved.response(),
+    })
 }
 
 /// The vibrations that the excitations of a harmonic cause by themselves.
@@ -33,5 +36,6 @@ fn alone(of: &Vibration) -> impl Iterator<Item = Vibration> {
             shares: vec![share.clone()],
         },
         stiffness: of.stiffness.clone(),
+        seen: of.seen.clone(),
     })
 }

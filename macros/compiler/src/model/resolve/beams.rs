@@ -339,56 +339,49 @@ impl Resolver<'_> {
     fn require_sections(&mut self, name: &Ident, word: &Ident, declared: &Declared) {
         // Dimensions change linearly: what is positive at both ends is so between them.
         let ends = [0.0, 1.0].map(|place| declared.section(place));
-        let mut demands = vec![(
-            "mass per length",
-            Dimension::LINE_DENSITY,
-            (|section: &Section| section.mass.clone()) as fn(&Section) -> Expr,
-        )];
-        let stiffness = Dimension::new(3, 1, -2);
-        let of: [(&str, fn(&Section) -> Expr); 3] = [
-            ("torsional stiffness", |section| {
-                section.stiffness[0].clone()
-            }),
-            ("bending stiffness about y", |section| {
-                section.stiffness[1].clone()
-            }),
-            ("bending stiffness about z", |section| {
-                section.stiffness[2].clone()
-            }),
-        ];
-        let [about_y, about_z] = [declared.counts[1], declared.counts[2]];
+        let [torsion, about_y, about_z] = declared.counts;
         let shears = |strains: usize, bends: usize| match declared.static_shear {
             true => bends,
             false => strains,
         };
-        let strained: [(&str, fn(&Section) -> Expr, usize); 3] = [
-            (
-                "axial stiffness",
-                |section| section.against_strain[0].clone(),
-                declared.strains[0],
-            ),
+        let bending = Dimension::new(3, 1, -2);
+        let [stretch, shear_y, shear_z] = declared.strains;
+        let (shear_y, shear_z) = (shears(shear_y, about_z), shears(shear_z, about_y));
+        type Of = fn(&Section) -> &Expr;
+        let demands: [(&str, Dimension, usize, Of); 7] = [
+            ("mass per length", Dimension::LINE_DENSITY, 1, |own| {
+                &own.mass
+            }),
+            ("torsional stiffness", bending, torsion, |own| {
+                &own.stiffness[0]
+            }),
+            ("bending stiffness about y", bending, about_y, |own| {
+                &own.stiffness[1]
+            }),
+            ("bending stiffness about z", bending, about_z, |own| {
+                &own.stiffness[2]
+            }),
+            ("axial stiffness", Dimension::FORCE, stretch, |own| {
+                &own.against_strain[0]
+            }),
             (
                 "shear stiffness along y",
-                |section| section.against_strain[1].clone(),
-                shears(declared.strains[1], about_z),
+                Dimension::FORCE,
+                shear_y,
+                |own| &own.against_strain[1],
             ),
             (
                 "shear stiffness along z",
-                |section| section.against_strain[2].clone(),
-                shears(declared.strains[2], about_y),
+                Dimension::FORCE,
+                shear_z,
+                |own| &own.against_strain[2],
             ),
         ];
-        let strained = strained.into_iter().filter(|(.., count)| *count > 0);
-        demands.extend(strained.map(|(what, of, _)| (what, Dimension::FORCE, of)));
-        let used = of
-            .into_iter()
-            .zip(declared.counts)
-            .filter(|(_, count)| *count > 0);
-        demands.extend(used.map(|((what, of), _)| (what, stiffness, of)));
-        for (what, dimension, of) in demands {
+        let demands = demands.into_iter().filter(|(_, _, used, _)| *used > 0);
+        for (what, dimension, _, of) in demands {
             self.requirements.push(Requirement {
                 what: format!("the {what} of `{name}`"),
-                values: ends.iter().map(of).collect(),
+                values: ends.iter().map(|own| of(own).clone()).collect(),
                 demand: Demand::Positive(dimension),
                 extent: word.into(),
             });

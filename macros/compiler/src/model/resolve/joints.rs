@@ -32,7 +32,7 @@ impl Resolver<'_> {
         let kind = self.kind(joint);
         let steps = kind.and_then(|kind| self.steps(joint, id, kind));
         let mut from = match &joint.from_station {
-            Some(place) => self.from_station(joint, place),
+            Some(place) => self.station_before_to(joint, place),
             None => self.frame(&joint.from),
         };
         let mut to = self.frame(&joint.to);
@@ -104,7 +104,7 @@ impl Resolver<'_> {
         Some(())
     }
 
-    fn from_station(&mut self, joint: &ast::Joint, place: &Value) -> Option<Frame> {
+    fn station_before_to(&mut self, joint: &ast::Joint, place: &Value) -> Option<Frame> {
         let station = self.station(&joint.from, place);
         if station.is_none() {
             let message = "before `to` stands a place along a beam: `at tip` or `at 0.4 length`";
