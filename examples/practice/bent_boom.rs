@@ -1,7 +1,7 @@
 //! How far does a slender glass-fibre boom bend under its load, how near is it to breaking, and how does it swing when it
 //! is bent?
 //!
-//! Linear theory answers none of these: it puts the tip farther out than the boom is long, and misses a fifth of the
+//! Linear theory answers none of these: it puts the tip farther out than the boom is long, and misses a quarter of the
 //! frequency.
 
 use std::error::Error;
