@@ -14,8 +14,11 @@ use eigentol::kernels::{PictureKernels, SummaryKernels};
 #[cfg(feature = "reports")]
 use eigentol_report::Report;
 
+pub mod bent_boom;
 pub mod centrifuge;
 pub mod fan;
+pub mod flexible_arm;
+pub mod flexible_blade;
 pub mod fly_ball_governor;
 pub mod gear_train;
 pub mod grinding_spindle;
@@ -43,7 +46,7 @@ pub struct Question {
 }
 
 /// All questions.
-pub const QUESTIONS: [Question; 10] = [
+pub const QUESTIONS: [Question; 13] = [
     Question {
         name: "helicopter_blade",
         answer: helicopter_blade::answer,
@@ -93,6 +96,21 @@ pub const QUESTIONS: [Question; 10] = [
         name: "fan",
         answer: fan::answer,
         report: |path| save(&fan::study(), path),
+    },
+    Question {
+        name: "flexible_blade",
+        answer: flexible_blade::answer,
+        report: |path| save(&flexible_blade::study(), path),
+    },
+    Question {
+        name: "flexible_arm",
+        answer: flexible_arm::answer,
+        report: |path| save(&flexible_arm::study(), path),
+    },
+    Question {
+        name: "bent_boom",
+        answer: bent_boom::answer,
+        report: |path| save(&bent_boom::study(bent_boom::WORKING), path),
     },
 ];
 

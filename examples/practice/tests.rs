@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 use eigentol::Study;
 
 use super::{
-    QUESTIONS, Question, RPM, centrifuge, fan, fly_ball_governor, gear_train, grinding_spindle,
-    helicopter_blade, slider_crank_press, turbine_blade, turntable_arm,
+    QUESTIONS, Question, RPM, bent_boom, centrifuge, fan, flexible_arm, flexible_blade,
+    fly_ball_governor, gear_train, grinding_spindle, helicopter_blade, slider_crank_press,
+    turbine_blade, turntable_arm,
 };
 
 const G: f64 = 9.81;
@@ -215,4 +216,90 @@ fn the_grade_of_a_fan_is_that_of_designs_solved_anew() {
     let share = fan::too_loud(fan::coarsest().unwrap()).unwrap();
     // 0.0023 is the standard deviation of the share in 4000 samples.
     assert!((share - 0.0228).abs() < 0.008, "{share}");
+}
+
+/// J. R. Wright, C. E. Smith, R. W. Thresher and J. C. Wang, 1982: flapping of a uniform beam clamped on an axis, against
+/// its speed, both times `sqrt(mass per length length^4 / EI)`.
+#[test]
+fn an_untapered_blade_flaps_as_published() {
+    use flexible_blade::{FlexibleBlade, study};
+    let (length, thickness) = (0.6_f64, 1e-3);
+    let scale = (12.0 * 2700.0 / 70e9_f64).sqrt() * length * length / thickness;
+    let uniform = study()
+        .design(FlexibleBlade::hub, 0.0)
+        .design(FlexibleBlade::tip_chord, 0.12)
+        .design(FlexibleBlade::thickness, thickness)
+        .design(FlexibleBlade::tip_thickness, thickness)
+        .design(FlexibleBlade::setting, 0.0)
+        .design(FlexibleBlade::washout, 0.0);
+    for (speed, published, error) in [
+        (1.0, 3.6817, 2e-5),
+        (3.0, 4.7973, 1e-4),
+        (6.0, 7.3604, 5e-4),
+    ] {
+        let modes = uniform.clone().input(FlexibleBlade::speed, speed / scale);
+        let first = modes.modes().unwrap().frequencies()[0].unwrap();
+        close(first * scale, published, error);
+    }
+}
+
+/// A light load on an arm without mass of its own: the compliances of both gears and of the link add up.
+#[test]
+fn an_arm_is_as_soft_as_its_parts_together() {
+    use flexible_arm::{FlexibleArm, of, study};
+    let (a, b, payload) = (1.2_f64, 0.8_f64, 1e-2);
+    let bending = 70e9 * PI / 4.0 * (0.045_f64.powi(4) - 0.042_f64.powi(4));
+    let gears = (a + b).powi(2) / 120e3 + b * b / 40e3;
+    let link = (a.powi(3) / 3.0 + a * a * b + a * b * b) / bending;
+    let light = study()
+        .design(FlexibleArm::tube_density, 1e-6)
+        .design(FlexibleArm::fore_mass, 1e-6)
+        .design(FlexibleArm::payload, payload);
+    let [height, lowest] = of(&light).unwrap();
+    close(-height, payload * G * (gears + link), 1e-3);
+    close(
+        2.0 * PI * lowest,
+        (payload * (gears + link)).sqrt().recip(),
+        1e-3,
+    );
+}
+
+/// Euler's elastica, `EI theta'' = P cos(theta)`, integrated from the tip whose slope gives that of the clamp.
+#[test]
+fn a_boom_without_weight_is_an_elastica() {
+    use bent_boom::{BentBoom, WORKING, study};
+    let (length, rise) = (3.0, 30f64.to_radians());
+    let ratio = WORKING * G / (40e9 * PI / 4.0 * 8e-3_f64.powi(4));
+    let steps = 2000;
+    let step = -length / f64::from(steps);
+    // theta, its slope, x and z, along the boom
+    let slope = |y: [f64; 4]| [y[1], ratio * y[0].cos(), y[0].cos(), y[0].sin()];
+    let moved = |y: [f64; 4], d: [f64; 4], h: f64| std::array::from_fn(|k| y[k] + h * d[k]);
+    let root = |tip: f64| {
+        let mut y = [tip, 0.0, 0.0, 0.0];
+        for _ in 0..steps {
+            let a = slope(y);
+            let b = slope(moved(y, a, 0.5 * step));
+            let c = slope(moved(y, b, 0.5 * step));
+            let d = slope(moved(y, c, step));
+            y = std::array::from_fn(|k| y[k] + step / 6.0 * (a[k] + 2.0 * (b[k] + c[k]) + d[k]));
+        }
+        y
+    };
+    let (mut low, mut high) = (-PI / 2.0, rise);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match root(middle)[0] < rise {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    let [_, _, x, z] = root(low);
+    let outputs = study(WORKING)
+        .design(BentBoom::density, 1e-6)
+        .outputs()
+        .unwrap();
+    close(outputs.values[0], -x, 1e-6);
+    close(outputs.values[1], -z, 1e-5);
+    close(outputs.values[2].abs(), 8e-3 * ratio * -x, 1e-6);
 }

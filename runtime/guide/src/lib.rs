@@ -10,6 +10,7 @@
 //! | [Which equilibrium](equilibria) | unstable ones, families of steady motions, machines that nothing holds |
 //! | [Rotors](rotors) | whirl, Campbell diagrams, critical speeds, instability |
 //! | [Forced vibration](vibration) | unbalance, shaking and harmonic loads: amplitudes, bands, the balance grade |
+//! | [Blades, booms and arms](beams) | flexible beams: how many coordinates, how exact, and when not to use them |
 //! | [Theory](theory) | the equations, with the numbers of the paper |
 //! | [Embedding](embedding) | Python, C, build scripts, no standard library |
 //! | [Performance](performance) | measurements, and where the numbers come from |
@@ -41,6 +42,9 @@ pub mod rotors {}
 
 #[doc = include_str!("vibration.md")]
 pub mod vibration {}
+
+#[doc = include_str!("beams.md")]
+pub mod beams {}
 
 #[doc = include_str!("theory.md")]
 pub mod theory {}
