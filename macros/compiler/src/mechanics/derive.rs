@@ -163,7 +163,10 @@ fn unknowns(context: &Context) -> Vec<Unknown> {
         let coordinate = &mechanism.coordinates[id.index()];
         Unknown {
             name: coordinate.name.to_string(),
-            unit: format!("{}{per_second}", coordinate.quantity.unit()),
+            unit: match mechanism.strains(id) {
+                true => "1".to_owned(),
+                false => format!("{}{per_second}", coordinate.quantity.unit()),
+            },
             role: role(id),
         }
     };

@@ -92,6 +92,15 @@ impl Mechanism {
         !self.bodies[body.index()].parts.is_empty() || self.beam(body).is_some()
     }
 
+    /// Whether a coordinate is a strain of a beam.
+    pub fn strains(&self, id: CoordinateId) -> bool {
+        let all = self
+            .beams
+            .iter()
+            .flat_map(|beam| beam.strains.iter().flatten());
+        all.into_iter().any(|own| *own == id)
+    }
+
     /// The beam that a body is.
     pub fn beam(&self, body: BodyId) -> Option<BeamId> {
         let place = self.beams.iter().position(|beam| beam.body == body);

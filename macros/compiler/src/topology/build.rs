@@ -33,6 +33,14 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     };
     for branch in &topology.branches {
         let joint = &mechanism.joints[branch.joint.index()];
+        if joint.flexure.is_some() && branch.reversed {
+            let beam = &mechanism.bodies[branch.body.index()].name;
+            diagnostics.error_with_help(
+                beam,
+                format!("nothing holds `{beam}` at its root"),
+                "a beam is carried by its root; what holds its tip or a place along it closes a loop: turn the beam around",
+            );
+        }
         if mechanism.glides(joint) && (branch.parent != Frame::Ground || branch.reversed) {
             diagnostics.error_with_help(
                 &joint.name,
@@ -90,7 +98,16 @@ impl Graph {
             }
             if let Some(path) = graph.path(from, to) {
                 let mut closing = path;
-                closing.push(id);
+                match joint.flexure {
+                    None => closing.push(id),
+                    // A beam hangs on its root: what may be cut lies between the ground and its station.
+                    Some(_) => {
+                        let inwards = graph.path(from, 0).unwrap_or_default();
+                        let pairs = closing.iter().zip(&inwards);
+                        let shared = pairs.take_while(|(own, other)| own == other).count();
+                        closing.drain(..shared);
+                    }
+                }
                 match cut::choose(mechanism, &closing, &needed, diagnostics) {
                     None => continue,
                     Some(chosen) => {

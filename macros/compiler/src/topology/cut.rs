@@ -77,7 +77,14 @@ pub(super) fn choose(
     let freedom = |id: &JointId| mechanism.joints[id.index()].steps.len();
     let free = joints.iter().filter(|id| !needed[id.index()]);
     let chosen = free.max_by_key(|id| freedom(id)).copied();
-    if chosen.is_none() {
+    if chosen.is_none() && joints.is_empty() {
+        let message = "a beam hangs on itself: something it carries holds its root";
+        diagnostics.error_with_help(
+            &mechanism.name,
+            message,
+            "let the ground, or a body before it, hold the root",
+        );
+    } else if chosen.is_none() {
         let names: Vec<String> = joints
             .iter()
             .map(|id| format!("`{}`", mechanism.joints[id.index()].name))

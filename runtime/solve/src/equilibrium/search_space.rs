@@ -259,7 +259,13 @@ pub(super) fn greatest_gap(
     let structure = point.structure;
     structure.position_rows().fold(0.0, |most: f64, row| {
         let motions = &q[..structure.coordinates];
-        most.max(relative_gap(residual[row], motions, &stiffness[row]))
+        let length = point.description.length;
+        most.max(relative_gap(
+            residual[row],
+            motions,
+            &stiffness[row],
+            length,
+        ))
     })
 }
 

@@ -35,7 +35,12 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
             return None;
         }
         let motions = &x[..structure.coordinates];
-        let relative = relative_gap(found.gaps[k], motions, &found.rows[k]);
+        let relative = relative_gap(
+            found.gaps[k],
+            motions,
+            &found.rows[k],
+            point.description.length,
+        );
         if relative > found.relative {
             (found.relative, found.worst) = (relative, k);
         }
