@@ -3,5 +3,11 @@
 
 #[path = "flexible/judged.rs"]
 mod judged;
+#[path = "flexible/objective.rs"]
+mod objective;
+#[path = "flexible/outputs.rs"]
+mod outputs;
 #[path = "flexible/random.rs"]
 mod random;
+#[path = "flexible/special.rs"]
+mod special;

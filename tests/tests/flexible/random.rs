@@ -87,7 +87,7 @@ impl Writer {
     fn carrier(&mut self) -> Place {
         let ground = Place {
             from: "ground".to_owned(),
-            point: "ground".to_owned(),
+            point: "ground at [0.3, -0.2, 0.5] m".to_owned(),
         };
         if self.spins {
             let hub = self.name("hub");
@@ -97,8 +97,8 @@ impl Writer {
                 "joint {joint}: revolute(z) from ground to {hub}, driven at omega;"
             ));
             return Place {
-                from: hub.clone(),
-                point: hub,
+                point: format!("{hub} at [0.3, -0.2, 0.5] m"),
+                from: hub,
             };
         }
         if self.random.chance(0.3) {
@@ -111,8 +111,8 @@ impl Writer {
         ));
         self.joint("ground", &carrier);
         Place {
-            from: carrier.clone(),
-            point: carrier,
+            point: format!("{carrier} at [0.3, -0.2, 0.5] m"),
+            from: carrier,
         }
     }
 
@@ -224,7 +224,7 @@ impl Writer {
         }
     }
 
-    /// A beam and some of its places; sometimes held by its tip.
+    /// A beam and some of its places.
     fn beam(&mut self, carrier: &Place) -> Vec<Place> {
         let name = self.name("beam");
         let (section, twists) = self.section();
@@ -268,15 +268,16 @@ impl Writer {
             )),
             6 | 7 => self.joint(&carrier.from, &name),
             // the other way round
-            8 => self.lines.push(format!(
-                "joint {clamp}: fixed from {name} to {}{placement};",
-                carrier.point
-            )),
-            // held by its tip
-            _ => self.lines.push(format!(
-                "joint {clamp}: fixed from {} to {name} at tip;",
-                carrier.point
-            )),
+            _ => {
+                let placement = match carrier.from.contains(" at ") {
+                    true => "",
+                    false => &placement,
+                };
+                self.lines.push(format!(
+                    "joint {clamp}: fixed from {name} to {}{placement};",
+                    carrier.from
+                ));
+            }
         }
         let place = |at: &str| Place {
             from: format!("{name} at {at}"),
@@ -310,6 +311,7 @@ impl Writer {
         }
     }
 
+    /// A point of the place; none coincides with one of another body.
     fn point(&mut self, place: &Place) -> String {
         let point = self.name("point");
         let turned = match self.random.chance(0.5) {
@@ -436,7 +438,11 @@ fn tmp() {
         judge("tmp", &machine, &state);
         return;
     }
-    let last: u64 = std::fs::read_to_string("/tmp/bo.last").unwrap().trim().parse().unwrap();
+    let last: u64 = std::fs::read_to_string("/tmp/bo.last")
+        .unwrap()
+        .trim()
+        .parse()
+        .unwrap();
     for seed in 0..last {
         let text = Writer::new(seed).machine();
         std::fs::write(format!("/tmp/bo_seeds/{seed}.mech"), &text).unwrap();
