@@ -20,7 +20,7 @@ machine! {
         output height = position(eye).z;
         output side = position(eye).y;
         output torque = reaction_moment(clamp).x;
-        output shear = norm(reaction_force(weld));
+        output shear = reaction_force(weld).y;
         output stored = potential_energy();
     }
 }

@@ -168,3 +168,21 @@ fn a_bending_rotor_on_a_tilting_base_is_refused() {
     let refusal = Machine::new(text).err().expect("refused");
     assert!(refusal.contains("depend on the driven"), "{refusal}");
 }
+
+/// A beam clamped at its root whose tip slides in a clamp: `cos bl cosh bl = 1`, `w = bl^2 sqrt(EI / m) / l^2`.
+#[test]
+fn a_beam_clamped_at_both_ends() {
+    let text = "mechanism Clamped {
+        body beam: beam(length: 2 m, along: x, up: z, mass_per_length: 0.5 kg/m, stiffness_y: 8 N*m^2, bending_y: 9);
+        joint clamp: fixed from ground to beam;
+        joint slide: prismatic(x) from ground to beam at [2, 0, 0] m on ground, at tip on beam, cut;
+    }";
+    let found = frequencies(text, None);
+    for (found, bl) in found
+        .iter()
+        .zip([4.730_040_744_862_704_f64, 7.853_204_624_095_838])
+    {
+        let expected = bl * bl * (8.0_f64 / 0.5).sqrt() / 4.0;
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    }
+}

@@ -404,17 +404,18 @@ impl Writer {
     }
 }
 
+/// What a random machine may be refused for: an element between two places of one rigid piece.
+const REASON: &str = "both ends of this element are fixed in";
+
 #[test]
 fn random_beams_obey_lagrange() {
     let mut accepted = 0;
-    let mut refused = std::collections::BTreeMap::<String, usize>::new();
-    for seed in 0..120 {
+    for seed in 0..160 {
         let text = Writer::new(seed).machine();
         let machine = match Machine::new(&text) {
             Ok(machine) => machine,
             Err(mistakes) => {
-                eprintln!("{seed}: {mistakes}\n{text}");
-                *refused.entry(mistakes).or_default() += 1;
+                assert!(mistakes.contains(REASON), "seed {seed}: {mistakes}\n{text}");
                 continue;
             }
         };
@@ -425,43 +426,5 @@ fn random_beams_obey_lagrange() {
             judge(&format!("seed {seed}, {round}"), &machine, &state);
         }
     }
-    eprintln!("{accepted} accepted, {refused:#?}");
-    assert!(accepted > 90, "{accepted}");
-}
-
-#[test]
-fn tmp() {
-    if let Ok(text) = std::fs::read_to_string("/tmp/bo.mech") {
-        let machine = Machine::right(&text);
-        let mut random = Random::new(1);
-        let state = machine.state(&mut random);
-        judge("tmp", &machine, &state);
-        return;
-    }
-    let last: u64 = std::fs::read_to_string("/tmp/bo.last")
-        .unwrap()
-        .trim()
-        .parse()
-        .unwrap();
-    for seed in 0..last {
-        let text = Writer::new(seed).machine();
-        std::fs::write(format!("/tmp/bo_seeds/{seed}.mech"), &text).unwrap();
-        let result = std::panic::catch_unwind(|| {
-            let machine = match Machine::new(&text) {
-                Ok(machine) => machine,
-                Err(mistakes) => return Some(mistakes),
-            };
-            let mut random = Random::new(seed);
-            for round in 0..2 {
-                let state = machine.state(&mut random);
-                judge(&format!("seed {seed}, {round}"), &machine, &state);
-            }
-            None
-        });
-        match result {
-            Ok(None) => eprintln!("RESULT {seed} fine"),
-            Ok(Some(m)) => eprintln!("RESULT {seed} refused {m}"),
-            Err(_) => eprintln!("RESULT {seed} panicked"),
-        }
-    }
+    assert!(accepted > 140, "{accepted}");
 }

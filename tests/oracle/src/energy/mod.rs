@@ -4,7 +4,8 @@
 //! virtual work `Q_i dq_i` of forces that have neither an energy nor a dissipation function. Poses are 4 x 4 matrices
 //! built from quaternions. The kinetic energy of a body is `1/2 tr(Xdot P Xdot^T)` with its pseudo-inertia
 //! `P = integral [r; 1] [r; 1]^T dm`, so neither angular velocities nor gyroscopic moments occur. Every derivative is a
-//! hyper-dual number.
+//! hyper-dual number. Beams are slices whose places come from the same integrals as in the product, computed here from
+//! scratch; strain is `R^T dR/ds`.
 
 mod beams;
 mod expressions;
