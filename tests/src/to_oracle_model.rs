@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use eigentol_compiler::base::ids::{CoordinateId, JointId, PointId};
+use eigentol_compiler::base::ids::{CoordinateId, PointId};
 use eigentol_compiler::model::evaluate::Values as Evaluation;
 use eigentol_compiler::model::expression::{Expr as Written, Function, Matrix, Vector};
 use eigentol_compiler::model::mechanism as declared;
@@ -15,7 +15,7 @@ use eigentol_oracle::model::{
     Values, Word,
 };
 
-/// The open tree of `mechanism`, without cut joints and constraints, at inputs `u` and design variables `b`, and the speeds of its drives, which
+/// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which
 /// are the inputs of that model.
 pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) -> (Model, Vec<f64>) {
     let evaluation = Evaluation::new(&mechanism.constants, u, b);
@@ -27,7 +27,6 @@ pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) ->
     let mut joints: Vec<Joint> = mechanism
         .joints
         .iter()
-        .filter(|joint| !joint.cut)
         .map(|joint| fixing.joint(joint, &mut speeds))
         .collect();
     let bodies = mechanism.bodies.iter().map(|body| fixing.body(body));
@@ -290,7 +289,7 @@ impl Fixing<'_> {
         };
         Beam {
             name: self.mechanism.bodies[beam.body.index()].name.to_string(),
-            joint: self.place(beam.stations[0].joint),
+            joint: beam.stations[0].joint.index(),
             counts: beam.coordinates.each_ref().map(Vec::len),
             length: self.value(&beam.length),
             axes: beam.axes.each_ref().map(|axis| self.numbers(axis)),
@@ -334,24 +333,15 @@ impl Fixing<'_> {
         beam.sections.iter().map(slice).collect()
     }
 
-    /// The place of a joint among those that are not cut.
-    fn place(&self, joint: JointId) -> usize {
-        let before = &self.mechanism.joints[..joint.index()];
-        before.iter().filter(|joint| !joint.cut).count()
-    }
-
     fn coordinate(&self, id: CoordinateId) -> Coordinate {
-        let joint = self.mechanism.coordinates[id.index()].joint;
-        let declared = &self.mechanism.joints[joint.index()];
+        let joint = self.mechanism.coordinates[id.index()].joint.index();
+        let declared = &self.mechanism.joints[joint];
         let steps = declared.steps.iter().map(|step| step.coordinate);
         let beam = declared.flexure.map(|(beam, _)| beam.index());
         let bends = beam.map(|beam| self.mechanism.beams[beam].coordinates.concat());
         let mut all = steps.chain(bends.unwrap_or_default());
         let step = all.position(|own| own == id).expect("its joint has it");
-        Coordinate {
-            joint: self.place(joint),
-            step,
-        }
+        Coordinate { joint, step }
     }
 
     fn law(&self, law: &declared::ForceLaw) -> ForceLaw {
