@@ -10,8 +10,9 @@ use eigentol_compiler::model::expression::{Expr as Written, Function, Matrix, Ve
 use eigentol_compiler::model::mechanism as declared;
 
 use eigentol_oracle::model::{
-    Amount, Body, Coordinate, Curve, Drive, Expr, Force, ForceLaw, Frame, Input, Joint, Model,
-    Motion, Part, Placement, Point, Shape, Step, Unit, Value, Values, Word,
+    Amount, Beam, Body, Coordinate, Curve, Drive, Expr, Flexure, Force, ForceLaw, Frame, Input,
+    Joint, Model, Motion, ORIGIN, Part, Placement, Point, Section, Shape, Step, Unit, Value,
+    Values, Word,
 };
 
 /// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which
@@ -23,11 +24,26 @@ pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) ->
         evaluation,
     };
     let mut speeds = Vec::new();
-    let joints: Vec<Joint> = mechanism
+    let mut joints: Vec<Joint> = mechanism
         .joints
         .iter()
         .map(|joint| fixing.joint(joint, &mut speeds))
         .collect();
+    let bodies = mechanism.bodies.iter().map(|body| fixing.body(body));
+    let mut bodies: Vec<Body> = bodies.collect();
+    for (index, beam) in mechanism.beams.iter().enumerate() {
+        for slice in fixing.slices(beam) {
+            let (from, to) = (Frame::Body(beam.body.index()), Frame::Body(bodies.len()));
+            joints.push(Joint {
+                flexure: Some(Flexure {
+                    beam: index,
+                    place: slice.0,
+                }),
+                ..Joint::new("slice", Word::Fixed, Vec::new(), from, to)
+            });
+            bodies.push(slice.1);
+        }
+    }
     let inputs = (0..speeds.len())
         .map(|k| Input {
             name: format!("speed{k}"),
@@ -39,10 +55,11 @@ pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) ->
         inputs,
         design: Vec::new(),
         gravity: fixing.vector(&mechanism.gravity),
-        bodies: mechanism
-            .bodies
+        bodies,
+        beams: mechanism
+            .beams
             .iter()
-            .map(|body| fixing.body(body))
+            .map(|beam| fixing.beam(beam))
             .collect(),
         joints,
         points: mechanism
@@ -228,9 +245,17 @@ impl Fixing<'_> {
                 fixed
             })
             .collect();
+        let steps = match joint.flexure {
+            Some((beam, 0)) => self.bends(&self.mechanism.beams[beam.index()]),
+            _ => steps,
+        };
         Joint {
             from_placement: self.placement(&joint.from_placement),
             to_placement: self.placement(&joint.to_placement),
+            flexure: joint.flexure.map(|(beam, station)| Flexure {
+                beam: beam.index(),
+                place: self.mechanism.beams[beam.index()].stations[station].place,
+            }),
             // The keyword only affects how a model is spelled; its motion is in the steps.
             ..Joint::new(
                 &joint.name.to_string(),
@@ -242,13 +267,80 @@ impl Fixing<'_> {
         }
     }
 
+    /// The coordinates of a beam, as steps of the joint to its first station.
+    fn bends(&self, beam: &declared::Beam) -> Vec<Step> {
+        let about = |axis: usize| {
+            let axes = self.numbers(&beam.axes[axis]);
+            beam.coordinates[axis].iter().map(move |id| (axes, id))
+        };
+        let steps = (0..3).flat_map(about).map(|(axis, id)| {
+            let name = &self.mechanism.coordinates[id.index()].name;
+            Step::new(Motion::Turn, axis).named(&name.to_string())
+        });
+        steps.collect()
+    }
+
+    fn beam(&self, beam: &declared::Beam) -> Beam {
+        let section = |(place, weight, section): &(f64, f64, declared::Section)| Section {
+            place: *place,
+            weight: *weight,
+            twist: self.value(&section.twist),
+            stiffness: self.vector(&section.stiffness),
+        };
+        Beam {
+            name: self.mechanism.bodies[beam.body.index()].name.to_string(),
+            joint: beam.stations[0].joint.index(),
+            counts: beam.coordinates.each_ref().map(Vec::len),
+            length: self.value(&beam.length),
+            axes: beam.axes.each_ref().map(|axis| self.numbers(axis)),
+            sections: beam.sections.iter().map(section).collect(),
+            lag: self.value(&beam.lag),
+        }
+    }
+
+    /// The mass of each section at a point of quadrature, as a flat body across the beam, and its place.
+    fn slices(&self, beam: &declared::Beam) -> Vec<(f64, Body)> {
+        let axes = beam.axes.each_ref().map(|axis| self.numbers(axis));
+        let length = self.number(&beam.length);
+        let slice = |(place, weight, section): &(f64, f64, declared::Section)| {
+            let [second, third] = section.inertia.each_ref().map(|own| self.number(own));
+            let about = [second + third, second, third];
+            let inertia = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| {
+                let terms = axes.iter().zip(about).map(|(e, own)| own * e[i] * e[j]);
+                Value::Number(length * weight * terms.sum::<f64>())
+            });
+            let shape = Shape::Rigid {
+                mass: Value::Number(length * weight * self.number(&section.mass)),
+                center: ORIGIN,
+                inertia,
+                about: None,
+            };
+            let placement = Placement {
+                offset: ORIGIN,
+                rotations: vec![(axes[0], self.value(&section.twist))],
+            };
+            let part = Part {
+                hole: false,
+                shape,
+                placement,
+            };
+            let body = Body {
+                name: "slice".to_owned(),
+                parts: vec![part],
+            };
+            (*place, body)
+        };
+        beam.sections.iter().map(slice).collect()
+    }
+
     fn coordinate(&self, id: CoordinateId) -> Coordinate {
         let joint = self.mechanism.coordinates[id.index()].joint.index();
-        let steps = &self.mechanism.joints[joint].steps;
-        let step = steps
-            .iter()
-            .position(|step| step.coordinate == id)
-            .expect("its joint has it");
+        let declared = &self.mechanism.joints[joint];
+        let steps = declared.steps.iter().map(|step| step.coordinate);
+        let beam = declared.flexure.map(|(beam, _)| beam.index());
+        let bends = beam.map(|beam| self.mechanism.beams[beam].coordinates.concat());
+        let mut all = steps.chain(bends.unwrap_or_default());
+        let step = all.position(|own| own == id).expect("its joint has it");
         Coordinate { joint, step }
     }
 

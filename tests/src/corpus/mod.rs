@@ -71,4 +71,6 @@ machines! {
     film_rotor: FilmRotor,
     balanced_fan: BalancedFan,
     shaken_turntable: ShakenTurntable,
+    hinged_tip_blade: HingedTipBlade,
+    twisting_boom: TwistingBoom,
 }

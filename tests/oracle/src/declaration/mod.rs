@@ -9,7 +9,11 @@ use self::quantities::{Printer, quantity, symbol};
 use crate::model::{Model, Unit};
 
 /// The declaration of a model: the text between the braces of `mechanism! { ... }`.
+///
+/// # Panics
+/// When it has beams, which come from declarations only.
 pub fn declaration(model: &Model) -> String {
+    assert!(model.beams.is_empty(), "beams are not printed");
     let print = Printer { model };
     let mut lines = Vec::new();
     for input in &model.inputs {

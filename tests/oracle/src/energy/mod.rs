@@ -4,8 +4,10 @@
 //! virtual work `Q_i dq_i` of forces that have neither an energy nor a dissipation function. Poses are 4 x 4 matrices
 //! built from quaternions. The kinetic energy of a body is `1/2 tr(Xdot P Xdot^T)` with its pseudo-inertia
 //! `P = integral [r; 1] [r; 1]^T dm`, so neither angular velocities nor gyroscopic moments occur. Every derivative is a
-//! hyper-dual number.
+//! hyper-dual number. Beams are slices whose places come from the same integrals as in the product, computed here from
+//! scratch; strain is `R^T dR/ds`.
 
+mod beams;
 mod expressions;
 mod masses;
 mod poses;
@@ -88,32 +90,71 @@ pub fn residual(
     free.iter().map(equation).collect()
 }
 
+/// Kinetic and potential energy of a motion.
+pub fn energies(
+    model: &Model,
+    [velocity, q]: [&[f64]; 2],
+    inputs: &[f64],
+    design: &[f64],
+) -> [f64; 2] {
+    let (mut position, mut speed) = (Vec::new(), Vec::new());
+    let mut free = q.iter().zip(velocity);
+    for coordinate in model.coordinates() {
+        let own = match model.step(coordinate).drive {
+            Some(drive) => (&0.0, &(drive.factor * inputs[drive.input])),
+            None => free.next().expect("one entry per free coordinate"),
+        };
+        position.push(*own.0);
+        speed.push(*own.1);
+    }
+    let flow = Flow {
+        model,
+        position,
+        speed,
+        inputs,
+        design: design.to_vec(),
+    };
+    [kinetic(&flow), potential(&flow)]
+}
+
 /// `L = T - V`.
 fn lagrangian<D: Scalar>(flow: &Flow<D>) -> D {
-    let (model, poses) = (flow.model, flow.moving());
-    let gravity = model.gravity.map(|component| get(component, &flow.design));
+    kinetic(flow) - potential(flow)
+}
+
+/// `1/2 tr(Xdot P Xdot^T)`, one row of `Xdot` at a time; its last row is zero.
+fn kinetic<D: Scalar>(flow: &Flow<D>) -> D {
     let mut total = D::zero();
-    for (body, pose) in model.bodies.iter().zip(&poses.bodies) {
+    for (body, pose) in flow.model.bodies.iter().zip(&flow.moving().bodies) {
         let p = pseudo_inertia(&body.parts, &flow.design);
-        for row in 0..3 {
-            // 1/2 tr(Xdot P Xdot^T), one row of Xdot at a time; the last row of Xdot is zero
+        for row in &pose[..3] {
             for i in 0..4 {
                 for j in 0..4 {
-                    total += pose[row][i].eps * p[i][j] * pose[row][j].eps * 0.5;
+                    total += row[i].eps * p[i][j] * row[j].eps * 0.5;
                 }
-            }
-            // -V = m gravity . c
-            for i in 0..4 {
-                total += gravity[row] * pose[row][i].re * p[i][3];
             }
         }
     }
-    let here = Poses::new(model, flow.position.clone(), flow.design.clone());
-    let energies = model.forces.iter();
     total
-        - energies
-            .map(|force| energy(flow, &here, &force.law))
-            .sum::<D>()
+}
+
+/// `-m gravity . c` of the bodies, and the energies of the elements and of the beams.
+fn potential<D: Scalar>(flow: &Flow<D>) -> D {
+    let model = flow.model;
+    let here = Poses::new(model, flow.position.clone(), flow.design.clone());
+    let gravity = model.gravity.map(|component| get(component, &flow.design));
+    let mut total = beams::elastic(&here);
+    for (body, pose) in model.bodies.iter().zip(&here.bodies) {
+        let p = pseudo_inertia(&body.parts, &flow.design);
+        for (row, gravity) in pose.iter().zip(gravity) {
+            for i in 0..4 {
+                total -= gravity * row[i] * p[i][3];
+            }
+        }
+    }
+    let elements = model.forces.iter();
+    let elements = elements.map(|force| energy(flow, &here, &force.law));
+    total + elements.sum::<D>()
 }
 
 /// Potential energy of an element; zero if it has none.
@@ -212,7 +253,8 @@ fn dissipation<D: Scalar>(flow: &Flow<D>) -> D {
         }
         _ => D::zero(),
     };
-    model_forces(flow).map(power).sum()
+    let here = Poses::new(flow.model, flow.position.clone(), flow.design.clone());
+    model_forces(flow).map(power).sum::<D>() + beams::dissipated(&here, &poses)
 }
 
 fn model_forces<'a, D>(flow: &Flow<'a, D>) -> impl Iterator<Item = &'a ForceLaw> {

@@ -2,8 +2,9 @@
 
 use num_dual::Dual;
 
+use super::beams;
 use crate::matrices::Scalar;
-use crate::model::{Coordinate, Frame, Model, Motion, Placement, Step, Value, Values};
+use crate::model::{Coordinate, Flexure, Frame, Model, Motion, Placement, Step, Value, Values};
 
 pub(super) type Four<D> = [[D; 4]; 4];
 
@@ -20,7 +21,7 @@ pub(super) fn lift<D: Scalar>(values: &[D]) -> Vec<Dual<D>> {
 
 /// The poses of all bodies and points.
 pub(super) struct Poses<'a, D> {
-    model: &'a Model,
+    pub(super) model: &'a Model,
     /// Values of all coordinates.
     pub(super) coordinates: Vec<D>,
     pub(super) design: Vec<D>,
@@ -35,7 +36,12 @@ impl<'a, D: Scalar> Poses<'a, D> {
         for branch in model.tree() {
             let joint = &model.joints[branch.joint];
             let mut across = placed(&joint.from_placement, &design);
-            for (step, declared) in joint.steps.iter().enumerate() {
+            if let Some(Flexure { beam, place }) = joint.flexure {
+                let beam = &model.beams[beam];
+                let q = beams::of_beam(model, beam, &coordinates);
+                across = multiply(&across, &beams::section(beam, q, place, &design));
+            }
+            for (step, declared) in joint.motions().iter().enumerate() {
                 let x = coordinates[index(
                     &names,
                     Coordinate {
@@ -128,7 +134,7 @@ pub(super) fn norm(axis: [f64; 3]) -> f64 {
     axis[0].hypot(axis[1]).hypot(axis[2])
 }
 
-fn translation<D: Scalar>(offset: [D; 3]) -> Four<D> {
+pub(super) fn translation<D: Scalar>(offset: [D; 3]) -> Four<D> {
     let (o, i) = (D::zero(), D::one());
     let [x, y, z] = offset;
     [[i, o, o, x], [o, i, o, y], [o, o, i, z], [o, o, o, i]]
@@ -138,8 +144,11 @@ fn translation<D: Scalar>(offset: [D; 3]) -> Four<D> {
 fn quaternion_rotation<D: Scalar>(axis: [f64; 3], angle: D) -> Four<D> {
     let half = angle * 0.5;
     let sine = half.sin() / norm(axis);
-    let w = half.cos();
-    let [x, y, z] = axis.map(|component| sine * component);
+    quaternion(half.cos(), axis.map(|component| sine * component))
+}
+
+/// Rotation by a unit quaternion.
+pub(super) fn quaternion<D: Scalar>(w: D, [x, y, z]: [D; 3]) -> Four<D> {
     let (o, i) = (D::zero(), D::one());
     [
         [

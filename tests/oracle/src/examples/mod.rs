@@ -68,6 +68,7 @@ fn spinning(name: &str) -> Model {
         design: Vec::new(),
         gravity: gravity(),
         bodies: vec![body("shaft", Vec::new())],
+        beams: Vec::new(),
         joints: vec![spin],
         points: Vec::new(),
         forces: Vec::new(),

@@ -33,6 +33,7 @@ pub fn top(shape: Shape, weight: Values) -> Model {
         inputs: inputs.into(),
         gravity: weight,
         bodies: vec![body("top", vec![Part::whole(shape)])],
+        beams: Vec::new(),
         joints: vec![pivot],
         ..spinning("Top")
     }
@@ -68,6 +69,7 @@ pub fn screw_pendulum(mass: f64, arm: f64, lead: f64, rise: f64) -> Model {
         inputs: Vec::new(),
         gravity: gravity(),
         bodies: vec![body("nut", vec![Part::whole(particle)])],
+        beams: Vec::new(),
         joints: vec![Joint::new("theta", Word::Screw, vec![step], ground, nut)],
         ..spinning("ScrewPendulum")
     }

@@ -137,12 +137,16 @@ impl Oracle<'_> {
             } else {
                 (from, to, 1.0)
             };
-            let mut order: Vec<usize> = (0..joint.steps.len()).collect();
+            let mut order: Vec<usize> = (0..joint.motions().len()).collect();
             if branch.reversed {
                 order.reverse();
             }
             let mut frame = at.pose(branch.parent) * inboard;
             let mut axes = Vec::new();
+            if let Some(flexure) = joint.flexure {
+                (frame, axes) =
+                    self.across(flexure, branch.reversed, frame, [free, driven, design]);
+            }
             for &step in &order {
                 let coordinate = Coordinate {
                     joint: branch.joint,
@@ -153,7 +157,7 @@ impl Oracle<'_> {
                 axes.push(axis(step, frame, sign, design));
                 frame = frame * displacement(step, q, design);
             }
-            if branch.reversed {
+            if branch.reversed && joint.flexure.is_none() {
                 axes.reverse();
             }
             at.axes[branch.joint] = axes;
@@ -197,12 +201,17 @@ impl Oracle<'_> {
     /// The velocities that unit speed of one coordinate gives the bodies it carries: `v = s x (c - o) + t` and
     /// `omega = s` with the spin `s` about `o` and the slide `t` of its axis.
     fn column<D: Scalar>(&self, at: &Configuration<D>, coordinate: Coordinate) -> Vec<D> {
-        let axis = at.axes[coordinate.joint][coordinate.step];
         let mut column = vec![D::zero(); 6 * at.bodies.len()];
-        for &body in &self.carried[coordinate.joint] {
-            let velocity = axis.spin.cross(at.centers[body] - axis.origin) + axis.slide;
-            column[6 * body..6 * body + 3].copy_from_slice(&velocity.0);
-            column[6 * body + 3..6 * body + 6].copy_from_slice(&axis.spin.0);
+        let joints = (0..self.carried.len()).filter(|&joint| self.moves(coordinate, joint));
+        for joint in joints {
+            let axis = at.axes[joint][coordinate.step];
+            for &body in &self.carried[joint] {
+                let velocity = axis.spin.cross(at.centers[body] - axis.origin) + axis.slide;
+                let own = rows_of(velocity, axis.spin);
+                for (sum, entry) in column[6 * body..].iter_mut().zip(own) {
+                    *sum += entry;
+                }
+            }
         }
         column
     }

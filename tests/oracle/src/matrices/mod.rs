@@ -4,6 +4,7 @@
 //! is filled column by column, and its rate and every derivative come from (nested) dual numbers. Equation numbers
 //! refer to Eom, Choi & Yoo as corrected in the project's theory.
 
+mod beams;
 mod bodies;
 mod forces;
 mod gradient;

@@ -1,7 +1,7 @@
 //! Joints and their coordinates.
 
 use super::values::{Unit, Value};
-use super::{Frame, Placement};
+use super::{Flexure, Frame, Placement};
 
 /// The keyword of a joint; it determines the sequence of motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -149,6 +149,8 @@ pub struct Joint {
     pub from_placement: Placement,
     /// Joint frame in `to`.
     pub to_placement: Placement,
+    /// The motion of a section of a beam, in place of the steps; the coordinates are those of the beam's own joint.
+    pub flexure: Option<Flexure>,
 }
 
 impl Joint {
@@ -165,6 +167,15 @@ impl Joint {
             to,
             from_placement: Placement::NONE,
             to_placement: Placement::NONE,
+            flexure: None,
+        }
+    }
+
+    /// Its elementary motions; none if it is a flexure.
+    pub fn motions(&self) -> &[Step] {
+        match self.flexure {
+            Some(_) => &[],
+            None => &self.steps,
         }
     }
 }

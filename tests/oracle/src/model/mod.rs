@@ -2,12 +2,14 @@
 //!
 //! All values are SI. Fields have the same meaning as in the language; for its syntax see [`crate::declaration`].
 
+mod beams;
 mod bodies;
 mod curves;
 mod forces;
 mod joints;
 mod values;
 
+pub use beams::{Beam, Flexure, Section};
 pub use bodies::{Amount, Body, Part, Shape};
 pub use curves::Curve;
 pub use forces::{Expr, Force, ForceLaw};
@@ -73,6 +75,8 @@ pub struct Model {
     pub gravity: Values,
     /// Bodies.
     pub bodies: Vec<Body>,
+    /// Flexible bodies, to which slices and stations are joined by flexures.
+    pub beams: Vec<Beam>,
     /// Joints, one per body, in any order.
     pub joints: Vec<Joint>,
     /// Points.

@@ -64,6 +64,7 @@ impl Builder {
             design: self.source.design,
             gravity,
             bodies: self.bodies,
+            beams: Vec::new(),
             joints: self.joints,
             points,
             forces,

@@ -79,6 +79,11 @@ impl Oracle<'_> {
         for force in &self.model.forces {
             self.element(&mut efforts, moving, force);
         }
+        for beam in &self.model.beams {
+            for (coordinate, effort) in self.elastic(beam, moving) {
+                self.act(&mut efforts, coordinate, effort);
+            }
+        }
         (efforts.bodies, efforts.free)
     }
 

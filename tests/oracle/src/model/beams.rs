@@ -1,0 +1,125 @@
+//! Flexible bodies: rods whose sections turn by polynomials of the place along them.
+
+use num_dual::DualNum;
+
+use super::values::{Value, Values};
+
+/// A rod that keeps its length. Its mass is that of slices, bodies of the model, each with a flexure for a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    /// Declared name.
+    pub name: String,
+    /// The joint whose steps are its coordinates: those of twist, of bending about the second and the third axis.
+    pub joint: usize,
+    /// The number of coordinates of each kind.
+    pub counts: [usize; 3],
+    /// Length.
+    pub length: Value,
+    /// Perpendicular unit vectors in the frame of its root, the first along the beam.
+    pub axes: [[f64; 3]; 3],
+    /// The sections at the points of quadrature.
+    pub sections: Vec<Section>,
+    /// Time by which the rate of strain counts like strain.
+    pub lag: Value,
+}
+
+/// The elasticity of a section at a point of quadrature.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Its place as a fraction of the length.
+    pub place: f64,
+    /// Weight of the quadrature; all add up to 1.
+    pub weight: f64,
+    /// The angle of its axes about the beam before it bends.
+    pub twist: Value,
+    /// Stiffness against twist and against bending about its two axes.
+    pub stiffness: Values,
+}
+
+/// The motion from the root of a beam to one of its sections.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flexure {
+    /// Index of the beam.
+    pub beam: usize,
+    /// The section as a fraction of the length.
+    pub place: f64,
+}
+
+impl Beam {
+    /// The number of coordinates.
+    pub fn coordinates(&self) -> usize {
+        self.counts.iter().sum()
+    }
+
+    /// The axis about which all sections turn, if there is only one.
+    pub fn plane(&self) -> Option<usize> {
+        let mut used = (0..3).filter(|&k| self.counts[k] > 0);
+        match (used.next(), used.next()) {
+            (Some(axis), None) => Some(axis),
+            _ => None,
+        }
+    }
+
+    /// The angle of a section in a plane, or the vector by which it turns in space, along the axes of the beam:
+    /// `sum q_j I_j(x)`.
+    pub fn turn<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
+        self.combined(q, |order| integral(order, place))
+    }
+
+    /// Its derivative by the place as a fraction of the length: `sum q_j P_j(x)`.
+    pub fn slope<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
+        self.combined(q, |order| legendre(order, place))
+    }
+
+    fn combined<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        q: &[D],
+        shape: impl Fn(usize) -> f64,
+    ) -> [D; 3] {
+        let mut rest = q;
+        self.counts.map(|count| {
+            let (own, others) = rest.split_at(count);
+            rest = others;
+            let terms = own.iter().enumerate();
+            terms.map(|(order, &q)| q * shape(order)).sum()
+        })
+    }
+
+    /// What each point of quadrature counts in an integral from the root to a place: the integral of Lagrange's
+    /// polynomial of that point.
+    pub fn weights_to(&self, place: f64) -> Vec<f64> {
+        let lagrange = |k: usize, x: f64| -> f64 {
+            let at = self.sections[k].place;
+            let others = self.sections.iter().enumerate().filter(|(i, _)| *i != k);
+            let factors = others.map(|(_, other)| (x - other.place) / (at - other.place));
+            factors.product()
+        };
+        let weight = |k| -> f64 {
+            let terms = self.sections.iter();
+            let terms = terms.map(|own| place * own.weight * lagrange(k, place * own.place));
+            terms.sum()
+        };
+        (0..self.sections.len()).map(weight).collect()
+    }
+}
+
+/// Coefficient of `x^k` in the Legendre polynomial of `[0, 1]`: `(-1)^(n + k) (n over k) (n + k over k)`.
+fn coefficient(n: usize, k: usize) -> f64 {
+    let binomial = |n: usize, k: usize| -> f64 {
+        let factors = (0..k).map(|i| (n - i) as f64 / (i + 1) as f64);
+        factors.product()
+    };
+    let sign = if (n + k).is_multiple_of(2) { 1.0 } else { -1.0 };
+    sign * (binomial(n, k) * binomial(n + k, k)).round()
+}
+
+fn legendre(n: usize, x: f64) -> f64 {
+    let terms = (0..=n).map(|k| coefficient(n, k) * x.powi(k as i32));
+    terms.sum()
+}
+
+/// The integral of the polynomial from 0 to `x`.
+fn integral(n: usize, x: f64) -> f64 {
+    let terms = (0..=n).map(|k| coefficient(n, k) * x.powi(k as i32 + 1) / (k + 1) as f64);
+    terms.sum()
+}
