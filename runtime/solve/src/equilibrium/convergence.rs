@@ -315,19 +315,9 @@ fn small_motion(q: f64) -> f64 {
     SMALL_MOTION + ROUNDED * q.abs()
 }
 
-/// Rounding errors of the place of a point, in units of the last digit of the size of the mechanism.
-const ROUNDED_PLACES: f64 = 8.0;
-
-/// The gap of one constraint relative to what small motions open, given the row of its derivatives. A gap that rounding
-/// explains where places are known to the precision of a mechanism of this `length` is tolerable, even if nothing that
-/// moves can close it.
-pub(crate) fn relative_gap(gap: f64, motions: &[f64], row: &[f64], length: f64) -> f64 {
-    relative(
-        gap,
-        ROUNDED_PLACES * f64::EPSILON / TOLERANCE * length,
-        motions,
-        row,
-    )
+/// The gap of one constraint relative to what small motions open, given the row of its derivatives.
+pub(crate) fn relative_gap(gap: f64, motions: &[f64], row: &[f64]) -> f64 {
+    relative(gap, 0.0, motions, row)
 }
 
 /// One equation's residual relative to `force` and the row of stiffnesses times the motions `q`; a scale that overflows

@@ -259,13 +259,7 @@ pub(super) fn greatest_gap(
     let structure = point.structure;
     structure.position_rows().fold(0.0, |most: f64, row| {
         let motions = &q[..structure.coordinates];
-        let length = point.description.length;
-        most.max(relative_gap(
-            residual[row],
-            motions,
-            &stiffness[row],
-            length,
-        ))
+        most.max(relative_gap(residual[row], motions, &stiffness[row]))
     })
 }
 

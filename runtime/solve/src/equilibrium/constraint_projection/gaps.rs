@@ -35,12 +35,7 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
             return None;
         }
         let motions = &x[..structure.coordinates];
-        let relative = relative_gap(
-            found.gaps[k],
-            motions,
-            &found.rows[k],
-            point.description.length,
-        );
+        let relative = relative_gap(found.gaps[k], motions, &found.rows[k]);
         if relative > found.relative {
             (found.relative, found.worst) = (relative, k);
         }

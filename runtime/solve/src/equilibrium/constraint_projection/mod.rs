@@ -78,6 +78,7 @@ fn close_from(
     start: &[f64],
     held: &[bool],
 ) -> Result<(Vector, usize), Failure> {
+    let structure = point.structure;
     let mut x = Vector::from(start);
     let mut at = gaps(point, &x).ok_or_else(|| Failure::OutsideDomain {
         what: "the constraints",
@@ -110,12 +111,12 @@ fn close_from(
             None if at.relative <= TOLERANCE => return Ok((x, iterations)),
             None => {
                 let reason = reason(&at, dependent_at_start, held);
-                return Err(not_assembled(point, &x, &at, reason, iterations));
+                return Err(not_assembled(structure, &x, &at, reason, iterations));
             }
         }
     }
     let reason = NotClosed::IterationLimit;
-    Err(not_assembled(point, &x, &at, reason, MAX_ITERATIONS))
+    Err(not_assembled(structure, &x, &at, reason, MAX_ITERATIONS))
 }
 
 /// Makes motions comparable: the square roots of the masses that move.
@@ -139,19 +140,17 @@ fn reason(at: &Gaps, dependent_at_start: usize, held: &[bool]) -> NotClosed {
 }
 
 fn not_assembled(
-    point: &OperatingPoint<'_>,
+    structure: Structure,
     x: &[f64],
     at: &Gaps,
     reason: NotClosed,
     iterations: usize,
 ) -> Failure {
-    let structure = point.structure;
     let first = structure.position_rows().start;
-    let length = point.description.length;
     let motions = &x[..structure.coordinates];
     let mut left = Vector::zeros(x.len());
     for k in 0..structure.position_constraints {
-        if relative_gap(at.gaps[k], motions, &at.rows[k], length) > TOLERANCE {
+        if relative_gap(at.gaps[k], motions, &at.rows[k]) > TOLERANCE {
             left[first + k] = at.gaps[k];
         }
     }
