@@ -50,7 +50,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
     (
         "runtime/numerics",
         &["eigentol-contract", "eigentol-statistics"],
-        7_500,
+        7_600,
     ),
     ("runtime/results", &["eigentol-contract"], 1_150),
     (
@@ -100,7 +100,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
         3_100,
     ),
     ("macros/symbolic", &[], 3_600),
-    ("macros/compiler", &["eigentol-symbolic"], 27_500),
+    ("macros/compiler", &["eigentol-symbolic"], 31_500),
     ("macros", &["eigentol-compiler"], 14),
     ("macros/build", &["eigentol-compiler"], 1_100),
     ("macros/urdf", &["eigentol-compiler"], 2_400),
