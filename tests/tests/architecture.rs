@@ -186,6 +186,7 @@ const CRATE_ROOMS: [(&str, &[&str]); 6] = [
             "forced",
             "peaks",
             "response",
+            "convergence",
             "deviations",
             "judge",
             "propagation",

@@ -240,8 +240,8 @@ impl Study {
             .map(Propagation)
     }
 
-    /// How far frequencies and damping ratios, of the first `modes` modes or of all, and outputs change with one and with
-    /// two more coordinates of each component of the beams. Raises InvalidValue where there is no beam.
+    /// How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
+    /// one and with two more coordinates of each component of the beams. Raises InvalidValue where there is no beam.
     #[pyo3(signature = (modes=None))]
     fn converge(&self, py: Python<'_>, modes: Option<usize>) -> PyResult<Convergence> {
         let mechanism = self.mechanism(py);

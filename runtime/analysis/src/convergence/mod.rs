@@ -55,11 +55,14 @@ impl Change {
 }
 
 impl Convergence {
-    /// The changes of the first modes alone, as many as these, and of the outputs.
+    /// The changes of the first modes that oscillate alone, as many as these, and of the outputs.
     #[must_use]
     pub fn of_first(mut self, modes: usize) -> Self {
+        let mut compared: Vec<usize> = self.changes.iter().filter_map(Change::mode).collect();
+        compared.dedup();
+        compared.truncate(modes);
         self.changes
-            .retain(|change| change.mode().is_none_or(|mode| mode < modes));
+            .retain(|change| change.mode().is_none_or(|own| compared.contains(&own)));
         self
     }
 }

@@ -13,7 +13,7 @@ use crate::verdict::Verdict;
 pub(crate) struct Converge {
     #[command(flatten)]
     point: Point,
-    /// How many of the first modes are compared [default: all]
+    /// How many of the first modes that oscillate are compared [default: all]
     #[arg(long, value_name = "NUMBER", value_parser = whole)]
     modes: Option<usize>,
     #[command(flatten)]

@@ -34,7 +34,7 @@ impl Modes {
         self.picture.draw(|| mode_shapes(&modes, &style))?;
         self.output.write(&answer)?;
         if let Some(good) = question.study.mechanism().good_modes()
-            && good < modes.modes.len()
+            && good < modes.frequencies().iter().flatten().count()
         {
             let modes = plural(good, "mode", "modes");
             diagnostics::note(&format!(
