@@ -62,7 +62,7 @@ impl Convergence {
                 _ => modes.push((mode, most)),
             }
         }
-        verdict(&modes, |own| named(own))
+        verdict(&modes, named)
     }
 
     /// Which outputs are known well, and how far the others change.
