@@ -1170,6 +1170,24 @@ class Campbell(_Result):
         """Number of values that were not reached."""
 
 @final
+class Convergence(_Result):
+    """How far frequencies, damping ratios and outputs change with one and with two more coordinates of each component of
+    the beams. `k` is the number of answers.
+    """
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the answers, modes counted from 1: "frequency 1"."""
+    @property
+    def values(self) -> Real:
+        """Values with the declared coordinates, SI, shape (k,)."""
+    @property
+    def changes(self) -> Real:
+        """What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN where
+        the answer no longer exists.
+        """
+
+@final
 class Equilibrium(_Result):
     """An equilibrium and the linearised mechanism there, SI. `n` is the number of unknowns."""
 
@@ -2336,6 +2354,10 @@ class Study:
     def vibration_spread(self, vibrations: Sequence[tuple[Any, ...]]) -> Propagation:
         """How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
         measure) as `response` takes them.
+        """
+    def converge(self, modes: int | None = None) -> Convergence:
+        """How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
+        one and with two more coordinates of each component of the beams. Raises InvalidValue where there is no beam.
         """
     def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Bode:
         """Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,

@@ -48,6 +48,7 @@
 //! | Which branches of equilibria are there, and where do they fold and fork? | [`branches`](Study::branches), [`branches_with`](Study::branches_with) | [`branches::branches`] |
 //! | How does it vibrate, is it stable, and which way does it whirl? | [`modes`](Study::modes), [`whirls`](Study::whirls) | [`modes::modes`], [`modes::whirls`] |
 //! | What does it look like, at rest, in its modes and in forced vibration? | [`picture`](Study::picture), [`mode_pictures`](Study::mode_pictures), [`vibration_pictures`](Study::vibration_pictures) | [`picture::scene`], [`picture::mode_pictures`], [`picture::vibration_pictures`] |
+//! | Do its beams have enough coordinates? | [`convergence`](Study::convergence) | [`convergence::convergence`] |
 //! | What changes frequencies, damping, outputs and shapes? | [`sensitivities`](Study::sensitivities), [`outputs`](Study::outputs), [`shape_sensitivity`](Study::shape_sensitivity) | [`sensitivity::sensitivities`], [`sensitivity::output_sensitivities`], [`shapes::shape_sensitivity`] |
 //! | ... to second order? | [`mode_curvature`](Study::mode_curvature), [`output_curvature`](Study::output_curvature) | [`second_order::mode_curvature`], [`second_order::output_curvature`] |
 //! | How do equal frequencies split? | [`directional_derivatives`](Study::directional_derivatives) | [`clusters::directional_derivatives`] |
@@ -91,8 +92,9 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    allocation, bode, branches, campbell, campbell::Campbell, clusters, forced, judge, motion,
-    peaks, picture, propagation, requirement, response, second_order, shapes, summary, sweep,
+    allocation, bode, branches, campbell, campbell::Campbell, clusters, convergence,
+    convergence::Convergence, forced, judge, motion, peaks, picture, propagation, requirement,
+    response, second_order, shapes, summary, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]

@@ -131,7 +131,7 @@ const CRATES: [(&str, &[&str], usize); 19] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        4_600,
+        4_700,
     ),
     (
         "runtime/python",
@@ -186,6 +186,7 @@ const CRATE_ROOMS: [(&str, &[&str]); 6] = [
             "forced",
             "peaks",
             "response",
+            "convergence",
             "deviations",
             "judge",
             "propagation",

@@ -10,6 +10,8 @@ mod bent;
 mod compared;
 #[path = "beams/composed.rs"]
 mod composed;
+#[path = "beams/converged.rs"]
+mod converged;
 #[path = "beams/damped.rs"]
 mod damped;
 #[path = "beams/rotating.rs"]

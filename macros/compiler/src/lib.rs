@@ -28,7 +28,7 @@ pub mod topology;
 pub use eigentol_symbolic::{algebra, program};
 #[cfg(feature = "locations")]
 pub use mistakes::{Mistake, Mistakes, tokens};
-pub use pipeline::{Compilation, compile};
+pub use pipeline::{Compilation, compile, compile_refined};
 
 use std::fmt::Debug;
 

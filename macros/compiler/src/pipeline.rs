@@ -35,7 +35,17 @@ pub struct Compilation {
 /// Runs every stage up to the program. Mistakes in syntax, in names and values, and in the connections between bodies
 /// are reported together; the equations are derived only if there are none.
 pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, Diagnostics> {
-    let (ast, mut mechanism, mut topology) = accepted(declaration)?;
+    compile_refined(declaration, limits, 0)
+}
+
+/// [`compile`] with this many `more` coordinates of every component of a beam than declared; one that has none stays
+/// rigid.
+pub fn compile_refined(
+    declaration: TokenStream,
+    limits: Limits,
+    more: usize,
+) -> Result<Compilation, Diagnostics> {
+    let (ast, mut mechanism, mut topology) = accepted(declaration, more)?;
     let mut functions = derive(&mut mechanism, &mut topology, limits)?;
     let kernels = regrouped_kernels(&mut functions);
     let program = lower(&functions.graph, &kernels);
@@ -49,12 +59,15 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
 }
 
 /// The stages that look for mistakes. Each continues with whatever the previous stage could make sense of.
-fn accepted(declaration: TokenStream) -> Result<(Ast, Mechanism, Topology), Diagnostics> {
+fn accepted(
+    declaration: TokenStream,
+    more: usize,
+) -> Result<(Ast, Mechanism, Topology), Diagnostics> {
     let mut mistakes = Diagnostics::new();
     let Some(ast) = parse_what_can_be_read(declaration, &mut mistakes) else {
         return Err(mistakes);
     };
-    let resolution = resolve_what_is_right(&ast);
+    let resolution = resolve_what_is_right(&ast, more);
     mistakes.append(resolution.mistakes);
     if !resolution.is_connected {
         return Err(mistakes);

@@ -8,6 +8,7 @@ pub mod bode;
 pub mod branches;
 pub mod campbell;
 pub mod clusters;
+pub mod convergence;
 mod deviations;
 pub mod forced;
 pub mod judge;

@@ -9,8 +9,8 @@ use eigentol::Error;
 
 use crate::color::Color;
 use crate::commands::{
-    allocate, branches, campbell, check, completions, equilibria, expand, import, merge, modes,
-    new, probability, report, response, sample, sensitivities, sweep, tolerance,
+    allocate, branches, campbell, check, completions, converge, equilibria, expand, import, merge,
+    modes, new, probability, report, response, sample, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -88,6 +88,7 @@ pub(crate) fn explain(error: &clap::Error) {
 enum Command {
     Check(check::Check),
     Modes(modes::Modes),
+    Converge(converge::Converge),
     Equilibria(equilibria::Equilibria),
     Sensitivities(sensitivities::Sensitivities),
     Tolerance(tolerance::Tolerance),
@@ -139,6 +140,7 @@ impl Command {
         match self {
             Self::Check(own) => own.run(color),
             Self::Modes(own) => own.run(),
+            Self::Converge(own) => own.run(),
             Self::Equilibria(own) => own.run(),
             Self::Sensitivities(own) => own.run(),
             Self::Tolerance(own) => own.run(),

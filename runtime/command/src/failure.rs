@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use eigentol::Error;
-use eigentol_interpreter::Mistakes;
+use eigentol_interpreter::{Mistakes, RefineError};
 use thiserror::Error as ThisError;
 
 use crate::mistake::Mistake;
@@ -52,6 +52,8 @@ pub(crate) enum Failure {
     #[error("{0}")]
     Analysis(#[from] Error),
     #[error("{0}")]
+    Refine(#[from] RefineError),
+    #[error("{0}")]
     Report(eigentol_report::Error),
     #[error("{0}")]
     Table(#[from] eigentol_tables::Error),
@@ -81,7 +83,7 @@ impl Failure {
                 eigentol_figures::Error::Ending { .. } => 2,
                 _ => 3,
             },
-            Self::Usage(..) | Self::UnknownName { .. } | Self::Value { .. } => 2,
+            Self::Usage(..) | Self::Refine(_) | Self::UnknownName { .. } | Self::Value { .. } => 2,
             Self::Exists { .. }
             | Self::Table(_)
             | Self::Report(_)

@@ -6,6 +6,7 @@ use eigentol::{
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::mechanics;
+use eigentol_compiler::model::beam::Beam;
 use eigentol_compiler::model::mechanism;
 
 fn text(text: impl Into<String>) -> Text {
@@ -41,6 +42,25 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
             mechanism::Law::OneOf(values) => Law::OneOf(values.clone().into()),
         },
     }
+}
+
+/// How many of its first modes are good by the rule for beams, if it has any: those of the beams, and one for each other
+/// coordinate that no constraint takes away.
+pub(crate) fn good_modes(of: &Compilation) -> Option<usize> {
+    let beams = &of.mechanism.beams;
+    let moves = |own: &&mechanics::Unknown| {
+        matches!(
+            own.role,
+            mechanics::Role::Position(_) | mechanics::Role::Speed(_)
+        )
+    };
+    let unknowns = &of.functions.unknowns;
+    let moving = unknowns.iter().filter(moves).count();
+    let reactions = unknowns.len() - moving;
+    let of_beams: usize = beams.iter().map(Beam::size).sum();
+    let good: usize = beams.iter().map(Beam::good_modes).sum();
+    let others = moving.saturating_sub(of_beams + reactions);
+    (!beams.is_empty()).then_some(others + good)
 }
 
 /// Names, units, nominal values and properties of a compiled declaration, for those who need no kernels.

@@ -13,4 +13,4 @@ mod tape;
 pub use description::description;
 pub use given::{design_tolerance, tolerance, value};
 pub use mechanism::Interpreted;
-pub use mistakes::{Mistake, Mistakes, ReadError};
+pub use mistakes::{Mistake, Mistakes, ReadError, RefineError};

@@ -9,10 +9,10 @@ use eigentol::kernels::{Kernel, MotionKernel};
 use eigentol::{Description, PictureInfo, Shared, Text};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
-use eigentol_compiler::{Compilation, compile_text};
+use eigentol_compiler::{Compilation, compile_refined, compile_text, tokens};
 
-use crate::description::description;
-use crate::mistakes::{Mistakes, ReadError};
+use crate::description::{description, good_modes};
+use crate::mistakes::{Mistakes, ReadError, RefineError};
 use crate::picture::picture;
 use crate::tape::Tape;
 
@@ -29,6 +29,8 @@ pub struct Interpreted {
 pub(crate) struct Tables {
     pub(crate) description: Shared<Description>,
     pub(crate) picture: Shared<PictureInfo>,
+    /// How many of its first modes are good by the rule; `None` without beams.
+    good_modes: Option<usize>,
     pub(crate) tapes: Tapes,
     /// Quantity and requirement of each value of the violation kernel.
     pub(crate) requirements: Vec<(Text, Text)>,
@@ -95,6 +97,37 @@ impl Interpreted {
         })
     }
 
+    /// Reads the mechanism declared by a text, with this many `more` coordinates of each component of its beams: bending,
+    /// torsion, stretch and shear. A component without coordinates stays rigid.
+    ///
+    /// ```
+    /// use eigentol::Study;
+    /// use eigentol_interpreter::Interpreted;
+    ///
+    /// const TEXT: &str = "mechanism Cantilever {
+    ///     body arm: beam(length: 1 m, along: x, up: z, bending_y: 4, stiffness_y: 1 N*m^2, mass_per_length: 1 kg/m);
+    ///     joint clamp: fixed from ground to arm;
+    /// }";
+    /// let study = Study::new(Interpreted::from_text(TEXT)?);
+    /// let refined = [Interpreted::refined(TEXT, 1)?, Interpreted::refined(TEXT, 2)?];
+    /// println!("{}", study.convergence(refined)?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RefineError`]: there is no beam, or the declaration is invalid.
+    pub fn refined(text: &str, more: usize) -> Result<Self, RefineError> {
+        let tokens = tokens(text)?;
+        let compilation =
+            compile_refined(tokens, Limits::default(), more).map_err(Mistakes::from)?;
+        match compilation.mechanism.beams.is_empty() {
+            true => Err(RefineError::NoBeam {
+                mechanism: compilation.mechanism.name.to_string(),
+            }),
+            false => Ok(Self::new(&compilation)),
+        }
+    }
+
     /// Creates the mechanism of a compiled declaration.
     pub fn new(compilation: &Compilation) -> Self {
         let functions = &compilation.functions;
@@ -106,6 +139,7 @@ impl Interpreted {
         let tables = Tables {
             description: Shared::Counted(Arc::new(description(compilation))),
             picture: Shared::Counted(Arc::new(picture(&functions.picture))),
+            good_modes: good_modes(compilation),
             tapes: Tapes::new(&compilation.program),
             requirements: requirements.collect(),
             poses: poses.map(|pose| Text::from(pose.joint.clone())).collect(),
@@ -113,6 +147,14 @@ impl Interpreted {
         Self {
             shared: Arc::new(tables),
         }
+    }
+
+    /// How many of the first modes the coordinates of its beams are enough for, by the rule that `m` modes of a plane of
+    /// bending take `1.5 m + 2`; `None` without beams.
+    ///
+    /// [`Study::convergence`](eigentol::Study::convergence) finds out.
+    pub fn good_modes(&self) -> Option<usize> {
+        self.shared.good_modes
     }
 
     /// Names, units, nominal values and properties proved by the compiler.

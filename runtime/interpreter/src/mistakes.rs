@@ -6,6 +6,21 @@ use thiserror::Error;
 
 pub use eigentol_compiler::{Mistake, Mistakes};
 
+/// The reason why a mechanism has no refined one.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RefineError {
+    /// It has no beam.
+    #[error("`{mechanism}` has no beam, so there are no coordinates to add")]
+    NoBeam {
+        /// The name of the mechanism.
+        mechanism: String,
+    },
+    /// The declaration is invalid.
+    #[error("{0}")]
+    Mistakes(#[from] Mistakes),
+}
+
 /// The reason why a file gave no mechanism.
 #[derive(Debug, Error)]
 #[non_exhaustive]

@@ -55,8 +55,8 @@ mod module {
     use crate::response::Response;
     #[pymodule_export]
     use crate::results::{
-        Assembly, Bode, Branch, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
-        ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes,
+        Assembly, Bode, Branch, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift,
+        EventCurvature, ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes,
         OutputCurvature, OutputSensitivities, Peaks, Sensitivities, Separation, ShapeSensitivity,
         Sweep, json_schema,
     };

@@ -14,7 +14,7 @@ use crate::events::{Event, events};
 use crate::hints;
 use crate::response::wanted;
 use crate::results::{
-    Assembly, Bode, Branches, Campbell, Equilibrium, EquilibriumShift, EventCurvature,
+    Assembly, Bode, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift, EventCurvature,
     ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature,
     OutputSensitivities, Peaks, Sensitivities, ShapeSensitivity, Sweep,
 };
@@ -238,6 +238,21 @@ impl Study {
         let wanted = self.vibrations(py, vibrations)?;
         self.ask_stoppably(py, |study| study.vibration_spread(&wanted))
             .map(Propagation)
+    }
+
+    /// How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
+    /// one and with two more coordinates of each component of the beams. Raises InvalidValue where there is no beam.
+    #[pyo3(signature = (modes=None))]
+    fn converge(&self, py: Python<'_>, modes: Option<usize>) -> PyResult<Convergence> {
+        let mechanism = self.mechanism(py);
+        let text = mechanism.get().text();
+        let refined = |more| {
+            py.detach(|| Interpreted::refined(text, more))
+                .map_err(|error| invalid(py, error.to_string()))
+        };
+        let refined = [refined(1)?, refined(2)?];
+        let found = self.ask(py, |study| study.convergence(refined))?;
+        Ok(Convergence(found.of_first(modes.unwrap_or(usize::MAX))))
     }
 
     /// Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,

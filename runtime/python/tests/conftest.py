@@ -61,6 +61,14 @@ mechanism Twins {
 """
 
 
+CANTILEVER = """
+mechanism Cantilever {
+    body arm: beam(length: 1 m, along: x, up: z, bending_y: 5, stiffness_y: 10 N*m^2, mass_per_length: 1 kg/m);
+    joint clamp: fixed from ground to arm;
+}
+"""
+
+
 SHAKEN = """
 mechanism Shaken {
     input speed: rpm;
@@ -84,6 +92,7 @@ def results():
     )
     twins = eigentol.Study(eigentol.Mechanism.from_text(TWINS))
     shaken = eigentol.Study(eigentol.Mechanism.from_text(SHAKEN), inputs={"speed": 19.0}, samples=64)
+    cantilever = eigentol.Study(eigentol.Mechanism.from_text(CANTILEVER))
     speeds, frequency = [6.0, 6.1, 6.2], ("frequency", 0)
     wanted = [(frequency, 5.8, None), "stable"]
     branches = study.branches("speed", 3.0, 6.0)
@@ -96,6 +105,7 @@ def results():
         study.assembly(),
         study.equilibrium_shift(),
         study.modes(),
+        cantilever.converge(),
         study.sensitivities(),
         study.shape_sensitivity(0),
         study.mode_curvature(0),

@@ -477,3 +477,11 @@ def test_percentages_follow_the_value_where_they_say_so(two):
         given = two.replace(tolerances={"k": text})
         assert given.sigmas[0] == pytest.approx(90 * width / 6)
         assert given.replace(design={"k": 60.0}).sigmas[0] == pytest.approx(60 * width / 6)
+
+
+def test_beams_with_more_coordinates(results, study):
+    found = results["Convergence"]
+    assert found.names == [f"frequency {k}" for k in range(1, 6)]
+    assert found.changes.shape == (5, 2) and abs(found.changes[0]).max() < 1e-6
+    with pytest.raises(eigentol.InvalidValue, match="has no beam"):
+        study.converge()

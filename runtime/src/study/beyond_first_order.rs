@@ -3,13 +3,48 @@
 use super::Study;
 use super::deviating::Toleranced;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
+use crate::convergence::{self, Convergence, Solved};
 use crate::forced;
-use crate::kernels::{CurvatureKernels, DirectionalKernels, PictureKernels, SummaryKernels};
+use crate::kernels::{
+    CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
+};
 use crate::picture::{self, ModePictures, Scene, VibrationPictures};
 use crate::second_order::{self, ModeCurvature, OutputCurvature, SecondOrder};
 use crate::shapes::{self, ShapeSensitivity};
 use crate::summary::{self, BUDGET, Summary};
 use crate::{Equilibrium, Error, Excitation, Output};
+
+impl<M: Kernels> Study<M> {
+    /// How far outputs, frequencies and damping ratios change with more coordinates of beams
+    /// ([`convergence::convergence`]).
+    ///
+    /// `refined` is the same mechanism with one and with two more coordinates of each component of its beams, as
+    /// `eigentol_interpreter::Interpreted::refined` reads it. It is solved next to the equilibrium of this study.
+    ///
+    /// # Errors
+    /// As [`Study::modes`].
+    pub fn convergence<N: Kernels>(&self, refined: [N; 2]) -> Result<Convergence, Error> {
+        let state = self.settings.equilibrium(&self.mechanism)?;
+        let refined = refined.map(|mechanism| Study {
+            settings: self.settings.of(mechanism.description(), state),
+            mechanism,
+        });
+        let [one, two] = &refined;
+        Ok(convergence::convergence(
+            self.solution()?,
+            [one.solution()?, two.solution()?],
+        ))
+    }
+
+    fn solution(&self) -> Result<Solved<'_>, Error> {
+        let (state, modes) = self.solved()?;
+        Ok(Solved {
+            mechanism: &self.mechanism,
+            state,
+            modes,
+        })
+    }
+}
 
 impl<M: PictureKernels> Study<M> {
     /// The visible scene at the equilibrium: poses and shapes of the bodies ([`picture::scene`]).

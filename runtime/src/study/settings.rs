@@ -123,6 +123,37 @@ impl Settings {
         }
     }
 
+    /// The same settings for a mechanism that differs in its unknowns alone: those of the same name start at their values
+    /// in an equilibrium of this one, the others at zero.
+    #[cfg_attr(
+        not(feature = "analysis"),
+        allow(dead_code, reason = "only convergence asks for it")
+    )]
+    pub(super) fn of(&self, description: Shared<Description>, at: &Equilibrium) -> Self {
+        let unknowns = &description.coordinates;
+        let place = |own: usize| {
+            let name = &self.description.coordinates.get(own)?.name;
+            unknowns.iter().position(|info| info.name == *name)
+        };
+        let held = |own: &Held| Some(Held::at(place(own.unknown)?, own.value));
+        let mut settings = Self {
+            start: Vector::zeros(unknowns.len()),
+            named: vec![false; unknowns.len()],
+            holds: self.holds.iter().filter_map(held).collect(),
+            policy: Policy::about(at),
+            solution: Cache::default(),
+            ..self.clone()
+        };
+        for (own, value) in at.coordinates.iter().enumerate() {
+            if let Some(place) = place(own) {
+                settings.start[place] = *value;
+                settings.named[place] = self.named[own];
+            }
+        }
+        settings.description = description;
+        settings
+    }
+
     /// Starts at all of these unknowns.
     pub(super) fn start_at(&mut self, unknowns: &[f64]) {
         self.start = unknowns.into();

@@ -38,6 +38,21 @@ pub struct Beam {
     pub lag: Expr,
 }
 
+impl Beam {
+    /// The number of its coordinates.
+    pub fn size(&self) -> usize {
+        let all = self.coordinates.iter().chain(&self.strains);
+        all.map(Vec::len).sum()
+    }
+
+    /// How many of its modes are good by the rule: `m` modes of a plane take `n = 1.5 m + 2` coordinates.
+    pub fn good_modes(&self) -> usize {
+        let [_, about_y, about_z] = &self.coordinates;
+        let of_plane = |plane: &Vec<CoordinateId>| plane.len().saturating_sub(2) * 2 / 3;
+        of_plane(about_y) + of_plane(about_z)
+    }
+}
+
 /// A cross-section, per unit of length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {

@@ -64,13 +64,15 @@ pub struct Resolution {
 
 /// Resolves and checks a declaration.
 pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
-    let resolution = resolve_what_is_right(ast);
+    let resolution = resolve_what_is_right(ast, 0);
     resolution.mistakes.into_result(resolution.mechanism)
 }
 
-/// Resolves and checks the correct parts of a declaration.
-pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
+/// Resolves and checks the correct parts of a declaration, with this many `more` coordinates of every component of a
+/// beam than declared.
+pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
     let mut resolver = resolver(ast);
+    resolver.more = more;
     let mut items = items(&mut resolver);
     resolver.refuse_unclear_units();
     attributes::check(ast, &mut resolver.diagnostics);
@@ -209,9 +211,7 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
 /// Whether every declared body, joint and constraint has become an entry.
 fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
     let stations: usize = mechanism.beams.iter().map(|beam| beam.stations.len()).sum();
-    let of_beams =
-        (mechanism.beams.iter()).flat_map(|beam| beam.coordinates.iter().chain(&beam.strains));
-    let of_beams: usize = of_beams.map(Vec::len).sum();
+    let of_beams: usize = mechanism.beams.iter().map(Beam::size).sum();
     let (bodies, joints) = (mechanism.bodies.len(), mechanism.joints.len());
     !ast.unread.iter().any(Unread::may_connect)
         && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations

@@ -5,6 +5,7 @@ pub(crate) mod branches;
 pub(crate) mod campbell;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod converge;
 pub(crate) mod equilibria;
 pub(crate) mod expand;
 pub(crate) mod import;

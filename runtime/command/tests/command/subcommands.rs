@@ -65,6 +65,61 @@ fn an_unstable_answer_is_no() {
     assert_eq!(run.code, 1, "{}{}", run.out, run.err);
 }
 
+const CANTILEVER: &str = "mechanism Cantilever { input push: N;
+    body arm: beam(length: 1 m, along: x, up: z, bending_y: 5, stiffness_y: 10 N*m^2, mass_per_length: 1 kg/m);
+    joint clamp: fixed from ground to arm;
+    body weight: point(mass: 0.1 kg);
+    joint end: fixed from arm at tip to weight;
+    point there: weight at [0, 0, 0];
+    force down: load(at: there, force: [0, 0, -push]);
+    output height = position(there).z; }";
+
+#[test]
+fn beams_with_more_coordinates() {
+    let file = file(&folder("converge"), "cantilever.mechanism", CANTILEVER);
+    let text = answer(&["converge", &file, "--set", "push=2N"]);
+    for part in [
+        "Cantilever at push = 2 N: changes with more coordinates of each component of a beam",
+        "frequency 5 [rad/s]",
+        "height [m]",
+        "Modes 1 and 2 change by less than 1e-",
+        "`height` changes by less than 1e-",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let rows = answer(&[
+        "converge", &file, "--set", "push=2N", "--modes", "2", "--csv",
+    ]);
+    let heads = "answer,unit,as declared,change with 1 more,change with 2 more,push [N]";
+    assert_eq!(
+        (rows.lines().next(), rows.lines().count()),
+        (Some(heads), 4)
+    );
+}
+
+#[test]
+fn more_modes_than_beams_have_coordinates_for_are_noted() {
+    let file = file(&folder("noted"), "cantilever.mechanism", CANTILEVER);
+    let found = run(&["modes", &file, "--set", "push=2N"]);
+    assert_eq!(found.code, 0, "{}", found.err);
+    assert!(
+        found.err.starts_with("note: ") && found.err.contains("enough for 2 modes"),
+        "{}",
+        found.err
+    );
+}
+
+#[test]
+fn a_mechanism_without_beams_has_no_coordinates_to_add() {
+    let found = run(&pendulum("converge", &[]));
+    assert_eq!((found.code, &*found.out), (2, ""));
+    assert!(
+        found.err.contains("`RotatingPendulum` has no beam"),
+        "{}",
+        found.err
+    );
+}
+
 #[test]
 fn sensitivities_of_equilibrium_modes_and_outputs() {
     let text = answer(&pendulum("sensitivities", &[]));
@@ -427,6 +482,7 @@ fn every_subcommand_has_help_with_its_values() {
     for command in [
         "check",
         "modes",
+        "converge",
         "sensitivities",
         "tolerance",
         "campbell",

@@ -2,6 +2,7 @@
 
 mod bode;
 mod branches;
+mod convergence;
 mod equilibrium;
 mod forced;
 mod modes;
@@ -12,6 +13,7 @@ mod sweep;
 
 pub(crate) use bode::Bode;
 pub(crate) use branches::{Branch, Branches};
+pub(crate) use convergence::Convergence;
 pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
 pub(crate) use forced::{ForcedCurvature, ForcedResponse, ForcedSensitivities};
 pub(crate) use modes::{Modes, family};

@@ -42,6 +42,16 @@ pub(super) struct Declared {
 }
 
 impl Declared {
+    /// The same with this many more coordinates of every component that has any, and as many points.
+    fn refined(mut self, more: usize) -> Self {
+        let counts = self.counts.iter_mut().chain(&mut self.strains);
+        counts
+            .filter(|count| **count > 0)
+            .for_each(|count| *count += more);
+        self.points += more;
+        self
+    }
+
     fn section(&self, place: f64) -> Section {
         self.table.section(place, &self.twist)
     }
@@ -175,7 +185,8 @@ impl Resolver<'_> {
             twist,
             spin: spin?,
             lag: lag?,
-        };
+        }
+        .refined(self.more);
         if let Some(value) = &body.spinning {
             self.require_round(value, &declared)?;
         }

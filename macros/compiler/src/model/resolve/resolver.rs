@@ -35,6 +35,8 @@ pub(super) struct Resolver<'a> {
     pub(super) parts: Vec<Option<Vec<Part>>>,
     pub(super) materials: Vec<(String, Option<Properties>)>,
     pub(super) stations: Stations,
+    /// How many coordinates every component of a beam gets beyond those declared.
+    pub(super) more: usize,
     pub(super) given_inertias: Vec<GivenInertia>,
     pub(super) requirements: Vec<Requirement>,
     /// The shortest and the longest length that is written, m; the first is the greater one if there is none.
@@ -67,6 +69,7 @@ impl<'a> Resolver<'a> {
             parts: Vec::new(),
             materials: Vec::new(),
             stations: Stations::default(),
+            more: 0,
             given_inertias: Vec::new(),
             requirements: Vec::new(),
             lengths: [f64::INFINITY, 0.0],

@@ -1,0 +1,125 @@
+//! What a comparison with more coordinates says.
+
+use eigentol_results::naming::{capital, named};
+use eigentol_results::numbers::{converted, heading, number, short};
+use eigentol_results::relevance::{RELEVANT, largest, names};
+use eigentol_results::title::title;
+use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+
+use super::{Change, Convergence};
+
+displayed!(Convergence);
+
+/// `convergence`: a row for each answer, its value in its unit, relative changes.
+impl Answer for Convergence {
+    const KIND: &'static str = "convergence";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Some(Subject::at(&self.description, &self.inputs))
+    }
+
+    fn findings(&self) -> Findings {
+        let d = &self.description;
+        let title = title(d, &self.inputs);
+        let mut said = Findings::titled(format!(
+            "{title}: changes with more coordinates of each component of a beam"
+        ));
+        let mut table = Columns::new("convergence", &self.changes);
+        table.words("answer", &|own| Some(own.answer.name(d)));
+        table.words("unit", &|own| Some(own.answer.unit(d).symbol.to_string()));
+        table.cells("answer", &|own| {
+            heading(&own.answer.name(d), &own.answer.unit(d))
+        });
+        let value = |own: &Change| Some(converted(own.value, &own.answer.unit(d)));
+        table.number("as declared", "", &value).digits(number);
+        for (k, name) in ["change with 1 more", "change with 2 more"]
+            .into_iter()
+            .enumerate()
+        {
+            table.number(name, "", &|own| own.relative[k]).digits(short);
+        }
+        said.columns(table);
+        for verdict in [self.of_modes(), self.of_outputs()].into_iter().flatten() {
+            said.note(verdict);
+        }
+        said
+    }
+}
+
+/// Number of answers whose large changes are told one by one.
+const TOLD: usize = 3;
+
+impl Convergence {
+    /// Which modes are known well, and how far the others change.
+    fn of_modes(&self) -> Option<String> {
+        let mut modes: Vec<(usize, f64)> = Vec::new();
+        for change in &self.changes {
+            let (Some(mode), most) = (change.mode(), change.most()) else {
+                continue;
+            };
+            match modes.last_mut() {
+                Some((last, own)) if *last == mode => *own = own.max(most),
+                _ => modes.push((mode, most)),
+            }
+        }
+        verdict(&modes, named)
+    }
+
+    /// Which outputs are known well, and how far the others change.
+    fn of_outputs(&self) -> Option<String> {
+        let outputs = self.changes.iter().filter(|own| own.mode().is_none());
+        let outputs: Vec<(String, f64)> = outputs
+            .map(|own| {
+                (
+                    format!("`{}`", own.answer.name(&self.description)),
+                    own.most(),
+                )
+            })
+            .collect();
+        verdict(&outputs, |own| {
+            let own: Vec<&str> = own.iter().map(String::as_str).collect();
+            names(&own, "outputs")
+        })
+    }
+}
+
+/// `Modes 1 to 3 change by less than 1e-6; mode 4 by 2 %.`
+fn verdict<T: Clone>(all: &[(T, f64)], name: impl Fn(&[T]) -> String) -> Option<String> {
+    let (known, others): (Vec<_>, Vec<_>) = all.iter().partition(|(_, most)| *most < RELEVANT);
+    let worst = |of: &[&(T, f64)]| largest(of.iter().map(|(_, most)| *most));
+    let called = |of: &[&(T, f64)]| {
+        let all: Vec<T> = of.iter().map(|(own, _)| own.clone()).collect();
+        name(&all)
+    };
+    let verb = |of: &[&(T, f64)]| if of.len() == 1 { "changes" } else { "change" };
+    let mut parts = Vec::new();
+    if !known.is_empty() {
+        let by = less_than(worst(&known));
+        parts.push(format!("{} {} {by}", called(&known), verb(&known)));
+    }
+    let (told, rest) = others.split_at(others.len().min(TOLD));
+    for own in told {
+        let verb = if parts.is_empty() { " changes" } else { "" };
+        parts.push(format!("{}{verb} by {}", called(&[own]), share(own.1)));
+    }
+    if !rest.is_empty() {
+        parts.push(format!("{} by up to {}", called(rest), share(worst(rest))));
+    }
+    (!parts.is_empty()).then(|| format!("{}.", capital(parts.join(", "))))
+}
+
+/// The next power of ten.
+fn less_than(change: f64) -> String {
+    match change {
+        0.0 => "by nothing but rounding".to_owned(),
+        _ => format!("by less than 1e{}", change.log10().floor() + 1.0),
+    }
+}
+
+/// A large change.
+fn share(change: f64) -> String {
+    match change.is_finite() {
+        true => format!("{} %", short(100.0 * change)),
+        false => "so much that it no longer oscillates".to_owned(),
+    }
+}

@@ -1,0 +1,154 @@
+//! How far every answer changes with more coordinates of flexible bodies.
+
+mod answer;
+
+use crate::algebra::Vector;
+use crate::kernels::Kernels;
+use crate::response::Response;
+use crate::sensitivity::Quantity;
+use crate::{Behaviour, Description, Equilibrium, Mode, Modes, Output, Shared};
+use eigentol_results::relevance::{largest, unless_rounding};
+
+/// Outputs, frequencies and damping ratios with the declared coordinates of flexible bodies, and their changes with
+/// more.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Convergence {
+    /// Frequencies and damping ratios of the modes that oscillate, then outputs.
+    pub changes: Vec<Change>,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
+    /// The mechanism with the declared coordinates.
+    pub description: Shared<Description>,
+}
+
+/// An answer and its changes.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Change {
+    /// What it is.
+    pub answer: Response,
+    /// Its value with the declared coordinates, SI.
+    pub value: f64,
+    /// What is added to it with one coordinate more in each component, and with two, relative to the larger of the two
+    /// values compared; zero within rounding. `None` if the answer no longer exists.
+    pub relative: [Option<f64>; 2],
+}
+
+impl Change {
+    /// The larger of the changes, without sign; infinite if the answer no longer exists.
+    #[must_use]
+    pub fn most(&self) -> f64 {
+        largest(self.relative.map(|own| own.unwrap_or(f64::INFINITY)))
+    }
+
+    /// The mode it belongs to, from 0; `None` for an output.
+    #[must_use]
+    pub fn mode(&self) -> Option<usize> {
+        match self.answer {
+            Response::Mode { mode, .. } => Some(mode),
+            _ => None,
+        }
+    }
+}
+
+impl Convergence {
+    /// The changes of the first modes that oscillate alone, as many as these, and of the outputs.
+    #[must_use]
+    pub fn of_first(mut self, modes: usize) -> Self {
+        let mut compared: Vec<usize> = self.changes.iter().filter_map(Change::mode).collect();
+        compared.dedup();
+        compared.truncate(modes);
+        self.changes
+            .retain(|change| change.mode().is_none_or(|own| compared.contains(&own)));
+        self
+    }
+}
+
+/// A mechanism that has been solved.
+#[derive(Clone, Copy)]
+pub struct Solved<'a> {
+    /// The mechanism.
+    pub mechanism: &'a dyn Kernels,
+    /// Its equilibrium.
+    pub state: &'a Equilibrium,
+    /// The modes there.
+    pub modes: &'a Modes,
+}
+
+impl<'a> Solved<'a> {
+    /// The modes that oscillate, with their positions.
+    fn oscillating(self) -> Vec<(usize, &'a Mode)> {
+        let all = self.modes.modes.iter().enumerate();
+        all.filter(|(_, mode)| mode.frequency().is_some()).collect()
+    }
+
+    fn outputs(self) -> Vector {
+        let at = self.state;
+        (self.mechanism).outputs(&at.coordinates, &at.inputs, &at.design)
+    }
+}
+
+/// Compares the answers of a mechanism with those of the same mechanism with one and with two more coordinates of each
+/// component of its flexible bodies.
+///
+/// The modes that oscillate are compared in the order of their frequencies. More coordinates lower these where nothing is
+/// damped, so that each has its counterpart; where two frequencies cross, damping ratios may be compared with those of
+/// the other.
+#[must_use]
+pub fn convergence(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Convergence {
+    let mut changes = of_modes(declared, refined);
+    changes.extend(of_outputs(declared, refined));
+    Convergence {
+        changes,
+        inputs: declared.state.inputs.clone(),
+        description: declared.state.description.clone(),
+    }
+}
+
+fn of_modes(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Vec<Change> {
+    let refined = refined.map(Solved::oscillating);
+    let mut changes = Vec::new();
+    for (k, (mode, own)) in declared.oscillating().into_iter().enumerate() {
+        let damped = matches!(own.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
+        let ratio = damped.then_some(Quantity::DampingRatio);
+        for quantity in [Quantity::Frequency].into_iter().chain(ratio) {
+            let Some(value) = quantity.of(own) else {
+                continue;
+            };
+            let others = (refined.each_ref()).map(|all| quantity.of(all.get(k)?.1));
+            let answer = Response::Mode { mode, quantity };
+            changes.push(change(answer, value, others));
+        }
+    }
+    changes
+}
+
+fn of_outputs(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Vec<Change> {
+    let refined = refined.map(Solved::outputs);
+    let values = declared.outputs().into_iter().enumerate();
+    let changes = values.map(|(k, value)| {
+        let others = refined.each_ref().map(|all| all.get(k).copied());
+        change(Response::Output(Output::new(k)), value, others)
+    });
+    changes.collect()
+}
+
+fn change(answer: Response, value: f64, others: [Option<f64>; 2]) -> Change {
+    Change {
+        answer,
+        value,
+        relative: others.map(|other| Some(relative(value, other?))),
+    }
+}
+
+/// The difference of two values relative to the larger.
+fn relative(from: f64, to: f64) -> f64 {
+    let size = largest([from, to]);
+    match unless_rounding(to - from, size) {
+        0.0 => 0.0,
+        difference => difference / size,
+    }
+}
