@@ -12,6 +12,8 @@ mod compared;
 mod composed;
 #[path = "beams/damped.rs"]
 mod damped;
+#[path = "beams/poses.rs"]
+mod poses;
 #[path = "beams/rotating.rs"]
 mod rotating;
 #[path = "beams/strained.rs"]

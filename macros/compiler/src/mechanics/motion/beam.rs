@@ -2,7 +2,6 @@
 
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BeamId, ExprId};
-use crate::base::legendre::Gauss;
 use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
 use crate::model::mechanism::Mechanism;
 
@@ -95,10 +94,7 @@ impl BeamMotion {
             .map(|(section, heading)| DirectionMotion::new(g, section, heading))
             .collect();
         let length = values.scalar(g, &beam.length);
-        let rule = Gauss {
-            points: beam.sections.iter().map(|(place, ..)| *place).collect(),
-            weights: beam.sections.iter().map(|(_, weight, _)| *weight).collect(),
-        };
+        let rule = beam.quadrature();
         let stations = beam.stations.iter().zip(ends).map(|(station, section)| {
             let reach: Vec<ExprId> = rule
                 .integrals_to(station.place)
@@ -223,6 +219,15 @@ impl SectionMotion {
                 let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
                 own.sub(g, half).scale(g, factor).0
             }
+        }
+    }
+
+    /// The squared cosine of half the angle by which the section has turned: zero at half a turn, where its Rodrigues
+    /// vector is infinite. `None` if it turns by an angle.
+    pub(crate) fn pose_margin(&self) -> Option<ExprId> {
+        match self.turn {
+            Turn::Angle(_) => None,
+            Turn::Rodrigues(_, factor) => Some(factor),
         }
     }
 

@@ -318,6 +318,7 @@ impl Table {
                 stiffness: [torsion.clone(), about_y.clone(), about_z.clone()],
                 against_strain: [axial.clone(), shear_y.clone(), shear_z.clone()],
                 twist,
+                size: [Expr::Number(0.0), Expr::Number(0.0)],
             };
         }
         let (area, [second_y, second_z], torsion) = self.moments(&at);
@@ -346,6 +347,24 @@ impl Table {
                 of(modulus, second_z),
             ],
             twist,
+            size: self.size(&at),
+        }
+    }
+
+    /// Whether the section is a circle or a tube.
+    pub(super) fn is_round(&self) -> bool {
+        matches!(self.kind, Kind::Circle | Kind::Tube)
+    }
+
+    /// Extent along the second and along the third axis.
+    fn size(&self, dimensions: &[Expr]) -> [Expr; 2] {
+        match dimensions {
+            [width, height] if self.kind == Kind::Rectangle => [width.clone(), height.clone()],
+            [outer, ..] => {
+                let diameter = multiply(Expr::Number(2.0), outer.clone());
+                [diameter.clone(), diameter]
+            }
+            [] => [Expr::Number(0.0), Expr::Number(0.0)],
         }
     }
 

@@ -254,6 +254,7 @@ impl Resolver<'_> {
             ],
             static_shear: declared.static_shear,
             root: declared.section(start),
+            round: declared.table.is_round(),
             sections: declared.sections(start, piece.end),
             stations,
             spin: declared.spin.clone(),
