@@ -54,6 +54,20 @@ function tube(center, { axis, inner, outer, length: long }, sides) {
   return [...belt(under, over), ...belt(above, below), ...flat(belt(over, above)), ...flat(belt(below, under))];
 }
 
+// The faces of a beam between its sections, in the common frame.
+function beamFaces(poses, sections, round) {
+  const rims = poses.map((pose, k) => {
+    const [width, height] = sections[k].size;
+    const rim = round
+      ? Array.from({ length: COARSE }, (_, n) => (2 * Math.PI * n) / COARSE).map((angle) => [Math.cos(angle) / 2, Math.sin(angle) / 2])
+      : [[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]];
+    return rim.map(([across, up]) => placed(pose, [0, width * across, height * up]));
+  });
+  const belts = rims.slice(1).flatMap((over, k) => belt(rims[k], over));
+  const sides = belts.map(({ corners }) => ({ corners, smooth: round }));
+  return [...sides, { corners: rims[rims.length - 1] }, { corners: [...rims[0]].reverse() }];
+}
+
 function box(center, edges, size) {
   const half = edges.map((edge, k) => times(size[k] / 2, edge));
   const right = dot(cross(edges[0], edges[1]), edges[2]) > 0;
