@@ -36,10 +36,13 @@ class Model {
     this.colours = this.colourBodies();
   }
 
-  // Each beam with the poses of its sections, which follow those of the bodies.
+  // Each beam with the poses of its sections, which follow those of the bodies, and the sections of a smooth picture.
   beams(poses) {
     let number = this.scene.bodies.length;
-    return this.scene.beams.map((beam) => ({ ...beam, poses: poses.slice(number, (number += beam.sections.length)) }));
+    return this.scene.beams.map(({ name, round, sections }) => {
+      const own = sections.map(({ size }) => ({ pose: poses[number++], size }));
+      return { name, round, sections: own, smooth: smoothed(own) };
+    });
   }
 
   // Bodies without a shape of their own are seen as lines to what is fixed in them.
@@ -150,19 +153,19 @@ class Painter {
   // stroke along the second axis says how a section stands.
   beams(poses, ghost) {
     const stroke = 0.02 * this.model.size;
-    return this.model.beams(poses).flatMap(({ poses: own, sections, round }, number) => {
+    return this.model.beams(poses).flatMap(({ sections, smooth, round }, number) => {
       const colour = this.model.colours[this.model.scene.bodies.length + number];
       const line = ghost ? "#dddddd" : colour;
-      const path = own.map(({ position }) => this.see(position));
+      const path = smooth.map(({ pose }) => this.see(pose.position));
       const lines = path.slice(1).map((end, k) => [path[k], end]);
       const shaped = sections.every(({ size }) => size[0] > 0);
       if (!shaped) {
-        const ends = (pose) => [-stroke, stroke].map((side) => this.see(placed(pose, [0, side, 0])));
-        lines.push(...own.map(ends));
+        const ends = ({ pose }) => [-stroke, stroke].map((side) => this.see(placed(pose, [0, side, 0])));
+        lines.push(...sections.map(ends));
       }
       const jobs = lines.map(([a, b]) => ({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], line, 2) }));
       if (!shaped) return jobs;
-      const faces = beamFaces(own, sections, round);
+      const faces = beamFaces(smooth, round);
       return [...jobs, ...faces.flatMap(({ corners, smooth }) => this.face(corners, smooth, colour, ghost))];
     });
   }
@@ -215,8 +218,8 @@ class Painter {
       const [x, y] = this.see(placed(poses[body], solids[0]?.center ?? [0, 0, 0]));
       this.written(name, x + 5, y - 5);
     });
-    for (const { name, poses: own } of this.model.beams(poses)) {
-      const [x, y] = this.see(own[Math.floor(own.length / 2)].position);
+    for (const { name, sections } of this.model.beams(poses)) {
+      const [x, y] = this.see(sections[Math.floor(sections.length / 2)].pose.position);
       this.written(name, x + 5, y - 5);
     }
   }

@@ -36,12 +36,12 @@ pub struct PictureBody {
     pub solids: Vec<(SolidKind, bool)>,
 }
 
-/// A beam, or a part of one between loads.
+/// A beam.
 #[derive(Clone, Debug)]
 pub struct PictureBeam {
-    /// Declared name, with a number if loads split the beam.
+    /// Declared name.
     pub name: String,
-    /// The number of its sections that are shown, from the root to the tip.
+    /// The number of its sections that are shown, from the root to the tip; two where a load splits it.
     pub sections: u32,
     /// Whether its sections are circles or tubes.
     pub round: bool,

@@ -128,15 +128,15 @@ pub struct Body {
     pub solids: Vec<Solid>,
 }
 
-/// A beam, or a part of one between loads.
+/// A beam.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Beam {
-    /// Declared name, with a number if loads split the beam.
+    /// Declared name.
     pub name: Text,
     /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
     pub round: bool,
-    /// Sections from the root to the tip; their centres are places of the centre line.
+    /// Sections from the root to the tip; their centres are places of the centre line. Two are where a load splits it.
     pub sections: Vec<Section>,
 }
 

@@ -70,13 +70,14 @@ pub struct BodyInfo {
     pub solids: List<SolidInfo>,
 }
 
-/// A beam of a picture, or a part of one between loads.
+/// A beam of a picture.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BeamInfo {
-    /// Declared name, with a number if loads split the beam.
+    /// Declared name.
     pub name: Text,
-    /// The number of its sections that are shown: at the root, at places between, and at the tip.
+    /// The number of its sections that are shown: at the root, at places between, and at the tip; two where a load
+    /// splits the beam.
     pub sections: u32,
     /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
     pub round: bool,

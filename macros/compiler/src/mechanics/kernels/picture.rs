@@ -40,8 +40,8 @@ pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
     }
     let bodies = mechanism.bodies.iter();
     let bodies = bodies.map(|body| numbers.body(g, body)).collect();
-    let beams = mechanism.beams.iter();
-    let beams = beams.map(|beam| numbers.beam(g, beam)).collect();
+    let beams = mechanism.beams.chunk_by(|a, b| a.whole == b.whole);
+    let beams = beams.filter_map(|parts| numbers.beam(g, parts)).collect();
     let joints = mechanism.joints.iter().enumerate();
     let joints = joints.map(|(index, joint)| {
         let cut = context.topology.cut.contains(&JointId::new(index));
@@ -204,18 +204,23 @@ impl<'a> Numbers<'a> {
         self.pose(position, axes.multiply(g, twisted));
     }
 
-    fn beam(&mut self, g: &mut Graph, beam: &Beam) -> PictureBeam {
-        let places = beam.sections.iter().map(|(_, _, section)| section);
-        let tip = beam.stations.last().map(|own| &own.section);
-        let all: Vec<&Section> = [&beam.root].into_iter().chain(places).chain(tip).collect();
-        for size in all.iter().flat_map(|section| &section.size) {
-            self.number(g, size);
+    /// A declared beam, from its parts between loads.
+    fn beam(&mut self, g: &mut Graph, parts: &[Beam]) -> Option<PictureBeam> {
+        let mut sections = 0;
+        for beam in parts {
+            let places = beam.sections.iter().map(|(_, _, section)| section);
+            let tip = beam.stations.last().map(|own| &own.section);
+            for section in [&beam.root].into_iter().chain(places).chain(tip) {
+                section.size.iter().for_each(|size| self.number(g, size));
+                sections += 1;
+            }
         }
-        PictureBeam {
-            name: beam.name.clone(),
-            sections: all.len() as u32,
-            round: beam.round,
-        }
+        let first = parts.first()?;
+        Some(PictureBeam {
+            name: first.whole.to_string(),
+            sections,
+            round: first.round,
+        })
     }
 
     fn body(&mut self, g: &mut Graph, body: &Body) -> PictureBody {
