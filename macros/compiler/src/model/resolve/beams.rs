@@ -179,7 +179,7 @@ impl Resolver<'_> {
         if let Some(value) = &body.spinning {
             self.require_round(value, &declared)?;
         }
-        self.require_sections(name, word, &declared);
+        self.require_sections(name, word, given, &declared)?;
         Some(declared)
     }
 
@@ -335,8 +335,15 @@ impl Resolver<'_> {
         });
     }
 
-    /// Mass and stiffness must be positive all along the beam, also within the tolerances.
-    fn require_sections(&mut self, name: &Ident, word: &Ident, declared: &Declared) {
+    /// Mass and stiffness must be given, and if they are numbers positive all along the beam, also within the
+    /// tolerances. Those of a shape are positive if its dimensions and moduli are.
+    fn require_sections(
+        &mut self,
+        name: &Ident,
+        word: &Ident,
+        given: &Arguments<'_>,
+        declared: &Declared,
+    ) -> Option<()> {
         // Dimensions change linearly: what is positive at both ends is so between them.
         let ends = [0.0, 1.0].map(|place| declared.section(place));
         let [torsion, about_y, about_z] = declared.counts;
@@ -345,46 +352,76 @@ impl Resolver<'_> {
             false => strains,
         };
         let bending = Dimension::new(3, 1, -2);
+        let force = Dimension::FORCE;
         let [stretch, shear_y, shear_z] = declared.strains;
         let (shear_y, shear_z) = (shears(shear_y, about_z), shears(shear_z, about_y));
         type Of = fn(&Section) -> &Expr;
-        let demands: [(&str, Dimension, usize, Of); 7] = [
-            ("mass per length", Dimension::LINE_DENSITY, 1, |own| {
+        type Asked = &'static [&'static str];
+        let demands: [(&str, Dimension, usize, Asked, Of); 7] = [
+            ("mass per length", Dimension::LINE_DENSITY, 1, &[], |own| {
                 &own.mass
             }),
-            ("torsional stiffness", bending, torsion, |own| {
-                &own.stiffness[0]
-            }),
-            ("bending stiffness about y", bending, about_y, |own| {
-                &own.stiffness[1]
-            }),
-            ("bending stiffness about z", bending, about_z, |own| {
-                &own.stiffness[2]
-            }),
-            ("axial stiffness", Dimension::FORCE, stretch, |own| {
+            (
+                "torsional stiffness",
+                bending,
+                torsion,
+                &["torsion"],
+                |own| &own.stiffness[0],
+            ),
+            (
+                "bending stiffness about y",
+                bending,
+                about_y,
+                &["bending_y", "bending"],
+                |own| &own.stiffness[1],
+            ),
+            (
+                "bending stiffness about z",
+                bending,
+                about_z,
+                &["bending_z", "bending"],
+                |own| &own.stiffness[2],
+            ),
+            ("axial stiffness", force, stretch, &["stretch"], |own| {
                 &own.against_strain[0]
             }),
             (
                 "shear stiffness along y",
-                Dimension::FORCE,
+                force,
                 shear_y,
+                &["shear"],
                 |own| &own.against_strain[1],
             ),
             (
                 "shear stiffness along z",
-                Dimension::FORCE,
+                force,
                 shear_z,
+                &["shear"],
                 |own| &own.against_strain[2],
             ),
         ];
-        let demands = demands.into_iter().filter(|(_, _, used, _)| *used > 0);
-        for (what, dimension, _, of) in demands {
-            self.requirements.push(Requirement {
-                what: format!("the {what} of `{name}`"),
-                values: ends.iter().map(|own| of(own).clone()).collect(),
-                demand: Demand::Positive(dimension),
-                extent: word.into(),
-            });
+        let mut is_complete = true;
+        for (what, dimension, used, asked, of) in demands {
+            if used == 0 {
+                continue;
+            }
+            let asked = asked.iter().find_map(|name| given.get(name));
+            let extent = asked.map_or(word.into(), |value| value.extent);
+            let values = ends.each_ref().map(|own| of(own).clone());
+            if !declared.table.gives(what, &values[0]) {
+                let message = format!("the {what} of `{name}` is not given, or zero");
+                let help = declared.table.help_with(what);
+                self.diagnostics.error_with_help(extent, message, help);
+                is_complete = false;
+            } else if declared.table.is_by_numbers() {
+                self.requirements.push(Requirement {
+                    what: format!("the {what} of `{name}`"),
+                    values: values.to_vec(),
+                    demand: Demand::Positive(dimension),
+                    extent: word.into(),
+                });
+            }
         }
+        is_complete.then_some(())
     }
 }

@@ -119,9 +119,14 @@ impl Resolver<'_> {
             return None;
         };
         let own_names = ["density", "modulus", "shear_modulus", "poisson"];
-        if let Some(other) = own_names.into_iter().find(|name| given.get(name).is_some()) {
+        let other = own_names
+            .into_iter()
+            .find_map(|name| Some((name, given.get(name)?)));
+        if let Some((other, value)) = other {
             let message = format!("a beam takes `material` or `{other}`, not both");
-            self.diagnostics.error(value.extent, message);
+            let help = format!("leave out `{other}`, or declare another material");
+            self.diagnostics
+                .error_with_help(value.extent, message, help);
             return None;
         }
         let text = wanted.to_string();

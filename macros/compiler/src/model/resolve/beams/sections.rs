@@ -107,7 +107,9 @@ impl Resolver<'_> {
         match (given.get("section"), numbers) {
             (Some(_), Some((name, value))) => {
                 let message = format!("a beam takes `section` or `{name}`, not both");
-                self.diagnostics.error(value.extent, message);
+                let help = format!("leave out `{name}`, or give all numbers without a `section`");
+                self.diagnostics
+                    .error_with_help(value.extent, message, help);
                 None
             }
             (Some(value), None) => {
@@ -124,7 +126,8 @@ impl Resolver<'_> {
                 let ends = self.numbers(given, by_numbers)?;
                 if matches!(ends[0], Expr::Number(0.0)) {
                     let message = "`beam` needs `mass_per_length`";
-                    self.diagnostics.error(word, message);
+                    let help = "write `mass_per_length: 0.5 kg/m`";
+                    self.diagnostics.error_with_help(word, message, help);
                     return None;
                 }
                 Some(Table {
@@ -189,7 +192,8 @@ impl Resolver<'_> {
         };
         if root.word != tip.word {
             let message = format!("a `{}` cannot become a `{}`", root.word, tip.word);
-            self.diagnostics.error(&tip.word, message);
+            let help = "give both ends the same shape: its dimensions change along the beam";
+            self.diagnostics.error_with_help(&tip.word, message, help);
             return None;
         }
         let signature = self.signature(root, "section", &KINDS, &SYNONYMS)?;
@@ -208,7 +212,8 @@ impl Resolver<'_> {
             };
             if let Some(missing) = missing {
                 let message = format!("`beam` needs a `material`, or {missing}");
-                self.diagnostics.error(word, message);
+                let help = "write `material: steel` and declare `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
+                self.diagnostics.error_with_help(word, message, help);
                 return None;
             }
         }
@@ -278,6 +283,37 @@ impl Resolver<'_> {
 }
 
 impl Table {
+    /// Whether the section is given by mass and stiffness.
+    pub(super) fn is_by_numbers(&self) -> bool {
+        self.kind == Kind::Numbers
+    }
+
+    /// Whether a mass or a stiffness is given: of a shape, all are but for those that need the shear modulus.
+    pub(super) fn gives(&self, what: &str, value: &Expr) -> bool {
+        let needs_shear_modulus = what.starts_with("torsional") || what.starts_with("shear");
+        match self.kind {
+            Kind::Numbers => *value != Expr::Number(0.0),
+            _ => self.material.shear_modulus.is_some() || !needs_shear_modulus,
+        }
+    }
+
+    /// How to give a stiffness that is not given.
+    pub(super) fn help_with(&self, stiffness: &str) -> String {
+        if !self.is_by_numbers() {
+            return "give the `shear_modulus` or the `poisson` ratio of the material".to_owned();
+        }
+        let [argument, short] = match stiffness {
+            "torsional stiffness" => ["torsion_stiffness", "GJ"],
+            "bending stiffness about y" => ["stiffness_y", "EIy"],
+            "bending stiffness about z" => ["stiffness_z", "EIz"],
+            "axial stiffness" => ["axial_stiffness", "EA"],
+            "shear stiffness along y" => ["shear_stiffness_y", "GAy"],
+            "shear stiffness along z" => ["shear_stiffness_z", "GAz"],
+            _ => ["mass_per_length", "mass"],
+        };
+        format!("give `{argument}`, or `{short}` within `section(...)`")
+    }
+
     /// Whether the stiffness against twist is known.
     pub(super) fn knows_torsion(&self) -> bool {
         match self.kind {

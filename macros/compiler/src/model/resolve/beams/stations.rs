@@ -76,7 +76,9 @@ impl Resolver<'_> {
         };
         if !(0.0..=1.0).contains(&fraction) {
             let message = format!("{fraction} is outside the beam, which goes from 0 to 1 length");
-            self.diagnostics.error(place.extent, message);
+            let help = format!("write a fraction: `{frame} at 0.4 length`, or `{frame} at tip`");
+            self.diagnostics
+                .error_with_help(place.extent, message, help);
             return Some(None);
         }
         let root = self.frame(frame);
