@@ -1232,8 +1232,8 @@ class Equilibrium(_Result):
         """Whether it is a singular configuration of the constraints."""
     @property
     def pose(self) -> tuple[str, float] | None:
-        """The joint of three turns that is closest to its singular pose, and how far: 1 at best, 0 there. None without
-        such joints.
+        """The joint of three turns or the beam that is closest to its singular pose, and how far: 1 at best, 0 there.
+        None without such joints and beams.
         """
     @property
     def left_unstable_region(self) -> bool:

@@ -76,7 +76,7 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "balanced_fan" => vec![point(&[150.0, 90.0], &[0.0; 4])],
         "shaken_turntable" => vec![point(&[6.0, 40.0], &[0.5])],
         "hinged_tip_blade" => [0.0, 25.0].map(|speed| point(&[speed], &[0.0; 4])).to_vec(),
-        "twisting_boom" => vec![point(&[], &[0.0; 5])],
+        "twisting_boom" => vec![point(&[], &[0.0; 3])],
         "robot_arm" => vec![point(&[], &[0.1; 7])],
         _ => panic!("nobody has said how {name} is run"),
     }

@@ -202,11 +202,12 @@ const CRATE_ROOMS: [(&str, &[&str]); 6] = [
 ];
 
 /// Files that define the types passed between stages, and the modules of their own room that they may import.
-const TYPE_FILES: [(&str, &[&str]); 12] = [
+const TYPE_FILES: [(&str, &[&str]); 13] = [
     ("compiler/src/syntax/ast.rs", &[]),
     (
         "compiler/src/model/mechanism.rs",
         &[
+            "beam",
             "constraint",
             "excitation",
             "expression",
@@ -215,6 +216,7 @@ const TYPE_FILES: [(&str, &[&str]); 12] = [
             "unit",
         ],
     ),
+    ("compiler/src/model/beam.rs", &["expression"]),
     ("compiler/src/model/shape.rs", &["expression"]),
     ("compiler/src/model/constraint.rs", &["expression", "unit"]),
     ("compiler/src/model/unit.rs", &[]),

@@ -14,6 +14,8 @@ mod composed;
 mod converged;
 #[path = "beams/damped.rs"]
 mod damped;
+#[path = "beams/poses.rs"]
+mod poses;
 #[path = "beams/rotating.rs"]
 mod rotating;
 #[path = "beams/strained.rs"]

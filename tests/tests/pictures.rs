@@ -1,5 +1,7 @@
 //! Pictures of a mechanism against the oracle's matrices, closed forms, outputs and robot files.
 
+#[path = "pictures/beams.rs"]
+mod beams;
 #[path = "pictures/closed_forms.rs"]
 mod closed_forms;
 #[path = "pictures/joints.rs"]

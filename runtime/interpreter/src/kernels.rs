@@ -230,8 +230,8 @@ impl Kernels for Interpreted {
         let tape = self.shared.tapes.pose_margin.as_ref()?;
         let least = |registers: &[f64]| {
             let places = tape.results.first()?;
-            let volumes = places.iter().map(|place| registers[*place as usize].abs());
-            let joints = volumes.zip(&self.shared.poses);
+            let margins = places.iter().map(|place| registers[*place as usize].abs());
+            let joints = margins.zip(&self.shared.poses);
             joints.reduce(|least, other| if other.0 < least.0 { other } else { least })
         };
         let (margin, joint) = scalar(tape, &[q, u, b], least)?;

@@ -1,8 +1,8 @@
 //! Converts the compiler's layout of picture numbers to the runtime's types.
 
 use eigentol::{
-    BodyInfo, ElementInfo, JointInfo, LinkInfo, List, PictureInfo, PointInfo, SolidInfo, SolidKind,
-    Text, WheelInfo,
+    BeamInfo, BodyInfo, ElementInfo, JointInfo, LinkInfo, List, PictureInfo, PointInfo, SolidInfo,
+    SolidKind, Text, WheelInfo,
 };
 use eigentol_compiler::mechanics::{self, Picture};
 use eigentol_compiler::model::mechanism::Frame;
@@ -15,6 +15,11 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
                 kind: kind(solid),
                 hole,
             }),
+        }),
+        beams: list(&picture.beams, |beam| BeamInfo {
+            name: text(&beam.name),
+            sections: beam.sections,
+            round: beam.round,
         }),
         joints: list(&picture.joints, |joint| {
             let [from, to] = joint.sides.map(body);

@@ -5,12 +5,12 @@ const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["f
 
 function showMechanism({ scene, up, motions }, parent) {
   const model = new Model(scene, up);
-  const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...motions.map((motion) => stateOf(motion, scene.bodies.length))];
+  const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...motions.map(stateOf)];
   new Player(model, states, parent);
 }
 
-function stateOf({ title, about, frames }, bodies) {
-  const poses = (numbers) => Array.from({ length: bodies }, (_, body) => poseOf(numbers, 12 * body));
+function stateOf({ title, about, frames }) {
+  const poses = (numbers) => Array.from({ length: numbers.length / 12 }, (_, pose) => poseOf(numbers, 12 * pose));
   return { title, about, frames: frames.map(poses) };
 }
 

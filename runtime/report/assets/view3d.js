@@ -23,14 +23,26 @@ class Model {
     const [low, high] = scene.bounds;
     this.middle = times(0.5, plus(low, high));
     this.size = length(minus(high, low)) || 1;
-    this.rest = scene.bodies.map((body) => body.pose);
+    this.rest = [...scene.bodies, ...scene.beams.flatMap(({ sections }) => sections)].map(({ pose }) => pose);
+    const flexures = scene.joints.filter(({ kind }) => kind === "flexure");
+    // The roots and stations of beams: the beams show where they are.
+    this.ofBeams = new Set(flexures.flatMap(({ from, to }) => [from.body, to.body]));
     // An ellipsoid stands for masses and moments of inertia: the joints within it are what one knows of the body.
-    this.vague = scene.bodies.map(({ solids }) => solids.every(({ shape }) => "Ellipsoid" in shape));
+    this.vague = scene.bodies.map(({ solids }, body) => !this.ofBeams.has(body) && solids.every(({ shape }) => "Ellipsoid" in shape));
     const faces = (sides) => scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size, sides)));
     this.faces = faces(FINE);
     this.coarse = faces(COARSE);
     this.sticks = scene.bodies.map((_, number) => this.stick(number));
     this.colours = this.colourBodies();
+  }
+
+  // Each beam with the poses of its sections, which follow those of the bodies, and the sections of a smooth picture.
+  beams(poses) {
+    let number = this.scene.bodies.length;
+    return this.scene.beams.map(({ name, round, sections }) => {
+      const own = sections.map(({ size }) => ({ pose: poses[number++], size }));
+      return { name, round, sections: own, smooth: smoothed(own) };
+    });
   }
 
   // Bodies without a shape of their own are seen as lines to what is fixed in them.
@@ -40,9 +52,11 @@ class Model {
     return places.map((place) => [[0, 0, 0], place]).filter(([a, b]) => length(minus(a, b)) > 1e-9 * this.size);
   }
 
+  // The colours of the bodies, then of the beams.
   colourBodies() {
     let number = 0;
-    return this.faces.map((faces) => (faces.length > 0 ? BODY_COLOURS[number++ % BODY_COLOURS.length] : "#777777"));
+    const next = () => BODY_COLOURS[number++ % BODY_COLOURS.length];
+    return [...this.faces.map((faces) => (faces.length > 0 ? next() : "#777777")), ...this.scene.beams.map(next)];
   }
 
   place(poses, body, place) {
@@ -86,8 +100,8 @@ class Painter {
     this.view = viewer(this.azimuth, this.elevation);
     this.factor = (0.86 * this.zoom * Math.min(wide, high * 1.25)) / model.size;
     this.origin = [wide / 2, high / 2];
-    if (ghost) this.run(this.bodies(model.rest, true));
-    this.run([...this.bodies(poses, false), ...this.joints(poses), ...this.links(poses), ...this.wheels(poses)]);
+    if (ghost) this.run([...this.bodies(model.rest, true), ...this.beams(model.rest, true)]);
+    this.run([...this.bodies(poses, false), ...this.beams(poses, false), ...this.joints(poses), ...this.links(poses), ...this.wheels(poses)]);
     if (names) this.names(poses);
     if (triad) this.triad(wide, high);
   }
@@ -113,12 +127,8 @@ class Painter {
     this.faces.forEach((faces, body) => {
       const pose = poses[body];
       for (const { corners, smooth } of faces) {
-        const seen = corners.map((corner) => this.see(placed(pose, corner)));
-        if (turns(seen) >= 0) continue;
-        const depth = seen.reduce((sum, own) => sum + own[2], 0) / seen.length;
-        const veiled = this.model.vague[body] && !ghost;
-        const colour = ghost ? "#ececec" : this.shade(this.model.colours[body], pose, corners);
-        jobs.push({ depth, paint: () => this.polygon(seen, colour, ghost ? "#d8d8d8" : smooth ? colour : "rgba(0,0,0,0.35)", veiled ? 0.45 : 1) });
+        const there = corners.map((corner) => placed(pose, corner));
+        jobs.push(...this.face(there, smooth, this.model.colours[body], ghost, this.model.vague[body] && !ghost));
       }
       if (!this.model.vague[body]) return;
       for (const ends of this.model.sticks[body]) {
@@ -130,9 +140,40 @@ class Painter {
     return jobs;
   }
 
+  // A face of the common frame, if its outside is seen.
+  face(corners, smooth, own, ghost, veiled = false) {
+    const seen = corners.map((corner) => this.see(corner));
+    if (turns(seen) >= 0) return [];
+    const depth = seen.reduce((sum, corner) => sum + corner[2], 0) / seen.length;
+    const colour = ghost ? "#ececec" : this.shade(own, corners);
+    return [{ depth, paint: () => this.polygon(seen, colour, ghost ? "#d8d8d8" : smooth ? colour : "rgba(0,0,0,0.35)", veiled ? 0.45 : 1) }];
+  }
+
+  // Beams as the belts between their sections; the centre line is seen however slender they are. Without a shape, a
+  // stroke along the second axis says how a section stands.
+  beams(poses, ghost) {
+    const stroke = 0.02 * this.model.size;
+    return this.model.beams(poses).flatMap(({ sections, smooth, round }, number) => {
+      const colour = this.model.colours[this.model.scene.bodies.length + number];
+      const line = ghost ? "#dddddd" : colour;
+      const path = smooth.map(({ pose }) => this.see(pose.position));
+      const lines = path.slice(1).map((end, k) => [path[k], end]);
+      const shaped = sections.every(({ size }) => size[0] > 0);
+      if (!shaped) {
+        const ends = ({ pose }) => [-stroke, stroke].map((side) => this.see(placed(pose, [0, side, 0])));
+        lines.push(...sections.map(ends));
+      }
+      const jobs = lines.map(([a, b]) => ({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], line, 2) }));
+      if (!shaped) return jobs;
+      const faces = beamFaces(smooth, round);
+      return [...jobs, ...faces.flatMap(({ corners, smooth }) => this.face(corners, smooth, colour, ghost))];
+    });
+  }
+
   joints(poses) {
     const long = 0.035 * this.model.size;
-    return this.model.scene.joints.flatMap(({ from }) => {
+    return this.model.scene.joints.flatMap(({ kind, from }) => {
+      if (kind === "flexure") return [];
       const place = this.model.place(poses, from.body, from.place);
       const seen = this.see(place);
       // In front of what it holds together.
@@ -173,9 +214,14 @@ class Painter {
     this.context.font = "12px system-ui, sans-serif";
     const { bodies } = this.model.scene;
     bodies.forEach(({ name, solids }, body) => {
+      if (this.model.ofBeams.has(body)) return;
       const [x, y] = this.see(placed(poses[body], solids[0]?.center ?? [0, 0, 0]));
       this.written(name, x + 5, y - 5);
     });
+    for (const { name, sections } of this.model.beams(poses)) {
+      const [x, y] = this.see(sections[Math.floor(sections.length / 2)].pose.position);
+      this.written(name, x + 5, y - 5);
+    }
   }
 
   // Words with a rim that keeps them readable on anything.
@@ -199,8 +245,8 @@ class Painter {
     });
   }
 
-  shade(colour, pose, corners) {
-    const normal = turned(pose.rotation, unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[1]))));
+  shade(colour, corners) {
+    const normal = unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[1])));
     const [right, up, near] = this.seen(normal);
     const light = 0.62 + 0.38 * Math.max(0, dot([right, up, near], LIGHT));
     const part = (from) => Math.round(parseInt(colour.slice(from, from + 2), 16) * light);

@@ -16,11 +16,11 @@ const LEAST_FRAMES: usize = 8;
 /// Largest displacement in a mode or a vibration, as a fraction of the size of the mechanism.
 pub(crate) const AMPLITUDE: f64 = 0.12;
 
-/// The number of animated motions, and the number of poses of every body in each.
-fn frames(bodies: usize, motions: usize) -> (usize, usize) {
-    let poses = POSES / bodies.max(1);
-    let frames = (poses / motions.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
-    (motions.min(poses / frames), frames)
+/// The number of animated motions, and the number of frames in each, for so many poses per frame.
+fn frames(poses: usize, motions: usize) -> (usize, usize) {
+    let most = POSES / poses.max(1);
+    let frames = (most / motions.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
+    (motions.min(most / frames), frames)
 }
 
 /// Data for the pictures.
@@ -37,7 +37,7 @@ impl Pictures {
         let scene = study.picture()?;
         let harmonics = harmonics(study.description());
         let motions = harmonics.len() + study.modes()?.modes.len();
-        let (shown, phases) = frames(scene.bodies.len(), motions);
+        let (shown, phases) = frames(scene.poses(), motions);
         let vibrations = harmonics.into_iter().take(shown).map(|excitation| {
             study.vibration_pictures(Excitation::new(excitation), phases, AMPLITUDE)
         });

@@ -167,7 +167,7 @@ impl Dimension {
 }
 
 /// Names of the dimensions that occur in mechanisms.
-const COMMON: [(Dimension, &str, &str); 23] = [
+const COMMON: [(Dimension, &str, &str); 24] = [
     (Dimension::NONE, "a plain number or an angle", "1"),
     (Dimension::LENGTH, "a length", "m"),
     (Dimension::MASS, "a mass", "kg"),
@@ -193,6 +193,7 @@ const COMMON: [(Dimension, &str, &str); 23] = [
     (Dimension::DENSITY, "a density", "kg/m^3"),
     (Dimension::AREA_DENSITY, "a mass per area", "kg/m^2"),
     (Dimension::LINE_DENSITY, "a mass per length", "kg/m"),
+    (Dimension::new(3, 1, -2), "a bending stiffness", "N*m^2"),
     (Dimension::new(1, 1, -1), "a momentum", "kg*m/s"),
     (Dimension::new(1, 1, 0), "a first moment of mass", "kg*m"),
 ];

@@ -17,6 +17,11 @@ pub(super) fn info(picture: &Picture) -> TokenStream {
         let solids = list(solids);
         quote! { ::eigentol::BodyInfo { name: #name, solids: #solids } }
     });
+    let beams = picture.beams.iter().map(|beam| {
+        let name = text(&beam.name);
+        let (sections, round) = (Literal::u32_unsuffixed(beam.sections), beam.round);
+        quote! { ::eigentol::BeamInfo { name: #name, sections: #sections, round: #round } }
+    });
     let joints = picture.joints.iter().map(|joint| {
         let (name, kind) = (text(&joint.name), text(joint.kind));
         let (cut, driven) = (joint.cut, joint.driven);
@@ -50,12 +55,14 @@ pub(super) fn info(picture: &Picture) -> TokenStream {
         let place = Literal::u32_unsuffixed(place);
         quote!(#place)
     });
-    let (bodies, joints, points) = (list(bodies), list(joints), list(points));
+    let (bodies, beams) = (list(bodies), list(beams));
+    let (joints, points) = (list(joints), list(points));
     let (links, wheels, elements) = (list(links), list(wheels), list(elements));
     let (numbers, computed) = (list(numbers), list(computed));
     quote! {
         const PICTURE: ::eigentol::PictureInfo = ::eigentol::PictureInfo {
             bodies: #bodies,
+            beams: #beams,
             joints: #joints,
             points: #points,
             links: #links,

@@ -8,7 +8,7 @@ use crate::program::Kernel;
 use super::body::Body;
 use super::signature::signature;
 
-/// `fn pose_margin`: the joint whose three axes span the smallest volume.
+/// `fn pose_margin`: the joint or beam with the smallest margin.
 pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
     let body = Body::new(kernel);
     let mut text = signature(
@@ -25,12 +25,12 @@ pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
         text,
         "let mut least_: ::core::option::Option<::eigentol::PoseMargin<T>> = ::core::option::Option::None;"
     );
-    for (pose, &volume) in poses.iter().zip(&kernel.results[0].values) {
+    for (pose, &margin) in poses.iter().zip(&kernel.results[0].values) {
         let _ = writeln!(
             text,
             "{{
-                let volume_ = {};
-                let margin_ = if volume_ < T::constant(0.0) {{ -volume_ }} else {{ volume_ }};
+                let signed_ = {};
+                let margin_ = if signed_ < T::constant(0.0) {{ -signed_ }} else {{ signed_ }};
                 let smaller_ = match &least_ {{
                     ::core::option::Option::Some(known_) => margin_ < known_.margin,
                     ::core::option::Option::None => true,
@@ -39,7 +39,7 @@ pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
                     least_ = ::core::option::Option::Some(::eigentol::PoseMargin {{ joint: ::eigentol::Shared::Static({:?}), margin: margin_ }});
                 }}
             }}",
-            body.text(volume).text,
+            body.text(margin).text,
             pose.joint,
         );
     }

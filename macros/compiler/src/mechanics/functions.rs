@@ -119,14 +119,15 @@ pub struct Requirement {
     pub value: ExprId,
 }
 
-/// A joint with three turns. Where its axes lie in one plane, two of its coordinates describe the same motion.
+/// A joint with three turns, or a section of a beam that turns about more than one axis. Where the axes of the joint lie
+/// in one plane, two of its coordinates describe the same motion.
 #[derive(Clone, Debug)]
 pub struct Pose {
-    /// Name of the joint.
+    /// Name of the joint or the beam.
     pub joint: String,
-    /// Signed volume spanned by the three unit axes: zero in the singular pose, one in magnitude when they are
-    /// perpendicular.
-    pub volume: ExprId,
+    /// Zero in the singular pose. Of a joint, the signed volume spanned by its three unit axes: one in magnitude when
+    /// they are perpendicular; of a section, the squared cosine of half the angle by which it has turned.
+    pub margin: ExprId,
 }
 
 /// Properties established by the compiler: structurally, or up to rounding at random states.

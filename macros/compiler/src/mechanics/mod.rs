@@ -25,4 +25,4 @@ pub use functions::{
 #[cfg(test)]
 pub(crate) use inertia::compared;
 pub use kernel_name::KernelName;
-pub use picture::{Picture, PictureBody, PictureJoint, PictureLink, SolidKind};
+pub use picture::{Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind};

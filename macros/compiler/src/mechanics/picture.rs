@@ -9,6 +9,8 @@ use crate::model::mechanism::Frame;
 pub struct Picture {
     /// Bodies.
     pub bodies: Vec<PictureBody>,
+    /// Beams.
+    pub beams: Vec<PictureBeam>,
     /// Joints.
     pub joints: Vec<PictureJoint>,
     /// Points, and the frame that each is fixed in.
@@ -32,6 +34,17 @@ pub struct PictureBody {
     pub name: String,
     /// Its pieces: the kind of each, and whether it is a hole in the others.
     pub solids: Vec<(SolidKind, bool)>,
+}
+
+/// A beam.
+#[derive(Clone, Debug)]
+pub struct PictureBeam {
+    /// Declared name.
+    pub name: String,
+    /// The number of its sections that are shown, from the root to the tip; two where a load splits it.
+    pub sections: u32,
+    /// Whether its sections are circles or tubes.
+    pub round: bool,
 }
 
 /// Kinds of solids.

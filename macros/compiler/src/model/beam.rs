@@ -4,6 +4,7 @@ use proc_macro2::Ident;
 
 use super::expression::{Expr, Vector};
 use crate::base::ids::{BodyId, CoordinateId, JointId};
+use crate::base::legendre::Gauss;
 
 /// A geometrically exact rod. Its sections turn relative to the root by the Rodrigues vector
 /// `psi(x) = sum_j q_j I_j(x)`, with `I_j` the integrals of the shifted Legendre polynomials from 0 to `x`; their places
@@ -30,6 +31,8 @@ pub struct Beam {
     pub sections: Vec<(f64, f64, Section)>,
     /// The section at the root.
     pub root: Section,
+    /// Whether its sections are circles or tubes.
+    pub round: bool,
     /// Sections to which something is attached.
     pub stations: Vec<Station>,
     /// Speed at which its material turns about the bent axis, rad/s, beside the sections' own motion.
@@ -51,6 +54,16 @@ impl Beam {
         let of_plane = |plane: &Vec<CoordinateId>| plane.len().saturating_sub(2) * 2 / 3;
         of_plane(about_y) + of_plane(about_z)
     }
+
+    /// The rule of its quadrature, on the length as a fraction.
+    pub fn quadrature(&self) -> Gauss {
+        let rule = self
+            .sections
+            .iter()
+            .map(|(place, weight, _)| (place, weight));
+        let (points, weights) = rule.unzip();
+        Gauss { points, weights }
+    }
 }
 
 /// A cross-section, per unit of length.
@@ -66,6 +79,8 @@ pub struct Section {
     pub against_strain: [Expr; 3],
     /// The angle by which its axes are turned about the beam before it bends, rad.
     pub twist: Expr,
+    /// Extent along the second and along the third axis, m; zero if only numbers are known.
+    pub size: [Expr; 2],
 }
 
 /// A section with a frame of its own.

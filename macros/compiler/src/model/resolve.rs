@@ -217,7 +217,7 @@ fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
         && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations
         && joints == count(ast, |kind| matches!(kind, ItemKind::Joint(_))) + stations
         && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams
-        && (beams::declared(ast) == 0) == mechanism.beams.is_empty()
+        && (beams::declared::number_of(ast) == 0) == mechanism.beams.is_empty()
         && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
 }
 

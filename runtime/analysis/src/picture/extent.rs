@@ -77,6 +77,14 @@ pub(super) fn bounds(scene: &Scene) -> [[f64; 3]; 2] {
             include(body.pose.place(solid.center), reach);
         }
     }
+    for section in scene.beams.iter().flat_map(|beam| &beam.sections) {
+        let [width, height] = section.size;
+        let reach = section
+            .pose
+            .rotation
+            .map(|[_, across, up]| (width * across.abs() + height * up.abs()) / 2.0);
+        include(section.pose.position, reach);
+    }
     let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);
     let seats = seats.map(|seat| (seat.body, seat.place));
     let points = scene.points.iter().map(|point| (point.body, point.place));

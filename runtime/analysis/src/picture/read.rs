@@ -2,7 +2,9 @@
 
 use super::ellipsoid::ellipsoid;
 use super::extent::bounds;
-use super::scene::{Body, Element, Joint, Link, Point, Pose, Scene, Seat, Shape, Solid, Wheel};
+use super::scene::{
+    Beam, Body, Element, Joint, Link, Point, Pose, Scene, Seat, Section, Shape, Solid, Wheel,
+};
 use crate::algebra::all_finite;
 use crate::arguments::check_count;
 use crate::kernels::PictureKernels;
@@ -44,8 +46,11 @@ pub fn scene(
 ) -> Result<Scene, Error> {
     let info = &*mechanism.picture_info();
     let mut numbers = Numbers::new(mechanism, info, q, u, b)?;
-    let poses: Vec<Pose> = info.bodies.iter().map(|_| numbers.pose()).collect();
-    let bodies = info.bodies.iter().zip(poses);
+    let mut poses = numbers.poses(info).into_iter();
+    let bodies = info
+        .bodies
+        .iter()
+        .zip(poses.by_ref().take(info.bodies.len()));
     let bodies = bodies.map(|(body, pose)| Body {
         name: body.name.clone(),
         pose,
@@ -56,6 +61,19 @@ pub fn scene(
             .collect(),
     });
     let bodies = bodies.collect();
+    let beams = info.beams.iter().map(|beam| {
+        let sections = poses.by_ref().take(beam.sections as usize);
+        let sections = sections.map(|pose| Section {
+            pose,
+            size: numbers.take(),
+        });
+        Beam {
+            name: beam.name.clone(),
+            round: beam.round,
+            sections: sections.collect(),
+        }
+    });
+    let beams = beams.collect();
     let joints = info.joints.iter().map(|joint| {
         let [from, to] = [joint.from, joint.to].map(|body| numbers.seat(body));
         Joint {
@@ -99,6 +117,7 @@ pub fn scene(
     });
     let mut scene = Scene {
         bodies,
+        beams,
         joints,
         points,
         links: links.collect(),
@@ -111,7 +130,7 @@ pub fn scene(
     Ok(scene)
 }
 
-/// The poses of all bodies at one state.
+/// The poses of all bodies, then of the sections of all beams, at one state.
 pub(super) fn poses(
     mechanism: &dyn PictureKernels,
     q: &[f64],
@@ -120,7 +139,7 @@ pub(super) fn poses(
 ) -> Result<Vec<Pose>, Error> {
     let info = &*mechanism.picture_info();
     let mut numbers = Numbers::new(mechanism, info, q, u, b)?;
-    Ok(info.bodies.iter().map(|_| numbers.pose()).collect())
+    Ok(numbers.poses(info))
 }
 
 /// The numbers of a picture that are still unread.
@@ -166,6 +185,13 @@ impl Numbers {
 
     fn three<const N: usize>(&mut self) -> [[f64; N]; 3] {
         core::array::from_fn(|_| self.take())
+    }
+
+    /// The poses of all bodies, then of the sections of all beams.
+    fn poses(&mut self, info: &PictureInfo) -> Vec<Pose> {
+        let sections = info.beams.iter().map(|beam| beam.sections as usize);
+        let count = info.bodies.len() + sections.sum::<usize>();
+        (0..count).map(|_| self.pose()).collect()
     }
 
     fn pose(&mut self) -> Pose {

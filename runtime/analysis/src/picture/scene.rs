@@ -1,7 +1,7 @@
-//! The contents of a picture: bodies with their solids, joints, points, links and wheels.
+//! The contents of a picture: bodies with their solids, beams, joints, points, links and wheels.
 //!
-//! Only bodies have a pose in the common frame; everything else is fixed to one of them or to the ground. To show
-//! another state of the same mechanism, only the poses need to be replaced.
+//! Only bodies and the sections of beams have a pose in the common frame; everything else is fixed to a body or to the
+//! ground. To show another state of the same mechanism, only the poses need to be replaced.
 
 use crate::Text;
 
@@ -14,6 +14,8 @@ use crate::Text;
 pub struct Scene {
     /// The bodies, in declaration order.
     pub bodies: Vec<Body>,
+    /// The beams, in declaration order.
+    pub beams: Vec<Beam>,
     /// The joints, in declaration order.
     pub joints: Vec<Joint>,
     /// The declared points, in declaration order.
@@ -64,6 +66,20 @@ impl Scene {
         axis.map(|own| sign * own + 0.0)
     }
 
+    /// Whether a body is the root or a station of a beam: a frame of a section, which the beam shows.
+    #[must_use]
+    pub fn is_of_beam(&self, body: usize) -> bool {
+        let mut flexures = self.joints.iter().filter(|joint| joint.is_flexure());
+        flexures.any(|joint| [joint.from.body, joint.to.body].contains(&Some(body)))
+    }
+
+    /// The number of poses: of all bodies, then of the sections of all beams.
+    #[must_use]
+    pub fn poses(&self) -> usize {
+        let sections = self.beams.iter().map(|beam| beam.sections.len());
+        self.bodies.len() + sections.sum::<usize>()
+    }
+
     /// Transforms a place on a body, or on the ground, to the common frame.
     #[must_use]
     pub fn place(&self, body: Option<usize>, place: [f64; 3]) -> [f64; 3] {
@@ -110,6 +126,28 @@ pub struct Body {
     pub pose: Pose,
     /// The pieces of its mass; empty if massless.
     pub solids: Vec<Solid>,
+}
+
+/// A beam.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Beam {
+    /// Declared name.
+    pub name: Text,
+    /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
+    pub round: bool,
+    /// Sections from the root to the tip; their centres are places of the centre line. Two are where a load splits it.
+    pub sections: Vec<Section>,
+}
+
+/// A section of a beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Section {
+    /// Its centre and its axes: along the beam, and across it in the directions of its width and its height.
+    pub pose: Pose,
+    /// Width and height, m; of a round section the diameter twice; zero if the section is known by numbers only.
+    pub size: [f64; 2],
 }
 
 /// A piece of a body's mass, in the frame of the body.
@@ -207,6 +245,14 @@ pub struct Joint {
     pub driven: bool,
 }
 
+impl Joint {
+    /// Whether it connects the root of a beam to one of its stations.
+    #[must_use]
+    pub fn is_flexure(&self) -> bool {
+        &*self.kind == "flexure"
+    }
+}
+
 /// One side of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -283,7 +329,7 @@ pub struct ModePictures {
     pub mode: usize,
     /// Scale factor of the mode shape; zero if the mode moves no body.
     pub amplitude: f64,
-    /// The poses of all bodies at evenly spaced phases, the first at phase 0.
+    /// The poses of all bodies, then of the sections of all beams, at evenly spaced phases, the first at phase 0.
     pub frames: Vec<Vec<Pose>>,
 }
 
@@ -296,6 +342,6 @@ pub struct VibrationPictures {
     pub frequency: f64,
     /// The factor between the displacements shown and those of the vibration; zero if it moves no body.
     pub enlargement: f64,
-    /// The poses of all bodies at evenly spaced phases, the first at phase 0.
+    /// The poses of all bodies, then of the sections of all beams, at evenly spaced phases, the first at phase 0.
     pub frames: Vec<Vec<Pose>>,
 }

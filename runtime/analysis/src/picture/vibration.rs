@@ -13,12 +13,12 @@ use crate::{Complex, Equilibrium, Error, Modes};
 const STEP: f64 = 1e-4;
 /// Smaller displacements, relative to the size of the mechanism, are rounding: the body stands still.
 const STILL: f64 = 1e-12;
-/// Maximum rotation of a body to either side, rad: the rotation is the only visible motion of a slender shaft in
+/// Maximum rotation of a body or a section to either side, rad: the rotation is the only visible motion of a slender shaft in
 /// torsion.
 const MOST_TURN: f64 = 0.5;
 
-/// Poses of all bodies over one period of mode `mode` (counted from 0): at `q* + a Re(phi e^(i theta))` for `phases`
-/// evenly spaced phases `theta`, the first at zero.
+/// Poses of all bodies, then of the sections of all beams, over one period of mode `mode` (counted from 0): at
+/// `q* + a Re(phi e^(i theta))` for `phases` evenly spaced phases `theta`, the first at zero.
 ///
 /// The factor `a` is chosen such that, to first order, the largest displacement to either side is the fraction
 /// `amplitude` of the size of the mechanism ([`Scene::size`]; a metre if the size is zero), and no body rotates by more
@@ -50,8 +50,8 @@ pub fn mode_pictures(
     })
 }
 
-/// Poses of all bodies over one period of a forced vibration: the operating deflection shape, at
-/// `q* + a Re(z e^(i theta))` with the amplitudes `z` of its coordinates, enlarged or reduced by the factor `a` as modes
+/// Poses of all bodies, then of the sections of all beams, over one period of a forced vibration: the operating
+/// deflection shape, at `q* + a Re(z e^(i theta))` with the amplitudes `z` of its coordinates, enlarged or reduced by the factor `a` as modes
 /// are ([`mode_pictures`]).
 ///
 /// # Errors
@@ -170,8 +170,8 @@ impl Motion<'_> {
         if travel <= STILL * size {
             return Ok(0.0);
         }
-        let turn = (0..scene.bodies.len())
-            .map(|body| semi_major([&first, &second].map(|[a, b]| turned(&a[body], &b[body]))))
+        let turn = (0..scene.poses())
+            .map(|pose| semi_major([&first, &second].map(|[a, b]| turned(&a[pose], &b[pose]))))
             .fold(0.0, f64::max);
         let by_turn = match turn > 0.0 {
             true => MOST_TURN / turn,
@@ -181,8 +181,8 @@ impl Motion<'_> {
     }
 }
 
-/// The largest displacement of the visible parts of the bodies; `displaced` gives the displacements of a place on a
-/// body at two phases a quarter of a period apart.
+/// The largest displacement of the visible parts of the bodies and of the centre lines of beams; `displaced` gives the
+/// displacements of a place on a body, or on a section after all bodies, at two phases a quarter of a period apart.
 fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
     let solids = scene.bodies.iter().enumerate().flat_map(|(body, found)| {
         let tips = found.solids.iter().flat_map(|solid| solid.tips());
@@ -194,7 +194,8 @@ fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2])
     let fixed = seats
         .chain(points)
         .filter_map(|(body, place)| Some((body?, place)));
-    let places = solids.chain(fixed);
+    let sections = (scene.bodies.len()..scene.poses()).map(|section| (section, [0.0; 3]));
+    let places = solids.chain(fixed).chain(sections);
     places
         .map(|(body, place)| semi_major(displaced(body, place)))
         .fold(0.0, f64::max)

@@ -17,8 +17,8 @@ pub use description::{
 };
 pub use handles::{Any, Coordinate, DesignVariable, Excitation, Input, Output};
 pub use picture::{
-    BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind,
-    WheelInfo,
+    BeamInfo, BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo,
+    SolidKind, WheelInfo,
 };
 pub use results::{
     Forcing, Gradient, Linear, LinearPartials, PoseMargin, RestParts, Sizes, Violation, Zeros,
@@ -430,7 +430,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         b: &Self::Design<T>,
     ) -> Option<Violation<T>>;
 
-    /// The joint of three turns closest to its singular pose; `None` if there is no such joint. The generated equations
+    /// The joint of three turns or the beam closest to its singular pose; `None` if there is none. The generated equations
     /// stay finite in that pose, but two coordinates have the same effect, and the mass matrix becomes singular.
     fn pose_margin<T: Real + PartialOrd>(
         &self,

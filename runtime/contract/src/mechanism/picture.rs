@@ -4,13 +4,16 @@ use super::shared::{List, Shared, Text};
 
 /// What [`Mechanism::picture`](crate::Mechanism::picture) shows, in the order of its numbers.
 ///
-/// The numbers of a picture, SI, belong to the bodies, their solids, the joints, the points, the wheels and gravity, in
-/// this order:
+/// The numbers of a picture, SI, belong to the bodies, the sections of the beams, the solids of the bodies, the sizes of
+/// the sections, the joints, the points, the wheels and gravity, in this order:
 ///
 /// - a body has 12: the position of its origin in the common frame, and the rows of the rotation that takes vectors of
 ///   the body into the common frame. That frame is the ground frame at the instant at which all running coordinates are
 ///   zero;
+/// - a section of a beam has 12: the position of its centre in the common frame, and the rows of the rotation that takes
+///   vectors along its axes, the first of them along the beam, into the common frame;
 /// - a solid has as many as its kind requires ([`SolidKind::numbers`]);
+/// - a section of a beam has 2 more: its extent along its second and its third axis, zero if it was given by numbers;
 /// - a joint has 12: its position and the axis of its first motion on the `from` side, and its position and the axis of
 ///   its last motion on the `to` side, each in the frame of that side;
 /// - a point has 3: its position in the frame in which it is fixed;
@@ -24,6 +27,8 @@ use super::shared::{List, Shared, Text};
 pub struct PictureInfo {
     /// The bodies, in the order of declaration.
     pub bodies: List<BodyInfo>,
+    /// The beams, in the order of declaration.
+    pub beams: List<BeamInfo>,
     /// The joints, in the order of declaration.
     pub joints: List<JointInfo>,
     /// The declared points, in the order of declaration.
@@ -44,6 +49,7 @@ impl PictureInfo {
     /// An empty picture, for mechanisms without information about their bodies.
     pub const EMPTY: Self = Self {
         bodies: Shared::Static(&[]),
+        beams: Shared::Static(&[]),
         joints: Shared::Static(&[]),
         points: Shared::Static(&[]),
         links: Shared::Static(&[]),
@@ -62,6 +68,19 @@ pub struct BodyInfo {
     pub name: Text,
     /// The solids that make up its mass; empty for a massless body.
     pub solids: List<SolidInfo>,
+}
+
+/// A beam of a picture.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct BeamInfo {
+    /// Declared name.
+    pub name: Text,
+    /// The number of its sections that are shown: at the root, at places between, and at the tip; two where a load
+    /// splits the beam.
+    pub sections: u32,
+    /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
+    pub round: bool,
 }
 
 /// One solid of a body.

@@ -14,13 +14,16 @@ pub struct Violation<T> {
     pub value: T,
 }
 
-/// How far a joint is from the pose in which its coordinates become singular.
+/// How far a joint of three turns, or a beam that turns about more than one axis, is from the pose in which its
+/// coordinates become singular.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseMargin<T> {
-    /// Name of the joint.
+    /// Name of the joint or the beam.
     pub joint: Text,
-    /// Volume spanned by its three unit axes: one when they are perpendicular, zero in the singular pose.
+    /// Zero in the singular pose. Of a joint, the volume spanned by its three unit axes: one when they are
+    /// perpendicular. Of a beam, the squared cosine of half the largest angle by which a section has turned relative to
+    /// the root: one where it is straight, 0.067 at 150 degrees; two beams in series bend farther.
     pub margin: T,
 }
 

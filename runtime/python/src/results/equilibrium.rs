@@ -54,8 +54,8 @@ attributes! {
         rounding: f64 = self.0.rounding;
         /// Whether it is a singular configuration of the constraints.
         singular: bool = self.0.constraints.singular;
-        /// The joint of three turns that is closest to its singular pose, and how far: 1 at best, 0 there. None without
-        /// such joints.
+        /// The joint of three turns or the beam that is closest to its singular pose, and how far: 1 at best, 0 there.
+        /// None without such joints and beams.
         pose: Option<(String, f64)> = {
             let own = self.0.pose.as_ref()?;
             Some((own.joint.to_string(), own.margin))

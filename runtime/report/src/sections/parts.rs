@@ -1,6 +1,6 @@
 //! Tables of bodies, joints, forces and constraints.
 
-use eigentol::picture::{Scene, Shape, Solid};
+use eigentol::picture::{Beam, Body, Joint, Scene, Shape, Solid};
 use eigentol_tables::Table;
 
 use crate::words::number;
@@ -20,15 +20,38 @@ pub(super) fn tables(scene: &Scene) -> Vec<(&'static str, Table)> {
 }
 
 fn bodies(scene: &Scene) -> Table {
-    let all = scene.bodies.iter();
+    let all = scene.bodies.iter().enumerate();
+    let all = all.filter(|(number, _)| !scene.is_of_beam(*number));
+    let all = all.map(|(_, body)| body);
     let mut table = Table::new("bodies");
-    table.texts("body", all.clone().map(|own| Some(own.name.to_string())));
-    let made_of = |solids: &[Solid]| match solids {
+    let names = all.clone().map(|own| &own.name);
+    let names = names.chain(scene.beams.iter().map(|own| &own.name));
+    table.texts("body", names.map(|name| Some(name.to_string())));
+    let made_of = |body: &Body| match &body.solids[..] {
         [] => "massless".to_owned(),
         all => all.iter().map(solid).collect::<Vec<_>>().join("; "),
     };
-    table.texts("made of", all.map(|own| Some(made_of(&own.solids))));
+    let made_of = all.map(made_of).chain(scene.beams.iter().map(beam));
+    table.texts("made of", made_of.map(Some));
     table
+}
+
+fn beam(own: &Beam) -> String {
+    let size = |[width, height]: [f64; 2]| match own.round {
+        true => format!("diameter {}", number(width)),
+        false => format!("{} x {}", number(width), number(height)),
+    };
+    let ends = [own.sections.first(), own.sections.last()];
+    let [Some(root), Some(tip)] = ends.map(|end| end.map(|section| section.size)) else {
+        return "beam".to_owned();
+    };
+    if root == [0.0; 2] {
+        "beam".to_owned()
+    } else if root == tip {
+        format!("beam, {}", size(root))
+    } else {
+        format!("beam, {} to {}", size(root), size(tip))
+    }
 }
 
 fn solid(own: &Solid) -> String {
@@ -79,14 +102,13 @@ fn body(scene: &Scene, number: Option<usize>) -> Option<String> {
 }
 
 fn joints(scene: &Scene) -> Table {
-    let all = scene.joints.iter();
+    let all = scene.joints.iter().filter(|own| !own.is_flexure());
     let mut table = Table::new("joints");
     table.texts("joint", all.clone().map(|own| Some(own.name.to_string())));
     table.texts("kind", all.clone().map(|own| Some(own.kind.to_string())));
     table.texts("from", all.clone().map(|own| body(scene, own.from.body)));
     table.texts("to", all.clone().map(|own| body(scene, own.to.body)));
-    let closes =
-        |own: &eigentol::picture::Joint| own.closes_loop.then(|| "closes a loop".to_owned());
+    let closes = |own: &Joint| own.closes_loop.then(|| "closes a loop".to_owned());
     table.texts("role", all.map(closes));
     table
 }

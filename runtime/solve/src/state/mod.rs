@@ -47,7 +47,8 @@ pub struct Equilibrium {
     pub relative_residual: f64,
     /// Iterations spent.
     pub iterations: usize,
-    /// The joint closest to its singular pose, if the mechanism has joints of three turns.
+    /// The joint or beam closest to its singular pose, if the mechanism has joints of three turns or beams that turn about
+    /// more than one axis.
     pub pose: Option<PoseMargin<f64>>,
     /// What the constraints leave free there, and which ones are redundant.
     pub constraints: ConstraintState,

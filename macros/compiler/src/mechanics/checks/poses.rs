@@ -1,11 +1,12 @@
-//! How far joints with three turns are from the poses in which their coordinates become singular.
+//! How far joints with three turns, and beams that turn about more than one axis, are from the poses in which their
+//! coordinates become singular.
 
 use crate::algebra::{Graph, Vector3};
 use crate::mechanics::functions::Pose;
 use crate::mechanics::motion::in_common_frame_at_zero;
 use crate::mechanics::setup::Context;
 
-/// Every joint with three turns.
+/// Every joint with three turns, and every section of the beams that turn about more than one axis.
 pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
     let kinematics = in_common_frame_at_zero(g, context);
     let mut poses = Vec::new();
@@ -14,12 +15,22 @@ pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
         let turns: Vec<Vector3> = motion.steps.iter().filter_map(|step| step.turn).collect();
         if let [first, second, third] = turns[..] {
             let normal = first.cross(g, second);
-            let volume = normal.dot(g, third);
+            let margin = normal.dot(g, third);
             let joint = context.mechanism.joints[branch.joint.index()]
                 .name
                 .to_string();
-            poses.push(Pose { joint, volume });
+            poses.push(Pose { joint, margin });
         }
+    }
+    for (beam, motion) in context.mechanism.beams.iter().zip(&kinematics.beams) {
+        let stations = motion.stations.iter().map(|own| &own.section);
+        let sections = motion.sections.iter().chain(stations);
+        poses.extend(sections.filter_map(|section| {
+            Some(Pose {
+                joint: beam.name.clone(),
+                margin: section.pose_margin()?,
+            })
+        }));
     }
     poses
 }

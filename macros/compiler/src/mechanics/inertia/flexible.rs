@@ -9,7 +9,6 @@
 
 use crate::algebra::{Graph, Unary, Vector3};
 use crate::base::ids::{BeamId, ExprId};
-use crate::base::legendre::Gauss;
 use crate::mechanics::motion::{BeamMotion, FrameMotion};
 use crate::mechanics::setup::{Context, Sections};
 
@@ -71,10 +70,7 @@ impl BeamInertia {
         let length = values.scalar(g, &beam.length);
         let square = g.mul(length, length);
         let cube = g.mul(square, length);
-        let rule = Gauss {
-            points: beam.sections.iter().map(|(place, ..)| *place).collect(),
-            weights: beam.sections.iter().map(|(_, weight, _)| *weight).collect(),
-        };
+        let rule = beam.quadrature();
         let zero = g.zero();
         let reach: Vec<Vec<f64>> = rule.points.iter().map(|x| rule.integrals_to(*x)).collect();
         let masses: Vec<ExprId> = beam

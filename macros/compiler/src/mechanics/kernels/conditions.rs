@@ -1,4 +1,5 @@
-//! The kernels that check a state: physical requirements on the design, and the distance of joints from singular poses.
+//! The kernels that check a state: physical requirements on the design, and the distance of joints and beams from
+//! singular poses.
 
 use crate::algebra::{Array, Function};
 use crate::base::ids::ExprId;
@@ -22,9 +23,9 @@ pub(crate) fn violation(requirements: &[Requirement], symbols: &Symbols) -> Func
     }
 }
 
-/// The function whose results measure how far joints are from their singular poses.
+/// The function whose results measure how far joints and beams are from their singular poses.
 pub(crate) fn pose_margin(poses: &[Pose], symbols: &Symbols) -> Function {
-    let values: Vec<ExprId> = poses.iter().map(|pose| pose.volume).collect();
+    let values: Vec<ExprId> = poses.iter().map(|pose| pose.margin).collect();
     Function {
         name: KernelName::PoseMargin.name(),
         parameters: vec![
@@ -33,7 +34,7 @@ pub(crate) fn pose_margin(poses: &[Pose], symbols: &Symbols) -> Function {
             parameter("b", &symbols.b),
         ],
         results: vec![Array {
-            name: "volumes",
+            name: "margins",
             shape: vec![values.len()],
             values,
         }],

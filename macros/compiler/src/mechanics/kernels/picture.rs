@@ -1,24 +1,28 @@
-//! Poses of the bodies, and the shapes of bodies, joints and points in the frames that carry them.
+//! Poses of the bodies and of the sections of beams, and the shapes of bodies, joints and points in the frames that carry
+//! them.
 //!
-//! Only the poses of bodies depend on the position. Everything else is written in body frames, so that it depends at
-//! most on inputs and design and is usually constant; the kernel does not return constants.
+//! Only the poses depend on the position. Everything else is written in body frames, so that it depends at most on inputs
+//! and design and is usually constant; the kernel does not return constants.
 //!
 //! # Pictures are written in body frames
 //!
-//! Only the poses of bodies depend on the state; solids, joints and points are written in the frames that carry them
+//! Only the poses of bodies and sections depend on the state; solids, joints and points are written in the frames that carry them
 //! and depend at most on the design. The kernel `picture` returns only the numbers that vary; `Mechanism::PICTURE`
 //! holds the constants, the names and the places of the computed numbers (`mechanics/kernels/picture.rs`). Callers that
 //! need no picture do not compile it.
 
 use crate::algebra::{Array, Function, Graph, Matrix3, Vector3};
-use crate::base::ids::{ExprId, JointId, PointId};
+use crate::base::ids::{BeamId, ExprId, JointId, PointId};
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::motion::in_common_frame_at_zero;
-use crate::mechanics::picture::{Picture, PictureBody, PictureJoint, PictureLink, SolidKind};
+use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero};
+use crate::mechanics::picture::{
+    Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind,
+};
 use crate::mechanics::setup::{Context, Values};
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Body, Constraint, ConstraintLaw, Force, ForceLaw, Joint, Motion, Part, Placement, Shape,
+    Beam, Body, Constraint, ConstraintLaw, Force, ForceLaw, Joint, Motion, Part, Placement,
+    Section, Shape,
 };
 
 use super::parameters::parameter;
@@ -27,12 +31,17 @@ use super::parameters::parameter;
 pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
     let (mechanism, symbols) = (context.mechanism, context.symbols);
     let mut numbers = Numbers::new(context.values);
-    for body in &in_common_frame_at_zero(g, context).bodies {
-        numbers.vector(body.frame.position);
-        numbers.rows(body.frame.orientation.axes);
+    let kinematics = in_common_frame_at_zero(g, context);
+    for body in &kinematics.bodies {
+        numbers.pose(body.frame.position, body.frame.orientation.axes);
+    }
+    for id in (0..mechanism.beams.len()).map(BeamId::new) {
+        numbers.poses_of_beam(g, &kinematics, id, &mechanism.beams[id.index()]);
     }
     let bodies = mechanism.bodies.iter();
     let bodies = bodies.map(|body| numbers.body(g, body)).collect();
+    let beams = mechanism.beams.chunk_by(|a, b| a.whole == b.whole);
+    let beams = beams.filter_map(|parts| numbers.beam(g, parts)).collect();
     let joints = mechanism.joints.iter().enumerate();
     let joints = joints.map(|(index, joint)| {
         let cut = context.topology.cut.contains(&JointId::new(index));
@@ -75,6 +84,7 @@ pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
     let points = mechanism.points.iter();
     let picture = Picture {
         bodies,
+        beams,
         joints,
         points: points
             .map(|point| (point.name.to_string(), point.frame))
@@ -144,8 +154,9 @@ impl<'a> Numbers<'a> {
         self.all.extend(vector.0);
     }
 
-    fn rows(&mut self, matrix: Matrix3) {
-        let rows = matrix.transpose();
+    fn pose(&mut self, position: Vector3, axes: Matrix3) {
+        self.vector(position);
+        let rows = axes.transpose();
         rows.0.into_iter().for_each(|row| self.vector(row));
     }
 
@@ -157,6 +168,59 @@ impl<'a> Numbers<'a> {
     fn declared(&mut self, g: &mut Graph, vector: &Vector) {
         let vector = self.values.vector(g, vector);
         self.vector(vector);
+    }
+
+    /// The poses of the sections of a beam: at the root, at the places of quadrature and at the tip.
+    fn poses_of_beam(&mut self, g: &mut Graph, kinematics: &Kinematics, id: BeamId, beam: &Beam) {
+        let values = self.values;
+        let own_axes = Matrix3([0, 1, 2].map(|k| values.vector(g, &beam.axes[k])));
+        let root = &kinematics.of(beam.body).frame;
+        let motion = &kinematics.beams[id.index()];
+        let axes = root.orientation.axes.multiply(g, own_axes);
+        self.section(g, (root.position, axes), &beam.root);
+        let length = values.scalar(g, &beam.length);
+        let rule = beam.quadrature();
+        for ((place, _, section), bent) in beam.sections.iter().zip(&motion.sections) {
+            let mut position = root.position;
+            for (direction, share) in motion.directions.iter().zip(rule.integrals_to(*place)) {
+                let reach = g.scale(share, length);
+                let arm = direction.vector.scale(g, reach);
+                position = position.add(g, arm);
+            }
+            self.section(g, (position, bent.frame.orientation.axes), section);
+        }
+        if let Some(tip) = beam.stations.last() {
+            let frame = &kinematics.of(tip.body).frame;
+            let axes = frame.orientation.axes.multiply(g, own_axes);
+            self.section(g, (frame.position, axes), &tip.section);
+        }
+    }
+
+    /// The pose of a section, from the axes it would have without twist.
+    fn section(&mut self, g: &mut Graph, (position, axes): (Vector3, Matrix3), section: &Section) {
+        let twist = self.values.scalar(g, &section.twist);
+        let along = Matrix3::identity(g).0[0];
+        let twisted = Matrix3::rotation(g, along, twist);
+        self.pose(position, axes.multiply(g, twisted));
+    }
+
+    /// A declared beam, from its parts between loads.
+    fn beam(&mut self, g: &mut Graph, parts: &[Beam]) -> Option<PictureBeam> {
+        let mut sections = 0;
+        for beam in parts {
+            let places = beam.sections.iter().map(|(_, _, section)| section);
+            let tip = beam.stations.last().map(|own| &own.section);
+            for section in [&beam.root].into_iter().chain(places).chain(tip) {
+                section.size.iter().for_each(|size| self.number(g, size));
+                sections += 1;
+            }
+        }
+        let first = parts.first()?;
+        Some(PictureBeam {
+            name: first.whole.to_string(),
+            sections,
+            round: first.round,
+        })
     }
 
     fn body(&mut self, g: &mut Graph, body: &Body) -> PictureBody {

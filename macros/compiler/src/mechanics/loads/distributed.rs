@@ -2,7 +2,6 @@
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::BeamId;
-use crate::base::legendre::Gauss;
 use crate::mechanics::motion::Wrench;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Frame;
@@ -40,18 +39,13 @@ impl AppliedForces {
         let fixed = values.vector(g, load.force);
         let own = values.vector(g, load.follower);
         let damping = values.scalar(g, load.damping);
-        let places: Vec<f64> = beam.sections.iter().map(|(place, ..)| *place).collect();
-        let weights: Vec<f64> = beam.sections.iter().map(|(_, weight, _)| *weight).collect();
-        let rule = Gauss {
-            points: places.clone(),
-            weights: weights.clone(),
-        };
+        let rule = beam.quadrature();
         let zero = Vector3::zero(g);
         let mut total = Wrench {
             force: zero,
             moment: zero,
         };
-        for (a, (place, weight)) in places.into_iter().zip(weights).enumerate() {
+        for (a, (&place, &weight)) in rule.points.iter().zip(&rule.weights).enumerate() {
             let share = g.scale(weight, length);
             let along = motion.sections[a].frame.orientation.axes.apply(g, own);
             let mut force = fixed.add(g, along);

@@ -1,6 +1,7 @@
 //! How the bodies move.
 
 mod beam;
+mod bend;
 mod frame;
 mod kinematics;
 mod orientation;
@@ -10,7 +11,8 @@ mod strain;
 mod tree;
 mod wrench;
 
-pub(super) use beam::{BeamMotion, bend};
+pub(super) use beam::BeamMotion;
+pub(super) use bend::bend;
 pub(super) use frame::{FrameMotion, second_rate};
 pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};
 pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zero};

@@ -6,10 +6,9 @@
 
 use crate::algebra::{Direction, Graph, Unary, Vector3, derivatives_along, gradient};
 use crate::base::ids::{BeamId, ExprId, SymbolId};
-use crate::base::legendre::Gauss;
 use crate::mechanics::setup::{Context, OfBeam};
 
-use super::beam::{bend, bend_change};
+use super::bend::{bend, bend_change};
 
 /// The direction of a beam at a section, along the axes of the section.
 #[derive(Clone, Debug)]
@@ -106,10 +105,7 @@ pub(crate) fn strains(
         return turns.strains.clone();
     }
     let values = context.values;
-    let rule = Gauss {
-        points: beam.sections.iter().map(|(place, ..)| *place).collect(),
-        weights: beam.sections.iter().map(|(_, weight, _)| *weight).collect(),
-    };
+    let rule = beam.quadrature();
     let stiffness: Vec<[ExprId; 3]> = beam
         .sections
         .iter()

@@ -31,13 +31,15 @@ impl Names<'_> {
                 stiffness,
                 against_strain,
                 twist,
+                size,
             } = section;
             let [twisting, about_y, about_z] = stiffness.each_ref().map(|own| self.scalar(own));
             let [axial, shear_y, shear_z] = against_strain.each_ref().map(|own| self.scalar(own));
+            let [width, height] = size.each_ref().map(|own| self.scalar(own));
             let [inertia_y, inertia_z] = inertia.each_ref().map(|own| self.scalar(own));
             writeln!(
                 f,
-                "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {}",
+                "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {} size {width} {height}",
                 self.scalar(mass),
                 self.scalar(twist)
             )?;

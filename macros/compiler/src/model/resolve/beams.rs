@@ -1,123 +1,29 @@
 //! Beams: a section, a material, and the number of coordinates for each way to turn.
 
+pub(super) mod declared;
 mod materials;
 mod sections;
 mod stations;
-
-pub(super) use self::materials::Properties;
-pub(super) use self::stations::Stations;
+pub(super) mod table;
 
 use proc_macro2::Ident;
 
-use self::sections::Table;
+use self::declared::Declared;
+use self::table::Table;
 use super::arguments::Arguments;
-use super::bodies::Row;
+use super::bodies::{BEAM, Row};
 use super::expected::Expected;
 use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
-use crate::base::legendre::Gauss;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Section;
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
-use crate::syntax::ast::{self, Ast, ItemKind, Term, Value, ValueKind};
+use crate::syntax::ast::{self, Term, Value, ValueKind};
 
 /// Most coordinates of one component: beyond, polynomials gain nothing over two beams in series.
 const MOST: usize = 16;
-
-/// A beam as declared; its stations are known once everything has been resolved.
-#[derive(Clone, Debug)]
-pub(super) struct Declared {
-    length: Expr,
-    axes: [Vector; 3],
-    counts: [usize; 3],
-    strains: [usize; 3],
-    static_shear: bool,
-    points: usize,
-    table: Table,
-    twist: Expr,
-    spin: Expr,
-    lag: Expr,
-}
-
-impl Declared {
-    /// The same with this many more coordinates of every component that has any, and as many points.
-    fn refined(mut self, more: usize) -> Self {
-        let counts = self.counts.iter_mut().chain(&mut self.strains);
-        counts
-            .filter(|count| **count > 0)
-            .for_each(|count| *count += more);
-        self.points += more;
-        self
-    }
-
-    fn section(&self, place: f64) -> Section {
-        self.table.section(place, &self.twist)
-    }
-
-    /// The sections of a part of it: their places within the part, their weights, and what they are.
-    fn sections(&self, start: f64, end: f64) -> Vec<(f64, f64, Section)> {
-        let rule = Gauss::new(self.points);
-        let places = rule.points.into_iter().zip(rule.weights);
-        places
-            .map(|(place, weight)| {
-                let of_whole = start + (end - start) * place;
-                (place, weight, self.section(of_whole))
-            })
-            .collect()
-    }
-}
-
-/// What a beam takes. It is no shape that others can be added to, so nothing reads it as one.
-pub(super) const BEAM: Row = Row::new(
-    "beam",
-    &["length", "along", "up"],
-    "beam(length: 1 m, along: x, up: z, section: rectangle(width: 40 mm, height: 6 mm), material: steel)",
-    |_| None,
-)
-.optional(&[
-    "section",
-    "material",
-    "density",
-    "modulus",
-    "shear_modulus",
-    "poisson",
-    "mass_per_length",
-    "stiffness_y",
-    "stiffness_z",
-    "torsion_stiffness",
-    "inertia_y",
-    "inertia_z",
-    "axial_stiffness",
-    "shear_stiffness_y",
-    "shear_stiffness_z",
-    "bending",
-    "bending_y",
-    "bending_z",
-    "torsion",
-    "shear",
-    "stretch",
-    "twist",
-    "lag",
-    "points",
-])
-.refusing(&[
-    ("mass", "give a `section` with a density, or `mass_per_length`"),
-    ("axis", "the beam runs `along` its axis; `up` is the direction of the height of its section"),
-]);
-
-/// The word among the shapes.
-pub(super) const WORD: &str = BEAM.word;
-
-/// The number of beams in a declaration.
-pub(super) fn declared(ast: &Ast) -> usize {
-    let is_beam = |item: &&ast::Item| match &item.kind {
-        ItemKind::Body(body) => body.terms.iter().any(|term| term.shape.word == WORD),
-        _ => false,
-    };
-    ast.items.iter().filter(is_beam).count()
-}
 
 impl Resolver<'_> {
     /// A beam stands alone: no other shape can be added to it.
@@ -190,7 +96,7 @@ impl Resolver<'_> {
         if let Some(value) = &body.spinning {
             self.require_round(value, &declared)?;
         }
-        self.require_sections(name, word, &declared);
+        self.require_sections(name, word, given, &declared)?;
         Some(declared)
     }
 
@@ -346,8 +252,15 @@ impl Resolver<'_> {
         });
     }
 
-    /// Mass and stiffness must be positive all along the beam, also within the tolerances.
-    fn require_sections(&mut self, name: &Ident, word: &Ident, declared: &Declared) {
+    /// Mass and stiffness must be given, and if they are numbers positive all along the beam, also within the
+    /// tolerances. Those of a shape are positive if its dimensions and moduli are.
+    fn require_sections(
+        &mut self,
+        name: &Ident,
+        word: &Ident,
+        given: &Arguments<'_>,
+        declared: &Declared,
+    ) -> Option<()> {
         // Dimensions change linearly: what is positive at both ends is so between them.
         let ends = [0.0, 1.0].map(|place| declared.section(place));
         let [torsion, about_y, about_z] = declared.counts;
@@ -356,46 +269,76 @@ impl Resolver<'_> {
             false => strains,
         };
         let bending = Dimension::new(3, 1, -2);
+        let force = Dimension::FORCE;
         let [stretch, shear_y, shear_z] = declared.strains;
         let (shear_y, shear_z) = (shears(shear_y, about_z), shears(shear_z, about_y));
         type Of = fn(&Section) -> &Expr;
-        let demands: [(&str, Dimension, usize, Of); 7] = [
-            ("mass per length", Dimension::LINE_DENSITY, 1, |own| {
+        type Asked = &'static [&'static str];
+        let demands: [(&str, Dimension, usize, Asked, Of); 7] = [
+            ("mass per length", Dimension::LINE_DENSITY, 1, &[], |own| {
                 &own.mass
             }),
-            ("torsional stiffness", bending, torsion, |own| {
-                &own.stiffness[0]
-            }),
-            ("bending stiffness about y", bending, about_y, |own| {
-                &own.stiffness[1]
-            }),
-            ("bending stiffness about z", bending, about_z, |own| {
-                &own.stiffness[2]
-            }),
-            ("axial stiffness", Dimension::FORCE, stretch, |own| {
+            (
+                "torsional stiffness",
+                bending,
+                torsion,
+                &["torsion"],
+                |own| &own.stiffness[0],
+            ),
+            (
+                "bending stiffness about y",
+                bending,
+                about_y,
+                &["bending_y", "bending"],
+                |own| &own.stiffness[1],
+            ),
+            (
+                "bending stiffness about z",
+                bending,
+                about_z,
+                &["bending_z", "bending"],
+                |own| &own.stiffness[2],
+            ),
+            ("axial stiffness", force, stretch, &["stretch"], |own| {
                 &own.against_strain[0]
             }),
             (
                 "shear stiffness along y",
-                Dimension::FORCE,
+                force,
                 shear_y,
+                &["shear"],
                 |own| &own.against_strain[1],
             ),
             (
                 "shear stiffness along z",
-                Dimension::FORCE,
+                force,
                 shear_z,
+                &["shear"],
                 |own| &own.against_strain[2],
             ),
         ];
-        let demands = demands.into_iter().filter(|(_, _, used, _)| *used > 0);
-        for (what, dimension, _, of) in demands {
-            self.requirements.push(Requirement {
-                what: format!("the {what} of `{name}`"),
-                values: ends.iter().map(|own| of(own).clone()).collect(),
-                demand: Demand::Positive(dimension),
-                extent: word.into(),
-            });
+        let mut is_complete = true;
+        for (what, dimension, used, asked, of) in demands {
+            if used == 0 {
+                continue;
+            }
+            let asked = asked.iter().find_map(|name| given.get(name));
+            let extent = asked.map_or(word.into(), |value| value.extent);
+            let values = ends.each_ref().map(|own| of(own).clone());
+            if !declared.table.gives(what, &values[0]) {
+                let message = format!("the {what} of `{name}` is not given, or zero");
+                let help = declared.table.help_with(what);
+                self.diagnostics.error_with_help(extent, message, help);
+                is_complete = false;
+            } else if declared.table.is_by_numbers() {
+                self.requirements.push(Requirement {
+                    what: format!("the {what} of `{name}`"),
+                    values: values.to_vec(),
+                    demand: Demand::Positive(dimension),
+                    extent: word.into(),
+                });
+            }
         }
+        is_complete.then_some(())
     }
 }

@@ -10,8 +10,7 @@ use proc_macro2::Ident;
 
 use self::quantities::Quantities;
 use self::shapes::SYNONYMS;
-pub(super) use self::shapes::{Row, SHAPES};
-use super::beams;
+pub(super) use self::shapes::{BEAM, Row, SHAPES};
 use super::coordinates;
 use super::joints::kinds::Kind;
 use super::resolver::Resolver;
@@ -97,11 +96,7 @@ impl Resolver<'_> {
         if let Some(massless) = body.terms.iter().find(is_massless) {
             return self.massless(body, massless);
         }
-        if let Some(beam) = body
-            .terms
-            .iter()
-            .find(|term| term.shape.word == beams::WORD)
-        {
+        if let Some(beam) = body.terms.iter().find(|term| term.shape.word == BEAM.word) {
             return self.beam(body, beam).map(|()| Vec::new());
         }
         if let Some(speed) = &body.spinning {

@@ -1,6 +1,7 @@
 //! The data that the steps of resolution share; each step is a file that adds its methods.
 
-use super::beams::{self, Properties, Stations};
+use super::beams::declared::{Stations, number_of};
+use super::beams::table::Properties;
 use super::coordinates::{self, Declared};
 use super::exerted::Exerted;
 use super::joints::kinds::Kind;
@@ -123,7 +124,7 @@ impl<'a> Resolver<'a> {
     /// doubt.
     pub(super) fn can_move(&self) -> bool {
         let moves = |coordinate: &Declared| !coordinate.motion.is_given() && !coordinate.cut;
-        let bends = beams::declared(self.ast) > 0;
+        let bends = number_of(self.ast) > 0;
         bends || self.coordinates.iter().any(moves) || self.may_have_more_coordinates()
     }
 

@@ -5,19 +5,12 @@ use proc_macro2::Ident;
 use super::super::arguments::{Arguments, Signature};
 use super::super::expected::Expected;
 use super::super::resolver::Resolver;
+use super::table::Properties;
 use crate::base::dimension::Dimension;
 use crate::base::nearest::nearest;
 use crate::model::expression::Expr;
 use crate::model::simplify::{add, divide, multiply};
 use crate::syntax::ast::{ItemKind, Material, Value, ValueKind};
-
-/// Density, Young's modulus and shear modulus, as far as they are given.
-#[derive(Clone, Debug, Default)]
-pub(in crate::model::resolve) struct Properties {
-    pub(super) density: Option<Expr>,
-    pub(super) modulus: Option<Expr>,
-    pub(super) shear_modulus: Option<Expr>,
-}
 
 static MATERIAL: Signature<()> = Signature::new(
     "material",
@@ -119,9 +112,14 @@ impl Resolver<'_> {
             return None;
         };
         let own_names = ["density", "modulus", "shear_modulus", "poisson"];
-        if let Some(other) = own_names.into_iter().find(|name| given.get(name).is_some()) {
+        let other = own_names
+            .into_iter()
+            .find_map(|name| Some((name, given.get(name)?)));
+        if let Some((other, value)) = other {
             let message = format!("a beam takes `material` or `{other}`, not both");
-            self.diagnostics.error(value.extent, message);
+            let help = format!("leave out `{other}`, or declare another material");
+            self.diagnostics
+                .error_with_help(value.extent, message, help);
             return None;
         }
         let text = wanted.to_string();

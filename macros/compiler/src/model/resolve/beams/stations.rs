@@ -7,7 +7,7 @@ use proc_macro2::Ident;
 use super::super::coordinates;
 use super::super::placements::unplaced;
 use super::super::resolver::Resolver;
-use super::Declared;
+use super::declared::Declared;
 use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{
@@ -15,14 +15,6 @@ use crate::model::mechanism::{
 };
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Value, ValueKind};
-
-/// The beams of a declaration and the stations used so far. Every beam has a station at its tip.
-#[derive(Debug, Default)]
-pub(in crate::model::resolve) struct Stations {
-    beams: Vec<(Ident, Option<Declared>)>,
-    /// The beam and the fraction of its length.
-    used: Vec<(usize, f64)>,
-}
 
 /// The first number of what beams add.
 struct First {
@@ -39,13 +31,6 @@ struct Piece {
     end: f64,
     /// Its stations, from the root outwards; the last is its end.
     stations: Vec<(f64, BodyId)>,
-}
-
-impl Stations {
-    pub(super) fn declare(&mut self, name: &Ident, beam: Option<Declared>) {
-        self.used.push((self.beams.len(), 1.0));
-        self.beams.push((name.clone(), beam));
-    }
 }
 
 impl Resolver<'_> {
@@ -76,7 +61,9 @@ impl Resolver<'_> {
         };
         if !(0.0..=1.0).contains(&fraction) {
             let message = format!("{fraction} is outside the beam, which goes from 0 to 1 length");
-            self.diagnostics.error(place.extent, message);
+            let help = format!("write a fraction: `{frame} at 0.4 length`, or `{frame} at tip`");
+            self.diagnostics
+                .error_with_help(place.extent, message, help);
             return Some(None);
         }
         let root = self.frame(frame);
@@ -254,6 +241,7 @@ impl Resolver<'_> {
             ],
             static_shear: declared.static_shear,
             root: declared.section(start),
+            round: declared.table.is_round(),
             sections: declared.sections(start, piece.end),
             stations,
             spin: declared.spin.clone(),

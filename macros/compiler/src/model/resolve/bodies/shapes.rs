@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use super::super::arguments::Signature;
-use super::super::beams::BEAM;
 use super::super::placements::zero;
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
@@ -97,6 +96,44 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
     )]),
     BEAM,
 ];
+
+/// What a beam takes. It is no shape that others can be added to, so nothing reads it as one.
+pub(in crate::model::resolve) const BEAM: Row = Row::new(
+    "beam",
+    &["length", "along", "up"],
+    "beam(length: 1 m, along: x, up: z, section: rectangle(width: 40 mm, height: 6 mm), material: steel)",
+    |_| None,
+)
+.optional(&[
+    "section",
+    "material",
+    "density",
+    "modulus",
+    "shear_modulus",
+    "poisson",
+    "mass_per_length",
+    "stiffness_y",
+    "stiffness_z",
+    "torsion_stiffness",
+    "inertia_y",
+    "inertia_z",
+    "axial_stiffness",
+    "shear_stiffness_y",
+    "shear_stiffness_z",
+    "bending",
+    "bending_y",
+    "bending_z",
+    "torsion",
+    "shear",
+    "stretch",
+    "twist",
+    "lag",
+    "points",
+])
+.refusing(&[
+    ("mass", "give a `section` with a density, or `mass_per_length`"),
+    ("axis", "the beam runs `along` its axis; `up` is the direction of the height of its section"),
+]);
 
 /// Names of the shapes in other tools.
 pub(super) const SYNONYMS: [(&str, &str); 22] = [

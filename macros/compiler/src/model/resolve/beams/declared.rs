@@ -1,0 +1,79 @@
+//! Beams as declared, and the places along them that are used.
+
+use proc_macro2::Ident;
+
+use super::table::Table;
+use crate::base::legendre::Gauss;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::Section;
+use crate::syntax::ast::{self, Ast, ItemKind};
+
+/// A beam as declared; its stations are known once everything has been resolved.
+#[derive(Clone, Debug)]
+pub(in crate::model::resolve) struct Declared {
+    pub(super) length: Expr,
+    pub(super) axes: [Vector; 3],
+    pub(super) counts: [usize; 3],
+    pub(super) strains: [usize; 3],
+    pub(super) static_shear: bool,
+    pub(super) points: usize,
+    pub(super) table: Table,
+    pub(super) twist: Expr,
+    pub(super) spin: Expr,
+    pub(super) lag: Expr,
+}
+
+impl Declared {
+    /// The same with this many more coordinates of every component that has any, and as many points.
+    pub(super) fn refined(mut self, more: usize) -> Self {
+        let counts = self.counts.iter_mut().chain(&mut self.strains);
+        counts
+            .filter(|count| **count > 0)
+            .for_each(|count| *count += more);
+        self.points += more;
+        self
+    }
+
+    pub(super) fn section(&self, place: f64) -> Section {
+        self.table.section(place, &self.twist)
+    }
+
+    /// The sections of a part of it: their places within the part, their weights, and what they are.
+    pub(super) fn sections(&self, start: f64, end: f64) -> Vec<(f64, f64, Section)> {
+        let rule = Gauss::new(self.points);
+        let places = rule.points.into_iter().zip(rule.weights);
+        places
+            .map(|(place, weight)| {
+                let of_whole = start + (end - start) * place;
+                (place, weight, self.section(of_whole))
+            })
+            .collect()
+    }
+}
+
+/// The beams of a declaration and the stations used so far. Every beam has a station at its tip.
+#[derive(Debug, Default)]
+pub(in crate::model::resolve) struct Stations {
+    pub(super) beams: Vec<(Ident, Option<Declared>)>,
+    /// The beam and the fraction of its length.
+    pub(super) used: Vec<(usize, f64)>,
+}
+
+impl Stations {
+    pub(super) fn declare(&mut self, name: &Ident, beam: Option<Declared>) {
+        self.used.push((self.beams.len(), 1.0));
+        self.beams.push((name.clone(), beam));
+    }
+}
+
+/// The word among the shapes.
+const WORD: &str = "beam";
+
+/// The number of beams in a declaration.
+pub(in crate::model::resolve) fn number_of(ast: &Ast) -> usize {
+    let is_beam = |item: &&ast::Item| match &item.kind {
+        ItemKind::Body(body) => body.terms.iter().any(|term| term.shape.word == WORD),
+        _ => false,
+    };
+    ast.items.iter().filter(is_beam).count()
+}
