@@ -124,8 +124,9 @@ fn rescaled(tokens: TokenStream, scale: Scale, outer: f64) -> TokenStream {
                     Some(TokenTree::Ident(word)) => Some(word.to_string()),
                     _ => None,
                 };
-                // An order is so many turns `of` a drive.
-                let unknown = word.is_some_and(|word| word != "of") && taken == 0;
+                // An order is so many turns `of` a drive, a station so many times the `length` of a beam.
+                let knows = |word: &str| ["of", "length"].contains(&word);
+                let unknown = word.is_some_and(|word| !knows(&word)) && taken == 0;
                 assert!(!unknown, "an unknown unit: {number} {}", tokens[k + 1]);
                 match number.to_string().replace('_', "").parse::<f64>() {
                     Ok(value) if own != 1.0 => Literal::f64_unsuffixed(value * own).into(),

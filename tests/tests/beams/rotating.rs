@@ -36,9 +36,9 @@ fn uniform_beams_of_every_hub_and_speed() {
             let [delta, gamma] = ["delta", "gamma"].map(number);
             let values: &[f64] = match gamma {
                 // ten polynomials resolve the boundary layer at the root less and less
-                gamma if gamma > 20.0 => &[2e-3, 2e-4, 2e-4],
-                gamma if gamma > 12.0 => &[1e-5, 1e-6, 1e-6],
-                gamma if gamma > 6.0 => &[1e-6, 1e-6, 1e-6, 1e-4],
+                gamma if gamma > 20.0 => &[2e-3, 2e-3, 2e-3],
+                gamma if gamma > 12.0 => &[1e-5, 1e-5, 1e-5],
+                gamma if gamma > 6.0 => &[1e-6, 1e-6, 1e-5, 1e-4],
                 _ => &[1e-9, 1e-9, 1e-7, 5e-5],
             };
             let bars = Bars {

@@ -98,7 +98,7 @@ fn both_sides_of_a_joint_meet() {
                     let (_, normal) = axes.expect("an axis");
                     (dot(normal, apart).abs(), false)
                 }
-                "free" => continue,
+                "free" | "flexure" => continue,
                 other => panic!("{what} is a {other}"),
             };
             assert!(gap < TOLERANCE, "{what} gapes by {gap}");

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Types that cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 33] = [
+const NOT_WRITTEN: [(&str, &str); 34] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
@@ -35,6 +35,7 @@ const NOT_WRITTEN: [(&str, &str); 33] = [
     ("Sampling", "holds a function"),
     ("Shared", "written by hand"),
     ("Sizes", "an intermediate result of kernels"),
+    ("Solved", "borrows its mechanism"),
     ("Study", "holds a mechanism"),
     ("Watch", "holds a function"),
     ("Workspace", "room for computations"),

@@ -66,8 +66,8 @@ fn search<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>)
 }
 
 /// Questions about one state.
-pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>>
-{
+pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>()
+-> Vec<Question<M>> {
     vec![
         ("equilibrium", |s, _| answered(s.equilibrium())),
         ("assembly", |s, _| answered(s.assembly())),
@@ -95,6 +95,10 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>(
         }),
         ("shape_sensitivity", |s, _| {
             answered(s.shape_sensitivity(mode(s)));
+        }),
+        ("convergence", |s, _| {
+            let again = || s.mechanism().clone();
+            answered(s.convergence([again(), again()]));
         }),
         ("mode_curvature", |s, _| answered(s.mode_curvature(mode(s)))),
         ("output_curvature", |s, _| {
