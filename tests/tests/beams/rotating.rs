@@ -34,12 +34,13 @@ fn uniform_beams_of_every_hub_and_speed() {
         for case in cases.filter(|case| case["motion"] == motion) {
             let number = |name: &str| case[name].as_f64().expect("a number");
             let [delta, gamma] = ["delta", "gamma"].map(number);
-            let values: &[f64] = match gamma {
+            // tension grows with the radius of the hub
+            let values: &[f64] = match gamma * (1.0 + delta).sqrt() {
                 // ten polynomials resolve the boundary layer at the root less and less
-                gamma if gamma > 20.0 => &[2e-3, 2e-3, 2e-3],
-                gamma if gamma > 12.0 => &[1e-5, 1e-5, 1e-5],
-                gamma if gamma > 6.0 => &[1e-6, 1e-6, 1e-5, 1e-4],
-                _ => &[1e-9, 1e-9, 1e-7, 5e-5],
+                tension if tension > 20.0 => &[5e-3, 5e-3, 5e-3],
+                tension if tension > 12.0 => &[1e-4, 1e-4, 1e-4],
+                tension if tension > 6.0 => &[1e-6, 1e-6, 1e-5, 1e-4],
+                _ => &[1e-9, 1e-9, 1e-7, 1e-4],
             };
             let bars = Bars {
                 values,

@@ -35,8 +35,8 @@ pub(crate) fn few<M: BatchKernels + CurvatureKernels + PictureKernels>(machine: 
     Study::new(machine).threads(2).samples(2).steps(2)
 }
 
-pub(crate) fn everything<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>>
-{
+pub(crate) fn everything<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>()
+-> Vec<Question<M>> {
     let mut questions = at_one_state();
     questions.extend(of_chance());
     questions.extend(along_an_input());
