@@ -217,13 +217,18 @@ impl Resolver<'_> {
 
     /// A beam that turns about its own axis is steady only if it is the same in all directions.
     fn require_round(&mut self, at: &Value, declared: &Declared) -> Option<()> {
-        let section = declared.section(0.0);
-        let [_, about_y, about_z] = &section.stiffness;
-        let [inertia_y, inertia_z] = &section.inertia;
+        // Dimensions change linearly: what is round at both ends is so between them.
+        let is_round = [0.0, 1.0].iter().all(|place| {
+            let section = declared.section(*place);
+            let [_, about_y, about_z] = &section.stiffness;
+            let [_, shear_y, shear_z] = &section.against_strain;
+            let [inertia_y, inertia_z] = &section.inertia;
+            about_y == about_z && shear_y == shear_z && inertia_y == inertia_z
+        });
         let [_, y, z] = declared.counts;
         let problem = if y != z {
             "bends in one plane more than in the other"
-        } else if about_y != about_z || inertia_y != inertia_z {
+        } else if !is_round {
             "is not round"
         } else if declared.twist != Expr::Number(0.0) {
             "is twisted"
