@@ -16,6 +16,8 @@ mod converged;
 mod damped;
 #[path = "beams/poses.rs"]
 mod poses;
+#[path = "beams/required.rs"]
+mod required;
 #[path = "beams/rotating.rs"]
 mod rotating;
 #[path = "beams/strained.rs"]

@@ -7,4 +7,5 @@ mod vibration {
     mod requirements;
     mod rigid_rotor;
     mod shares;
+    mod side_by_side;
 }

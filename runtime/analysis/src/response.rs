@@ -15,6 +15,7 @@ use crate::sweep::{
     Change, Condition, CriticalState, Crossing, Following, Range, critical_sensitivity,
     critical_state, crossing_sensitivity, first_crossing, meeting,
 };
+use crate::tolerance::side_by_side::SolvedDesign;
 use crate::tolerance::{Outcome, Solution};
 use crate::{Complex, Description, Equilibrium, Error, Modes, Output, Unit, Watch};
 
@@ -413,6 +414,37 @@ impl<'a> Responses<'a> {
             }
         }
         Ok(found)
+    }
+
+    /// The responses of a design that was solved beside others, those of its equilibrium alone; `state` is a copy of the
+    /// nominal one.
+    pub(crate) fn of_solved(
+        &self,
+        design: &[f64],
+        solved: &SolvedDesign<'_>,
+        state: &mut Equilibrium,
+        values: &mut [Option<f64>],
+    ) {
+        let mut forced = None;
+        for (value, response) in values.iter_mut().zip(&self.wanted) {
+            *value = match response {
+                Response::Mode { mode, quantity } => {
+                    let s = solved.eigenvalues.get(*mode);
+                    s.and_then(|s| quantity.of_stable(*s))
+                }
+                Response::Vibration(vibration) => {
+                    let found = forced.get_or_insert_with(|| {
+                        state.coordinates.copy_from_slice(solved.coordinates);
+                        state.design.copy_from_slice(design);
+                        let (q, u) = (&state.coordinates, &state.inputs);
+                        self.mechanism.linear_into(q, u, design, &mut state.linear);
+                        forced::response(self.mechanism, state).ok()
+                    });
+                    found.as_ref().and_then(|found| vibration.of(found))
+                }
+                _ => None,
+            };
+        }
     }
 
     /// Derivatives of a quantity of one of several equal modes, if no variable splits them.

@@ -157,6 +157,10 @@ impl Kernels for Interpreted {
         }
     }
 
+    fn evaluate_batch(&self, kernel: Kernel, arguments: &[&[Batch]], results: &mut [&mut [Batch]]) {
+        run_batch(self.tape(kernel), Instructions::best(), arguments, results);
+    }
+
     fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
         run(self.tape(kernel), arguments, results);
     }
@@ -231,14 +235,19 @@ impl Kernels for Interpreted {
         let least = |registers: &[f64]| {
             let places = tape.results.first()?;
             let margins = places.iter().map(|place| registers[*place as usize].abs());
-            let joints = margins.zip(&self.shared.poses);
-            joints.reduce(|least, other| if other.0 < least.0 { other } else { least })
+            let poses = margins.zip(&self.shared.poses);
+            let poses = poses.map(|(margin, (joint, least))| PoseMargin {
+                joint: joint.clone(),
+                margin,
+                least: *least,
+            });
+            let beyond = |own: &PoseMargin<f64>| own.margin - own.least;
+            poses.reduce(|least, other| match beyond(&other) < beyond(&least) {
+                true => other,
+                false => least,
+            })
         };
-        let (margin, joint) = scalar(tape, &[q, u, b], least)?;
-        Some(PoseMargin {
-            joint: joint.clone(),
-            margin,
-        })
+        scalar(tape, &[q, u, b], least)
     }
 
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {

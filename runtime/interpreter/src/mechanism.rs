@@ -34,8 +34,8 @@ pub(crate) struct Tables {
     pub(crate) tapes: Tapes,
     /// Quantity and requirement of each value of the violation kernel.
     pub(crate) requirements: Vec<(Text, Text)>,
-    /// Joints with three rotations, one for each value of the pose kernel.
-    pub(crate) poses: Vec<Text>,
+    /// The joint or beam, and its least margin, of each value of the pose kernel.
+    pub(crate) poses: Vec<(Text, f64)>,
 }
 
 /// The kernels; `None` if the compiler generated none.
@@ -142,7 +142,9 @@ impl Interpreted {
             good_modes: good_modes(compilation),
             tapes: Tapes::new(&compilation.program),
             requirements: requirements.collect(),
-            poses: poses.map(|pose| Text::from(pose.joint.clone())).collect(),
+            poses: poses
+                .map(|pose| (Text::from(pose.joint.clone()), pose.least))
+                .collect(),
         };
         Self {
             shared: Arc::new(tables),

@@ -174,7 +174,7 @@ impl Table<'_, dyn SummaryKernels + '_> {
             &start,
             following,
             along,
-            (banded, watch),
+            (banded, self.settings.sampling().threads, watch),
         )
     }
 }

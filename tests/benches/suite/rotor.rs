@@ -51,7 +51,7 @@ pub(crate) const ROTOR: &str = "facts/rotor";
 
 const SPEEDS: usize = 500;
 
-/// Times of 500 speeds at known equilibria, on one thread.
+/// Times of 500 speeds at known equilibria, on one thread unless said otherwise.
 pub(crate) fn rotor() -> Vec<Fact> {
     let states: Vec<Equilibrium> = (0..SPEEDS)
         .map(|k| {
@@ -69,13 +69,33 @@ pub(crate) fn rotor() -> Vec<Fact> {
     let slopes = time(&|at| {
         let _ = black_box(forced::sensitivities(&Rotor, at));
     });
+    let all = everywhere(&states);
     let numpy = numpy().unwrap_or_else(|| "numpy absent".to_owned());
     let named = |what: &str, value| (format!("{ROTOR}: {what}"), value);
     vec![
         named("10 amplitudes at 500 speeds", values),
         named("the same with all derivatives", slopes),
+        named("the same on all processors", all),
         named("the amplitudes alone by numpy.linalg.solve", numpy),
     ]
+}
+
+/// The time of all derivatives with the states shared out among all processors, as in a sweep.
+fn everywhere(states: &[Equilibrium]) -> String {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = states.len().div_ceil(processors);
+    let seconds = fastest(5, || {
+        std::thread::scope(|scope| {
+            for own in states.chunks(share) {
+                scope.spawn(move || {
+                    for at in own {
+                        let _ = black_box(forced::sensitivities(&Rotor, at));
+                    }
+                });
+            }
+        });
+    });
+    format!("{:.2} ms on {processors}", 1e3 * seconds)
 }
 
 /// The time numpy takes for the values alone, if it is there.

@@ -58,3 +58,49 @@ fn equilibria_say_it_and_beams_in_a_plane_have_no_singular_pose() {
     let planar = study(&planar, None).equilibrium().expect("it hangs");
     assert!(planar.pose.is_none());
 }
+
+/// A moment at the tip bends the beam to a part of a circle: `M L / EI` is the angle.
+fn bent_by(moment: f64) -> String {
+    IN_SPACE
+        .replace("bending_y: 4, bending_z: 2, points: 7", "bending_y: 10, bending_z: 1")
+        .replace("gravity 9.81 m/s^2 along -z;", "gravity [0, 0, 0];")
+        .replace(
+            "joint clamp",
+            &format!(
+                "point tip: arm at tip; force turning: follower(at: tip, moment: [0, {moment}, 0] N*m);
+                joint clamp"
+            ),
+        )
+}
+
+#[test]
+fn beams_that_turn_by_more_than_150_degrees_are_refused() {
+    for (degrees, accepted) in [
+        (140.0_f64, true),
+        (149.0, true),
+        (151.0, false),
+        (160.0, false),
+    ] {
+        let moment = 2.0 * degrees.to_radians();
+        let study = study(&bent_by(moment), None).policy(eigentol::equilibrium::Policy::Nearest);
+        let found = study.equilibrium();
+        match (accepted, &found) {
+            (true, Ok(state)) => {
+                let margin = state.pose.as_ref().expect("a margin").margin;
+                let exact = (0.5 * degrees.to_radians()).cos().powi(2);
+                assert!((margin - exact).abs() < 1e-3, "{degrees}: {margin} {exact}");
+            }
+            (
+                false,
+                Err(eigentol::Error::BentTooFar {
+                    beam,
+                    degrees: found,
+                }),
+            ) => {
+                assert_eq!(&**beam, "arm");
+                assert!((found - degrees).abs() < 1.0, "{found}");
+            }
+            _ => panic!("{degrees}: {found:?}"),
+        }
+    }
+}

@@ -18,14 +18,16 @@ use super::signature::{call, head, signature};
 
 /// Kernels that loops over vector lanes call. Their bodies are inlined at the call, because the instruction set of such
 /// a loop applies only to code inlined into it.
-const INLINED: [KernelName; 7] = [
+const INLINED: [KernelName; 9] = [
     KernelName::ResidualParts,
     KernelName::ResidualAndStiffness,
     KernelName::Linear,
     KernelName::ResidualPartials,
     KernelName::LinearPartials,
     KernelName::ModeGradient,
+    KernelName::PencilGradient,
     KernelName::ResidualGradient,
+    KernelName::ForcedGradient,
 ];
 
 /// Kernels for which `Real::run` selects the processor's instruction set at any length: their values are needed

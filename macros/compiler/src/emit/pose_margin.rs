@@ -8,7 +8,7 @@ use crate::program::Kernel;
 use super::body::Body;
 use super::signature::signature;
 
-/// `fn pose_margin`: the joint or beam with the smallest margin.
+/// `fn pose_margin`: the joint or beam with the smallest margin beyond the least.
 pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
     let body = Body::new(kernel);
     let mut text = signature(
@@ -29,17 +29,18 @@ pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
         let _ = writeln!(
             text,
             "{{
-                let signed_ = {};
+                let (signed_, allowed_) = ({}, T::constant({:?}));
                 let margin_ = if signed_ < T::constant(0.0) {{ -signed_ }} else {{ signed_ }};
                 let smaller_ = match &least_ {{
-                    ::core::option::Option::Some(known_) => margin_ < known_.margin,
+                    ::core::option::Option::Some(known_) => margin_ - allowed_ < known_.margin - known_.least,
                     ::core::option::Option::None => true,
                 }};
                 if smaller_ {{
-                    least_ = ::core::option::Option::Some(::eigentol::PoseMargin {{ joint: ::eigentol::Shared::Static({:?}), margin: margin_ }});
+                    least_ = ::core::option::Option::Some(::eigentol::PoseMargin {{ joint: ::eigentol::Shared::Static({:?}), margin: margin_, least: allowed_ }});
                 }}
             }}",
             body.text(margin).text,
+            pose.least,
             pose.joint,
         );
     }

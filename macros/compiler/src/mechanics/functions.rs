@@ -128,6 +128,8 @@ pub struct Pose {
     /// Zero in the singular pose. Of a joint, the signed volume spanned by its three unit axes: one in magnitude when
     /// they are perpendicular; of a section, the squared cosine of half the angle by which it has turned.
     pub margin: ExprId,
+    /// The margin below which there is no result.
+    pub least: f64,
 }
 
 /// Properties established by the compiler: structurally, or up to rounding at random states.

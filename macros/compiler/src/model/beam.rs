@@ -37,6 +37,8 @@ pub struct Beam {
     pub stations: Vec<Station>,
     /// Speed at which its material turns about the bent axis, rad/s, beside the sections' own motion.
     pub spin: Expr,
+    /// What must be positive in any design, and its values.
+    pub positive: Vec<(String, Expr)>,
     /// Time that the rate of strain is multiplied by, s: moments are proportional to the strain and to this.
     pub lag: Expr,
 }

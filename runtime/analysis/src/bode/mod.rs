@@ -11,7 +11,7 @@ use crate::kernels::SummaryKernels;
 use crate::propagation::{Propagation, VibrationCheck, check_vibrations, vibrations};
 use crate::response::{Response, Responses, Vibration};
 use crate::sweep::{Following, SweepPoint, states_each};
-use crate::tolerance::{Sampling, Tolerances};
+use crate::tolerance::{Sampling, Tolerances, pool};
 use crate::{Description, Error, Input, Shared, Watch};
 
 /// Forced vibration along an input.
@@ -70,17 +70,21 @@ pub struct Banded<'a> {
     pub checked: usize,
 }
 
-/// Forced vibration at each of `values` of one input, SI, with bands if they are asked for. Progress counts values.
+/// Points whose vibrations are solved in parallel.
+const TOGETHER: usize = 256;
+
+/// Forced vibration at each of `values` of one input, SI, with bands if they are asked for. Progress counts values. The
+/// states follow each other; their vibrations are solved by `threads` threads, 0 for as many as the machine has.
 ///
 /// # Errors
-/// [`Error::UnknownHandle`], [`Error::NoExcitation`]; a point that fails carries its own error.
+/// [`Error::UnknownHandle`], [`Error::NoExcitation`], [`Error::Threads`]; a point that fails carries its own error.
 pub fn bode(
     mechanism: &dyn SummaryKernels,
     (u, b): (&[f64], &[f64]),
     start: &[f64],
     following: impl Into<Following>,
     (input, values): (Input, &[f64]),
-    (banded, watch): (Option<&Banded<'_>>, Watch<'_>),
+    (banded, threads, watch): (Option<&Banded<'_>>, usize, Watch<'_>),
 ) -> Result<Bode, Error> {
     let description = mechanism.description();
     if description.excitations.is_empty() {
@@ -88,32 +92,48 @@ pub fn bode(
             mechanism: description.name.clone(),
         });
     }
+    // Bands are parallel themselves.
+    let (together, threads) = match banded {
+        Some(_) => (1, 1),
+        None => (TOGETHER, threads),
+    };
+    let size = (u.len() + start.len(), b.len());
     let mut points = Vec::with_capacity(values.len());
-    let mut failed = None;
+    let mut solve = |states: &[SweepPoint]| {
+        let one = |(): &mut (), k: usize| point(mechanism, &states[k], banded);
+        for point in pool::run(threads, size, states.len(), || (), one)? {
+            points.push(point?);
+            watch.advance(1);
+        }
+        Ok(match watch.stopped() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        })
+    };
+    let (mut waiting, mut failed) = (Vec::with_capacity(together), None);
     states_each(
         mechanism,
         (u, b),
         start,
         following.into(),
         (input, values),
-        |at| match point(mechanism, at, banded) {
-            Ok(point) => {
-                points.push(point);
-                watch.advance(1);
-                match watch.stopped() {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
-                }
+        |at| {
+            waiting.push(at.clone());
+            if waiting.len() < together && !watch.stopped() {
+                return ControlFlow::Continue(());
             }
-            Err(error) => {
+            let flow = solve(&waiting);
+            waiting.clear();
+            flow.unwrap_or_else(|error| {
                 failed = Some(error);
                 ControlFlow::Break(())
-            }
+            })
         },
     )?;
     if let Some(error) = failed {
         return Err(error);
     }
+    let _last = solve(&waiting)?;
     let unreached = values.len() - points.len();
     Ok(Bode {
         input,

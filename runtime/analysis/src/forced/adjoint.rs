@@ -10,6 +10,7 @@
 use core::ops::Range;
 
 use super::response::{Solved, Vibration};
+use super::side_by_side::SideBySide;
 use crate::algebra::{Matrix, Vector, add_to, dot_complex, times_columns};
 use crate::kernels::{Gradient, Kernel, Kernels, Sizes};
 use crate::modes::pencil_slope_times;
@@ -109,12 +110,11 @@ pub(super) fn gradients(
     outputs: &[&OutputAdjoint<'_>],
 ) -> [Matrix; 2] {
     let (mechanism, motion) = (solved.mechanism, &vibration.motion());
-    let n = mechanism.sizes().coordinates;
     let count = outputs.len();
-    let lefts = Matrix::from_fn(2 * count, n, |k, i| {
-        PARTS[k / count](outputs[k % count].factors.left[i])
+    let lefts = Matrix::from_fn(2 * count, solved.at.coordinates.len(), |k, i| {
+        PARTS[k / count].of(outputs[k % count].factors.left[i])
     });
-    let [of_real, of_imaginary] = PARTS.map(|part| forms(solved, &lefts, motion, part));
+    let [of_real, of_imaginary] = forms(solved, &lefts, motion);
     let joined = |re: &Matrix, im: &Matrix, sign: f64| {
         let mut sum = Matrix::zeros(count, re.column_count());
         let im = im.as_flattened().iter().skip(sum.as_flattened().len());
@@ -128,51 +128,49 @@ pub(super) fn gradients(
         joined(&of_real, &of_imaginary, -1.0),
         joined(&of_imaginary, &of_real, 1.0),
     ];
-    let mut room = Vector::zeros(of_real.column_count());
-    for (total, part) in total.iter_mut().zip(PARTS) {
-        for call in vibration.calls(part) {
-            let mut weights = Weights::of(mechanism.sizes(), vibration, motion, (call, 1.0));
-            for (row, own) in total.iter_mut().zip(outputs) {
-                weights.set_output(own, &own.factors, (call, 1.0));
-                weights.gradient_into(mechanism, solved.at, results(solved.at, &mut room));
-                add_to(row, -1.0, &room);
-            }
+    let calls = PARTS.map(|part| vibration.calls(part).collect::<Vec<Call>>());
+    let sets = count * calls.iter().map(Vec::len).sum::<usize>();
+    let mut each = SideBySide::new(mechanism, solved.at, Kernel::ForcedGradient, sets);
+    for call in calls.iter().flatten() {
+        let mut weights = Weights::of(mechanism.sizes(), vibration, motion, (*call, 1.0));
+        each.set(&weights.after([&[]; 3])[3..]);
+        for own in outputs {
+            weights.set_output(own, &own.factors, (*call, 1.0));
+            each.push(&weights.of_output());
+        }
+    }
+    let each = each.gradients();
+    let mut rows = each.iter();
+    for (total, calls) in total.iter_mut().zip(&calls) {
+        for _ in calls {
+            let pairs = total.iter_mut().zip(rows.by_ref());
+            pairs.for_each(|(total, row)| add_to(total, -1.0, row));
         }
     }
     total
 }
 
-/// The gradients of `l . (M a + C v + K x)` for each row `l` of a matrix, with a part of a motion.
-fn forms(solved: &Solved<'_>, lefts: &Matrix, motion: &Motion, part: Part) -> Matrix {
-    let n = lefts.column_count();
-    if lefts.row_count() > n {
+/// The gradients of `l . (M a + C v + K x)` for each row `l` of a matrix, with the real and with the imaginary part of a
+/// motion.
+fn forms(solved: &Solved<'_>, lefts: &Matrix, motion: &Motion) -> [Matrix; 2] {
+    let (n, many) = (lefts.column_count(), lefts.row_count());
+    if many > n {
         let unit = Matrix::from_fn(n, n, |i, j| f64::from(u8::from(i == j)));
-        let each = forms(solved, &unit, motion, part);
-        return f64::run(
-            #[inline(always)]
-            || times_columns(lefts, &each),
-        );
+        return forms(solved, &unit, motion).map(|each| {
+            f64::run(
+                #[inline(always)]
+                || times_columns(lefts, &each),
+            )
+        });
     }
-    let (mechanism, at) = (solved.mechanism, solved.at);
-    let [acceleration, velocity, position] = motion.each_ref().map(|own| own.map(part));
-    let (u, b) = (at.inputs.len(), at.design.len());
-    let mut gradients = Matrix::zeros(lefts.row_count(), n + u + b);
-    for (left, row) in lefts.iter().zip(gradients.iter_mut()) {
-        mechanism.evaluate(
-            Kernel::PencilGradient,
-            &[
-                &at.coordinates,
-                &at.inputs,
-                &at.design,
-                left,
-                &acceleration,
-                &velocity,
-                &position,
-            ],
-            &mut results(at, row),
-        );
-    }
-    gradients
+    PARTS.map(|part| {
+        let mut each = SideBySide::new(solved.mechanism, solved.at, Kernel::PencilGradient, many);
+        let parts = motion.each_ref().map(|own| own.map(|value| part.of(value)));
+        let [acceleration, velocity, position] = &parts;
+        each.set(&[&Vector::zeros(n), acceleration, velocity, position]);
+        lefts.iter().for_each(|left| each.push(&[(0, left)]));
+        each.gradients()
+    })
 }
 
 /// The parts of a gradient by unknowns, inputs and design variables.
@@ -182,9 +180,25 @@ pub(super) fn results<'a>(at: &Equilibrium, gradient: &'a mut [f64]) -> [&'a mut
     [coordinates, inputs, design]
 }
 
-type Part = fn(Complex) -> f64;
+/// A part of complex numbers.
+#[derive(Clone, Copy)]
+pub(super) enum Part {
+    Real,
+    Imaginary,
+}
+
+impl Part {
+    #[inline]
+    fn of(self, value: Complex) -> f64 {
+        match self {
+            Self::Real => value.re,
+            Self::Imaginary => value.im,
+        }
+    }
+}
+
 /// The real and the imaginary part.
-pub(super) const PARTS: [Part; 2] = [|value| value.re, |value| value.im];
+pub(super) const PARTS: [Part; 2] = [Part::Real, Part::Imaginary];
 
 /// A call of `forced_gradient`: of the real or the imaginary part of `h`, for the excitations that turn one way.
 #[derive(Clone, Copy)]
@@ -248,7 +262,9 @@ impl Weights {
         let members = shares.filter(|share| share.turn() == call.turn);
         members.for_each(|share| own.share[share.excitation] = fixed);
         if call.first {
-            own.motion = motion.each_ref().map(|x| x.map(call.part));
+            own.motion = motion
+                .each_ref()
+                .map(|x| x.map(|value| call.part.of(value)));
         }
         own
     }
@@ -261,8 +277,8 @@ impl Weights {
         (call, fixed): (Call, f64),
     ) {
         let Call { part, turn, first } = call;
-        self.cosine.set(&factors.left, |p| part(*p));
-        let quadrature = |p: &Complex| turn * part(Complex::new(p.im, -p.re));
+        self.cosine.set(&factors.left, |p| part.of(*p));
+        let quadrature = |p: &Complex| turn * part.of(Complex::new(p.im, -p.re));
         self.sine.set(&factors.left, quadrature);
         let lists = [
             &mut self.output,
@@ -270,12 +286,12 @@ impl Weights {
             &mut self.direct_sine,
         ];
         lists.into_iter().for_each(|list| list.fill(0.0));
-        self.direct_cosine[own.output] = fixed * part(Complex::ONE);
-        self.direct_sine[own.output] = fixed * turn * part(-Complex::I);
+        self.direct_cosine[own.output] = fixed * part.of(Complex::ONE);
+        self.direct_sine[own.output] = fixed * turn * part.of(-Complex::I);
         if first {
             self.output[own.output] = fixed;
             let first = &own.vibration.harmonic.shares[0];
-            self.frequency[first.excitation] = first.turn() * part(factors.slope);
+            self.frequency[first.excitation] = first.turn() * part.of(factors.slope);
         }
     }
 
@@ -304,6 +320,18 @@ impl Weights {
             &self.direct_cosine,
             &self.direct_sine,
             &self.frequency,
+        ]
+    }
+
+    /// Those that change from output to output, and their places in the list of factors.
+    fn of_output(&self) -> [(usize, &[f64]); 6] {
+        [
+            (0, &self.output),
+            (5, &self.cosine),
+            (6, &self.sine),
+            (7, &self.direct_cosine),
+            (8, &self.direct_sine),
+            (9, &self.frequency),
         ]
     }
 

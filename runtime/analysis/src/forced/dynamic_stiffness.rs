@@ -22,7 +22,7 @@ const NOT_DRIVEN: f64 = 1e-9;
 const REGULAR: f64 = 1e6;
 /// Steps of inverse iteration: each gains as many digits as the direction is separated by.
 const STEPS: usize = 3;
-/// Rounds of scaling.
+/// Most rounds of scaling.
 const ROUNDS: usize = 4;
 
 pub(super) struct DynamicStiffness {
@@ -177,6 +177,7 @@ fn scales(n: usize, logarithms: &[i32]) -> (Vector, Vector) {
         false => 0,
     };
     for _ in 0..ROUNDS {
+        let mut changed = false;
         by_column.fill(NONE);
         for (own, logarithms) in rows.iter_mut().zip(logarithms.chunks_exact(n.max(1))) {
             let mut by_row = NONE;
@@ -184,10 +185,17 @@ fn scales(n: usize, logarithms: &[i32]) -> (Vector, Vector) {
                 by_row = by_row.max(size + column);
                 *most = (*most).max(size + *own);
             }
-            *own -= root(by_row + *own);
+            let change = root(by_row + *own);
+            changed |= change != 0;
+            *own -= change;
         }
         for (own, most) in columns.iter_mut().zip(&by_column) {
-            *own -= root(most + *own);
+            let change = root(most + *own);
+            changed |= change != 0;
+            *own -= change;
+        }
+        if !changed {
+            break;
         }
     }
     let powers = |twice: Vec<i32>| twice.into_iter().map(|k| 2_f64.powi(k / 2)).collect();

@@ -12,6 +12,7 @@ mod resolvent;
 mod response;
 mod sensitivities;
 mod shares;
+mod side_by_side;
 mod unknown_phases;
 mod vibration;
 

@@ -1,12 +1,11 @@
 //! Models to evaluate at points of the standard normal space.
 
 use super::space::Space;
-use crate::Error;
 use crate::algebra::Vector;
 use crate::response::{Response, Responses, Workspace};
-use crate::sensitivity::Quantity;
 use crate::tolerance::side_by_side::{DesignWorkspace, SideBySide};
 use crate::tolerance::{Outcome, Tolerances};
+use crate::{Equilibrium, Error};
 
 /// A design (SI), its outcome and its responses.
 pub(super) struct Evaluated<'a> {
@@ -41,9 +40,8 @@ pub(super) const TOGETHER: usize = SideBySide::MOST;
 pub(super) struct Designs<'a> {
     responses: &'a Responses<'a>,
     space: &'a Space<'a>,
-    /// If every response is a quantity of a mode and designs can be solved in vectorised blocks: the block solver and
-    /// these quantities.
-    side_by_side: Option<(SideBySide<'a>, Vec<(usize, Quantity)>)>,
+    /// If designs can be solved in vectorised blocks and every response is one of the equilibrium at the nominal inputs.
+    side_by_side: Option<SideBySide<'a>>,
 }
 
 impl<'a> Designs<'a> {
@@ -63,22 +61,23 @@ impl<'a> Designs<'a> {
 fn side_by_side<'a>(
     responses: &Responses<'a>,
     tolerances: &'a Tolerances,
-) -> Option<(SideBySide<'a>, Vec<(usize, Quantity)>)> {
+) -> Option<SideBySide<'a>> {
     let (at, modes) = (responses.nominal(), responses.modes());
-    let wanted = responses.wanted().iter().map(|response| match response {
-        Response::Mode { mode, quantity } => Some((*mode, *quantity)),
-        _ => None,
-    });
-    let wanted = wanted.collect::<Option<Vec<_>>>()?;
+    let here =
+        |response: &Response| matches!(response, Response::Mode { .. } | Response::Vibration(_));
+    if !responses.wanted().iter().all(here) {
+        return None;
+    }
     let (mechanism, vectors) = responses.batches()?;
-    let lanes = SideBySide::new(mechanism, at, modes, tolerances, vectors)?;
-    Some((lanes, wanted))
+    SideBySide::new(mechanism, at, modes, tolerances, vectors)
 }
 
 /// Workspace for solving designs.
 pub(super) struct DesignRoom {
     alone: Workspace,
     design: Vector,
+    /// The state of a design that was solved beside others.
+    state: Equilibrium,
     lanes: Option<DesignWorkspace>,
     values: Vec<Option<f64>>,
 }
@@ -91,7 +90,8 @@ impl Model for Designs<'_> {
         DesignRoom {
             alone: self.responses.workspace(),
             design: self.space.nominal.into(),
-            lanes: lanes.map(|(lanes, _)| lanes.room()),
+            state: self.responses.nominal().clone(),
+            lanes: lanes.map(SideBySide::room),
             values: vec![None; self.responses.wanted().len()],
         }
     }
@@ -106,6 +106,7 @@ impl Model for Designs<'_> {
         let DesignRoom {
             alone,
             design,
+            state,
             lanes,
             values,
         } = room;
@@ -114,7 +115,7 @@ impl Model for Designs<'_> {
             *values = found.values;
             Ok::<Outcome, Error>(found.outcome)
         };
-        let (Some(lanes), Some((side_by_side, wanted))) = (lanes, &self.side_by_side) else {
+        let (Some(lanes), Some(side_by_side)) = (lanes, &self.side_by_side) else {
             for (k, z) in points.iter().enumerate() {
                 self.space.design(z, design);
                 let outcome = solve(design, values)?;
@@ -129,13 +130,11 @@ impl Model for Designs<'_> {
             }
             return Ok(());
         };
-        side_by_side.solve(lanes, points, |k, design, eigenvalues| {
-            let outcome = match eigenvalues {
-                Some(all) => {
+        side_by_side.solve(lanes, points, |k, design, solved| {
+            let outcome = match solved {
+                Some(solved) => {
                     responses.counted()?;
-                    for (value, (mode, quantity)) in values.iter_mut().zip(wanted) {
-                        *value = all.get(*mode).and_then(|s| quantity.of_stable(*s));
-                    }
+                    responses.of_solved(design, &solved, state, values);
                     Outcome::Stable
                 }
                 None => solve(design, values)?,

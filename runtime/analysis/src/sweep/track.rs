@@ -202,6 +202,7 @@ impl<'a> Tracker<'a> {
         };
         let sound = |(state, modes): &(&Equilibrium, &Modes)| {
             state.stability == Stability::Stable
+                && state.far_from_least_pose()
                 && modes.modes.len() == self.from.len()
                 && last.value == past[0].0
         };

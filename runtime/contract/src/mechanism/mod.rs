@@ -685,6 +685,58 @@ pub trait Mechanism: Clone + Sync + Sized {
     ) -> GradientOf<Self, T> {
         self.residual_gradient(q, u, b, w)
     }
+
+    #[doc(hidden)]
+    #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
+    fn pencil_gradient_inlined<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        left: &Self::Coordinates<T>,
+        acceleration: &Self::Coordinates<T>,
+        velocity: &Self::Coordinates<T>,
+        position: &Self::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
+        self.pencil_gradient(q, u, b, left, acceleration, velocity, position)
+    }
+
+    #[doc(hidden)]
+    #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
+    fn forced_gradient_inlined<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        output: &Self::Outputs<T>,
+        acceleration: &Self::Coordinates<T>,
+        velocity: &Self::Coordinates<T>,
+        position: &Self::Coordinates<T>,
+        share: &Self::Excitations<T>,
+        cosine: &Self::Coordinates<T>,
+        sine: &Self::Coordinates<T>,
+        direct_cosine: &Self::Outputs<T>,
+        direct_sine: &Self::Outputs<T>,
+        frequency: &Self::Excitations<T>,
+    ) -> GradientOf<Self, T> {
+        self.forced_gradient(
+            q,
+            u,
+            b,
+            output,
+            acceleration,
+            velocity,
+            position,
+            share,
+            cosine,
+            sine,
+            direct_cosine,
+            direct_sine,
+            frequency,
+        )
+    }
 }
 
 /// Number of entries of one matrix's derivatives up to which computing all partials in one function pays: more do not

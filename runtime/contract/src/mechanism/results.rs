@@ -23,8 +23,10 @@ pub struct PoseMargin<T> {
     pub joint: Text,
     /// Zero in the singular pose. Of a joint, the volume spanned by its three unit axes: one when they are
     /// perpendicular. Of a beam, the squared cosine of half the largest angle by which a section has turned relative to
-    /// the root: one where it is straight, 0.067 at 150 degrees; two beams in series bend farther.
+    /// the root: one where it is straight, 0.067 at 150 degrees.
     pub margin: T,
+    /// The margin below which there is no result: 0 for a joint, 0.067 for a beam; two beams in series bend farther.
+    pub least: T,
 }
 
 /// The residual at rest in two parts, `g = inertia - applied` (eq. 10); `V` is a list of `N` numbers.

@@ -75,6 +75,12 @@ pub(crate) fn judge(
     point: &OperatingPoint<'_>,
     state: &mut Equilibrium,
 ) -> Result<Vec<Mode>, Failure> {
+    state.pose = point
+        .mechanism
+        .pose_margin(&state.coordinates, point.inputs, point.design);
+    if let Some(pose) = state.pose.take_if(|pose| pose.margin < pose.least) {
+        return Err(Failure::BentTooFar(pose));
+    }
     let verdict = if state.constraints.singular {
         Verdict::undecided()
     } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
@@ -88,9 +94,6 @@ pub(crate) fn judge(
         };
         stability::judge(point.mechanism, &place, &state.linear, point.nearby)?
     };
-    state.pose = point
-        .mechanism
-        .pose_margin(&state.coordinates, point.inputs, point.design);
     (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
     Ok(verdict.modes)
 }

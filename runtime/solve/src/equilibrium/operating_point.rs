@@ -8,7 +8,7 @@ use crate::error::{NotClosed, NotFound};
 use crate::free::{FreeDirections, Held, declared, fix_place};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
-use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, Role, Shared};
+use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, PoseMargin, Role, Shared};
 
 /// A mechanism at given inputs and design variables.
 #[derive(Clone)]
@@ -392,6 +392,7 @@ pub enum Failure {
         dimension: usize,
     },
     SingularMass(usize),
+    BentTooFar(PoseMargin<f64>),
     Mode {
         mode: usize,
         residual: f64,
@@ -465,6 +466,10 @@ impl Failure {
             },
             Self::SingularMass(row) => Error::SingularMass {
                 coordinate: description.unknown_name(row),
+            },
+            Self::BentTooFar(pose) => Error::BentTooFar {
+                degrees: 2.0 * pose.margin.max(0.0).sqrt().acos().to_degrees(),
+                beam: pose.joint,
             },
             Self::Mode { mode, residual } => Error::ModesNotFound { mode, residual },
         }

@@ -144,6 +144,18 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
     },
+    /// At the equilibrium a beam has turned so far that its coordinates describe it badly.
+    #[error(
+        "at the equilibrium beam `{beam}` turns by {degrees:.0} degrees between its root and another section, and no beam \
+         may turn by more than 150: divide it into two in series"
+    )]
+    BentTooFar {
+        /// Name of the beam.
+        beam: Text,
+        /// The angle, degrees.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+        degrees: f64,
+    },
     /// The mass matrix is not positive definite: a coordinate moves no mass.
     #[error(
         "the mass matrix is singular: coordinate `{coordinate}` moves no mass of its own, so it has no \

@@ -4,8 +4,10 @@
 //! unknowns. Every result is, bit for bit, what the kernel gives for that state alone, whatever the processor: the
 //! operations are the same, each is rounded once, and none are fused.
 
-use super::DirectionalKernels;
-use crate::mechanism::{Array, Gradient, Linear, LinearPartials, Mechanism, RestParts, Square};
+use super::{DirectionalKernels, Kernels};
+use crate::mechanism::{
+    Array, Gradient, GradientOf, Linear, LinearPartials, Mechanism, RestParts, Square,
+};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::{DampingKind, Description};
 
@@ -115,6 +117,17 @@ fn store_rows<V: Lanes, R: Array<V>>(from: &[R], to: &mut [Batch], at: usize) {
     for (i, from) in from.iter().enumerate() {
         store(from.as_ref(), &mut to[R::LEN * i..], at);
     }
+}
+
+#[inline(always)]
+fn store_gradient<V: Lanes, M: Mechanism>(
+    from: &GradientOf<M, V>,
+    to: &mut BatchGradient<'_>,
+    at: usize,
+) {
+    store(from.coordinates.as_ref(), to.coordinates, at);
+    store(from.inputs.as_ref(), to.inputs, at);
+    store(from.design.as_ref(), to.design, at);
 }
 
 /// Stores matrices one after the other. A damping matrix that is always zero is not read, so the kernel need not write
@@ -244,18 +257,125 @@ kernel! {
     ModeGradient<'a, 'b> { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
         let found = call!(V: m.mode_gradient or mode_gradient_inlined(q, u, b, &load(phi, at), V::load(lambda, at)));
-        store(found.coordinates.as_ref(), gradient.coordinates, at);
-        store(found.inputs.as_ref(), gradient.inputs, at);
-        store(found.design.as_ref(), gradient.design, at);
+        store_gradient::<V, M>(&found, gradient, at);
     }
 }
 kernel! {
     ResidualGradient<'a, 'b> { w: &'a [Batch], gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
         let found = call!(V: m.residual_gradient or residual_gradient_inlined(q, u, b, &load(w, at)));
-        store(found.coordinates.as_ref(), gradient.coordinates, at);
-        store(found.inputs.as_ref(), gradient.inputs, at);
-        store(found.design.as_ref(), gradient.design, at);
+        store_gradient::<V, M>(&found, gradient, at);
+    }
+}
+
+kernel! {
+    PencilGradient<'a, 'b> { factors: &'a [&'a [Batch]], gradient: BatchGradient<'b> },
+    m, (q, u, b), at, V => {
+        let [left, acceleration, velocity, position] = [0, 1, 2, 3].map(#[inline(always)] |k| load(factors[k], at));
+        let (l, x) = (&left, (&acceleration, &velocity, &position));
+        let found = if const { V::WIDTH > 1 } {
+            m.pencil_gradient_inlined(q, u, b, l, x.0, x.1, x.2)
+        } else {
+            m.pencil_gradient(q, u, b, l, x.0, x.1, x.2)
+        };
+        store_gradient::<V, M>(&found, gradient, at);
+    }
+}
+kernel! {
+    ForcedGradient<'a, 'b> { factors: &'a [&'a [Batch]], gradient: BatchGradient<'b> },
+    m, (q, u, b), at, V => {
+        let [acceleration, velocity, position, cosine, sine] =
+            [1, 2, 3, 5, 6].map(#[inline(always)] |k| load(factors[k], at));
+        let [output, direct_cosine, direct_sine] = [0, 7, 8].map(#[inline(always)] |k| load(factors[k], at));
+        let [share, frequency] = [4, 9].map(#[inline(always)] |k| load(factors[k], at));
+        let (a, v, x) = (&acceleration, &velocity, &position);
+        let (c, s, dc, ds) = (&cosine, &sine, &direct_cosine, &direct_sine);
+        let found = if const { V::WIDTH > 1 } {
+            m.forced_gradient_inlined(q, u, b, &output, a, v, x, &share, c, s, dc, ds, &frequency)
+        } else {
+            m.forced_gradient(q, u, b, &output, a, v, x, &share, c, s, dc, ds, &frequency)
+        };
+        store_gradient::<V, M>(&found, gradient, at);
+    }
+}
+
+/// [`Kernels::evaluate_batch`](super::Kernels::evaluate_batch) of a compiled mechanism: in vectors the two gradients that
+/// forced vibration takes by the dozen, lane by lane everything else.
+pub(super) fn evaluate_batch<M: Mechanism>(
+    mechanism: &M,
+    kernel: super::Kernel,
+    arguments: &[&[Batch]],
+    results: &mut [&mut [Batch]],
+) {
+    if const { forced_in_vectors::<M>() }
+        && let [coordinates, inputs, design] = &mut *results
+    {
+        let [q, u, b] = [arguments[0], arguments[1], arguments[2]];
+        let (at, factors) = (BatchPoint { q, u, b }, &arguments[3..]);
+        let gradient = BatchGradient {
+            coordinates,
+            inputs,
+            design,
+        };
+        let instructions = Instructions::best();
+        match kernel {
+            super::Kernel::PencilGradient => {
+                return instructions.run(Call {
+                    mechanism,
+                    at: &at,
+                    kernel: PencilGradient { factors, gradient },
+                });
+            }
+            super::Kernel::ForcedGradient => {
+                return instructions.run(Call {
+                    mechanism,
+                    at: &at,
+                    kernel: ForcedGradient { factors, gradient },
+                });
+            }
+            _ => {}
+        }
+    }
+    lane_by_lane(arguments, results, |arguments, results| {
+        mechanism.evaluate(kernel, arguments, results);
+    });
+}
+
+/// Operations up to which rustc compiles a kernel for each kind of vector in no time.
+const SHORT: usize = 2000;
+
+const fn forced_in_vectors<M: Mechanism>() -> bool {
+    let description = const { &M::DESCRIPTION };
+    M::Excitations::<f64>::LEN > 0
+        && is_short(description, "pencil_gradient")
+        && is_short(description, "forced_gradient")
+}
+
+const fn is_short(description: &Description, kernel: &str) -> bool {
+    match description.static_kernel(kernel) {
+        Some(kernel) => kernel.operations <= SHORT,
+        None => false,
+    }
+}
+
+/// Evaluates a kernel of plain numbers for each lane.
+pub(super) fn lane_by_lane(
+    arguments: &[&[Batch]],
+    results: &mut [&mut [Batch]],
+    mut evaluate: impl FnMut(&[&[f64]], &mut [&mut [f64]]),
+) {
+    for lane in 0..WIDTH {
+        let own = |list: &&[Batch]| list.iter().map(|value| value.0[lane]).collect();
+        let lists: Vec<Vec<f64>> = arguments.iter().map(own).collect();
+        let mut found: Vec<Vec<f64>> = results.iter().map(|to| vec![0.0; to.len()]).collect();
+        let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
+        let mut to: Vec<&mut [f64]> = found.iter_mut().map(Vec::as_mut_slice).collect();
+        evaluate(&lists, &mut to);
+        for (to, found) in results.iter_mut().zip(&found) {
+            for (to, value) in to.iter_mut().zip(found) {
+                to.0[lane] = *value;
+            }
+        }
     }
 }
 

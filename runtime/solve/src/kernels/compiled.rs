@@ -8,6 +8,7 @@
 //! a sweep with derivatives 1.33 in vectors and 1.2 alone, a sample 1.37 in vectors, a seventh of it for quantiles and
 //! higher moments that were not gathered then, and 1.1 alone.
 
+use super::batch::evaluate_batch;
 use super::interval::Interval;
 use super::{
     Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Gradient, Kernel, Kernels,
@@ -19,7 +20,7 @@ use crate::mechanism::{
     Array, Description, ForcingOf, GradientOf, Mechanism, OutputMotionOf, PartialsOf, PictureInfo,
     PoseMargin, Shared, Square, Violation, few_partials,
 };
-use crate::scalar::Dual;
+use crate::scalar::{Batch, Dual};
 use crate::{Real, mechanism};
 
 /// Number of unknowns up to which two kernels in one function pay: the code grows long beyond that.
@@ -253,6 +254,10 @@ impl<M: Mechanism> Kernels for M {
                 copy_gradient::<M>(&forced_gradient(self, arguments), results);
             }
         }
+    }
+
+    fn evaluate_batch(&self, kernel: Kernel, arguments: &[&[Batch]], results: &mut [&mut [Batch]]) {
+        evaluate_batch(self, kernel, arguments, results);
     }
 
     fn residual_and_stiffness_into(

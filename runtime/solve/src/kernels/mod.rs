@@ -49,7 +49,7 @@ pub use table::{Curvature, Directional, Extent, Kernel, MotionKernel, Shape};
 
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{self, Description, PoseMargin, Shared, Violation};
-use crate::scalar::Dual;
+use crate::scalar::{Batch, Dual};
 
 pub use eigentol_numerics::linear::Linear;
 pub use mechanism::Sizes;
@@ -131,6 +131,14 @@ pub trait Kernels: Sync {
     /// Evaluates a kernel: arguments and results are those of [`Kernel::arguments`] and [`Kernel::results`], and every
     /// entry of the results is overwritten.
     fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]);
+
+    /// [`Self::evaluate`] with [`WIDTH`](crate::scalar::WIDTH) sets of arguments, one in each lane; the bits of a result
+    /// are those of its lane alone.
+    fn evaluate_batch(&self, kernel: Kernel, arguments: &[&[Batch]], results: &mut [&mut [Batch]]) {
+        batch::lane_by_lane(arguments, results, |arguments, results| {
+            self.evaluate(kernel, arguments, results);
+        });
+    }
 
     /// [`Mechanism::residual`](eigentol_contract::Mechanism::residual).
     fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {

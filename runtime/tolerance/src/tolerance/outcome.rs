@@ -21,7 +21,7 @@ pub enum Outcome {
     NoEquilibrium,
     /// The constraints cannot be met: the loops do not close.
     NotAssembled,
-    /// The design describes bodies that cannot exist, or lies outside the domain of an expression.
+    /// The design describes bodies that cannot exist, lies outside the domain of an expression, or bends a beam too far.
     Unphysical,
     /// The eigenproblem could not be solved.
     NoModes,
@@ -72,7 +72,9 @@ impl From<&Failure> for Outcome {
                 Self::NoEquilibrium
             }
             Failure::NotAssembled { .. } => Self::NotAssembled,
-            Failure::OutsideDomain { .. } | Failure::SingularMass(_) => Self::Unphysical,
+            Failure::OutsideDomain { .. } | Failure::SingularMass(_) | Failure::BentTooFar(_) => {
+                Self::Unphysical
+            }
             Failure::Mode { .. } => Self::NoModes,
         }
     }

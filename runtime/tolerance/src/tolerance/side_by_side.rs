@@ -20,6 +20,15 @@ pub struct SideBySide<'a> {
 #[doc(hidden)]
 pub struct DesignWorkspace(Memory);
 
+/// A design that passed every check.
+#[doc(hidden)]
+pub struct SolvedDesign<'a> {
+    /// Its equilibrium.
+    pub coordinates: &'a [f64],
+    /// Its eigenvalues, 1/s, in the order of the nominal modes.
+    pub eigenvalues: &'a [Complex],
+}
+
 impl<'a> SideBySide<'a> {
     /// Maximum number of designs solved together.
     #[doc(hidden)]
@@ -47,14 +56,13 @@ impl<'a> SideBySide<'a> {
     }
 
     /// Solves up to [`Self::MOST`] designs, each given by a row of standard normal numbers. Calls `each` with the
-    /// position, the design, and the eigenvalues, 1/s, in the order of the nominal modes: `None` if the design must be
-    /// solved alone.
+    /// position, the design, and its solution: `None` if the design must be solved alone.
     #[doc(hidden)]
     pub fn solve(
         &self,
         DesignWorkspace(memory): &mut DesignWorkspace,
         rows: &[Vector],
-        mut each: impl FnMut(usize, &[f64], Option<&[Complex]>) -> Result<(), Error>,
+        mut each: impl FnMut(usize, &[f64], Option<SolvedDesign<'_>>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let mut together = memory.batches::<TOGETHER>(self.size);
         let count = rows.len().div_ceil(WIDTH).min(TOGETHER);
@@ -69,10 +77,14 @@ impl<'a> SideBySide<'a> {
         }
         self.prepared.solve(self.vectors, &mut together[..count]);
         let mut design = Vector::zeros(self.size.design);
+        let mut coordinates = Vector::zeros(self.size.unknowns);
         let mut eigenvalues = vec![Complex::ZERO; self.size.modes];
         for (k, row) in rows.iter().enumerate() {
             let (batch, member) = (&together[k / WIDTH], k % WIDTH);
             for (own, all) in design.iter_mut().zip(&*batch.design) {
+                *own = all.0[member];
+            }
+            for (own, all) in coordinates.iter_mut().zip(&*batch.coordinates) {
                 *own = all.0[member];
             }
             for (own, s) in eigenvalues.iter_mut().zip(batch.eigenvalues(member)) {
@@ -81,7 +93,11 @@ impl<'a> SideBySide<'a> {
             // The check of which designs can exist only covered numbers below this bound.
             let usual = row.iter().all(|z| z.abs() < GREATEST_NORMAL);
             let solved = usual && batch.accepted >> member & 1 == 1;
-            each(k, &design, solved.then_some(&eigenvalues[..]))?;
+            let found = SolvedDesign {
+                coordinates: &coordinates,
+                eigenvalues: &eigenvalues,
+            };
+            each(k, &design, solved.then_some(found))?;
         }
         Ok(())
     }

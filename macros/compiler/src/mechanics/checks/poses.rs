@@ -6,6 +6,9 @@ use crate::mechanics::functions::Pose;
 use crate::mechanics::motion::in_common_frame_at_zero;
 use crate::mechanics::setup::Context;
 
+/// The squared cosine of half of 150 degrees: beyond, polynomials of the Rodrigues vector describe a beam badly.
+const BENT_TOO_FAR: f64 = 0.066_987_298_107_780_68;
+
 /// Every joint with three turns, and every section of the beams that turn about more than one axis.
 pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
     let kinematics = in_common_frame_at_zero(g, context);
@@ -19,7 +22,11 @@ pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
             let joint = context.mechanism.joints[branch.joint.index()]
                 .name
                 .to_string();
-            poses.push(Pose { joint, margin });
+            poses.push(Pose {
+                joint,
+                margin,
+                least: 0.0,
+            });
         }
     }
     for (beam, motion) in context.mechanism.beams.iter().zip(&kinematics.beams) {
@@ -29,6 +36,7 @@ pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
             Some(Pose {
                 joint: beam.name.clone(),
                 margin: section.pose_margin()?,
+                least: BENT_TOO_FAR,
             })
         }));
     }

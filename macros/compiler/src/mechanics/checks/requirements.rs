@@ -1,4 +1,4 @@
-//! Requirements on bodies and constraints at run time, for any design values: positive masses and lengths, and
+//! Requirements on bodies and constraints at run time, for any design values: positive masses, lengths and sections, and
 //! physically possible inertias.
 //!
 //! # Requirements travel with the kernels
@@ -70,6 +70,17 @@ pub(crate) fn requirements(
             requirement: "positive",
             value: values.scalar(g, value),
         });
+    }
+    for (quantity, value) in mechanism.beams.iter().flat_map(|beam| &beam.positive) {
+        let value = values.scalar(g, value);
+        // The parts of a beam that loads split share what was asked of the whole.
+        if list.iter().all(|known| known.value != value) {
+            list.push(Requirement {
+                quantity: quantity.clone(),
+                requirement: "positive",
+                value,
+            });
+        }
     }
     list.extend(inside_curves(g, mechanism, values));
     list.retain(|requirement| g.constant_value(requirement.value).is_none());

@@ -57,6 +57,7 @@ impl Resolver<'_> {
         given: &Arguments<'_>,
     ) -> Option<Declared> {
         let name = &body.name;
+        let before = self.requirements.len();
         let spin = match &body.spinning {
             Some(value) => self.scalar_of(value, Dimension::RATE, "the speed of spinning"),
             None => Some(Expr::Number(0.0)),
@@ -80,7 +81,7 @@ impl Resolver<'_> {
         let strains = self.strains_of_beam(given, counts);
         let points = self.points_of_beam(given, counts, strains);
         let (length, axes, table, twist) = (length?, axes?, table?, twist?);
-        let declared = Declared {
+        let mut declared = Declared {
             length,
             axes,
             counts: counts?,
@@ -91,12 +92,14 @@ impl Resolver<'_> {
             twist,
             spin: spin?,
             lag: lag?,
+            positive: Vec::new(),
         }
         .refined(self.more);
         if let Some(value) = &body.spinning {
             self.require_round(value, &declared)?;
         }
         self.require_sections(name, word, given, &declared)?;
+        declared.positive = positive(name, &self.requirements[before..], &declared.table);
         Some(declared)
     }
 
@@ -139,7 +142,21 @@ impl Resolver<'_> {
             .unwrap_or(0);
         let (y, z) = (y.unwrap_or(both), z.unwrap_or(both));
         let twists = table.is_some_and(Table::knows_torsion);
-        let torsion = torsion.unwrap_or(if twists && y > 0 && z > 0 { 2 } else { 0 });
+        let resists = table.is_some_and(Table::resists_turning);
+        let default = if twists && resists && y > 0 && z > 0 {
+            2
+        } else {
+            0
+        };
+        let torsion = torsion.unwrap_or(default);
+        if torsion > 1 && !resists {
+            let extent = given.get("torsion").map_or(word.into(), |own| own.extent);
+            let message = "this beam has no inertia about its axis: only its tip can turn";
+            let help =
+                "give `inertia_y` and `inertia_z`, or `torsion: 1` and weld a body to the tip";
+            self.diagnostics.error_with_help(extent, message, help);
+            return None;
+        }
         let stretches = given.get("stretch").is_some();
         if torsion + y + z == 0 && !stretches {
             let message = "this beam has no coordinates: it is rigid";
@@ -346,4 +363,33 @@ impl Resolver<'_> {
         }
         is_complete.then_some(())
     }
+}
+
+/// What must be positive in any design: what has been asked of a beam, and its material.
+fn positive(name: &Ident, asked: &[Requirement], table: &Table) -> Vec<(String, Expr)> {
+    let mut list = Vec::new();
+    for own in asked {
+        let what = own.what.trim_start_matches("the ").replace('`', "");
+        match (&own.demand, &own.values[..]) {
+            (Demand::Positive(_), values) => {
+                list.extend(values.iter().map(|value| (what.clone(), value.clone())));
+            }
+            (Demand::BelowOuter, [inner, outer]) => {
+                let wall = simplify::subtract(outer.clone(), inner.clone());
+                list.push((format!("thickness of the wall of {name}"), wall));
+            }
+            _ => {}
+        }
+    }
+    let material = &table.material;
+    let of_material = [
+        ("density", &material.density),
+        ("Young's modulus", &material.modulus),
+        ("shear modulus", &material.shear_modulus),
+    ];
+    for (what, value) in of_material {
+        let value = value.iter().cloned();
+        list.extend(value.map(|value| (format!("{what} of {name}"), value)));
+    }
+    list
 }

@@ -30,7 +30,7 @@ impl<'a> Prepared<'a> {
         (nominal, modes): (&'a Equilibrium, &Modes),
         tolerances: &'a Tolerances,
     ) -> Option<Self> {
-        if !possible(&nominal.description, modes.family) {
+        if !possible(&nominal.description, modes.family) || !nominal.far_from_least_pose() {
             return None;
         }
         let state = (nominal, modes);

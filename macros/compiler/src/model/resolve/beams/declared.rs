@@ -21,6 +21,8 @@ pub(in crate::model::resolve) struct Declared {
     pub(super) twist: Expr,
     pub(super) spin: Expr,
     pub(super) lag: Expr,
+    /// What must be positive in any design, and its values.
+    pub(super) positive: Vec<(String, Expr)>,
 }
 
 impl Declared {

@@ -246,6 +246,7 @@ impl Resolver<'_> {
             stations,
             spin: declared.spin.clone(),
             lag: declared.lag.clone(),
+            positive: declared.positive.clone(),
         }
     }
 

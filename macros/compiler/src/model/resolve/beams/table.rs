@@ -74,6 +74,16 @@ impl Table {
         }
     }
 
+    /// Whether the sections have inertia about the axis of the beam.
+    pub(super) fn resists_turning(&self) -> bool {
+        match self.kind {
+            Kind::Numbers => self.ends[0][4..6]
+                .iter()
+                .any(|own| *own != Expr::Number(0.0)),
+            _ => true,
+        }
+    }
+
     /// The section at a fraction of the length.
     pub(super) fn section(&self, place: f64, twist: &Expr) -> Section {
         let [root, tip] = &self.ends;

@@ -1,0 +1,83 @@
+//! Designs solved side by side give the vibrations of designs solved one by one.
+
+use eigentol::propagation::Samples;
+use eigentol::response::{Response, Vibration};
+use eigentol::tolerance::Sampling;
+use eigentol::{Excitation, Output, Quantity, Study};
+use eigentol_interpreter::Interpreted;
+
+const ROTOR: &str = "mechanism Rotor {
+    input w: rad/s;
+    design m = 12 kg +/- 3 %;
+    design k = 1.9e6 N/m +/- 6 %;
+    design c = 310 N*s/m +/- 30 % uniform;
+    design e = 4e-5 m +/- 50 %;
+    body hub: massless;
+    body disk: disk(mass: m, radius: 20 cm, axis: z);
+    joint x: prismatic(x) from ground to hub;
+    joint spin: revolute(z) from hub to disk, driven at w;
+    every displacement: spring_damper(stiffness: k, damping: c);
+    unbalance u: on disk, eccentricity: e;
+    output shake = x;
+}";
+
+/// Hangs out under the spin, so that the equilibrium moves with the design; undamped.
+const PENDULUM: &str = "mechanism Pendulum {
+    input w: rad/s;
+    gravity [0, 0, -9.81 m/s^2];
+    design l = 0.4 m +/- 2 %;
+    design m = 1.5 kg +/- 2 %;
+    design pull = 0.3 N +/- 20 %;
+    body shaft: massless;
+    body bar: rod(mass: m, length: l, along: -z);
+    joint drive: revolute(z) from ground to shaft, driven at w;
+    joint hinge: revolute(y) from shaft to bar at [0.1 m, 0, 0];
+    force shaking: harmonic(on: hinge, moment: pull * 1 m, frequency: 9 rad/s);
+    output swing = hinge;
+}";
+
+fn how(samples: &Samples) -> &str {
+    let mut facts = samples.fingerprint().facts();
+    facts.find(|fact| fact.0 == "solved").expect("a fact").1
+}
+
+#[test]
+fn vibrations_of_designs_in_vectors_are_those_of_designs_one_by_one() {
+    for (text, speed) in [(ROTOR, 380.0), (ROTOR, 398.0), (PENDULUM, 6.0)] {
+        let machine = Interpreted::from_text(text).expect("a declaration");
+        let study = Study::new(machine);
+        let input = study.find_input("w").expect("an input");
+        let study = study.input(input, speed);
+        let shake = Vibration::new::<Interpreted>(Output::new(0), Excitation::new(0));
+        let wanted = [
+            Response::Vibration(shake),
+            Response::Mode {
+                mode: 0,
+                quantity: Quantity::Frequency,
+            },
+            Response::Vibration(shake.measure(eigentol::forced::Measure::Velocity)),
+        ];
+        let sampling = Sampling::default().samples(1500);
+        let together = study.sample_responses(&wanted, &sampling).expect("sampled");
+        let alone = study.vectors(None).sample_responses(&wanted, &sampling);
+        let alone = alone.expect("sampled");
+        assert_eq!(
+            (how(&together), how(&alone)),
+            ("side by side", "one by one")
+        );
+        let (together, alone) = (together.propagation(), alone.propagation());
+        let (together, alone) = (together.expect("complete"), alone.expect("complete"));
+        for (a, b) in together.spreads.iter().zip(&alone.spreads) {
+            let (a, b) = (a.as_ref().expect("a spread"), b.as_ref().expect("a spread"));
+            let scale = b.mean.value;
+            let (sigma, other) = (a.sigma.expect("a sigma"), b.sigma.expect("a sigma"));
+            for (a, b) in [(a.mean, b.mean), (sigma, other)] {
+                assert!(
+                    (a.value - b.value).abs() < 1e-9 * scale,
+                    "{speed}: {a:?} {b:?}"
+                );
+            }
+            assert!(sigma.value > 1e-4 * scale);
+        }
+    }
+}
