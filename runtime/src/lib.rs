@@ -92,9 +92,8 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    allocation, bode, branches, campbell, campbell::Campbell, clusters, convergence,
-    convergence::Convergence, forced, judge, motion, peaks, picture, propagation, requirement,
-    response, second_order, shapes, summary, sweep,
+    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence,
+    forced, motion, peaks, picture, response, second_order, shapes, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]
@@ -121,6 +120,9 @@ pub use eigentol_numerics::algebra::{Matrix, Vector};
 #[cfg(feature = "std")]
 #[doc(inline)]
 pub use eigentol_tolerance::{FirstOrder, MonteCarlo, Tolerances};
+#[cfg(feature = "analysis")]
+#[doc(inline)]
+pub use eigentol_uncertainty::{allocation, bode, judge, propagation, requirement, summary};
 /// A complex number.
 #[cfg(feature = "std")]
 pub use num_complex::Complex64 as Complex;

@@ -23,8 +23,8 @@
 //! | compiled | 701 | 382 | 183 | 3191 |
 //! | CasADi | 810 | 485 | 1175 | 6480 |
 
+use eigentol_compiler::algebra::ExprId;
 use eigentol_compiler::algebra::{Cost, Function, cost, regroup};
-use eigentol_compiler::base::ids::ExprId;
 use eigentol_compiler::mechanics::{Functions, Limits};
 use eigentol_compiler::{Compilation, compile};
 use eigentol_oracle::declaration::declaration;

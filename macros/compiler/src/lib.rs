@@ -1,7 +1,7 @@
 //! The compiler behind `mechanism!`: it turns a declaration into specialised Rust code.
 //!
-//! Seven types are connected by six arrows. Each arrow is a folder, `lower` one of `eigentol-symbolic`, and data flows only
-//! forwards:
+//! Seven types are connected by six arrows. Each arrow is a folder, the first two of `eigentol-language`, `lower` of
+//! `eigentol-symbolic`, and data flows only forwards:
 //!
 //! ```text
 //! TokenStream -> Ast -> Mechanism -> Topology -> Functions -> Program -> TokenStream
@@ -13,21 +13,17 @@
 //!
 //! Architecture invariant: nothing in this crate depends on the runtime.
 
-pub mod base;
 pub mod emit;
 pub mod mechanics;
-#[cfg(feature = "locations")]
-mod mistakes;
-pub mod model;
 mod pipeline;
-pub mod syntax;
 #[cfg(test)]
 mod tests;
 pub mod topology;
 
-pub use eigentol_symbolic::{algebra, program};
 #[cfg(feature = "locations")]
-pub use mistakes::{Mistake, Mistakes, tokens};
+pub use eigentol_language::mistakes::{Mistake, Mistakes, tokens};
+pub use eigentol_language::{base, model, syntax};
+pub use eigentol_symbolic::{algebra, base::census, program};
 pub use pipeline::{Compilation, compile, compile_refined};
 
 use std::fmt::Debug;

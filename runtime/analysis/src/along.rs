@@ -8,7 +8,7 @@ use eigentol_results::{Columns, Findings, Listed};
 use crate::{Description, Equilibrium, Input, Role};
 
 /// The name of an input.
-pub(crate) fn name_of(d: &Description, input: Input) -> &str {
+pub fn name_of(d: &Description, input: Input) -> &str {
     let info = d.inputs.get(input.index());
     info.map_or("?", |info| &*info.name)
 }
@@ -36,7 +36,7 @@ pub(crate) fn place(d: &Description, input: Input, value: f64) -> String {
 }
 
 /// The varied input as a column, as the user wrote it.
-pub(crate) fn varied<R>(
+pub fn varied<R>(
     table: &mut Columns<'_, R>,
     d: &Description,
     input: Input,
@@ -51,7 +51,7 @@ pub(crate) fn varied<R>(
 }
 
 /// Says that a computation along an input was stopped.
-pub(crate) fn not_reached(said: &mut Findings, unreached: usize) {
+pub fn not_reached(said: &mut Findings, unreached: usize) {
     if unreached > 0 {
         said.note(format!(
             "Not complete: {unreached} of the values were not reached."

@@ -1,26 +1,22 @@
-//! What goes beyond the main job: sweeps, events and branches, second order, propagation, requirements, summaries.
+//! What goes beyond the main job: sweeps, events and branches, forced vibration, clusters, second order, pictures.
 //!
 //! An internal part of `eigentol`, which re-exports what its users need. It promises nothing to others.
 
-pub mod allocation;
-mod along;
-pub mod bode;
+#[doc(hidden)]
+pub mod along;
 pub mod branches;
 pub mod campbell;
 pub mod clusters;
 pub mod convergence;
-mod deviations;
 pub mod forced;
-pub mod judge;
 pub mod motion;
 pub mod peaks;
 pub mod picture;
-pub mod propagation;
-pub mod requirement;
+#[doc(hidden)]
+pub mod quadratic;
 pub mod response;
 pub mod second_order;
 pub mod shapes;
-pub mod summary;
 pub mod sweep;
 mod variables;
 

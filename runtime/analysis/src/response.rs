@@ -64,7 +64,8 @@ pub enum Response {
 
 impl Response {
     /// Whether it describes the state at the operating point: a mode or an output, which only a stable equilibrium has.
-    pub(crate) fn of_state(self) -> bool {
+    #[doc(hidden)]
+    pub fn of_state(self) -> bool {
         matches!(
             self,
             Self::Mode { .. } | Self::Output(_) | Self::Vibration(_)
@@ -219,7 +220,8 @@ impl<'a> Responses<'a> {
     }
 
     /// Fails if the work has been stopped.
-    pub(crate) fn go_on(&self) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn go_on(&self) -> Result<(), Error> {
         match self.watch.stopped() {
             true => Err(Error::Stopped),
             false => Ok(()),
@@ -227,13 +229,15 @@ impl<'a> Responses<'a> {
     }
 
     /// Counts one evaluated design; fails if the work has been stopped.
-    pub(crate) fn counted(&self) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn counted(&self) -> Result<(), Error> {
         self.go_on()?;
         self.watch.advance(1);
         Ok(())
     }
 
-    pub(crate) fn watch(&self) -> Watch<'a> {
+    #[doc(hidden)]
+    pub fn watch(&self) -> Watch<'a> {
         self.watch
     }
 
@@ -264,7 +268,8 @@ impl<'a> Responses<'a> {
     }
 
     /// The kernels that solve several designs at once, and their vector instructions.
-    pub(crate) fn batches(&self) -> Option<(&'a dyn BatchKernels, Instructions)> {
+    #[doc(hidden)]
+    pub fn batches(&self) -> Option<(&'a dyn BatchKernels, Instructions)> {
         self.batches.zip(self.vectors)
     }
 
@@ -275,7 +280,8 @@ impl<'a> Responses<'a> {
     }
 
     /// Equilibrium solutions needed for one design.
-    pub(crate) fn price(&self) -> u64 {
+    #[doc(hidden)]
+    pub fn price(&self) -> u64 {
         let steps = self.wanted.iter().map(|response| match response {
             Response::Critical(range)
             | Response::Crossing { range, .. }
@@ -286,16 +292,19 @@ impl<'a> Responses<'a> {
     }
 
     /// The nominal equilibrium, about which responses are evaluated.
-    pub(crate) fn nominal(&self) -> &'a Equilibrium {
+    #[doc(hidden)]
+    pub fn nominal(&self) -> &'a Equilibrium {
         self.nominal
     }
 
-    pub(crate) fn mechanism(&self) -> &'a dyn CurvatureKernels {
+    #[doc(hidden)]
+    pub fn mechanism(&self) -> &'a dyn CurvatureKernels {
         self.mechanism
     }
 
     /// The nominal modes.
-    pub(crate) fn modes(&self) -> &'a Modes {
+    #[doc(hidden)]
+    pub fn modes(&self) -> &'a Modes {
         self.modes
     }
 
@@ -465,7 +474,8 @@ impl<'a> Responses<'a> {
         (s != Complex::ZERO).then(|| each.collect())
     }
 
-    pub(crate) fn critical_state(&self, design: &[f64], range: Range) -> Option<CriticalState> {
+    #[doc(hidden)]
+    pub fn critical_state(&self, design: &[f64], range: Range) -> Option<CriticalState> {
         let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
         if self.mechanism.violation(inputs, design).is_some() {
             return None;
@@ -490,7 +500,8 @@ impl<'a> Responses<'a> {
     }
 
     /// The first crossing that a [`Response::Crossing`] asks for.
-    pub(crate) fn first_crossing(&self, design: &[f64], response: &Response) -> Option<Crossing> {
+    #[doc(hidden)]
+    pub fn first_crossing(&self, design: &[f64], response: &Response) -> Option<Crossing> {
         let Response::Crossing {
             mode,
             condition,

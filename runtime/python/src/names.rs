@@ -1,7 +1,7 @@
 //! Names, and suggestions for unknown ones.
 
 use eigentol::Description;
-use eigentol_compiler::base::nearest::nearest;
+use eigentol_language::base::nearest::nearest;
 
 /// ``; did you mean `speed`?``, or nothing if no name is near.
 pub(crate) fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {

@@ -1,8 +1,8 @@
 //! Operation counts: every node of the expression graph except inputs, outputs and constants, by the same rule for both
 //! sides.
 
+use eigentol_compiler::algebra::ExprId;
 use eigentol_compiler::algebra::{cost, regroup};
-use eigentol_compiler::base::ids::ExprId;
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Functions, Limits};
 use serde_json::Value;

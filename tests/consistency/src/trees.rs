@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use eigentol_compiler::base::census;
+use eigentol_compiler::census;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_oracle::declaration::declaration;
 use eigentol_oracle::model::{Force, ForceLaw, Value};

@@ -7,8 +7,8 @@
 use std::fmt::Write;
 
 use crate::algebra::Unary;
-use crate::base::spline::Spline;
 use crate::program::{Operation, Program};
+use eigentol_symbolic::base::spline::Spline;
 
 use super::expression::pieces_of;
 

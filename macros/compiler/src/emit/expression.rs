@@ -1,7 +1,7 @@
 //! Single expressions as Rust text.
 
 use crate::algebra::{Operator, Unary};
-use crate::base::spline::Spline;
+use eigentol_symbolic::base::spline::Spline;
 
 /// The constant that holds the pieces of a curve. Unlike local variables, it does not end in an underscore.
 pub(super) fn pieces_of(spline: Spline) -> String {

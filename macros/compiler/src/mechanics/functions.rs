@@ -1,7 +1,7 @@
 //! The result of `mechanics`: the functions to generate, and the properties established for them.
 
-use crate::algebra::{Function, Graph};
-use crate::base::ids::{CoordinateId, ExprId};
+use crate::algebra::{ExprId, Function, Graph};
+use crate::base::ids::CoordinateId;
 
 use super::picture::Picture;
 

@@ -36,6 +36,7 @@ pub use rules::{Rule, TABLES, Table};
 pub use substitute::substitute;
 pub use vector::{Matrix3, Vector3};
 
+pub use crate::base::ids::{ExprId, SymbolId};
 pub use crate::base::operators::{Operator, Unary};
 
 #[cfg(test)]

@@ -102,7 +102,8 @@ impl ClusterTolerance {
     }
 
     /// What its text says.
-    pub(crate) fn said(&self) -> Findings {
+    #[doc(hidden)]
+    pub fn said(&self) -> Findings {
         let title = title(&self.description, &self.inputs);
         let modes = named(&self.modes);
         let spread = match &self.spread {

@@ -26,5 +26,6 @@ pub(crate) use couplings::common_slopes;
 pub use couplings::{ModalCouplings, modal_couplings};
 pub use directional::{DirectionalDerivatives, directional_derivatives};
 pub use sampling::{ClusterSpread, MemberSpread, SortedSpread, sample_cluster};
-pub(crate) use tolerance::groups;
+#[doc(hidden)]
+pub use tolerance::groups;
 pub use tolerance::{ClusterTolerance, MeanEigenvalue, clusters};

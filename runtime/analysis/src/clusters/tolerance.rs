@@ -120,7 +120,7 @@ pub fn clusters(
 }
 
 /// The positions of the modes of each cluster, as [`clusters`] finds them.
-pub(crate) fn groups(
+pub fn groups(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,
     modes: &Modes,

@@ -22,7 +22,8 @@ pub use eigentol_statistics::random_phases::RandomPhases;
 pub(crate) use line::{Line, along_input};
 pub use measure::Measure;
 pub use orbit::{Orbit, Turning};
-pub(crate) use resolvent::Resolvent;
+#[doc(hidden)]
+pub use resolvent::Resolvent;
 pub(crate) use response::resonance;
 pub use response::{ForcedResponse, Harmonic, Share, response};
 pub use sensitivities::{ForcedSensitivities, HarmonicSensitivity, sensitivities};

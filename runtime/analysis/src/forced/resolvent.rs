@@ -30,7 +30,7 @@ const MOST: usize = 6;
 const STEPS: usize = 3;
 
 /// The vibration of all outputs at one harmonic, for designs near that of an equilibrium.
-pub(crate) struct Resolvent<'a> {
+pub struct Resolvent<'a> {
     mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,
     /// The excitations that act together, each with the sign of its frequency.
@@ -68,7 +68,7 @@ impl<'a> Resolvent<'a> {
     ///
     /// # Errors
     /// Those of the shift of the equilibrium; [`Error::NoFrequency`], [`Error::OutsideDomain`].
-    pub(crate) fn new(
+    pub fn new(
         mechanism: &'a dyn CurvatureKernels,
         at: &'a Equilibrium,
         excitation: usize,
@@ -149,7 +149,7 @@ impl<'a> Resolvent<'a> {
     }
 
     /// The frequency, rad/s, and the amplitude of every output at a design, SI; `None` where there is no response.
-    pub(crate) fn amplitudes(&self, design: &[f64]) -> Option<(f64, Vector<Complex>)> {
+    pub fn amplitudes(&self, design: &[f64]) -> Option<(f64, Vector<Complex>)> {
         let changes: Vector = self
             .variables
             .iter()

@@ -61,7 +61,8 @@ impl Vibration {
 
     /// The amplitude with its total first and second derivatives; `None` where it has none.
     #[expect(clippy::type_complexity, reason = "a value and its derivatives")]
-    pub(crate) fn quadratic(
+    #[doc(hidden)]
+    pub fn quadratic(
         &self,
         mechanism: &dyn CurvatureKernels,
         at: &Equilibrium,

@@ -26,7 +26,7 @@ pub struct Margin {
     /// First-order probability of the bands; for normal variables, that of a normal distribution.
     pub first_order: f64,
     /// Probability of the bands from the second-order model ([`Quadratic::probability`]), with the error of that model
-    /// in a [`SecondOrderFailure`](crate::requirement::SecondOrderFailure).
+    /// in a `requirement::SecondOrderFailure`.
     pub corrected: Probability,
     /// Derivatives of the first-order probability. `None` if nothing varies, if variables are not normal, or if a
     /// derivative exceeds the range of a double.

@@ -40,5 +40,6 @@ pub use nonlinearity::Nonlinearity;
 pub use output::{OutputCurvature, output_curvature};
 pub use probability::Probability;
 pub use quadratic::{ModelMoments, Quadratic};
-pub(crate) use spread::second_order_watched;
+#[doc(hidden)]
+pub use spread::second_order_watched;
 pub use spread::{ModeSecondOrder, SecondOrder, SecondOrderSpread, second_order};

@@ -32,7 +32,8 @@ impl Probability {
     }
 
     /// The same with the error of the model.
-    pub(crate) fn with_model_error(self, error: f64) -> Self {
+    #[doc(hidden)]
+    pub fn with_model_error(self, error: f64) -> Self {
         Self {
             error: self.error + error,
             model_error: Some(error),

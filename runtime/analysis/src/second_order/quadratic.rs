@@ -57,7 +57,8 @@ pub struct ModelMoments {
 
 impl Quadratic {
     /// Change of the value for a change `x` of the variables.
-    pub(crate) fn change(&self, x: &[f64]) -> f64 {
+    #[doc(hidden)]
+    pub fn change(&self, x: &[f64]) -> f64 {
         let bent = self.curvature.iter().map(|row| dot(row, x));
         let parts = x.iter().zip(&self.slopes).zip(bent);
         parts.fold(0.0, |sum, ((x, slope), bent)| {

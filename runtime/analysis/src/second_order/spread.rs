@@ -83,7 +83,7 @@ pub fn second_order(
 }
 
 /// Like [`second_order`], but `watch` can stop it.
-pub(crate) fn second_order_watched(
+pub fn second_order_watched(
     mechanism: &dyn CurvatureKernels,
     (at, modes): (&Equilibrium, &Modes),
     tolerances: &Tolerances,

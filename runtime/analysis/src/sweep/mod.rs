@@ -33,7 +33,8 @@ pub use range::Range;
 pub(crate) use search::Sought;
 pub use search::{Events, Gap, Searched, Unresolved};
 pub use sensitivity_sweep::sensitivity_sweep;
-pub(crate) use sensitivity_sweep::states_each;
+#[doc(hidden)]
+pub use sensitivity_sweep::states_each;
 pub(crate) use sweep::between;
 pub use sweep::{sweep, sweep_each};
 pub use track::Following;

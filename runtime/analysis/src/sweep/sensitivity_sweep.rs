@@ -45,7 +45,7 @@ pub fn sensitivity_sweep(
 
 /// Solves equilibrium and modes at each of `values` of one input, like [`sweep_each`](super::sweep_each), without looking
 /// for events between them.
-pub(crate) fn states_each(
+pub fn states_each(
     mechanism: &dyn BatchKernels,
     (u, b): (&[f64], &[f64]),
     start: &[f64],

@@ -27,7 +27,7 @@ impl Check {
         for file in &self.files {
             let declaration = Declaration::read(file)?;
             let compilation = declaration.compiled()?;
-            for warning in &compilation.warnings() {
+            for warning in &compilation.mechanism.warnings() {
                 diagnostics::warn(&declaration, &warning.into(), color);
             }
             let found = summary(&description(&compilation));

@@ -1,8 +1,8 @@
 //! Checks that the equations determine every motion: each must move some mass, and something must decide every speed.
 
-use crate::algebra::{Disturbed, Evaluator, Graph};
+use crate::algebra::{Disturbed, Evaluator, ExprId, Graph};
 use crate::base::diagnostics::{Diagnostics, listed};
-use crate::base::ids::{CoordinateId, ExprId};
+use crate::base::ids::CoordinateId;
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 

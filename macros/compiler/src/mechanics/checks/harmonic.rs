@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use proc_macro2::Ident;
 
-use crate::algebra::Graph;
+use crate::algebra::{ExprId, Graph, SymbolId};
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{CoordinateId, ExprId, SymbolId};
+use crate::base::ids::CoordinateId;
 use crate::mechanics::equations::{Response, outputs};
 use crate::mechanics::motion::in_common_frame;
 use crate::mechanics::setup::{Context, at_rest, by_symbol, columns, vanish};

@@ -1,7 +1,6 @@
 //! Properties of the linearised matrices that hold at every state.
 
-use crate::algebra::Graph;
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph};
 use crate::mechanics::functions::{Damping, Properties};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, vanish};

@@ -8,8 +8,7 @@
 //! group of bodies welded by fixed joints (`model/welded.rs`), not body by body. Similarly `pose_margin` tells how far
 //! a joint of three turns is from the pose in which its coordinates fail.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Vector3};
 use crate::mechanics::functions::Requirement;
 use crate::mechanics::setup::{MassDistribution, Values};
 use crate::model::inertia::is_inertia_of_a_body;

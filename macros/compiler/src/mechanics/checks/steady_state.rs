@@ -1,8 +1,8 @@
 //! A steady state exists only if the equations do not depend on the running coordinates, whether driven or coasting.
 
-use crate::algebra::Graph;
+use crate::algebra::{ExprId, Graph, SymbolId};
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{BodyId, CoordinateId, ExprId, ForceId, SymbolId};
+use crate::base::ids::{BodyId, CoordinateId, ForceId};
 use crate::mechanics::equations::{Residual, outputs};
 use crate::mechanics::motion::{Kinematics, in_common_frame};
 use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};

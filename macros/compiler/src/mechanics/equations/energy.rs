@@ -1,7 +1,7 @@
 //! Kinetic and potential energy, for outputs.
 
-use crate::algebra::Graph;
-use crate::base::ids::{BeamId, BodyId, ExprId};
+use crate::algebra::{ExprId, Graph};
+use crate::base::ids::{BeamId, BodyId};
 use crate::mechanics::inertia::BeamInertia;
 use crate::mechanics::loads::elastic_energy;
 use crate::mechanics::motion::Kinematics;

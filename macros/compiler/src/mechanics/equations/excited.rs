@@ -7,8 +7,8 @@
 
 use std::rc::Rc;
 
-use crate::algebra::{Graph, Stage, Vector3, substitute};
-use crate::base::ids::{BodyId, CoordinateId, DesignId, ExprId};
+use crate::algebra::{ExprId, Graph, Stage, Vector3, substitute};
+use crate::base::ids::{BodyId, CoordinateId, DesignId};
 use crate::mechanics::inertia::{Direction, deviation};
 use crate::mechanics::motion::{Kinematics, in_common_frame, in_common_frame_at_zero};
 use crate::mechanics::setup::{

@@ -1,7 +1,7 @@
 //! Outputs, and the quantities that they may refer to besides coordinates and points.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::{ConstraintId, ExprId, JointId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::{ConstraintId, JointId};
 use crate::mechanics::inertia::inertial_at;
 use crate::mechanics::loads::{ForceContext, bent_at, exerted, held, transmitted};
 use crate::mechanics::motion::{Kinematics, Wrench};

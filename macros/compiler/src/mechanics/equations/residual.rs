@@ -1,7 +1,6 @@
 //! The residual of the equations of motion and of the constraints.
 
-use crate::algebra::Graph;
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph};
 use crate::mechanics::inertia::{Inertial, inertial_at};
 use crate::mechanics::loads::{strained, transmitted};
 use crate::mechanics::motion::Kinematics;

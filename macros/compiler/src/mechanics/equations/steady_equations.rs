@@ -1,7 +1,6 @@
 //! The equations of steady motion and of small motions about it.
 
-use crate::algebra::{Graph, substitute};
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, substitute};
 use crate::mechanics::inertia::{Variation, variation};
 use crate::mechanics::motion::in_common_frame;
 use crate::mechanics::setup::{Context, ForceSelection, at_rest};

@@ -8,9 +8,9 @@
 //! force that does not depend on the seat's motion (`mechanics/inertia/augmented.rs`). The derivative of an equation by
 //! an angle then involves only the body that turns, not everything it carries.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::census::taken;
-use crate::base::ids::{BodyId, ExprId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::BodyId;
+use crate::census::taken;
 use crate::mechanics::motion::{BodyMotion, Kinematics};
 use crate::mechanics::setup::{Context, ForceSelection, MassDistribution};
 use crate::model::mechanism::Frame;

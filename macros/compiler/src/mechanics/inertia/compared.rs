@@ -1,7 +1,6 @@
 //! A check for tests: compares the walks over the bodies with derivatives of the equations.
 
-use crate::algebra::{Evaluator, Graph};
-use crate::base::ids::ExprId;
+use crate::algebra::{Evaluator, ExprId, Graph};
 use crate::mechanics::setup::{
     Context, Excited, ForceSelection, Runs, Sections, Symbols, Values, columns, probe, vanish,
 };

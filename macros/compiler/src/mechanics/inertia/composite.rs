@@ -9,9 +9,8 @@
 //! moves the bodies behind it with their seats without turning them: for this angle they count as point masses at their
 //! seats; for the coordinates before the run, their first moments are accelerated with the seats as well.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::census::taken;
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::census::taken;
 use crate::mechanics::motion::{BodyMotion, FrameMotion, Kinematics, StepAxis, Tree, Wrench};
 use crate::mechanics::setup::{Context, ForceSelection};
 use crate::model::mechanism::Frame;

@@ -1,7 +1,7 @@
 //! Deviations of a body from symmetry about the axis about which it turns.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::{BodyId, ExprId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::BodyId;
 use crate::mechanics::setup::{Arm, Context, MassDistribution};
 use crate::model::expression::Vector;
 use crate::model::mechanism::Deviation;

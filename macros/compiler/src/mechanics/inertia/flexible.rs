@@ -7,8 +7,8 @@
 //! d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is the moment that turns its section. The axes of a
 //! section are further arms, for its inertia against turning.
 
-use crate::algebra::{Graph, Unary, Vector3};
-use crate::base::ids::{BeamId, ExprId};
+use crate::algebra::{ExprId, Graph, Unary, Vector3};
+use crate::base::ids::BeamId;
 use crate::mechanics::motion::{BeamMotion, FrameMotion};
 use crate::mechanics::setup::{Context, Sections};
 

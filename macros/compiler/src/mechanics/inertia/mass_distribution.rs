@@ -9,9 +9,9 @@
 //! A bar needs one arm, a disk one arm and the isotropic part, an inertia tensor at most three arms besides its centre
 //! of mass; an offset, or a tensor about another point, takes one arm more.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::census::taken;
-use crate::base::ids::{BodyId, ExprId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::BodyId;
+use crate::census::taken;
 use crate::mechanics::setup::{Context, MassDistribution, Values};
 use crate::model::expression::Vector;
 use crate::model::mechanism::{Body, Placement, Shape};

@@ -1,7 +1,6 @@
 //! Momenta of bodies with everything they carry, along any motion.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Vector3};
 use crate::mechanics::motion::{BodyMotion, Kinematics};
 use crate::mechanics::setup::Context;
 use crate::model::mechanism::Frame;

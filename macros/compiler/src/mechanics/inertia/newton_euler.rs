@@ -1,7 +1,6 @@
 //! Inertia and weight along every coordinate: Newton-Euler recursion over augmented bodies.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Vector3};
 use crate::mechanics::motion::{FrameMotion, Kinematics, Wrench, for_inertia};
 use crate::mechanics::setup::{Context, ForceSelection};
 use crate::model::mechanism::Frame;

@@ -19,9 +19,9 @@
 //! walks need half the operations of differentiation. Where runs prevail, as in a chain of bars, differentiation by
 //! absolute angles is far shorter, and nothing is tried.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::census::taken;
-use crate::base::ids::{BodyId, ExprId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::BodyId;
+use crate::census::taken;
 use crate::mechanics::motion::{
     BodyMotion, Kinematics, StepAxis, Tree, Wrench, for_inertia, second_rate,
 };

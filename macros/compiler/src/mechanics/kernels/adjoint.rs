@@ -1,7 +1,6 @@
 //! Scalars whose gradients contain all design derivatives of a mode.
 
-use crate::algebra::{Array, Direction, Graph, derivatives_along, gradient};
-use crate::base::ids::{ExprId, SymbolId};
+use crate::algebra::{Array, Direction, ExprId, Graph, SymbolId, derivatives_along, gradient};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::setup::{Symbols, at_rest};
 

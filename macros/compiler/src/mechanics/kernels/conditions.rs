@@ -1,8 +1,7 @@
 //! The kernels that check a state: physical requirements on the design, and the distance of joints and beams from
 //! singular poses.
 
-use crate::algebra::{Array, Function};
-use crate::base::ids::ExprId;
+use crate::algebra::{Array, ExprId, Function};
 use crate::mechanics::functions::{Pose, Requirement};
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::setup::Symbols;

@@ -1,7 +1,6 @@
 //! The kernels of the runtime's contract: the expressions that each returns, and their order.
 
-use crate::algebra::{Array, Function, Graph, Parameter, substitute};
-use crate::base::ids::ExprId;
+use crate::algebra::{Array, ExprId, Function, Graph, Parameter, substitute};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::Limits;
 use crate::mechanics::kernel_name::KernelName;

@@ -1,7 +1,7 @@
 //! What a vibration forced by excitations needs besides the three matrices.
 
-use crate::algebra::{Array, Function, Graph, Parameter, Stage, Unary, substitute};
-use crate::base::ids::{CoordinateId, ExprId};
+use crate::algebra::{Array, ExprId, Function, Graph, Parameter, Stage, Unary, substitute};
+use crate::base::ids::CoordinateId;
 use crate::mechanics::checks::Turning;
 use crate::mechanics::equations::{Equations, Response};
 use crate::mechanics::functions::Excitation as Facts;

@@ -1,7 +1,6 @@
 //! The values that select one of a family of steady motions.
 
-use crate::algebra::{Array, Function, Graph};
-use crate::base::ids::ExprId;
+use crate::algebra::{Array, ExprId, Function, Graph};
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::setup::Context;
 

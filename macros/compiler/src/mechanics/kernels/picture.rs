@@ -11,8 +11,8 @@
 //! holds the constants, the names and the places of the computed numbers (`mechanics/kernels/picture.rs`). Callers that
 //! need no picture do not compile it.
 
-use crate::algebra::{Array, Function, Graph, Matrix3, Vector3};
-use crate::base::ids::{BeamId, ExprId, JointId, PointId};
+use crate::algebra::{Array, ExprId, Function, Graph, Matrix3, Vector3};
+use crate::base::ids::{BeamId, JointId, PointId};
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero};
 use crate::mechanics::picture::{

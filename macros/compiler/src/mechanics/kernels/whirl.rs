@@ -17,8 +17,7 @@
 //! It depends on displacements and spins of bodies, which only the compiler knows: it emits `whirl` where a massive
 //! body is driven to turn (`mechanics/kernels/whirl.rs`).
 
-use crate::algebra::{Array, Direction, Function, Graph, Vector3, derivatives_along};
-use crate::base::ids::ExprId;
+use crate::algebra::{Array, Direction, ExprId, Function, Graph, Vector3, derivatives_along};
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::in_common_frame_at_zero;
 use crate::mechanics::setup::{Context, MassDistribution, SymbolList, Values, at_rest};

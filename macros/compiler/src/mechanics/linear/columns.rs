@@ -1,7 +1,6 @@
 //! Matrices by columns.
 
-use crate::algebra::Graph;
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph};
 
 /// The transposed matrix.
 pub(crate) fn transposed(columns: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {

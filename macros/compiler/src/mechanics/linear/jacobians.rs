@@ -1,8 +1,7 @@
 //! Derivatives of the residual with respect to everything it is linearised in (eqs. 13-17).
 
-use crate::algebra::{Graph, cost, substitute};
-use crate::base::census::taken;
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, cost, substitute};
+use crate::census::taken;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::inertia::mass_matrix;
 use crate::mechanics::motion::for_inertia;

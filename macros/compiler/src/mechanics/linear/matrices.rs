@@ -1,8 +1,7 @@
 //! The matrices of the linearised equations, using their known properties.
 
-use crate::algebra::{Array, Graph, cost};
-use crate::base::census::taken;
-use crate::base::ids::ExprId;
+use crate::algebra::{Array, ExprId, Graph, cost};
+use crate::census::taken;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::{Damping, Properties};
 use crate::mechanics::inertia::Variation;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::{ExprId, PointId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::PointId;
 use crate::mechanics::motion::Wrench;
 use crate::model::mechanism::{Frame, Mechanism};
 

@@ -5,9 +5,9 @@
 //! negative of the value that must vanish, `Phi = -value`. Then `mu` is the load that the `from` side exerts on the
 //! `to` side, as for the reaction of a joint, and the residual of an equation has the direction of its reaction.
 
-use crate::algebra::{Graph, gradient, substitute};
-use crate::base::census::taken;
-use crate::base::ids::{ConstraintId, ExprId};
+use crate::algebra::{ExprId, Graph, gradient, substitute};
+use crate::base::ids::ConstraintId;
+use crate::census::taken;
 use crate::mechanics::motion::{Kinematics, Wrench, in_common_frame, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, Row, Source, State, vanish};
 use crate::model::expression::Expr;

@@ -6,8 +6,8 @@
 //! rounding errors, which a stiff bearing makes visible (`mechanics/loads/forces.rs`). Rates of lengths and bushings
 //! are taken over the joints between the two ends (`mechanics/motion/tree.rs`), so a common drive leaves no trace.
 
-use crate::algebra::{Graph, Matrix3, Vector3, gradient};
-use crate::base::ids::{BeamId, ExprId, ForceId, PointId};
+use crate::algebra::{ExprId, Graph, Matrix3, Vector3, gradient};
+use crate::base::ids::{BeamId, ForceId, PointId};
 use crate::mechanics::motion::Wrench;
 use crate::mechanics::setup::{ForceSelection, State};
 use crate::model::expression::Expr;

@@ -1,7 +1,6 @@
 //! A constraint between two sides: its demands on their relative motion, and the pair of forces that enforces them.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Vector3};
 use crate::mechanics::motion::{PointMotion, Wrench};
 use crate::model::mechanism::Frame;
 

@@ -1,7 +1,9 @@
 //! Elasticity and damping of the material of beams.
 
-use crate::algebra::{Direction, Graph, Unary, Vector3, derivatives_along, gradient};
-use crate::base::ids::{BeamId, ExprId, PointId, SymbolId};
+use crate::algebra::{
+    Direction, ExprId, Graph, SymbolId, Unary, Vector3, derivatives_along, gradient,
+};
+use crate::base::ids::{BeamId, PointId};
 use crate::mechanics::motion::{self, bend};
 use crate::mechanics::setup::{Context, OfBeam, Sections};
 use crate::model::mechanism::Frame;

@@ -1,8 +1,8 @@
 //! The effect of applied forces and constraints along the coordinates: loads are summed from the leaves towards the
 //! ground and projected on the joint axes.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::{BeamId, ExprId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::BeamId;
 use crate::mechanics::inertia::FromStations;
 use crate::mechanics::motion::{Kinematics, Wrench};
 use crate::mechanics::setup::{Context, ForceSelection};

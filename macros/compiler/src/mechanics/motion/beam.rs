@@ -1,7 +1,7 @@
 //! How the sections of a beam move.
 
-use crate::algebra::{Graph, Matrix3, Vector3};
-use crate::base::ids::{BeamId, ExprId};
+use crate::algebra::{ExprId, Graph, Matrix3, Vector3};
+use crate::base::ids::BeamId;
 use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
 use crate::model::mechanism::Mechanism;
 

@@ -1,7 +1,6 @@
 //! Twist and curvature of a section from the way it has turned.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Vector3};
 
 /// The only axis about which a section turns.
 pub(super) fn only_axis(g: &Graph, turn: Vector3) -> Option<usize> {

@@ -1,7 +1,7 @@
 //! Motion of one frame, and how it follows from the motion of the previous frame.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
-use crate::base::census::taken;
+use crate::census::taken;
 use crate::mechanics::setup::CoordinateMotion;
 
 use super::orientation::Orientation;

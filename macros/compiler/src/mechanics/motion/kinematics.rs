@@ -12,8 +12,8 @@
 //! axes (quasi-velocities, `mechanics/motion/kinematics.rs`), so heading and place drop out of the equations of a
 //! vehicle.
 
-use crate::algebra::{Graph, Matrix3, Vector3};
-use crate::base::ids::{BeamId, BodyId, ExprId};
+use crate::algebra::{ExprId, Graph, Matrix3, Vector3};
+use crate::base::ids::{BeamId, BodyId};
 use crate::mechanics::setup::{BodyLayout, CoordinateMotion, Layout, OfBeam, State, Values};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Placement, StepMotion};

@@ -1,8 +1,7 @@
 //! Orientation of a body relative to the axes of its motion: those of the common frame or those of the layout.
 
-use crate::algebra::{Graph, Matrix3, Unary, Vector3};
-use crate::base::census::taken;
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Matrix3, Unary, Vector3};
+use crate::census::taken;
 
 /// A rotation `R_GB = base * rotation(axis, angle)`. Successive rotations about one axis add their angles, so a
 /// chain of parallel joints needs one sine and cosine per body and no matrix products.

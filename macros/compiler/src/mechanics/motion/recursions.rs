@@ -1,7 +1,7 @@
 //! The motion of a mechanism in two forms: in the common frame, and in the form needed for inertia and weight.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::{BeamId, ExprId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::BeamId;
 use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection, Layout, Selection};
 use crate::model::mechanism::Motion;
 

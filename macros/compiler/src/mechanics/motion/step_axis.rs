@@ -1,7 +1,7 @@
 //! An elementary motion of a joint: its place, its direction and its coordinate.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::{CoordinateId, ExprId};
+use crate::algebra::{ExprId, Graph, Vector3};
+use crate::base::ids::CoordinateId;
 
 /// The geometry of an elementary motion.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,10 @@
 //! stretch `e`, so that shear leaves the length of the beam as it is. Stretch and shear are coordinates, or shear follows
 //! statically from the change of the bending moments, `g2 = -(EI3 kappa3)' / kGA2`, `g3 = (EI2 kappa2)' / kGA3`.
 
-use crate::algebra::{Direction, Graph, Unary, Vector3, derivatives_along, gradient};
-use crate::base::ids::{BeamId, ExprId, SymbolId};
+use crate::algebra::{
+    Direction, ExprId, Graph, SymbolId, Unary, Vector3, derivatives_along, gradient,
+};
+use crate::base::ids::BeamId;
 use crate::mechanics::setup::{Context, OfBeam};
 
 use super::bend::{bend, bend_change};

@@ -1,7 +1,7 @@
 //! The data that every step of the derivation reads.
 
-use crate::algebra::{Graph, evaluate, substitute};
-use crate::base::ids::{CoordinateId, ExprId};
+use crate::algebra::{ExprId, Graph, evaluate, substitute};
+use crate::base::ids::CoordinateId;
 use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 

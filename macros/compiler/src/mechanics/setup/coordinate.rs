@@ -1,6 +1,6 @@
 //! The motion of a joint coordinate.
 
-use crate::base::ids::ExprId;
+use crate::algebra::ExprId;
 
 /// A joint coordinate and its two time derivatives.
 #[derive(Clone, Copy, Debug)]

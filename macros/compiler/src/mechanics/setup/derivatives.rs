@@ -1,7 +1,6 @@
 //! Derivatives by lists of symbols, and evaluation at rest.
 
-use crate::algebra::{Direction, Graph, derivatives_along, substitute};
-use crate::base::ids::{ExprId, SymbolId};
+use crate::algebra::{Direction, ExprId, Graph, SymbolId, derivatives_along, substitute};
 
 use super::symbols::{SymbolList, Symbols};
 

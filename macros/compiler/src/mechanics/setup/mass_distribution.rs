@@ -1,7 +1,6 @@
 //! The data of a mass distribution.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::algebra::{ExprId, Graph, Vector3};
 
 /// A mass distribution in terms of arms.
 #[derive(Clone, Debug)]

@@ -1,8 +1,7 @@
 //! Tests whether expressions vanish at every state: structurally if the graph shows it, otherwise by evaluation at
 //! random states, at all of which a value must vanish up to rounding.
 
-use crate::algebra::{Disturbed, Evaluator, Graph};
-use crate::base::ids::{ExprId, SymbolId};
+use crate::algebra::{Disturbed, Evaluator, ExprId, Graph, SymbolId};
 use crate::model::mechanism::CoordinateQuantity;
 
 use super::context::Context;

@@ -16,9 +16,9 @@
 //! entry (`Runs`). Forces and constraints stay in the declared coordinates, because cancelling contributions of a stiff
 //! spring would leave rounding errors.
 
-use crate::algebra::{Graph, Vector3};
-use crate::base::census::taken;
-use crate::base::ids::{BodyId, ExprId, SymbolId};
+use crate::algebra::{ExprId, Graph, SymbolId, Vector3};
+use crate::base::ids::BodyId;
+use crate::census::taken;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Motion, StepMotion};
 use crate::topology::{Branch, Topology};
 

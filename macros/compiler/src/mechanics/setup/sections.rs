@@ -6,8 +6,8 @@
 //! the values of the polynomials at the sections, turns them into those of the coordinates, as the sums along a run do
 //! for absolute angles ([`Runs`](super::runs::Runs)). Nothing is expanded in powers of the coordinates.
 
-use crate::algebra::{Graph, Stage};
-use crate::base::ids::{BeamId, ExprId, SymbolId};
+use crate::algebra::{ExprId, Graph, Stage, SymbolId};
+use crate::base::ids::BeamId;
 use crate::base::legendre::{derivatives, integrals, polynomials};
 use crate::model::mechanism::{Beam, Mechanism};
 use crate::topology::Topology;

@@ -1,7 +1,7 @@
 //! The symbols in which the equations are written.
 
-use crate::algebra::{Graph, Stage};
-use crate::base::ids::{CoordinateId, ExprId, SymbolId};
+use crate::algebra::{ExprId, Graph, Stage, SymbolId};
+use crate::base::ids::CoordinateId;
 use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 

@@ -2,8 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::{Graph, Matrix3, Operator, Unary, Vector3};
-use crate::base::ids::{ConstantId, ExprId};
+use crate::algebra::{ExprId, Graph, Matrix3, Operator, Unary, Vector3};
+use crate::base::ids::ConstantId;
 use crate::model::expression::{Expr, Matrix, Vector};
 use crate::model::mechanism::{Mechanism, Placement};
 

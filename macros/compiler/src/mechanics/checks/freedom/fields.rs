@@ -6,8 +6,8 @@
 //! of the field follow from `dJ zeta + J dzeta = dxi`. A ball that rolls may also spin about its own centre `c`, with the
 //! twist `(omega, c x omega)`.
 
-use crate::algebra::{Disturbed, Graph};
-use crate::base::ids::{BodyId, ExprId};
+use crate::algebra::{Disturbed, ExprId, Graph};
+use crate::base::ids::BodyId;
 use crate::mechanics::motion::{Kinematics, StepAxis, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, by_symbol};
 use crate::model::mechanism::{ConstraintLaw, Frame};

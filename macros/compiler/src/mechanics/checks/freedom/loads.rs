@@ -1,8 +1,8 @@
 //! Loads along free directions. Where the work along a direction is the same everywhere and not zero, nothing balances it.
 
-use crate::algebra::{Graph, NullSpace};
+use crate::algebra::{ExprId, Graph, NullSpace};
 use crate::base::diagnostics::{Diagnostic, listed};
-use crate::base::ids::{ExprId, ForceId};
+use crate::base::ids::ForceId;
 use crate::base::span::Extent;
 use crate::mechanics::equations::Residual;
 use crate::mechanics::motion::in_common_frame_at_zero;

@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use crate::algebra::{Disturbed, Evaluator, Graph, evaluate};
-use crate::base::ids::{ExprId, SymbolId};
+use crate::algebra::{Disturbed, Evaluator, ExprId, Graph, SymbolId, evaluate};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, RandomState};

@@ -1,16 +1,12 @@
 //! Taylor expansions of responses at the nominal design.
 
-use std::collections::BTreeMap;
-
 use super::model::{Evaluated, Model, Take};
 use super::space::Space;
 use crate::Error;
 use crate::algebra::{Matrix, Vector, dot, form};
 use crate::kernels::CurvatureKernels;
-use crate::response::{Response, Responses};
-use crate::second_order::{
-    ModeCurvature, critical_curvature, crossing_curvature, mode_curvature, output_curvature,
-};
+use crate::quadratic::QuadraticModels;
+use crate::response::Responses;
 use crate::tolerance::Outcome;
 
 /// `f(b0 + x) = value + S x + x^T H x / 2`, SI.
@@ -44,43 +40,17 @@ pub(super) fn expansions(
 ) -> Result<Vec<Option<Expansion>>, Error> {
     let at = responses.nominal();
     let found = responses.with_gradients(&mut responses.workspace(), &at.design)?;
-    let mut curvatures: BTreeMap<usize, Option<ModeCurvature>> = BTreeMap::new();
-    let mut of_mode = |mode: usize| {
-        let solve = || mode_curvature(mechanism, at, responses.modes(), mode).ok();
-        curvatures.entry(mode).or_insert_with(solve).clone()
-    };
+    let mut models = QuadraticModels::new(mechanism, responses);
     let values = found.values.iter().zip(found.gradients);
     let all = responses.wanted().iter().zip(values);
     let each = all.map(|(response, (value, slopes))| {
         Some(Expansion {
             value: (*value)?,
             slopes: slopes?,
-            curvature: match *response {
-                Response::Mode { mode, quantity } => {
-                    of_mode(mode).and_then(|all| Some(all.of(quantity)?.by_design))
-                }
-                Response::Output(output) => {
-                    let found = output_curvature(mechanism, at, output);
-                    found.ok().map(|found| found.second.by_design)
-                }
-                Response::Vibration(vibration) => vibration
-                    .quadratic(mechanism, at)
-                    .ok()
-                    .flatten()
-                    .map(|(_, second)| second.by_design),
-                // They would need third derivatives.
-                Response::Peak { .. } => None,
-                Response::Critical(range) => {
-                    let state = responses.critical_state(&at.design, range);
-                    let found = state.map(|state| critical_curvature(mechanism, &state));
-                    found?.ok().map(|found| found.second)
-                }
-                Response::Crossing { .. } => {
-                    let state = responses.first_crossing(&at.design, response);
-                    let found = state.map(|state| crossing_curvature(mechanism, &state));
-                    found?.ok().map(|found| found.second)
-                }
-            },
+            curvature: models
+                .of(*response)
+                .ok()
+                .map(|found| found.quadratic.curvature),
         })
     });
     Ok(each.collect())

@@ -4,11 +4,8 @@ use std::fmt;
 use std::path::Path;
 
 use proc_macro2::{LexError, Span, TokenStream};
-use syn::punctuated::Punctuated;
-use syn::{Attribute, Meta, Token};
 
 use crate::base::diagnostics::Diagnostics;
-use crate::pipeline::Compilation;
 use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, too_deep};
 
 /// One mistake in a declaration.
@@ -76,7 +73,7 @@ impl std::error::Error for Mistakes {}
 /// The tokens of a text.
 ///
 /// ```
-/// use eigentol_compiler::tokens;
+/// use eigentol_language::mistakes::tokens;
 ///
 /// assert!(tokens("3 kg +/- 5%").is_ok());
 /// let error = tokens("3 kg ± 5%").unwrap_err().to_string();
@@ -150,51 +147,11 @@ impl From<Diagnostics> for Mistakes {
     }
 }
 
-impl Compilation {
-    /// The warnings that rustc gives if the declaration is written in a macro: design variables that nothing refers to.
-    /// A leading underscore or an attribute marks such a variable as intended.
-    ///
-    /// ```
-    /// use eigentol_compiler::{compile_text, mechanics::Limits};
-    ///
-    /// let text = "mechanism A { design l = 1 m; design width = 5 cm; gravity 9.81 m/s^2 along -z;
-    ///     body bar: rod(mass: 1 kg, length: l, along: -z); joint t: revolute(y) from ground to bar; }";
-    /// let warnings = compile_text(text, Limits::default())?.warnings();
-    /// assert_eq!(warnings[0].message, "unused variable: `width`");
-    /// # Ok::<(), eigentol_compiler::Mistakes>(())
-    /// ```
-    pub fn warnings(&self) -> Vec<Mistake> {
-        if is_allowed(&self.mechanism.attributes) {
-            return Vec::new();
-        }
-        let unused = self.mechanism.unused_design().map(|variable| {
-            let name = variable.name.to_string();
-            let (plain, span) = (name.trim_start_matches("r#"), variable.name.span());
-            let message = format!("unused variable: `{name}`");
-            let help = format!("if this is intentional, prefix it with an underscore: `_{plain}`");
-            (!plain.starts_with('_')).then(|| mistake((span, span), message, Some(help)))
-        });
-        unused.flatten().collect()
-    }
-}
-
-/// Lints that cover unused variables.
-const UNUSED: [&str; 3] = ["unused_variables", "unused", "warnings"];
-
-/// Whether the last attribute about unused variables allows them.
-fn is_allowed(attributes: &[Attribute]) -> bool {
-    let is_meant = |attribute: &&Attribute| {
-        let lints = attribute.parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated);
-        let mut lints = lints.into_iter().flatten();
-        lints.any(|lint| UNUSED.iter().any(|name| lint.path().is_ident(name)))
-    };
-    let levels = ["allow", "warn", "deny", "forbid"];
-    let is_level = |a: &&Attribute| levels.iter().any(|level| a.path().is_ident(level));
-    let last = attributes.iter().filter(is_level).rfind(is_meant);
-    last.is_some_and(|attribute| attribute.path().is_ident("allow"))
-}
-
-fn mistake((first, last): (Span, Span), message: String, help: Option<String>) -> Mistake {
+pub(crate) fn mistake(
+    (first, last): (Span, Span),
+    message: String,
+    help: Option<String>,
+) -> Mistake {
     let (start, end) = (first.start(), last.end());
     Mistake {
         line: start.line,

@@ -7,5 +7,3 @@ pub mod legendre;
 pub mod nearest;
 pub mod span;
 pub mod units;
-
-pub use eigentol_symbolic::base::{census, operators, spline};

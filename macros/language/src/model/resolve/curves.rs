@@ -7,12 +7,12 @@ use super::lists::Listed;
 use super::resolver::Resolver;
 use super::typed::{Quantity, Typed, ValueContext};
 use super::values::{DECIMAL_POINT, decimal_commas};
-use crate::base::spline::Spline;
 use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::{Curve, CurveArgument};
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
 use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
+use eigentol_symbolic::base::spline::Spline;
 
 impl Resolver<'_> {
     pub(super) fn curves(&mut self) {

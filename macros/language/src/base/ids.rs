@@ -1,7 +1,5 @@
 //! Typed indices: a body can never be looked up with the number of a joint.
 
-pub use eigentol_symbolic::base::ids::{ExprId, SymbolId};
-
 eigentol_symbolic::id! {
     /// An input.
     InputId;

@@ -18,7 +18,7 @@ pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
 use crate::base::dimension::Dimension;
 use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId, PointId};
-use crate::base::spline::{Piece, Spline};
+use eigentol_symbolic::base::spline::{Piece, Spline};
 
 /// A declared mechanism. Every `Ident` keeps the span of its declaration.
 #[derive(Clone, Debug)]

@@ -1,17 +1,15 @@
 //! The probability of failing a requirement, from the second-order model of its response.
 
 use super::kinds::{Requirement, actual};
-use crate::algebra::{Matrix, Vector, add_scaled};
+use crate::algebra::{Vector, add_scaled};
 use crate::clusters::groups;
 use crate::deviations::Deviations;
 use crate::error::NoDerivative;
 use crate::judge::{Event, Judgement, Lines};
 use crate::kernels::{CurvatureKernels, Kernels};
+use crate::quadratic::QuadraticModels;
 use crate::response::{Realisation, Response, Responses};
-use crate::second_order::{
-    Margin, Quadratic, critical_curvature, crossing_curvature, margin, mode_curvature,
-    output_curvature,
-};
+use crate::second_order::{Margin, Quadratic, margin};
 use crate::tolerance::Tolerances;
 use crate::{Description, Equilibrium, Error, Modes, Shared};
 
@@ -73,7 +71,7 @@ pub fn second_order_failure(
         reason: NoDerivative::Stability,
     })?;
     let responses = Responses::new(mechanism, at, modes, vec![response])?;
-    let model = Model::new(mechanism, &responses, response)?;
+    let model = QuadraticModels::new(mechanism, &responses).of(response)?;
     let reciprocal = reciprocal_slopes(mechanism, at, &wanted);
     let relative = relative(&model.quadratic, &reciprocal);
     let limits = wanted.limits();
@@ -139,88 +137,6 @@ fn mixed_with(
     let mut others = own.unwrap_or_default();
     others.retain(|other| *other != mode);
     Ok(others)
-}
-
-/// The second-order model of a response.
-struct Model {
-    quadratic: Quadratic,
-    /// First derivatives with respect to the inputs, and second ones with respect to an input and a design variable.
-    by_input: Option<(Vector, Matrix)>,
-}
-
-impl Model {
-    fn new(
-        mechanism: &dyn CurvatureKernels,
-        responses: &Responses<'_>,
-        response: Response,
-    ) -> Result<Self, Error> {
-        let at = responses.nominal();
-        let missing = Error::NoResponse {
-            response: 0,
-            missing: 1,
-            needed: 1,
-            method: "second order",
-        };
-        let along = match response {
-            Response::Mode { mode, quantity } => {
-                let modes = responses.modes();
-                let own = mode_curvature(mechanism, at, modes, mode)?;
-                let lambda = modes.modes[mode].lambda;
-                let silent = Error::NotOscillating { mode, lambda };
-                let quadratic = own.quadratic(quantity).ok_or(silent.clone())?;
-                let first = own.first.of(quantity).ok_or(silent.clone())?;
-                let second = own.of(quantity).ok_or(silent)?;
-                return Ok(Self {
-                    quadratic,
-                    by_input: Some((first.by_input, second.by_input_and_design)),
-                });
-            }
-            Response::Output(output) => {
-                let own = output_curvature(mechanism, at, output)?;
-                return Ok(Self {
-                    quadratic: Quadratic {
-                        value: own.value,
-                        slopes: own.first.by_design,
-                        curvature: own.second.by_design,
-                    },
-                    by_input: Some((own.first.by_input, own.second.by_input_and_design)),
-                });
-            }
-            Response::Vibration(vibration) => {
-                let found = vibration.quadratic(mechanism, at)?;
-                let ((value, first), second) = found.ok_or(missing)?;
-                return Ok(Self {
-                    quadratic: Quadratic {
-                        value,
-                        slopes: first.by_design,
-                        curvature: second.by_design,
-                    },
-                    by_input: Some((first.by_input, second.by_input_and_design)),
-                });
-            }
-            Response::Peak { .. } => {
-                return Err(Error::NoSensitivity {
-                    reason: NoDerivative::Peak,
-                });
-            }
-            Response::Critical(range) => {
-                let state = responses.critical_state(&at.design, range).ok_or(missing)?;
-                critical_curvature(mechanism, &state)?
-            }
-            Response::Crossing { .. } => {
-                let state = responses.first_crossing(&at.design, &response);
-                crossing_curvature(mechanism, &state.ok_or(missing)?)?
-            }
-        };
-        Ok(Self {
-            quadratic: Quadratic {
-                value: along.value,
-                slopes: along.first,
-                curvature: along.second,
-            },
-            by_input: None,
-        })
-    }
 }
 
 /// Relative derivatives of the reciprocal of the band's centre with respect to each design variable. For a deviation

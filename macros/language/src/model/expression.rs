@@ -7,7 +7,7 @@ use rustc_hash::FxHashSet;
 use crate::base::ids::{
     ConstantId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId,
 };
-pub use crate::base::operators::Unary as Function;
+pub use eigentol_symbolic::base::operators::Unary as Function;
 
 /// A scalar value in SI; dimensions have been checked and are no longer stored.
 #[derive(Clone, Debug, PartialEq)]

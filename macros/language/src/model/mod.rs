@@ -15,4 +15,6 @@ pub mod shape;
 mod simplify;
 pub mod tolerance;
 pub mod unit;
+#[cfg(feature = "locations")]
+mod warnings;
 pub mod welded;

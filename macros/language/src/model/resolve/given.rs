@@ -20,7 +20,7 @@ use crate::syntax::print;
 /// `what` names the quantity in messages.
 ///
 /// ```
-/// use eigentol_compiler::model::resolve::given;
+/// use eigentol_language::model::resolve::given;
 ///
 /// let tokens = |text: &str| text.parse().unwrap();
 /// let speed = given::value(tokens("60rpm"), tokens("rad/s"), "`speed`").unwrap();
@@ -65,7 +65,7 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
 /// which is `nominal`, SI.
 ///
 /// ```
-/// use eigentol_compiler::model::resolve::given;
+/// use eigentol_language::model::resolve::given;
 ///
 /// let tokens = |text: &str| text.parse().unwrap();
 /// let tolerance = given::tolerance(tokens("3% uniform"), tokens("mm"), 0.02).unwrap();
@@ -89,8 +89,8 @@ pub fn tolerance(
 /// variables have these values, SI. It is checked like a declared one: its ends must be possible.
 ///
 /// ```
-/// use eigentol_compiler::model::resolve::given;
-/// use eigentol_compiler::syntax::parse::parse;
+/// use eigentol_language::model::resolve::given;
+/// use eigentol_language::syntax::parse::parse;
 ///
 /// let text = "mechanism A { design l = 1 m; gravity 9.81 m/s^2 along -z;
 ///     body bar: rod(mass: 1 kg, length: l, along: -z); joint t: revolute(y) from ground to bar; }";
