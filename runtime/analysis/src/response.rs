@@ -427,7 +427,8 @@ impl<'a> Responses<'a> {
 
     /// The responses of a design that was solved beside others, those of its equilibrium alone; `state` is a copy of the
     /// nominal one.
-    pub(crate) fn of_solved(
+    #[doc(hidden)]
+    pub fn of_solved(
         &self,
         design: &[f64],
         solved: &SolvedDesign<'_>,
