@@ -14,6 +14,8 @@ mod composed;
 mod converged;
 #[path = "beams/damped.rs"]
 mod damped;
+#[path = "beams/inside.rs"]
+mod inside;
 #[path = "beams/poses.rs"]
 mod poses;
 #[path = "beams/required.rs"]

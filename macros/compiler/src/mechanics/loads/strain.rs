@@ -6,7 +6,6 @@ use crate::algebra::{
 use crate::base::ids::{BeamId, PointId};
 use crate::mechanics::motion::{self, bend};
 use crate::mechanics::setup::{Context, OfBeam, Sections};
-use crate::model::mechanism::Frame;
 
 /// What strains at a section, and the stiffness against it: curvatures along its own axes times the length, stretch and
 /// shear, each with the stiffness that gives energy over the length that the section stands for.
@@ -126,19 +125,8 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
 
 /// Twist rate, curvatures and elastic moment of a beam at a point of it; see [`Expr::Bent`](crate::model::expression::Expr::Bent).
 pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [ExprId; 6] {
-    let mechanism = context.mechanism;
-    let zero = g.zero();
-    let frame = mechanism.points[point.index()].frame;
-    let place = mechanism.beams.iter().find_map(|beam| {
-        let station = beam
-            .stations
-            .iter()
-            .find(|own| Frame::Body(own.body) == frame);
-        let root = (Frame::Body(beam.body) == frame).then_some((beam, 0.0, &beam.root));
-        station.map(|own| (beam, own.place, &own.section)).or(root)
-    });
-    let Some((beam, place, section)) = place else {
-        return [zero; 6];
+    let Some((beam, place, section)) = context.mechanism.section_at(point) else {
+        return [g.zero(); 6];
     };
     let [turn, slope] = Sections::at(g, context.symbols, context.topology, beam, place);
     let values = context.values;
