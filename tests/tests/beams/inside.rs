@@ -3,7 +3,11 @@
 use crate::compared::study;
 
 fn outputs(text: &str) -> Vec<f64> {
-    study(text, None).outputs().expect("outputs").values.to_vec()
+    study(text, None)
+        .outputs()
+        .expect("outputs")
+        .values
+        .to_vec()
 }
 
 fn assert_close(found: f64, exact: f64, accuracy: f64) {

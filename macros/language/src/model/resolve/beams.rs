@@ -79,7 +79,7 @@ impl Resolver<'_> {
         };
         let counts = self.counts(word, given, table.as_ref());
         let strains = self.strains_of_beam(given, counts);
-        let points = self.points_of_beam(given, counts, strains);
+        let points = self.points_of_beam(given, counts, strains, table.as_ref());
         let (length, axes, table, twist) = (length?, axes?, table?, twist?);
         let mut declared = Declared {
             length,
@@ -201,11 +201,18 @@ impl Resolver<'_> {
         given: &Arguments<'_>,
         counts: Option<[usize; 3]>,
         strains: Option<([usize; 3], bool)>,
+        table: Option<&Table>,
     ) -> Option<usize> {
+        let ([_, about_y, about_z], [_, shear_y, shear_z]) = (counts?, strains?.0);
         let most = counts?.into_iter().chain(strains?.0).max()?;
+        // Without inertia of the sections, bending and shear of a plane share the masses at the points.
+        let sharing = match table.is_some_and(Table::resists_turning) {
+            true => 0,
+            false => (about_y + shear_z).max(about_z + shear_y),
+        };
         match given.get("points") {
             Some(value) => self.whole(value, "points", most..=2 * MOST),
-            None => Some(most + 2),
+            None => Some(sharing.max(most + 2)),
         }
     }
 
