@@ -81,7 +81,8 @@ fn stretch_and_shear_follow_the_force_inside() {
     }
     let stubby = "mechanism Post {
         gravity [0, 0, 0];
-        body post: beam(length: 0.1 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: 1e5 N*m^2, bending_y: 3,
+        body post: beam(length: 0.1 m, along: x, up: z, mass_per_length: 1 kg/m, inertia_y: 1e-4 kg*m,
+            stiffness_y: 1e5 N*m^2, bending_y: 3,
             shear_stiffness_z: 2e5 N, shear: 3);
         joint clamp: fixed from ground to post;
         point end: post at tip; point middle: post at 0.5 length;

@@ -79,7 +79,7 @@ impl Resolver<'_> {
         };
         let counts = self.counts(word, given, table.as_ref());
         let strains = self.strains_of_beam(given, counts);
-        let points = self.points_of_beam(given, counts, strains, table.as_ref());
+        let points = self.points_of_beam(given, counts, strains);
         let (length, axes, table, twist) = (length?, axes?, table?, twist?);
         let mut declared = Declared {
             length,
@@ -149,14 +149,6 @@ impl Resolver<'_> {
             0
         };
         let torsion = torsion.unwrap_or(default);
-        if torsion > 1 && !resists {
-            let extent = given.get("torsion").map_or(word.into(), |own| own.extent);
-            let message = "this beam has no inertia about its axis: only its tip can turn";
-            let help =
-                "give `inertia_y` and `inertia_z`, or `torsion: 1` and weld a body to the tip";
-            self.diagnostics.error_with_help(extent, message, help);
-            return None;
-        }
         let stretches = given.get("stretch").is_some();
         if torsion + y + z == 0 && !stretches {
             let message = "this beam has no coordinates: it is rigid";
@@ -201,18 +193,11 @@ impl Resolver<'_> {
         given: &Arguments<'_>,
         counts: Option<[usize; 3]>,
         strains: Option<([usize; 3], bool)>,
-        table: Option<&Table>,
     ) -> Option<usize> {
-        let ([_, about_y, about_z], [_, shear_y, shear_z]) = (counts?, strains?.0);
         let most = counts?.into_iter().chain(strains?.0).max()?;
-        // Without inertia of the sections, bending and shear of a plane share the masses at the points.
-        let sharing = match table.is_some_and(Table::resists_turning) {
-            true => 0,
-            false => (about_y + shear_z).max(about_z + shear_y),
-        };
         match given.get("points") {
             Some(value) => self.whole(value, "points", most..=2 * MOST),
-            None => Some(sharing.max(most + 2)),
+            None => Some(most + 2),
         }
     }
 
