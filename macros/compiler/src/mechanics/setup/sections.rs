@@ -224,6 +224,12 @@ impl Sections {
         })
     }
 
+    /// The rate of each row while the unknowns move at some rates.
+    pub(crate) fn rates(&self, g: &mut Graph, unknowns: &[ExprId]) -> Vec<ExprId> {
+        let rows = 0..self.rows.len();
+        rows.map(|row| self.combined(g, row, unknowns)).collect()
+    }
+
     /// Each symbol as a sum over the unknowns: for substitution.
     pub(crate) fn sums(&self, g: &mut Graph, symbols: &Symbols) -> Vec<(SymbolId, ExprId)> {
         let lists = [
