@@ -26,3 +26,5 @@ mod rotating;
 mod strained;
 #[path = "beams/twisted.rs"]
 mod twisted;
+#[path = "beams/whirls.rs"]
+mod whirls;
