@@ -16,5 +16,5 @@ mod transmitted;
 pub(super) use constraints::{constraint_rows, held};
 pub(super) use force_context::ForceContext;
 pub(super) use forces::exerted;
-pub(super) use strain::{bent_at, elastic_energy, strained};
+pub(super) use strain::{bent_at, elastic_energy, strain_power, strained};
 pub(super) use transmitted::transmitted;
