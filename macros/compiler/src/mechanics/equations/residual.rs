@@ -4,7 +4,7 @@ use crate::algebra::{ExprId, Graph};
 use crate::mechanics::inertia::{BeamForces, Inertial, inertial_at};
 use crate::mechanics::loads::{strain_power, strained, transmitted};
 use crate::mechanics::motion::Kinematics;
-use crate::mechanics::setup::{Context, ForceSelection, Selection};
+use crate::mechanics::setup::{Context, ForceSelection, Selection, weighted_sum};
 
 /// The residual in two parts. The total is their sum once the first has been transformed from absolute angles to the
 /// unknowns.
@@ -66,24 +66,23 @@ impl Residual {
         total: &[ExprId],
         rates: &[ExprId],
     ) -> ExprId {
-        let weighted = |g: &mut Graph, values: &[ExprId]| {
-            let terms = values.iter().zip(rates).map(|(&a, &b)| g.mul(b, a));
-            let terms: Vec<ExprId> = terms.collect();
-            g.sum(terms)
-        };
         if self.beams.is_empty() {
-            return weighted(g, total);
+            return weighted_sum(g, rates, total);
         }
         let inertial = context.runs.forces(g, &self.inertial);
         let along_sections = context.sections.rates(g, rates);
-        let mut terms = vec![weighted(g, &inertial[..rates.len()])];
+        let mut terms = vec![weighted_sum(g, rates, &inertial[..rates.len()])];
         for beam in &self.beams {
-            terms.push(beam.power(g, context.sections, &along_sections));
+            let motion = (beam.id, &beam.motion);
+            terms.push(
+                beam.load
+                    .power(g, context.sections, motion, &along_sections),
+            );
         }
         terms.push(strain_power(g, context, &along_sections));
         let sum = g.sum(terms);
         let power = context.in_unknowns(g, &[sum])[0];
-        let applied = weighted(g, &self.applied);
+        let applied = weighted_sum(g, rates, &self.applied);
         g.add(power, applied)
     }
 

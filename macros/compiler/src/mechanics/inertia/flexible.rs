@@ -10,7 +10,7 @@
 use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3};
 use crate::base::ids::BeamId;
 use crate::mechanics::motion::{BeamMotion, FrameMotion, turned};
-use crate::mechanics::setup::{Context, Sections};
+use crate::mechanics::setup::{Context, Sections, weighted_sum};
 
 /// The mass distribution of a beam over the directions of its sections.
 pub(crate) struct BeamInertia {
@@ -280,11 +280,7 @@ impl BeamLoad {
         let stations = motion.stations.iter().zip(&rows.stations);
         for ((station, rows), moment) in stations.zip(&self.of_stations) {
             let powers = station.section.project(g, *moment);
-            terms.extend(
-                rows.iter()
-                    .zip(powers)
-                    .map(|(row, power)| g.mul(rate_of(row), power)),
-            );
+            terms.push(weighted_sum(g, &rows.each_ref().map(rate_of), &powers));
         }
         g.sum(terms)
     }

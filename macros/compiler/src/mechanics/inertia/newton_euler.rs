@@ -3,7 +3,7 @@
 use crate::algebra::{ExprId, Graph, Vector3};
 use crate::base::ids::BeamId;
 use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics, Wrench, for_inertia};
-use crate::mechanics::setup::{Context, ForceSelection, Sections};
+use crate::mechanics::setup::{Context, ForceSelection};
 use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
@@ -22,16 +22,9 @@ pub(crate) struct Inertial {
 
 /// A beam in motion, with the forces that this requires.
 pub(crate) struct BeamForces {
-    id: BeamId,
-    motion: BeamMotion,
-    load: BeamLoad,
-}
-
-impl BeamForces {
-    /// Power of the forces while the rows of the sections move at some rates.
-    pub(crate) fn power(&self, g: &mut Graph, sections: &Sections, rates: &[ExprId]) -> ExprId {
-        self.load.power(g, sections, (self.id, &self.motion), rates)
-    }
+    pub(crate) id: BeamId,
+    pub(crate) motion: BeamMotion,
+    pub(crate) load: BeamLoad,
 }
 
 /// Contributions that a body has gathered from the bodies it carries.

@@ -52,15 +52,6 @@ pub(crate) fn at_rest_along_motion(
     at_rest(g, s, &functional)[0]
 }
 
-pub(crate) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
-    let terms: Vec<ExprId> = weights
-        .iter()
-        .zip(values)
-        .map(|(&weight, &value)| g.mul(weight, value))
-        .collect();
-    g.sum(terms)
-}
-
 /// Gradient of a scalar by coordinates, inputs and design variables.
 pub(crate) fn state_gradient(g: &mut Graph, s: &Symbols, root: ExprId) -> Vec<Array> {
     let symbols: Vec<SymbolId> = [&s.q, &s.u, &s.b]

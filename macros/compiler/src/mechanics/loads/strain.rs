@@ -110,8 +110,8 @@ fn stressed(g: &mut Graph, context: &Context, id: BeamId) -> Vec<(Strain, Vec<Ex
 
 /// Power of the stresses of all beams while the rows of the sections move at some rates.
 pub(crate) fn strain_power(g: &mut Graph, context: &Context, rates: &[ExprId]) -> ExprId {
-    let direction = context.sections.position.with(rates).collect();
-    let direction = Direction::new("_virtual", direction);
+    let direction = context.sections.position.with(rates);
+    let direction = Direction::new("_virtual", direction.collect());
     let mut terms = Vec::new();
     for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
         for (strain, stresses) in stressed(g, context, id) {
@@ -147,15 +147,11 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
                     along[row] = g.add(along[row], power);
                 }
             }
-            let mut forces = vec![g.zero(); own.len()];
             for (&value, &stress) in strain.values.iter().zip(&stresses).skip(3) {
-                for (force, slope) in forces.iter_mut().zip(gradient(g, value, &ids)) {
+                for (&row, slope) in own.iter().zip(gradient(g, value, &ids)) {
                     let share = g.mul(stress, slope);
-                    *force = g.add(*force, share);
+                    along[row] = g.add(along[row], share);
                 }
-            }
-            for (row, force) in own.into_iter().zip(forces) {
-                along[row] = g.add(along[row], force);
             }
         }
     }

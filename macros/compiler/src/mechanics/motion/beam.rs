@@ -166,18 +166,12 @@ impl DirectionMotion {
 
     /// Power of a force on the direction while the sections move in a direction.
     pub(crate) fn power(&self, g: &mut Graph, force: Vector3, along: &Direction) -> ExprId {
-        let rate = match &self.turned {
-            Some(turned) => {
-                let rates = derivatives_along(g, &turned.vector.0, along);
-                let rates = Vector3([rates[0], rates[1], rates[2]]);
-                self.section.axes.apply(g, rates)
-            }
-            None => {
-                let rates = derivatives_along(g, &self.vector.0, along);
-                Vector3([rates[0], rates[1], rates[2]])
-            }
+        let (vector, force) = match &self.turned {
+            Some(turned) => (turned.vector, self.section.axes.transpose().apply(g, force)),
+            None => (self.vector, force),
         };
-        force.dot(g, rate)
+        let rates = derivatives_along(g, &vector.0, along);
+        force.dot(g, Vector3([rates[0], rates[1], rates[2]]))
     }
 
     /// Power of a force on the vector per unit rate of the angle of its section, or of each component of the Rodrigues

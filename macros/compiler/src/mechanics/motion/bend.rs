@@ -57,8 +57,7 @@ pub(crate) fn bend(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
     }
     let denominator = denominator(g, turn);
     let bent = part(g, turn, denominator, slope);
-    let factor = factor(g, turn);
-    let by = bend_slopes(g, turn, factor, slope, bent);
+    let by = bend_slopes(g, [turn, slope, bent]);
     for (c, &value) in bent.0.iter().enumerate() {
         let by = by.iter().map(|(by, slope)| (*by, slope.0[c]));
         g.set_slopes(value, by.collect());
@@ -68,13 +67,8 @@ pub(crate) fn bend(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
 
 /// Derivatives of [`bend`] by the turn and by the slope. For `m = slope - turn x slope / 2`, `D = 1 / f`, `D bent = m`
 /// gives `bent_a = f m_a - bent f turn_a / 2`.
-fn bend_slopes(
-    g: &mut Graph,
-    turn: Vector3,
-    factor: ExprId,
-    slope: Vector3,
-    bent: Vector3,
-) -> Vec<(ExprId, Vector3)> {
+fn bend_slopes(g: &mut Graph, [turn, slope, bent]: [Vector3; 3]) -> Vec<(ExprId, Vector3)> {
+    let factor = factor(g, turn);
     let half_factor = g.scale(0.5, factor);
     let (half, across) = (turn.scale(g, half_factor), slope.scale(g, half_factor));
     let axes = Matrix3::identity(g).0;
@@ -104,7 +98,7 @@ pub(crate) fn bend_powers(
     }
     let factor = factor(g, turn);
     let bent = bend(g, turn, slope);
-    let by = bend_slopes(g, turn, factor, slope, bent);
+    let by = bend_slopes(g, [turn, slope, bent]);
     let mut powers = [zero; 6];
     for (power, (_, slope)) in powers.iter_mut().zip(&by) {
         *power = slope.dot(g, moment);

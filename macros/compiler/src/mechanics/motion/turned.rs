@@ -75,18 +75,13 @@ impl Turned {
 
     /// The part of its second rate that is quadratic in the rate of the turn.
     pub(super) fn quadratic(&self, g: &mut Graph, rate: Vector3) -> Vector3 {
-        let (own, square, along) = (
-            rate.dot(g, self.own),
-            rate.dot(g, rate),
-            self.turn.dot(g, rate),
-        );
+        let (own, along) = (rate.dot(g, self.own), rate.dot(g, self.turn));
+        let square = rate.dot(g, rate);
         let half = g.scale(0.5, square);
         let spread = self.own.add(g, self.vector).scale(g, half);
         let slowed = self.rate(g, rate).scale(g, along);
-        rate.scale(g, own)
-            .sub(g, spread)
-            .sub(g, slowed)
-            .scale(g, self.factor)
+        let kept = rate.scale(g, own).sub(g, spread);
+        kept.sub(g, slowed).scale(g, self.factor)
     }
 
     /// Power of a force on the vector per unit rate of each component of the turn, and the force along the axes of the

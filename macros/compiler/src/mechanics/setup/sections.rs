@@ -239,9 +239,8 @@ impl Sections {
         ];
         let mut sums = Vec::new();
         for (own, unknowns) in lists {
-            for (row, id) in own.ids.iter().enumerate() {
-                sums.push((*id, self.combined(g, row, &unknowns.values)));
-            }
+            let values = self.rates(g, &unknowns.values);
+            sums.extend(own.ids.iter().copied().zip(values));
         }
         sums
     }
@@ -276,19 +275,16 @@ impl Sections {
 
     /// The value of a row.
     fn combined(&self, g: &mut Graph, row: usize, unknowns: &[ExprId]) -> ExprId {
-        let (first, sign) = match self.mirrored(row) {
-            Some(mirrored) if mirrored < row => (mirrored, -1.0),
-            _ => (row, 1.0),
-        };
+        let first = self.mirrored(row).map_or(row, |mirrored| mirrored.min(row));
         let (mut even, mut odd) = (Vec::new(), Vec::new());
         for (unknown, equal, opposite) in self.parts(first) {
             even.push(g.scale(equal, unknowns[unknown]));
             odd.push(g.scale(opposite, unknowns[unknown]));
         }
         let (even, odd) = (g.sum(even), g.sum(odd));
-        match sign < 0.0 {
-            true => g.sub(even, odd),
-            false => g.add(even, odd),
+        match first == row {
+            true => g.add(even, odd),
+            false => g.sub(even, odd),
         }
     }
 
