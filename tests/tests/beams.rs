@@ -4,6 +4,8 @@
 //! The reference values are those of `tests/truth/flexible`. With ten coordinates the lowest modes are exact to rounding
 //! and each higher one is less so; the bars say how much, mode by mode.
 
+#[path = "beams/bars.rs"]
+mod bars;
 #[path = "beams/bent.rs"]
 mod bent;
 #[path = "beams/compared.rs"]
@@ -14,6 +16,8 @@ mod composed;
 mod converged;
 #[path = "beams/damped.rs"]
 mod damped;
+#[path = "beams/following.rs"]
+mod following;
 #[path = "beams/poses.rs"]
 mod poses;
 #[path = "beams/required.rs"]
@@ -24,3 +28,5 @@ mod rotating;
 mod strained;
 #[path = "beams/twisted.rs"]
 mod twisted;
+#[path = "beams/whirling.rs"]
+mod whirling;
