@@ -98,7 +98,7 @@ fn eigenvalues(text: &str, speed: f64) -> Vec<Complex> {
 /// A clamped shaft whose material spins is a beam on a spinning hub, seen from the ground: what circles there at `s` does so
 /// at `s + i omega` here, or against the spin at `s - i omega`.
 fn spins_like_on_a_hub(strains: &str) {
-    let (spin, lag) = (14.0, 0.01);
+    let (spin, lag) = (5.0, 0.01);
     let beam = format!("beam(length: 0.9 m, along: z, up: x, {ROUND}{strains}, lag: {lag} s)");
     let spinning = format!(
         "mechanism Spinning {{
