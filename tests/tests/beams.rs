@@ -18,6 +18,10 @@ mod converged;
 mod damped;
 #[path = "beams/following.rs"]
 mod following;
+#[path = "beams/inside.rs"]
+mod inside;
+#[path = "beams/orbits.rs"]
+mod orbits;
 #[path = "beams/poses.rs"]
 mod poses;
 #[path = "beams/required.rs"]
@@ -28,5 +32,5 @@ mod rotating;
 mod strained;
 #[path = "beams/twisted.rs"]
 mod twisted;
-#[path = "beams/whirling.rs"]
-mod whirling;
+#[path = "beams/whirls.rs"]
+mod whirls;

@@ -45,7 +45,8 @@ pub enum Expr {
     Exerted(ForceId, usize),
     /// Component of what a beam does at a point of it (in outputs), in the axes of the section before it was twisted: 0 to
     /// 2 twist rate and curvatures, 1/m; 3 to 5 the moment that the outer part exerts on the inner one, N m, due to these
-    /// and, if the material lags, their rates.
+    /// and, if the material lags, their rates; 6 to 8 stretch and the angles of shear; 9 to 11 the force that the outer
+    /// part exerts on the inner one, N.
     Bent(PointId, usize),
     /// Kinetic energy in steady motion (in outputs).
     KineticEnergy,

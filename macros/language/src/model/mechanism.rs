@@ -101,6 +101,19 @@ impl Mechanism {
         all.into_iter().any(|own| *own == id)
     }
 
+    /// The beam on which a point lies, its place there as a fraction of the length, and the section.
+    pub fn section_at(&self, point: PointId) -> Option<(&Beam, f64, &Section)> {
+        let Frame::Body(body) = self.points[point.index()].frame else {
+            return None;
+        };
+        self.beams.iter().find_map(|beam| {
+            let station = beam.stations.iter().find(|own| own.body == body);
+            let root = (beam.body == body).then_some((beam, 0.0, &beam.root));
+            let station = station.map(|own| (beam, own.place, &own.section));
+            station.or(root)
+        })
+    }
+
     /// The beam that a body is.
     pub fn beam(&self, body: BodyId) -> Option<BeamId> {
         let place = self.beams.iter().position(|beam| beam.body == body);

@@ -156,7 +156,7 @@ impl Names<'_> {
                 format!("reaction({name}).{component}")
             }
             Expr::Bent(id, component) => {
-                let kind = ["curvature", "moment"][component / 3];
+                let kind = ["curvature", "moment", "strain", "inner_force"][component / 3];
                 let name = &self.0.points[id.index()].name;
                 format!("{kind}({name}).{}", AXES[component % 3])
             }

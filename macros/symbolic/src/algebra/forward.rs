@@ -12,6 +12,8 @@ use crate::base::operators::{Operator, Unary};
 pub struct Direction {
     rates: Vec<(SymbolId, ExprId)>,
     suffix: String,
+    /// Whether it is that of one symbol, along which the derivatives that nodes have been given are short.
+    is_unit: bool,
 }
 
 impl Direction {
@@ -20,6 +22,7 @@ impl Direction {
         Self {
             rates,
             suffix: suffix.into(),
+            is_unit: false,
         }
     }
 
@@ -27,7 +30,10 @@ impl Direction {
     pub fn unit(graph: &mut Graph, symbol: SymbolId) -> Self {
         let one = graph.constant(1.0);
         let suffix = format!("_by_{}", graph.symbol_info(symbol).name);
-        Self::new(suffix, vec![(symbol, one)])
+        Self {
+            is_unit: true,
+            ..Self::new(suffix, vec![(symbol, one)])
+        }
     }
 
     fn rate(&self, symbol: SymbolId) -> Option<ExprId> {
@@ -50,6 +56,17 @@ pub fn derivatives_along(
     let changing = Reached::dependent(graph, roots, mask);
     let mut tangents = NodeMap::new(&changing);
     for &id in changing.nodes() {
+        if direction.is_unit
+            && let Some(slopes) = changing.slopes(graph, id, mask)
+        {
+            let mut tangent = zero;
+            for &(by, slope) in slopes.iter() {
+                let share = graph.mul(slope, tangents.get(by).unwrap_or(zero));
+                tangent = graph.add(tangent, share);
+            }
+            tangents.set(id, tangent);
+            continue;
+        }
         let tangent = match graph.node(id) {
             Node::Constant(_) => zero,
             Node::Symbol(symbol) => direction.rate(symbol).unwrap_or(zero),

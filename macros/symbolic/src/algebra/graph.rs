@@ -34,6 +34,9 @@ pub struct Symbol {
     pub stage: Stage,
 }
 
+/// Nodes, and derivatives by them.
+pub(super) type Slopes = Arc<[(ExprId, ExprId)]>;
+
 /// The graph. Nodes are only ever added; an id stays valid and its operands have smaller ids.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
@@ -49,6 +52,8 @@ pub struct Graph {
     /// Bound on the rounding error of each constant computed from others. Otherwise the remainder of larger constants
     /// that should cancel would look like any other number.
     rounding: FxHashMap<ExprId, f64>,
+    /// By node: older nodes that determine it, and its derivatives by them.
+    slopes: FxHashMap<ExprId, Slopes>,
 }
 
 impl Graph {
@@ -140,6 +145,22 @@ impl Graph {
     pub fn given_name(&self, id: ExprId) -> Option<&Arc<str>> {
         let number = self.named[id.index()].checked_sub(1)?;
         self.names.get(number as usize)
+    }
+
+    /// Gives the derivatives of a node by older nodes that determine it, where closed forms are shorter than what
+    /// differentiation of its operands would find.
+    pub fn set_slopes(&mut self, id: ExprId, mut slopes: Vec<(ExprId, ExprId)>) {
+        slopes.retain(|(by, _)| self.constant_value(*by).is_none());
+        let is_operation = !matches!(self.node(id), Node::Constant(_) | Node::Symbol(_));
+        let is_new = !self.slopes.contains_key(&id);
+        if is_operation && is_new && slopes.iter().all(|(by, _)| *by < id) {
+            self.slopes.insert(id, slopes.into());
+        }
+    }
+
+    /// The derivatives that [`set_slopes`](Self::set_slopes) has given.
+    pub(super) fn given_slopes(&self, id: ExprId) -> Option<Slopes> {
+        self.slopes.get(&id).cloned()
     }
 
     /// The value of a constant node.

@@ -1,6 +1,6 @@
 //! The nodes below some roots.
 
-use super::graph::Graph;
+use super::graph::{Graph, Slopes};
 use super::node::Node;
 use crate::base::ids::ExprId;
 
@@ -16,16 +16,26 @@ pub struct Reached {
 impl Reached {
     /// The nodes needed to evaluate `roots`, themselves included.
     pub fn below(graph: &Graph, roots: &[ExprId]) -> Self {
-        Self::through(graph, roots, |_| true)
+        Self::through(graph, roots, false, |_| true)
     }
 
     /// Of the nodes needed to evaluate `roots`, those that may depend on a symbol of `mask`.
     pub(super) fn dependent(graph: &Graph, roots: &[ExprId], mask: u128) -> Self {
-        Self::through(graph, roots, |id| graph.may_depend(id, mask))
+        Self::through(graph, roots, false, |id| graph.may_depend(id, mask))
+    }
+
+    /// [`dependent`](Self::dependent), with the derivatives that nodes have been given.
+    pub(super) fn dependent_with_slopes(graph: &Graph, roots: &[ExprId], mask: u128) -> Self {
+        Self::through(graph, roots, true, |id| graph.may_depend(id, mask))
     }
 
     /// The nodes reached from `roots` through `wanted` nodes only.
-    fn through(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) -> Self {
+    fn through(
+        graph: &Graph,
+        roots: &[ExprId],
+        slopes: bool,
+        wanted: impl Fn(ExprId) -> bool,
+    ) -> Self {
         let mut bits = vec![0_u64; graph.len() / 64 + 1];
         let mut nodes = Vec::new();
         let mut visit = |nodes: &mut Vec<ExprId>, id: ExprId| {
@@ -41,6 +51,12 @@ impl Reached {
         let mut next = 0;
         while let Some(&id) = nodes.get(next) {
             next += 1;
+            if slopes && let Some(given) = graph.given_slopes(id) {
+                for &(by, slope) in given.iter() {
+                    visit(&mut nodes, by);
+                    visit(&mut nodes, slope);
+                }
+            }
             match graph.node(id) {
                 Node::Constant(_) | Node::Symbol(_) => {}
                 Node::Unary(_, a) => visit(&mut nodes, a),
@@ -72,6 +88,14 @@ impl Reached {
             bits,
             before,
         }
+    }
+
+    /// The derivatives that a node has been given, unless one of those that it may depend on is by a node that is not
+    /// among these.
+    pub(super) fn slopes(&self, graph: &Graph, id: ExprId, mask: u128) -> Option<Slopes> {
+        let known = |by: ExprId| !graph.may_depend(by, mask) || self.place(by).is_some();
+        let given = graph.given_slopes(id)?;
+        given.iter().all(|(by, _)| known(*by)).then_some(given)
     }
 
     /// The nodes, operands first.

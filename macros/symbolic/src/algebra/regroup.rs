@@ -1,5 +1,5 @@
-//! Regroups sums and products to need fewer operations: common factors are taken out of sums, and products that
-//! share a pair of factors share its product.
+//! Regroups sums and products to need fewer operations: common factors are taken out of sums, products that share a pair
+//! of factors share its product, and quotients by the same denominator share its reciprocal.
 //!
 //! # Sums and products are regrouped
 //!
@@ -8,10 +8,12 @@
 
 mod products;
 mod rebuild;
+mod reciprocals;
 mod sums;
 mod uses;
 
 use products::share_products;
+pub(super) use reciprocals::share_reciprocals;
 use sums::factor_sums;
 
 use super::count::cost;
@@ -20,10 +22,11 @@ use super::graph::Graph;
 use crate::base::census::taken;
 use crate::base::ids::ExprId;
 
-/// The same functions with sums and products regrouped where that needs fewer operations. Results that several of the
-/// functions return are computed in the same way by all of them, so they agree to the last bit.
+/// The same functions with fewer divisions, and with sums and products regrouped where that needs fewer operations. Results
+/// that several of the functions return are computed in the same way by all of them, so they agree to the last bit.
 pub fn regrouped(graph: &mut Graph, functions: &[Function]) -> Vec<Function> {
     let roots: Vec<ExprId> = functions.iter().flat_map(Function::roots).collect();
+    let roots = share_reciprocals(graph, &roots);
     let mut values = regroup(graph, &roots).into_iter();
     let mut functions = functions.to_vec();
     let arrays = functions

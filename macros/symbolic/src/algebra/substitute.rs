@@ -14,7 +14,7 @@ pub fn substitute(
 ) -> Vec<ExprId> {
     let mask = Graph::mask(replacements.iter().map(|(symbol, _)| *symbol));
     let known = graph.len();
-    let changing = Reached::dependent(graph, roots, mask);
+    let changing = Reached::dependent_with_slopes(graph, roots, mask);
     let mut image = NodeMap::new(&changing);
     for &id in changing.nodes() {
         let replaced = match graph.node(id) {
@@ -38,6 +38,16 @@ pub fn substitute(
             graph.set_name(replaced, || name);
         }
         image.set(id, replaced);
+    }
+    for &id in changing.nodes() {
+        let new = image.get(id).filter(|new| new.index() >= known);
+        if let (Some(new), Some(slopes)) = (new, graph.given_slopes(id)) {
+            let replaced = |id: ExprId| image.get(id).unwrap_or(id);
+            let slopes = slopes
+                .iter()
+                .map(|(by, slope)| (replaced(*by), replaced(*slope)));
+            graph.set_slopes(new, slopes.collect());
+        }
     }
     roots
         .iter()

@@ -1,5 +1,6 @@
 //! Compares the graph with plain numbers: rules, derivatives in both directions, substitution.
 
+use super::regroup::share_reciprocals;
 use super::rules::TableOperator;
 use super::*;
 use crate::base::ids::{ExprId, SymbolId};
@@ -373,4 +374,46 @@ fn what_vanishes_by_underflow_proves_nothing() {
     assert!(!disturbed(g, exp, -1e3).1);
     assert!(!disturbed(g, power, 1e-60).1);
     assert!(disturbed(g, power, 0.0).1);
+}
+
+/// Given derivatives serve along single symbols, also after a substitution, and not along other directions.
+#[test]
+fn given_slopes_are_used_along_single_symbols() {
+    let g = &mut Graph::new();
+    let (ids, x) = symbols(g, 3);
+    let square = g.mul(x[0], x[0]);
+    let value = g.mul(square, x[1]);
+    let marker = g.constant(7.0);
+    g.set_slopes(value, vec![(x[0], marker), (x[1], square)]);
+    let double = g.scale(2.0, value);
+    let along = |g: &mut Graph, root, direction: &Direction| {
+        let slope = derivatives_along(g, &[root], direction)[0];
+        evaluate(g, &[slope], |_| 3.0)[0]
+    };
+    let unit = Direction::unit(g, ids[0]);
+    assert_eq!(along(g, double, &unit), 14.0);
+    let one = g.constant(1.0);
+    let other = Direction::new("_along", vec![(ids[0], one)]);
+    assert_eq!(along(g, double, &other), 36.0);
+    let moved = substitute(g, &[double], &[(ids[1], x[2])])[0];
+    assert_eq!(along(g, moved, &unit), 14.0);
+    let unit = Direction::unit(g, ids[2]);
+    assert_eq!(along(g, moved, &unit), 18.0);
+    // a node that is not below the root
+    let hidden = g.scale(3.0, x[0]);
+    let root = g.scale(2.0, hidden);
+    g.set_slopes(root, vec![(hidden, marker)]);
+    let unit = Direction::unit(g, ids[0]);
+    assert_eq!(along(g, root, &unit), 6.0);
+}
+
+#[test]
+fn quotients_by_one_denominator_share_its_reciprocal() {
+    let g = &mut Graph::new();
+    let (_, x) = symbols(g, 4);
+    let quotients = [0, 1, 2].map(|k| g.div(x[k], x[3]));
+    let regrouped = share_reciprocals(g, &quotients);
+    let cost = cost(g, &regrouped);
+    assert_eq!((cost.operations, cost.functions), (3, 1));
+    assert_eq!(evaluate(g, &regrouped, |_| 4.0), [1.0; 3]);
 }

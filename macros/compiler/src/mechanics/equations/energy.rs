@@ -70,8 +70,9 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
         let inertia = BeamInertia::new(g, context, BeamId::new(index));
         let position = kinematics.of(beam.body).frame.position;
         let mut first = position.scale(g, inertia.mass);
-        for arm in inertia.moving(g, &kinematics.beams[index]) {
-            let share = arm.vector.scale(g, arm.first);
+        let directions = kinematics.beams[index].directions.iter();
+        for (arm, &share) in directions.zip(&inertia.first) {
+            let share = arm.vector.scale(g, share);
             first = first.add(g, share);
         }
         let work = gravity.dot(g, first);

@@ -1,9 +1,9 @@
 //! Outputs, and the quantities that they may refer to besides coordinates and points.
 
 use crate::algebra::{ExprId, Graph, Vector3};
-use crate::base::ids::{ConstraintId, JointId};
+use crate::base::ids::{ConstraintId, JointId, PointId};
 use crate::mechanics::inertia::inertial_at;
-use crate::mechanics::loads::{ForceContext, bent_at, exerted, held, transmitted};
+use crate::mechanics::loads::{ForceContext, bent_at, exerted, held, strained_at, transmitted};
 use crate::mechanics::motion::{Kinematics, Wrench};
 use crate::mechanics::setup::{Context, ForceSelection, Source, State};
 use crate::model::expression::Expr;
@@ -18,12 +18,13 @@ pub(crate) fn outputs(
     running: &[ExprId],
     kinematics: &Kinematics,
 ) -> Vec<ExprId> {
+    let carried = carried(g, context, running, kinematics);
     let state = Everything {
         kinematics,
-        reactions: reactions(g, context, running, kinematics),
+        reactions: reactions(g, context, kinematics, &carried),
         constraints: constraint_reactions(g, context, kinematics),
         exerted: exerted_by_forces(g, context, kinematics),
-        bent: bent_beams(g, context),
+        bent: bent_beams(g, context, kinematics, &carried),
         kinetic: kinetic(g, context, kinematics),
         potential: potential(g, context, kinematics),
     };
@@ -45,7 +46,7 @@ struct Everything<'a> {
     /// By force id.
     exerted: Vec<[ExprId; 6]>,
     /// By point id.
-    bent: Vec<[ExprId; 6]>,
+    bent: Vec<[ExprId; 12]>,
     kinetic: ExprId,
     potential: ExprId,
 }
@@ -70,22 +71,35 @@ impl State for Everything<'_> {
     }
 }
 
+/// What each body and everything that it carries takes to move as it does, beyond the forces on them: about its origin and
+/// in the common frame, by body id.
+fn carried(
+    g: &mut Graph,
+    context: &Context,
+    running: &[ExprId],
+    kinematics: &Kinematics,
+) -> Vec<Wrench> {
+    let loads = transmitted(g, context, kinematics, ForceSelection::ALL).wrenches;
+    let inertial = inertial_wrenches(g, context, running, kinematics);
+    let pairs = loads.into_iter().zip(inertial);
+    pairs
+        .map(|(load, inertial)| load.add(g, inertial))
+        .collect()
+}
+
 /// The force and moment that the `from` side of each joint exerts on its `to` side, at the origin of the joint frame on
 /// the `from` side and in its axes.
 fn reactions(
     g: &mut Graph,
     context: &Context,
-    running: &[ExprId],
     kinematics: &Kinematics,
+    carried: &[Wrench],
 ) -> Vec<[Vector3; 2]> {
-    let loads = transmitted(g, context, kinematics, ForceSelection::ALL).wrenches;
-    let inertial = inertial_wrenches(g, context, running, kinematics);
     let zero = Vector3::zero(g);
     let mut reactions = vec![[zero; 2]; context.mechanism.joints.len()];
     for branch in &context.topology.branches {
         let motion = kinematics.of(branch.body);
-        let index = branch.body.index();
-        let load = loads[index].add(g, inertial[index]);
+        let load = carried[branch.body.index()];
         let load = if branch.reversed { load.neg(g) } else { load };
         let shift = motion.from_origin.cross(g, load.force);
         let moment = load.moment.sub(g, shift);
@@ -171,17 +185,45 @@ fn constraint_reactions(
     .collect()
 }
 
-/// Curvature and moment of the beams at the points of which an output asks for them, zeros elsewhere.
-fn bent_beams(g: &mut Graph, context: &Context) -> Vec<[ExprId; 6]> {
+/// What the beams do at the points of which an output asks for it, see [`Expr::Bent`]; zeros elsewhere.
+fn bent_beams(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    carried: &[Wrench],
+) -> Vec<[ExprId; 12]> {
     let mechanism = context.mechanism;
-    let mut all = vec![[g.zero(); 6]; mechanism.points.len()];
+    let mut all = vec![[g.zero(); 12]; mechanism.points.len()];
     let outputs = mechanism.outputs.iter();
     for leaf in outputs.flat_map(|output| output.value.leaves()) {
-        if let Expr::Bent(point, _) = leaf {
-            all[point.index()] = bent_at(g, context, *point);
+        let Expr::Bent(point, component) = leaf else {
+            continue;
+        };
+        let own = &mut all[point.index()];
+        match component / 3 {
+            0 | 1 => own[..6].copy_from_slice(&bent_at(g, context, *point)),
+            2 => own[6..9].copy_from_slice(&strained_at(g, context, *point)),
+            _ => {
+                let force = force_inside(g, context, kinematics, (*point, carried));
+                own[9..].copy_from_slice(&force.0);
+            }
         }
     }
     all
+}
+
+/// The force that the outer part of a beam exerts on the inner one at a point where it is divided.
+fn force_inside(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    (point, carried): (PointId, &[Wrench]),
+) -> Vector3 {
+    let Frame::Body(body) = context.mechanism.points[point.index()].frame else {
+        return Vector3::zero(g);
+    };
+    let axes = kinematics.of(body).frame.orientation.axes.transpose();
+    axes.apply(g, carried[body.index()].force).neg(g)
 }
 
 /// What each force element exerts; only where an output asks for it, zeros elsewhere.

@@ -1,10 +1,10 @@
 //! The residual of the equations of motion and of the constraints.
 
 use crate::algebra::{ExprId, Graph};
-use crate::mechanics::inertia::{Inertial, inertial_at};
-use crate::mechanics::loads::{strained, transmitted};
+use crate::mechanics::inertia::{BeamForces, Inertial, inertial_at};
+use crate::mechanics::loads::{strain_power, strained, transmitted};
 use crate::mechanics::motion::Kinematics;
-use crate::mechanics::setup::{Context, ForceSelection, Selection};
+use crate::mechanics::setup::{Context, ForceSelection, Selection, weighted_sum};
 
 /// The residual in two parts. The total is their sum once the first has been transformed from absolute angles to the
 /// unknowns.
@@ -14,6 +14,7 @@ pub(crate) struct Residual {
     pub(crate) inertial: Vec<ExprId>,
     /// By unknown: forces and constraints, with the sign of inertia.
     pub(crate) applied: Vec<ExprId>,
+    beams: Vec<BeamForces>,
 }
 
 impl Residual {
@@ -29,6 +30,7 @@ impl Residual {
         let Inertial {
             along: inertial,
             along_sections,
+            beams,
             ..
         } = inertial_at(g, context, running, selection);
         let strained = match selection.forces {
@@ -42,6 +44,7 @@ impl Residual {
         let moving = || topology.free.iter().chain(&topology.coasting);
         let zeros = loads.constraints.iter().map(|_| g.zero());
         Self {
+            beams,
             inertial: moving()
                 .map(|id| inertial[id.index()])
                 .chain(zeros)
@@ -52,6 +55,35 @@ impl Residual {
                 .chain(loads.constraints.iter().copied())
                 .collect(),
         }
+    }
+
+    /// The power of all forces while the unknowns move at some rates: the sum of the equations, each times its rate. Of
+    /// beams, the forces on each section are contracted before anything is differentiated.
+    pub(crate) fn power(
+        &self,
+        g: &mut Graph,
+        context: &Context,
+        total: &[ExprId],
+        rates: &[ExprId],
+    ) -> ExprId {
+        if self.beams.is_empty() {
+            return weighted_sum(g, rates, total);
+        }
+        let inertial = context.runs.forces(g, &self.inertial);
+        let along_sections = context.sections.rates(g, rates);
+        let mut terms = vec![weighted_sum(g, rates, &inertial[..rates.len()])];
+        for beam in &self.beams {
+            let motion = (beam.id, &beam.motion);
+            terms.push(
+                beam.load
+                    .power(g, context.sections, motion, &along_sections),
+            );
+        }
+        terms.push(strain_power(g, context, &along_sections));
+        let sum = g.sum(terms);
+        let power = context.in_unknowns(g, &[sum])[0];
+        let applied = weighted_sum(g, rates, &self.applied);
+        g.add(power, applied)
     }
 
     /// The sum of both parts.

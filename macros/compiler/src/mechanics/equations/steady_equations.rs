@@ -1,6 +1,6 @@
 //! The equations of steady motion and of small motions about it.
 
-use crate::algebra::{ExprId, Graph, substitute};
+use crate::algebra::{ExprId, Graph};
 use crate::mechanics::inertia::{Variation, variation};
 use crate::mechanics::motion::in_common_frame;
 use crate::mechanics::setup::{Context, ForceSelection, at_rest};
@@ -15,8 +15,8 @@ pub(crate) struct Equations {
     pub(crate) parts: Residual,
     /// Derivatives of the inertial part by walks over the bodies, if these are applicable.
     pub(crate) variation: Option<Variation>,
-    /// `g(qddot, 0, q; u, b)`.
-    pub(crate) without_velocity: Vec<ExprId>,
+    /// `phi^T g`, `left^T g` and `w^T g` with the symbols of the adjoint kernels.
+    pub(crate) powers: [ExprId; 3],
     /// `g(0, 0, q; u, b)`.
     pub(crate) rest: Vec<ExprId>,
     /// The part of `rest` due to inertia.
@@ -35,7 +35,6 @@ impl Equations {
         let symbols = context.symbols;
         let running = vec![zero; symbols.running.ids.len()];
         let kinematics = in_common_frame(g, context, &running);
-        let zeros = vec![zero; symbols.q.ids.len()];
         let parts = Residual::new(g, context, &running, &kinematics, ForceSelection::ALL);
         let motion = parts.total(g, context);
         let variation = variation(g, context, &running);
@@ -44,8 +43,8 @@ impl Equations {
         let applied = Residual::new(g, context, &running, &kinematics, ForceSelection::APPLIED)
             .total(g, context);
         let outputs_in_motion = outputs(g, context, &running, &kinematics);
-        let without: Vec<_> = symbols.velocity.with(&zeros).collect();
-        let without_velocity = substitute(g, &motion, &without);
+        let rates = [&symbols.phi, &symbols.pencil.left, &symbols.w];
+        let powers = rates.map(|own| parts.power(g, context, &motion, &own.values));
         let rest = at_rest(g, symbols, &motion);
         let rest_inertia = at_rest(g, symbols, &inertia);
         let minus_applied = at_rest(g, symbols, &applied);
@@ -58,7 +57,7 @@ impl Equations {
             motion,
             parts,
             variation,
-            without_velocity,
+            powers,
             rest,
             rest_inertia,
             rest_applied,

@@ -4,41 +4,26 @@
 //! of quadrature and the numbers `W_ak` of integration up to place `a`. So its integrals of `rho` and `rho rho^T` have
 //! the form of those of a rigid body, `sum_k first_k d_k` and `sum_kj second_kj d_k d_j^T`, with constant `first` and
 //! `second`; only the arms `d_k` do not turn together. Each arm needs the force `S_k = first_k a_O + sum_j second_kj
-//! d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is the moment that turns its section. The axes of a
-//! section are further arms, for its inertia against turning.
+//! d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is the moment that turns its section. The moment
+//! of its own inertia, `J w' + w x J w`, is written along its axes.
 
-use crate::algebra::{ExprId, Graph, Unary, Vector3};
+use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3};
 use crate::base::ids::BeamId;
-use crate::mechanics::motion::{BeamMotion, FrameMotion};
-use crate::mechanics::setup::{Context, Sections};
+use crate::mechanics::motion::{BeamMotion, FrameMotion, turned};
+use crate::mechanics::setup::{Context, Sections, weighted_sum};
 
-/// The mass distribution of a beam over the arms of its sections.
+/// The mass distribution of a beam over the directions of its sections.
 pub(crate) struct BeamInertia {
     pub(crate) mass: ExprId,
-    arms: Vec<Arm>,
-    /// By arm.
-    first: Vec<ExprId>,
+    /// By section.
+    pub(crate) first: Vec<ExprId>,
     second: Vec<Vec<ExprId>>,
-    /// By section: angular momentum about its axis by which its material spins beside it; empty if none does.
+    /// By section: inertia against turning, along its axes.
+    turning: Vec<Matrix3>,
+    /// By section: angular momentum about its axis by which its material spins beside it.
     spin: Vec<ExprId>,
     /// Twice the energy of this spin.
     energy_of_spin: ExprId,
-}
-
-/// An arm of a section: the direction of the beam there, or a direction across the section by its components.
-struct Arm {
-    section: usize,
-    across: Option<[ExprId; 2]>,
-}
-
-/// An arm in motion.
-pub(crate) struct MovingArm {
-    section: usize,
-    is_direction: bool,
-    pub(crate) vector: Vector3,
-    second_rate: Vector3,
-    pub(crate) rate: Vector3,
-    pub(crate) first: ExprId,
 }
 
 /// What the stations of a beam pass on.
@@ -56,10 +41,12 @@ pub(crate) struct BeamLoad {
     pub(crate) force: Vector3,
     /// The moment without those of the stations.
     pub(crate) moment: Vector3,
-    /// By section, then by station: the moment that turns it.
-    turning: Vec<Vector3>,
+    /// By station: the moment on it.
+    of_stations: Vec<Vector3>,
+    /// By section: the moment that its rotary inertia requires, along its axes.
+    of_sections: Vec<Vector3>,
     /// By section: the force on its direction.
-    pulling: Vec<Vector3>,
+    on_directions: Vec<Vector3>,
 }
 
 impl BeamInertia {
@@ -97,9 +84,9 @@ impl BeamInertia {
         let n = rule.points.len();
         let mut this = Self {
             mass,
-            arms: Vec::new(),
             first: Vec::new(),
             second: vec![vec![zero; n]; n],
+            turning: Vec::new(),
             spin: Vec::new(),
             energy_of_spin: zero,
         };
@@ -107,10 +94,6 @@ impl BeamInertia {
         for k in 0..n {
             let share = weighted(g, &|a| reach[a][k]);
             this.first.push(g.mul(share, square));
-            this.arms.push(Arm {
-                section: k,
-                across: None,
-            });
             for j in 0..=k {
                 let share = weighted(g, &|a| reach[a][k] * reach[a][j]);
                 let second = g.mul(share, cube);
@@ -119,106 +102,57 @@ impl BeamInertia {
                 this.second[j][k] = second;
             }
         }
-        for (k, (_, weight, section)) in beam.sections.iter().enumerate() {
+        for (_, weight, section) in &beam.sections {
             let [about_y, about_z] =
                 [&section.inertia[0], &section.inertia[1]].map(|value| values.scalar(g, value));
             let twist = values.scalar(g, &section.twist);
-            let (sine, cosine) = (g.unary(Unary::Sin, twist), g.unary(Unary::Cos, twist));
-            let minus = g.neg(sine);
             let share = g.scale(*weight, length);
-            if !g.is(spin, 0.0) {
-                let polar = g.add(about_y, about_z);
-                let inertia = g.mul(share, polar);
-                let momentum = g.mul(inertia, spin);
-                let energy = g.mul(momentum, spin);
-                this.energy_of_spin = g.add(this.energy_of_spin, energy);
-                this.spin.push(momentum);
-            }
-            // The distance along the second axis is that from the third.
-            let axes = [(about_z, [cosine, sine]), (about_y, [minus, cosine])];
-            for (inertia, components) in axes {
-                if g.is(inertia, 0.0) {
-                    continue;
-                }
-                let second = g.mul(share, inertia);
-                this.add(g, k, components, second);
-            }
+            let polar = g.add(about_y, about_z);
+            let inertia = g.mul(share, polar);
+            let momentum = g.mul(inertia, spin);
+            let energy = g.mul(momentum, spin);
+            this.energy_of_spin = g.add(this.energy_of_spin, energy);
+            this.spin.push(momentum);
+            let about = [about_y, about_z].map(|own| g.mul(share, own));
+            let [yy, yz, zz] = turned(g, about, twist);
+            this.turning.push(Matrix3([
+                Vector3([inertia, zero, zero]),
+                Vector3([zero, yy, yz]),
+                Vector3([zero, yz, zz]),
+            ]));
         }
         this
     }
 
-    fn add(&mut self, g: &mut Graph, section: usize, components: [ExprId; 2], second: ExprId) {
-        let zero = g.zero();
-        self.first.push(zero);
-        self.arms.push(Arm {
-            section,
-            across: Some(components),
-        });
-        for row in &mut self.second {
-            row.push(zero);
-        }
-        let mut row = vec![zero; self.arms.len()];
-        if let Some(last) = row.last_mut() {
-            *last = second;
-        }
-        self.second.push(row);
-    }
-
-    /// The arms in motion.
-    pub(crate) fn moving(&self, g: &mut Graph, motion: &BeamMotion) -> Vec<MovingArm> {
-        let arms = self.arms.iter().zip(&self.first);
-        arms.map(|(arm, &first)| {
-            let own = &motion.sections[arm.section];
-            let Some(components) = &arm.across else {
-                let own = &motion.directions[arm.section];
-                return MovingArm {
-                    section: arm.section,
-                    is_direction: true,
-                    vector: own.vector,
-                    rate: own.rate,
-                    second_rate: own.second_rate,
-                    first,
-                };
-            };
-            let (mut vector, mut second_rate) = (Vector3::zero(g), Vector3::zero(g));
-            for ((axis, rate), &share) in own.arms().into_iter().skip(1).zip(components) {
-                let along = axis.scale(g, share);
-                vector = vector.add(g, along);
-                let along = rate.scale(g, share);
-                second_rate = second_rate.add(g, along);
-            }
-            MovingArm {
-                section: arm.section,
-                is_direction: false,
-                rate: own.frame.angular_velocity.cross(g, vector),
-                vector,
-                second_rate,
-                first,
-            }
+    /// By section: the angular momentum along its axes.
+    fn momenta(&self, g: &mut Graph, motion: &BeamMotion) -> Vec<Vector3> {
+        let sections = motion.sections.iter().zip(&self.turning);
+        let both = sections.zip(&self.spin);
+        both.map(|((section, inertia), &own)| {
+            let mut momentum = inertia.apply(g, section.spin);
+            momentum.0[0] = g.add(momentum.0[0], own);
+            momentum
         })
         .collect()
     }
 
     /// Twice the kinetic energy of a beam whose root moves with the velocity `v`.
     pub(crate) fn twice_kinetic(&self, g: &mut Graph, motion: &BeamMotion, v: Vector3) -> ExprId {
-        let moving = self.moving(g, motion);
         let speed = v.dot(g, v);
         let mut terms = vec![g.mul(self.mass, speed), self.energy_of_spin];
-        for (section, &momentum) in motion.sections.iter().zip(&self.spin) {
-            let [(axis, _), ..] = section.arms();
-            let along = section.frame.angular_velocity.dot(g, axis);
-            let product = g.mul(momentum, along);
-            terms.push(g.scale(2.0, product));
+        let momenta = self.momenta(g, motion);
+        for ((section, momentum), &own) in motion.sections.iter().zip(momenta).zip(&self.spin) {
+            terms.push(section.spin.dot(g, momentum));
+            terms.push(g.mul(own, section.spin.0[0]));
         }
-        for (arm, second) in moving.iter().zip(&self.second) {
+        let arms = motion.directions.iter().zip(&self.first);
+        for ((arm, first), second) in arms.zip(&self.second) {
             let along = v.dot(g, arm.rate);
-            let double = g.scale(2.0, arm.first);
+            let double = g.scale(2.0, *first);
             terms.push(g.mul(double, along));
-            for (&second, other) in second.iter().zip(&moving) {
-                if !g.is(second, 0.0) {
-                    let product = arm.rate.dot(g, other.rate);
-                    terms.push(g.mul(second, product));
-                }
+            for (&second, other) in second.iter().zip(&motion.directions) {
+                let product = arm.rate.dot(g, other.rate);
+                terms.push(g.mul(second, product));
             }
         }
         g.sum(terms)
@@ -232,42 +166,36 @@ impl BeamInertia {
         root: &FrameMotion,
         from: &FromStations,
     ) -> BeamLoad {
-        let moving = self.moving(g, motion);
         let zero = Vector3::zero(g);
         let mut load = BeamLoad {
             force: zero,
             moment: zero,
-            turning: vec![zero; motion.sections.len()],
-            pulling: vec![zero; motion.sections.len()],
+            of_stations: from.moments.clone(),
+            of_sections: Vec::new(),
+            on_directions: Vec::new(),
         };
-        for (k, (arm, second)) in moving.iter().zip(&self.second).enumerate() {
-            let mut bracket = root.acceleration.scale(g, arm.first);
-            for (&second, other) in second.iter().zip(&moving) {
+        for (k, (arm, second)) in motion.directions.iter().zip(&self.second).enumerate() {
+            let mut bracket = root.acceleration.scale(g, self.first[k]);
+            for (&second, other) in second.iter().zip(&motion.directions) {
                 let share = other.second_rate.scale(g, second);
                 bracket = bracket.add(g, share);
             }
-            if let Some(passed) = from.brackets.get(k) {
-                bracket = bracket.add(g, *passed);
-            }
-            if arm.is_direction {
-                load.pulling[arm.section] = bracket;
-            }
-            let share = arm.second_rate.scale(g, arm.first);
+            bracket = bracket.add(g, from.brackets[k]);
+            load.on_directions.push(bracket);
+            let share = arm.second_rate.scale(g, self.first[k]);
             load.force = load.force.add(g, share);
             let moment = arm.vector.cross(g, bracket);
             load.moment = load.moment.add(g, moment);
-            let turning = &mut load.turning[arm.section];
-            *turning = turning.add(g, moment);
         }
-        for (k, &momentum) in self.spin.iter().enumerate() {
-            let section = &motion.sections[k];
-            let [(axis, _), ..] = section.arms();
-            let turning = section.frame.angular_velocity.cross(g, axis);
-            let moment = turning.scale(g, momentum);
+        let momenta = self.momenta(g, motion);
+        let sections = motion.sections.iter().zip(&self.turning);
+        for ((section, inertia), momentum) in sections.zip(momenta) {
+            let gyroscopic = section.spin.cross(g, momentum);
+            let moment = inertia.apply(g, section.growth).add(g, gyroscopic);
+            load.of_sections.push(moment);
+            let moment = section.frame.orientation.axes.apply(g, moment);
             load.moment = load.moment.add(g, moment);
-            load.turning[k] = load.turning[k].add(g, moment);
         }
-        load.turning.extend(&from.moments);
         load
     }
 }
@@ -312,21 +240,51 @@ impl FromStations {
     pub(crate) fn turning(&self, g: &mut Graph, motion: &BeamMotion) -> BeamLoad {
         let zero = Vector3::zero(g);
         let directions = motion.directions.iter().zip(&self.brackets);
-        let mut turning: Vec<Vector3> = directions
-            .map(|(own, bracket)| own.vector.cross(g, *bracket))
-            .collect();
-        let moment = turning.iter().fold(zero, |sum, own| sum.add(g, *own));
-        turning.extend(&self.moments);
+        let moment = directions.fold(zero, |sum, (own, bracket)| {
+            let moment = own.vector.cross(g, *bracket);
+            sum.add(g, moment)
+        });
         BeamLoad {
             force: zero,
-            pulling: self.brackets.clone(),
             moment,
-            turning,
+            of_stations: self.moments.clone(),
+            of_sections: Vec::new(),
+            on_directions: self.brackets.clone(),
         }
     }
 }
 
 impl BeamLoad {
+    /// Power while the rows of the sections move at some rates. Contracting first makes derivatives of it shorter than
+    /// those of the forces.
+    pub(crate) fn power(
+        &self,
+        g: &mut Graph,
+        sections: &Sections,
+        (id, motion): (BeamId, &BeamMotion),
+        rates: &[ExprId],
+    ) -> ExprId {
+        let direction = Direction::new("_virtual", sections.position.with(rates).collect());
+        let rows = sections.of(id);
+        let zero = g.zero();
+        let rate_of = |row: &Option<usize>| row.map_or(zero, |row| rates[row]);
+        let mut terms = Vec::new();
+        for (own, force) in motion.directions.iter().zip(&self.on_directions) {
+            terms.push(own.power(g, *force, &direction));
+        }
+        let turns = motion.sections.iter().zip(&rows.rotations);
+        for ((section, rows), moment) in turns.zip(&self.of_sections) {
+            let spin = section.turning(g, Vector3(rows.each_ref().map(rate_of)));
+            terms.push(moment.dot(g, spin));
+        }
+        let stations = motion.stations.iter().zip(&rows.stations);
+        for ((station, rows), moment) in stations.zip(&self.of_stations) {
+            let powers = station.section.project(g, *moment);
+            terms.push(weighted_sum(g, &rows.each_ref().map(rate_of), &powers));
+        }
+        g.sum(terms)
+    }
+
     /// Adds the forces along the rows of the sections.
     pub(crate) fn add_along(
         &self,
@@ -336,22 +294,31 @@ impl BeamLoad {
         motion: &BeamMotion,
         along: &mut [ExprId],
     ) {
-        for (direction, force) in motion.directions.iter().zip(&self.pulling) {
-            for (row, power) in direction.project(g, *force) {
-                along[row] = g.add(along[row], power);
-            }
-        }
         let rows = sections.of(id);
-        let rows = rows.rotations.iter().chain(&rows.stations);
-        let stations = motion.stations.iter().map(|own| &own.section);
-        let all = motion.sections.iter().chain(stations);
-        for ((rows, section), moment) in rows.zip(all).zip(&self.turning) {
-            let powers = section.project(g, *moment);
+        let mut add = |g: &mut Graph, rows: &[Option<usize>], powers: &[ExprId]| {
             for (row, power) in rows.iter().zip(powers) {
                 if let Some(row) = *row {
-                    along[row] = g.add(along[row], power);
+                    along[row] = g.add(along[row], *power);
                 }
             }
+        };
+        let directions = motion.directions.iter().zip(&rows.rotations);
+        for ((direction, rows), force) in directions.zip(&self.on_directions) {
+            let (powers, strains) = direction.project(g, *force);
+            add(g, rows, &powers);
+            for (row, power) in strains {
+                add(g, &[Some(row)], &[power]);
+            }
+        }
+        let turns = motion.sections.iter().zip(&rows.rotations);
+        for ((section, rows), moment) in turns.zip(&self.of_sections) {
+            let powers = section.project_own(g, *moment);
+            add(g, rows, &powers);
+        }
+        let stations = motion.stations.iter().zip(&rows.stations);
+        for ((station, rows), moment) in stations.zip(&self.of_stations) {
+            let powers = station.section.project(g, *moment);
+            add(g, rows, &powers);
         }
     }
 }

@@ -16,5 +16,5 @@ pub(crate) use compared::compared;
 pub(super) use composite::mass_matrix;
 pub(super) use deviation::{Direction, deviation, size};
 pub(super) use flexible::{BeamInertia, FromStations};
-pub(super) use newton_euler::{Inertial, inertial_at};
+pub(super) use newton_euler::{BeamForces, Inertial, inertial_at};
 pub(super) use variation::{Variation, variation};

@@ -1,12 +1,13 @@
 //! Inertia and weight along every coordinate: Newton-Euler recursion over augmented bodies.
 
 use crate::algebra::{ExprId, Graph, Vector3};
-use crate::mechanics::motion::{FrameMotion, Kinematics, Wrench, for_inertia};
+use crate::base::ids::BeamId;
+use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics, Wrench, for_inertia};
 use crate::mechanics::setup::{Context, ForceSelection};
 use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
-use super::flexible::{BeamInertia, FromStations};
+use super::flexible::{BeamInertia, BeamLoad, FromStations};
 
 /// Inertia minus weight.
 pub(crate) struct Inertial {
@@ -14,8 +15,16 @@ pub(crate) struct Inertial {
     pub(crate) along: Vec<ExprId>,
     /// By row of the sections of beams.
     pub(crate) along_sections: Vec<ExprId>,
+    pub(crate) beams: Vec<BeamForces>,
     /// By body id: for the body and everything it carries, about its origin, in the axes of its motion.
     pub(crate) wrenches: Vec<Wrench>,
+}
+
+/// A beam in motion, with the forces that this requires.
+pub(crate) struct BeamForces {
+    pub(crate) id: BeamId,
+    pub(crate) motion: BeamMotion,
+    pub(crate) load: BeamLoad,
 }
 
 /// Contributions that a body has gathered from the bodies it carries.
@@ -75,6 +84,7 @@ pub(crate) fn inertial(
     };
     let mut wrenches = vec![nothing; mechanism.bodies.len()];
     let mut along_sections = vec![g.zero(); context.sections.rows.len()];
+    let mut beams = Vec::new();
     let mut from_stations = FromStations::nothing(g, context);
     for branch in context.topology.branches.iter().rev() {
         let index = branch.body.index();
@@ -90,6 +100,11 @@ pub(crate) fn inertial(
             load.add_along(g, context.sections, id, beam, &mut along_sections);
             own.force = own.force.add(g, load.force);
             own.moment = own.moment.add(g, load.moment);
+            beams.push(BeamForces {
+                id,
+                motion: beam.clone(),
+                load,
+            });
         }
         let rest = own.force.set_name(g, &format!("{name}_rest_of_force"));
         let by_mass = motion.frame.acceleration.scale(g, bodies[index].mass);
@@ -139,6 +154,7 @@ pub(crate) fn inertial(
     Inertial {
         along,
         along_sections,
+        beams,
         wrenches,
     }
 }

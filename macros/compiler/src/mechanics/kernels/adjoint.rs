@@ -1,13 +1,17 @@
 //! Scalars whose gradients contain all design derivatives of a mode.
 
-use crate::algebra::{Array, Direction, ExprId, Graph, SymbolId, derivatives_along, gradient};
+use crate::algebra::{
+    Array, Direction, ExprId, Graph, SymbolId, derivatives_along, gradient, substitute,
+};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::setup::{Symbols, at_rest};
 
 /// `phi^T (Khat - lambda Mhat) phi` without forming either matrix: the derivative of `phi^T g` along
 /// (`qddot`, `q`) = (`-lambda phi`, `phi`), with the leading `phi` held fixed.
 pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
-    let power = weighted_sum(g, &s.phi.values, &e.without_velocity);
+    let zeros = vec![g.zero(); s.velocity.ids.len()];
+    let still: Vec<_> = s.velocity.with(&zeros).collect();
+    let power = substitute(g, &e.powers[..1], &still);
     let minus_lambda = g.neg(s.lambda.values[0]);
     let acceleration: Vec<ExprId> = s
         .phi
@@ -20,7 +24,7 @@ pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
         .with(&acceleration)
         .chain(s.q.with(&s.phi.values))
         .collect();
-    let functional = derivatives_along(g, &[power], &Direction::new("_mode", rates));
+    let functional = derivatives_along(g, &power, &Direction::new("_mode", rates));
     at_rest(g, s, &functional)[0]
 }
 
@@ -28,8 +32,7 @@ pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
 /// `left^T g` along (`qddot`, `qdot`, `q`), taken at rest. `Chat` contains products of a velocity and the drives, so
 /// the velocities are set to zero only after differentiating.
 pub(crate) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
-    let power = weighted_sum(g, &s.pencil.left.values, &e.motion);
-    at_rest_along_motion(g, s, power, "_pencil")
+    at_rest_along_motion(g, s, e.powers[1], "_pencil")
 }
 
 /// The derivative of a scalar along the acceleration, velocity and position of the pencil, taken at rest.
@@ -47,15 +50,6 @@ pub(crate) fn at_rest_along_motion(
         .collect();
     let functional = derivatives_along(g, &[root], &Direction::new(suffix, rates));
     at_rest(g, s, &functional)[0]
-}
-
-pub(crate) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
-    let terms: Vec<ExprId> = weights
-        .iter()
-        .zip(values)
-        .map(|(&weight, &value)| g.mul(weight, value))
-        .collect();
-    g.sum(terms)
 }
 
 /// Gradient of a scalar by coordinates, inputs and design variables.

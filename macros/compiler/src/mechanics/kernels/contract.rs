@@ -5,9 +5,9 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::Limits;
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::linear::{Linear, linear_arrays};
-use crate::mechanics::setup::{Symbols, columns};
+use crate::mechanics::setup::{Symbols, at_rest, columns};
 
-use super::adjoint::{mode_functional, pencil_functional, state_gradient, weighted_sum};
+use super::adjoint::{mode_functional, pencil_functional, state_gradient};
 use super::parameters::{parameter, scalar, vectors};
 
 /// All kernels, in the order of the runtime's contract.
@@ -59,8 +59,8 @@ pub(crate) fn kernels(
     let mode_gradient = state_gradient(g, s, mode_functional);
     let pencil_functional = pencil_functional(g, s, e);
     let pencil_gradient = state_gradient(g, s, pencil_functional);
-    let weighted = weighted_sum(g, &s.w.values, &e.rest);
-    let residual_gradient = state_gradient(g, s, weighted);
+    let weighted = at_rest(g, s, &e.powers[2..]);
+    let residual_gradient = state_gradient(g, s, weighted[0]);
     let outputs_by: Vec<Vec<Vec<ExprId>>> = [&s.q, &s.u, &s.b]
         .map(|list| columns(g, &e.outputs, list))
         .into();

@@ -7,10 +7,10 @@ use crate::mechanics::equations::{Equations, Response};
 use crate::mechanics::functions::Excitation as Facts;
 use crate::mechanics::inertia::size;
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::setup::{Context, SymbolList, at_rest, columns};
+use crate::mechanics::setup::{Context, SymbolList, at_rest, columns, weighted_sum};
 use crate::model::mechanism::{Excitation, ExcitationLaw, Frequency, Motion, ShakenBy};
 
-use super::adjoint::{at_rest_along_motion, state_gradient, weighted_sum};
+use super::adjoint::{at_rest_along_motion, state_gradient};
 use super::parameters::parameter;
 
 /// The excitations as expressions, and facts about them.

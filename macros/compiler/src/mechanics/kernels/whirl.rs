@@ -3,7 +3,7 @@
 //! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, a quantity that moves by `r` along `x` and by `s` along
 //! `y` follows the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. With `omega` the angular
 //! velocity of a body in the steady state, `r` and `s` the displacements of its centre of mass and `m` its mass, summed
-//! over the bodies:
+//! over the bodies and over slices of the beams, whose material may spin about its own axis:
 //!
 //! - `moment = -sum |omega| omega . m (r x s)`,
 //! - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`.
@@ -19,7 +19,7 @@
 
 use crate::algebra::{Array, Direction, ExprId, Function, Graph, Vector3, derivatives_along};
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::motion::in_common_frame_at_zero;
+use crate::mechanics::motion::{BeamMotion, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, MassDistribution, SymbolList, Values, at_rest};
 use crate::model::mechanism::Body;
 
@@ -51,12 +51,14 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
     let zero = g.zero();
     let kinematics = in_common_frame_at_zero(g, context);
     let symbols = context.symbols;
-    let vectors: Vec<ExprId> = kinematics
-        .bodies
-        .iter()
-        .flat_map(|body| [body.frame.velocity.0, body.frame.angular_velocity.0])
-        .flatten()
+    let bodies = kinematics.bodies.iter();
+    let bodies = bodies.map(|body| [body.frame.velocity, body.frame.angular_velocity]);
+    let mut vectors: Vec<[Vector3; 2]> = bodies.collect();
+    let slices: Vec<Slice> = (0..context.mechanism.beams.len())
+        .flat_map(|k| slices(g, context, k, &kinematics.beams[k]))
         .collect();
+    vectors.extend(slices.iter().map(|own| own.motion));
+    let vectors: Vec<ExprId> = vectors.iter().flatten().flat_map(|own| own.0).collect();
     let spins = by_body(&at_rest(g, symbols, &vectors));
     let mut moved = |name, along: &SymbolList| {
         let rates = symbols.velocity.with(&along.values).collect();
@@ -70,22 +72,9 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
     let imaginary = moved("_imaginary", &symbols.imaginary);
 
     let (mut moment, mut size) = (zero, zero);
-    for (index, body) in context.mechanism.bodies.iter().enumerate() {
-        let [_, omega] = spins[index];
-        if body.parts.is_empty() || omega.is_zero(g) {
-            continue;
-        }
-        let central = Central::of_body(g, context.values, body);
-        let frame = &kinematics.bodies[index].frame;
-        let center = frame.orientation.express(g, central.center);
+    let mut add = |g: &mut Graph, omega: Vector3, shares: [(ExprId, [Vector3; 2]); 2]| {
         let speed = omega.norm(g);
-        let mut of_center = |[velocity, turning]: [Vector3; 2]| {
-            let about_origin = turning.cross(g, center);
-            velocity.add(g, about_origin)
-        };
-        let centers = [of_center(real[index]), of_center(imaginary[index])];
-        let turns = [real[index][1], imaginary[index][1]];
-        for (weight, [r, s]) in [(central.mass, centers), (central.second_moment, turns)] {
+        for (weight, [r, s]) in shares {
             let area = s.cross(g, r);
             let along = omega.dot(g, area);
             let weighted = g.mul(weight, speed);
@@ -99,6 +88,37 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
             let share = g.mul(weight, sum);
             size = g.add(size, share);
         }
+    };
+    for (index, body) in context.mechanism.bodies.iter().enumerate() {
+        let [_, omega] = spins[index];
+        if body.parts.is_empty() || omega.is_zero(g) {
+            continue;
+        }
+        let central = Central::of_body(g, context.values, body);
+        let frame = &kinematics.bodies[index].frame;
+        let center = frame.orientation.express(g, central.center);
+        let mut of_center = |[velocity, turning]: [Vector3; 2]| {
+            let about_origin = turning.cross(g, center);
+            velocity.add(g, about_origin)
+        };
+        let centers = [of_center(real[index]), of_center(imaginary[index])];
+        let turns = [real[index][1], imaginary[index][1]];
+        let shares = [(central.mass, centers), (central.second_moment, turns)];
+        add(g, omega, shares);
+    }
+    let first = context.mechanism.bodies.len();
+    for (index, slice) in (first..).zip(&slices) {
+        let own = slice.axis.scale(g, slice.spin);
+        let omega = spins[index][1].add(g, own);
+        if omega.is_zero(g) {
+            continue;
+        }
+        let [places, turns] = [0, 1].map(|k| [real[index][k], imaginary[index][k]]);
+        add(
+            g,
+            omega,
+            [(slice.mass, places), (slice.second_moment, turns)],
+        );
     }
     let size = g.scale(0.5, size);
     (!g.is(size, 0.0)).then(|| {
@@ -106,6 +126,48 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
         g.set_name(size, || "size".to_owned());
         [moment, size]
     })
+}
+
+/// The mass of a beam that a place of its quadrature stands for.
+struct Slice {
+    mass: ExprId,
+    /// `integral |rho|^2 dm` about the axis of the beam.
+    second_moment: ExprId,
+    /// Velocity and angular velocity of the section.
+    motion: [Vector3; 2],
+    /// The axis of the beam there, about which its material spins.
+    axis: Vector3,
+    spin: ExprId,
+}
+
+fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) -> Vec<Slice> {
+    let beam = &context.mechanism.beams[beam];
+    let values = context.values;
+    let length = values.scalar(g, &beam.length);
+    let spin = values.scalar(g, &beam.spin);
+    let rule = beam.quadrature();
+    let sections = beam.sections.iter().zip(&motion.sections);
+    sections
+        .map(|((place, weight, section), moving)| {
+            let share = g.scale(*weight, length);
+            let mass = values.scalar(g, &section.mass);
+            let inertia = section.inertia.each_ref().map(|own| values.scalar(g, own));
+            let polar = g.sum(inertia);
+            let mut velocity = moving.frame.velocity;
+            for (direction, reach) in motion.directions.iter().zip(rule.integrals_to(*place)) {
+                let reach = g.scale(reach, length);
+                let own = direction.rate.scale(g, reach);
+                velocity = velocity.add(g, own);
+            }
+            Slice {
+                mass: g.mul(mass, share),
+                second_moment: g.mul(polar, share),
+                motion: [velocity, moving.frame.angular_velocity],
+                axis: moving.frame.orientation.axes.0[0],
+                spin,
+            }
+        })
+        .collect()
 }
 
 /// Velocity and angular velocity of each body, or the corresponding displacements.

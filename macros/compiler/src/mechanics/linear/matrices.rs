@@ -1,5 +1,7 @@
 //! The matrices of the linearised equations, using their known properties.
 
+use std::cmp::Ordering;
+
 use crate::algebra::{Array, ExprId, Graph, cost};
 use crate::census::taken;
 use crate::mechanics::equations::Equations;
@@ -28,8 +30,11 @@ impl Linear {
         let n = order.len();
         let zero = g.zero();
         // Of two equal entries, the derivative by the coordinate nearer to the leaves is cheaper: less of the mechanism
-        // moves with it.
-        let outer_last = |i: usize, j: usize| if order[i] <= order[j] { (i, j) } else { (j, i) };
+        // moves with it. Of the coordinates of one joint or beam, any may come first.
+        let outer_last = |i: usize, j: usize| match order[i].cmp(&order[j]).then(j.cmp(&i)) {
+            Ordering::Greater => (j, i),
+            _ => (i, j),
+        };
         let symmetric = |matrix: &[Vec<ExprId>]| -> Vec<ExprId> {
             entries(n)
                 .map(|(i, j)| {

@@ -4,9 +4,8 @@ use crate::algebra::{
     Direction, ExprId, Graph, SymbolId, Unary, Vector3, derivatives_along, gradient,
 };
 use crate::base::ids::{BeamId, PointId};
-use crate::mechanics::motion::{self, bend};
+use crate::mechanics::motion::{self, bend, bend_powers};
 use crate::mechanics::setup::{Context, OfBeam, Sections};
-use crate::model::mechanism::Frame;
 
 /// What strains at a section, and the stiffness against it: curvatures along its own axes times the length, stretch and
 /// shear, each with the stiffness that gives energy over the length that the section stands for.
@@ -75,49 +74,84 @@ impl Strain {
     }
 }
 
-/// Forces along the rows of the sections, with the sign of inertia: elastic, and if the material lags, those of
-/// stresses proportional to the strain and `lag` times its rate.
-pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
+/// Stresses at the sections of a beam, each with its strain: elastic, and if the material lags, those proportional to
+/// the strain and `lag` times its rate.
+fn stressed(g: &mut Graph, context: &Context, id: BeamId) -> Vec<(Strain, Vec<ExprId>)> {
     let sections = context.sections;
-    let mut along = vec![g.zero(); sections.rows.len()];
-    for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
-        let turns = sections.by_themselves(g, id).map(|own| own.position);
-        let beam = &context.mechanism.beams[id.index()];
-        let spin = context.values.scalar(g, &beam.spin);
-        let lag = context
-            .values
-            .scalar(g, &context.mechanism.beams[id.index()].lag);
-        let rows = sections.of(id);
-        for (k, strain) in strains(g, context, id, &turns).iter().enumerate() {
-            let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
-            let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
-            let own: Vec<usize> = own.copied().collect();
-            let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
-            let energy = strain.energy(g);
-            let mut forces = gradient(g, energy, &ids);
+    let beam = &context.mechanism.beams[id.index()];
+    let turns = sections.by_themselves(g, id).map(|own| own.position);
+    let spin = context.values.scalar(g, &beam.spin);
+    let lag = context.values.scalar(g, &beam.lag);
+    let moving = sections.position.with(&sections.velocity.values);
+    let moving = Direction::new("_rate", moving.collect());
+    let strains = strains(g, context, id, &turns);
+    strains
+        .into_iter()
+        .map(|strain| {
+            let pairs = strain.values.iter().zip(&strain.stiffness);
+            let mut stresses: Vec<ExprId> = pairs.map(|(&a, &b)| g.mul(a, b)).collect();
             if !g.is(lag, 0.0) {
-                let rates = own
-                    .iter()
-                    .map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
-                let direction = Direction::new("_rate", rates.collect());
-                let mut rates = derivatives_along(g, &strain.values, &direction);
+                let mut rates = derivatives_along(g, &strain.values, &moving);
                 // material that spins beside its section sees the strain turn backwards
                 let [y, z] = [strain.values[1], strain.values[2]];
                 let (forwards, backwards) = (g.mul(spin, z), g.mul(spin, y));
                 rates[1] = g.add(rates[1], forwards);
                 rates[2] = g.sub(rates[2], backwards);
                 for (k, rate) in rates.into_iter().enumerate() {
-                    let moment = g.mul(strain.stiffness[k], rate);
-                    let moment = g.mul(lag, moment);
-                    let slopes = gradient(g, strain.values[k], &ids);
-                    for (force, slope) in forces.iter_mut().zip(slopes) {
-                        let share = g.mul(moment, slope);
-                        *force = g.add(*force, share);
-                    }
+                    let stress = g.mul(strain.stiffness[k], rate);
+                    let stress = g.mul(lag, stress);
+                    stresses[k] = g.add(stresses[k], stress);
                 }
             }
-            for (row, force) in own.into_iter().zip(forces) {
-                along[row] = g.add(along[row], force);
+            (strain, stresses)
+        })
+        .collect()
+}
+
+/// Power of the stresses of all beams while the rows of the sections move at some rates.
+pub(crate) fn strain_power(g: &mut Graph, context: &Context, rates: &[ExprId]) -> ExprId {
+    let direction = context.sections.position.with(rates);
+    let direction = Direction::new("_virtual", direction.collect());
+    let mut terms = Vec::new();
+    for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
+        for (strain, stresses) in stressed(g, context, id) {
+            let rates = derivatives_along(g, &strain.values, &direction);
+            terms.extend(stresses.into_iter().zip(rates).map(|(a, b)| g.mul(a, b)));
+        }
+    }
+    g.sum(terms)
+}
+
+/// Forces of the stresses along the rows of the sections, with the sign of inertia.
+pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
+    let sections = context.sections;
+    let mut along = vec![g.zero(); sections.rows.len()];
+    for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
+        let turns = sections.by_themselves(g, id).map(|own| own.position);
+        let beam = &context.mechanism.beams[id.index()];
+        let rows = sections.of(id);
+        for (k, (strain, stresses)) in stressed(g, context, id).into_iter().enumerate() {
+            let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
+            let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
+            let own: Vec<usize> = own.copied().collect();
+            let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
+            let twist = context.values.scalar(g, &beam.sections[k].2.twist);
+            let back = g.neg(twist);
+            let [y, z] = along_own_axes(g, [stresses[1], stresses[2]], back);
+            let moment = Vector3([stresses[0], y, z]);
+            let [turn, slope] = [&turns.rotations[k], &turns.slopes[k]].map(|own| Vector3(*own));
+            let powers = bend_powers(g, turn, slope, moment);
+            let turning = rows.rotations[k].iter().chain(&rows.slopes[k]);
+            for (row, power) in turning.zip(powers) {
+                if let Some(row) = *row {
+                    along[row] = g.add(along[row], power);
+                }
+            }
+            for (&value, &stress) in strain.values.iter().zip(&stresses).skip(3) {
+                for (&row, slope) in own.iter().zip(gradient(g, value, &ids)) {
+                    let share = g.mul(stress, slope);
+                    along[row] = g.add(along[row], share);
+                }
             }
         }
     }
@@ -126,19 +160,8 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
 
 /// Twist rate, curvatures and elastic moment of a beam at a point of it; see [`Expr::Bent`](crate::model::expression::Expr::Bent).
 pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [ExprId; 6] {
-    let mechanism = context.mechanism;
-    let zero = g.zero();
-    let frame = mechanism.points[point.index()].frame;
-    let place = mechanism.beams.iter().find_map(|beam| {
-        let station = beam
-            .stations
-            .iter()
-            .find(|own| Frame::Body(own.body) == frame);
-        let root = (Frame::Body(beam.body) == frame).then_some((beam, 0.0, &beam.root));
-        station.map(|own| (beam, own.place, &own.section)).or(root)
-    });
-    let Some((beam, place, section)) = place else {
-        return [zero; 6];
+    let Some((beam, place, section)) = context.mechanism.section_at(point) else {
+        return [g.zero(); 6];
     };
     let [turn, slope] = Sections::at(g, context.symbols, context.topology, beam, place);
     let values = context.values;

@@ -95,12 +95,9 @@ pub(crate) fn transmitted(
         let load = on.turning(g, beam);
         load.add_along(g, context.sections, id, beam, &mut along_sections);
     }
-    for (row, force) in context.sections.rows.iter().zip(along_sections) {
-        for (unknown, factor) in &row.weights {
-            let share = g.scale(*factor, force);
-            let slot = &mut along[topology.free[*unknown].index()];
-            *slot = g.add(*slot, share);
-        }
+    let all = [vec![g.zero(); topology.free.len()], along_sections].concat();
+    for (id, share) in topology.free.iter().zip(context.sections.forces(g, &all)) {
+        along[id.index()] = g.add(along[id.index()], share);
     }
     Transmitted {
         along,

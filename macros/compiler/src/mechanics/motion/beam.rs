@@ -1,13 +1,14 @@
 //! How the sections of a beam move.
 
-use crate::algebra::{ExprId, Graph, Matrix3, Vector3};
+use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3, derivatives_along};
 use crate::base::ids::BeamId;
 use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
 use crate::model::mechanism::Mechanism;
 
-use super::bend::{factor, only_axis};
+use super::bend::{bend, bend_change, bend_powers, factor, only_axis};
 use super::frame::FrameMotion;
 use super::strain::Heading;
+use super::turned::Turned;
 
 /// Motion of the sections of a beam, in the axes of the motion of its root.
 #[derive(Clone, Debug)]
@@ -26,6 +27,12 @@ pub(crate) struct SectionMotion {
     /// The axes of the beam at the root.
     pub(crate) axes: Matrix3,
     turn: Turn,
+    /// Angular velocity, and the rates of its components, along the axes of the section.
+    pub(crate) spin: Vector3,
+    pub(crate) growth: Vector3,
+    /// Rates of the angle or the Rodrigues vector.
+    rate: Vector3,
+    second: Vector3,
     /// Angular velocity relative to the root.
     pub(crate) relative: Vector3,
 }
@@ -38,8 +45,11 @@ pub(crate) struct DirectionMotion {
     pub(crate) second_rate: Vector3,
     /// Velocity relative to the root.
     leaving: Vector3,
-    /// Derivatives by the strains, by row of the sections.
+    /// Derivatives by the strains, by row of the sections, along the axes of the section.
     slopes: Vec<(usize, Vector3)>,
+    section: SectionMotion,
+    /// In closed form, if the section turns by a Rodrigues vector.
+    turned: Option<Turned>,
 }
 
 /// A station: its section, and where it is.
@@ -57,8 +67,8 @@ pub(crate) struct StationMotion {
 enum Turn {
     /// By an angle about one of them.
     Angle(usize),
-    /// By a Rodrigues vector, with `1 / (1 + |turn|^2 / 4)`.
-    Rodrigues(Vector3, ExprId),
+    /// By a Rodrigues vector, with `1 / (1 + |turn|^2 / 4)`, and the rotation.
+    Rodrigues(Vector3, ExprId, Matrix3),
 }
 
 impl BeamMotion {
@@ -92,7 +102,7 @@ impl BeamMotion {
             .collect();
         let directions = sections.iter().zip(headings);
         let directions: Vec<DirectionMotion> = directions
-            .map(|(section, heading)| DirectionMotion::new(g, section, heading))
+            .map(|(section, heading)| DirectionMotion::new(g, root, section, heading))
             .collect();
         let length = values.scalar(g, &beam.length);
         let rule = beam.quadrature();
@@ -113,36 +123,79 @@ impl BeamMotion {
 }
 
 impl DirectionMotion {
-    fn new(g: &mut Graph, section: &SectionMotion, heading: &Heading) -> Self {
+    fn new(g: &mut Graph, root: &FrameMotion, section: &SectionMotion, heading: &Heading) -> Self {
         let frame = &section.frame;
         let axes = frame.orientation.axes;
-        let apply = |g: &mut Graph, v: Vector3| axes.apply(g, v);
-        let vector = apply(g, heading.value);
-        let growing = apply(g, heading.rate);
-        let growth = apply(g, heading.second);
-        let turning = frame.angular_velocity.cross(g, vector);
-        let coriolis = frame.angular_velocity.cross(g, growing);
-        let coriolis = Vector3(coriolis.0.map(|own| g.scale(2.0, own)));
-        let carried = frame.axes_second_rate.apply(g, heading.value);
-        let leaving = section.relative.cross(g, vector);
-        let slopes = heading.slopes.iter();
-        Self {
+        let twice = |g: &mut Graph, v: Vector3| Vector3(v.0.map(|own| g.scale(2.0, own)));
+        let vector = axes.apply(g, heading.value);
+        let mut this = Self {
             vector,
-            rate: turning.add(g, growing),
-            second_rate: carried.add(g, coriolis).add(g, growth),
-            leaving: leaving.add(g, growing),
-            slopes: slopes
-                .map(|(row, slope)| (*row, apply(g, *slope)))
-                .collect(),
+            rate: frame.angular_velocity.cross(g, vector),
+            second_rate: frame.axes_second_rate.apply(g, heading.value),
+            leaving: section.relative.cross(g, vector),
+            slopes: heading.slopes.clone(),
+            section: *section,
+            turned: None,
+        };
+        if let Turn::Rodrigues(turn, factor, rotation) = section.turn {
+            let turned = Turned::new(g, (turn, factor, rotation), heading.value);
+            let leaving = turned.rate(g, section.rate);
+            let second = turned.rate(g, section.second);
+            let second = turned.quadratic(g, section.rate).add(g, second);
+            this.vector = section.axes.apply(g, turned.vector);
+            this.turned = Some(turned);
+            this.leaving = section.axes.apply(g, leaving);
+            this.rate = root.angular_velocity.cross(g, this.vector);
+            this.rate = this.rate.add(g, this.leaving);
+            let gyroscopic = root.angular_velocity.cross(g, this.leaving);
+            let gyroscopic = twice(g, gyroscopic);
+            let carried = root.second_rate.apply(g, this.vector).add(g, gyroscopic);
+            this.second_rate = section.axes.apply(g, second).add(g, carried);
+        }
+        let growing = axes.apply(g, heading.rate);
+        let growth = axes.apply(g, heading.second);
+        let coriolis = frame.angular_velocity.cross(g, growing);
+        let coriolis = twice(g, coriolis);
+        Self {
+            rate: this.rate.add(g, growing),
+            second_rate: this.second_rate.add(g, coriolis).add(g, growth),
+            leaving: this.leaving.add(g, growing),
+            ..this
         }
     }
 
-    /// Power of a force on the direction per unit rate of each row of the sections by which it strains.
-    pub(crate) fn project(&self, g: &mut Graph, force: Vector3) -> Vec<(usize, ExprId)> {
+    /// Power of a force on the direction while the sections move in a direction.
+    pub(crate) fn power(&self, g: &mut Graph, force: Vector3, along: &Direction) -> ExprId {
+        let (vector, force) = match &self.turned {
+            Some(turned) => (turned.vector, self.section.axes.transpose().apply(g, force)),
+            None => (self.vector, force),
+        };
+        let rates = derivatives_along(g, &vector.0, along);
+        force.dot(g, Vector3([rates[0], rates[1], rates[2]]))
+    }
+
+    /// Power of a force on the vector per unit rate of the angle of its section, or of each component of the Rodrigues
+    /// vector, and of each row of the sections by which it strains.
+    pub(crate) fn project(
+        &self,
+        g: &mut Graph,
+        force: Vector3,
+    ) -> ([ExprId; 3], Vec<(usize, ExprId)>) {
+        let (powers, along) = match &self.turned {
+            Some(turned) => {
+                let force = self.section.axes.transpose().apply(g, force);
+                turned.powers(g, force)
+            }
+            None => {
+                let moment = self.vector.cross(g, force);
+                let axes = self.section.frame.orientation.axes;
+                let along = axes.transpose().apply(g, force);
+                (self.section.project(g, moment), along)
+            }
+        };
         let slopes = self.slopes.iter();
-        slopes
-            .map(|(row, slope)| (*row, slope.dot(g, force)))
-            .collect()
+        let strains = slopes.map(|(row, slope)| (*row, slope.dot(g, along)));
+        (powers, strains.collect())
     }
 }
 
@@ -166,10 +219,16 @@ impl SectionMotion {
             let rotation = Matrix3::rotation(g, unit, turn.0[axis]);
             let [relative, growth] = [rate, second].map(|vector| axes.apply(g, vector));
             let turned = own_axes.multiply(g, rotation);
+            let back = |g: &mut Graph, v: Vector3| rotation.transpose().apply(g, v);
+            let (own_spin, own_growth) = own_motion(g, (root, axes), back, (rate, second));
             return Self {
+                spin: own_spin,
+                growth: own_growth,
                 frame: root.bent(g, (turned, relative, growth), name),
                 axes,
                 turn: Turn::Angle(axis),
+                rate,
+                second,
                 relative,
             };
         }
@@ -197,10 +256,19 @@ impl SectionMotion {
         let growth = growth.sub(g, lost);
         let [relative, growth] = [spin, growth].map(|vector| axes.apply(g, vector));
         let own_axes_turned = own_axes.multiply(g, rotation);
+        let back = (turn.neg(g), factor, rotation.transpose());
+        let back = |g: &mut Graph, v: Vector3| Turned::new(g, back, v).vector;
+        let bending = bend(g, turn, rate);
+        let changing = bend_change(g, turn, rate, second);
+        let (own_spin, own_growth) = own_motion(g, (root, axes), back, (bending, changing));
         Self {
+            spin: own_spin,
+            growth: own_growth,
             frame: root.bent(g, (own_axes_turned, relative, growth), name),
             axes,
-            turn: Turn::Rodrigues(turn, factor),
+            turn: Turn::Rodrigues(turn, factor, rotation),
+            rate,
+            second,
             relative,
         }
     }
@@ -215,7 +283,7 @@ impl SectionMotion {
                 powers[axis] = own.0[axis];
                 powers
             }
-            Turn::Rodrigues(turn, factor) => {
+            Turn::Rodrigues(turn, factor, _) => {
                 let across = turn.cross(g, own);
                 let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
                 own.sub(g, half).scale(g, factor).0
@@ -228,14 +296,45 @@ impl SectionMotion {
     pub(crate) fn pose_margin(&self) -> Option<ExprId> {
         match self.turn {
             Turn::Angle(_) => None,
-            Turn::Rodrigues(_, factor) => Some(factor),
+            Turn::Rodrigues(_, factor, _) => Some(factor),
         }
     }
 
-    /// The axes, and their second time derivatives.
-    pub(crate) fn arms(&self) -> [(Vector3, Vector3); 3] {
-        self.frame.axes()
+    /// The angular velocity along the axes of the section for a rate of the angle or the Rodrigues vector.
+    pub(crate) fn turning(&self, g: &mut Graph, rate: Vector3) -> Vector3 {
+        match self.turn {
+            Turn::Angle(_) => rate,
+            Turn::Rodrigues(turn, ..) => bend(g, turn, rate),
+        }
     }
+
+    /// [`project`](Self::project) for a moment along the axes of the section.
+    pub(crate) fn project_own(&self, g: &mut Graph, moment: Vector3) -> [ExprId; 3] {
+        match self.turn {
+            Turn::Angle(_) => moment.0,
+            Turn::Rodrigues(turn, ..) => {
+                let [.., x, y, z] = bend_powers(g, turn, self.rate, moment);
+                [x, y, z]
+            }
+        }
+    }
+}
+
+/// Angular velocity and acceleration of a section along its axes, from those of the root, which `back` writes along
+/// them, and its own relative to the root.
+fn own_motion(
+    g: &mut Graph,
+    (root, axes): (&FrameMotion, Matrix3),
+    back: impl Fn(&mut Graph, Vector3) -> Vector3,
+    (relative, growth): (Vector3, Vector3),
+) -> (Vector3, Vector3) {
+    let [spin, growing] = [root.angular_velocity, root.angular_acceleration].map(|vector| {
+        let own = axes.transpose().apply(g, vector);
+        back(g, own)
+    });
+    let gyroscopic = spin.cross(g, relative);
+    let growth = growing.add(g, growth).add(g, gyroscopic);
+    (spin.add(g, relative), growth)
 }
 
 impl StationMotion {

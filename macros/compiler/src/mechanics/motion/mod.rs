@@ -9,14 +9,15 @@ mod recursions;
 mod step_axis;
 mod strain;
 mod tree;
+mod turned;
 mod wrench;
 
 pub(super) use beam::BeamMotion;
-pub(super) use bend::bend;
+pub(super) use bend::{bend, bend_powers};
 pub(super) use frame::{FrameMotion, second_rate};
 pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};
 pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zero};
 pub(super) use step_axis::StepAxis;
-pub(super) use strain::strains;
+pub(super) use strain::{strains, turned};
 pub(super) use tree::Tree;
 pub(super) use wrench::Wrench;

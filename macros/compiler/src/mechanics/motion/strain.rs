@@ -175,7 +175,7 @@ pub(crate) fn strains(
 }
 
 /// A symmetric matrix with two principal values, along the axes that its own have been turned from by an angle.
-fn turned(g: &mut Graph, [y, z]: [ExprId; 2], angle: ExprId) -> [ExprId; 3] {
+pub(crate) fn turned(g: &mut Graph, [y, z]: [ExprId; 2], angle: ExprId) -> [ExprId; 3] {
     let (sine, cosine) = (g.unary(Unary::Sin, angle), g.unary(Unary::Cos, angle));
     let (ss, cc) = (g.mul(sine, sine), g.mul(cosine, cosine));
     let sc = g.mul(sine, cosine);

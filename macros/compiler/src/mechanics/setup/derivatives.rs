@@ -28,3 +28,12 @@ pub(crate) fn at_rest(g: &mut Graph, s: &Symbols, roots: &[ExprId]) -> Vec<ExprI
         .collect();
     substitute(g, roots, &still)
 }
+
+pub(crate) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
+    let terms: Vec<ExprId> = weights
+        .iter()
+        .zip(values)
+        .map(|(&weight, &value)| g.mul(weight, value))
+        .collect();
+    g.sum(terms)
+}

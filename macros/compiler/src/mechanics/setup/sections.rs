@@ -31,6 +31,8 @@ pub(crate) enum Mirrored {
 pub(crate) struct SectionRow {
     /// Unknowns with their factors.
     pub(crate) weights: Vec<(usize, f64)>,
+    /// The row at the mirrored place of quadrature, where each polynomial has the same value or the opposite one.
+    mirrored: Option<usize>,
 }
 
 /// The rows of one beam; `None` where nothing turns.
@@ -78,6 +80,15 @@ impl Sections {
         let mut this = Self::default();
         for beam in &mechanism.beams {
             let own = this.beam(g, topology, beam);
+            for list in [&own.rotations, &own.slopes, &own.curls, &own.strains] {
+                for (here, there) in list.iter().zip(list.iter().rev()) {
+                    for (row, mirrored) in here.iter().zip(there) {
+                        if let (Some(row), false) = (*row, row == mirrored) {
+                            this.rows[row].mirrored = *mirrored;
+                        }
+                    }
+                }
+            }
             this.beams.push(own);
         }
         this
@@ -145,7 +156,10 @@ impl Sections {
             list.ids.push(id);
             list.values.push(value);
         }
-        self.rows.push(SectionRow { weights });
+        self.rows.push(SectionRow {
+            weights,
+            mirrored: None,
+        });
         Some(self.rows.len() - 1)
     }
 
@@ -174,7 +188,7 @@ impl Sections {
         let zero = g.zero();
         self.of(beam).map(|row| {
             let mut sum = |list: &SymbolList| match row {
-                Some(row) => self.rows[row].combined(g, &list.values),
+                Some(row) => self.combined(g, row, &list.values),
                 None => zero,
             };
             CoordinateMotion {
@@ -210,6 +224,12 @@ impl Sections {
         })
     }
 
+    /// The rate of each row while the unknowns move at some rates.
+    pub(crate) fn rates(&self, g: &mut Graph, unknowns: &[ExprId]) -> Vec<ExprId> {
+        let rows = 0..self.rows.len();
+        rows.map(|row| self.combined(g, row, unknowns)).collect()
+    }
+
     /// Each symbol as a sum over the unknowns: for substitution.
     pub(crate) fn sums(&self, g: &mut Graph, symbols: &Symbols) -> Vec<(SymbolId, ExprId)> {
         let lists = [
@@ -219,20 +239,73 @@ impl Sections {
         ];
         let mut sums = Vec::new();
         for (own, unknowns) in lists {
-            for (row, id) in self.rows.iter().zip(&own.ids) {
-                sums.push((*id, row.combined(g, &unknowns.values)));
-            }
+            let values = self.rates(g, &unknowns.values);
+            sums.extend(own.ids.iter().copied().zip(values));
         }
         sums
+    }
+
+    /// The mirrored row, unless a single polynomial has values at both.
+    fn mirrored(&self, row: usize) -> Option<usize> {
+        let row = &self.rows[row];
+        row.mirrored.filter(|_| row.weights.len() > 1)
+    }
+
+    /// The unknowns of a row with their factors, split into what is equal and what is opposite at the mirrored row.
+    fn parts(&self, row: usize) -> Vec<(usize, f64, f64)> {
+        let weights = &self.rows[row].weights;
+        let Some(mirrored) = self.mirrored(row) else {
+            return weights
+                .iter()
+                .map(|(unknown, factor)| (*unknown, *factor, 0.0))
+                .collect();
+        };
+        let there = &self.rows[mirrored].weights;
+        let both = weights.iter().zip(there);
+        let clean = |factor: f64| if factor.abs() > 1e-15 { factor } else { 0.0 };
+        both.map(|((unknown, here), (_, there))| {
+            (
+                *unknown,
+                clean(0.5 * (here + there)),
+                clean(0.5 * (here - there)),
+            )
+        })
+        .collect()
+    }
+
+    /// The value of a row.
+    fn combined(&self, g: &mut Graph, row: usize, unknowns: &[ExprId]) -> ExprId {
+        let first = self.mirrored(row).map_or(row, |mirrored| mirrored.min(row));
+        let (mut even, mut odd) = (Vec::new(), Vec::new());
+        for (unknown, equal, opposite) in self.parts(first) {
+            even.push(g.scale(equal, unknowns[unknown]));
+            odd.push(g.scale(opposite, unknowns[unknown]));
+        }
+        let (even, odd) = (g.sum(even), g.sum(odd));
+        match first == row {
+            true => g.add(even, odd),
+            false => g.sub(even, odd),
+        }
     }
 
     /// Forces along the unknowns, from forces along the unknowns followed by those along the sections.
     pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
         let (own, sections) = along.split_at(along.len() - self.rows.len());
         let mut terms: Vec<Vec<ExprId>> = own.iter().map(|own| vec![*own]).collect();
-        for (row, force) in self.rows.iter().zip(sections) {
-            for (unknown, factor) in &row.weights {
-                terms[*unknown].push(g.scale(*factor, *force));
+        for row in 0..self.rows.len() {
+            let force = sections[row];
+            let (sum, difference) = match self.mirrored(row) {
+                Some(mirrored) if mirrored < row => continue,
+                Some(mirrored) => (
+                    g.add(force, sections[mirrored]),
+                    g.sub(force, sections[mirrored]),
+                ),
+                None => (force, force),
+            };
+            for (unknown, even, odd) in self.parts(row) {
+                for (factor, force) in [(even, sum), (odd, difference)] {
+                    terms[unknown].push(g.scale(factor, force));
+                }
             }
         }
         terms.into_iter().map(|terms| g.sum(terms)).collect()
@@ -272,16 +345,5 @@ impl Sections {
                 self.forces(g, &column)
             })
             .collect()
-    }
-}
-
-impl SectionRow {
-    fn combined(&self, g: &mut Graph, unknowns: &[ExprId]) -> ExprId {
-        let terms: Vec<ExprId> = self
-            .weights
-            .iter()
-            .map(|(unknown, factor)| g.scale(*factor, unknowns[*unknown]))
-            .collect();
-        g.sum(terms)
     }
 }

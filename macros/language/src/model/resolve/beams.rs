@@ -149,14 +149,6 @@ impl Resolver<'_> {
             0
         };
         let torsion = torsion.unwrap_or(default);
-        if torsion > 1 && !resists {
-            let extent = given.get("torsion").map_or(word.into(), |own| own.extent);
-            let message = "this beam has no inertia about its axis: only its tip can turn";
-            let help =
-                "give `inertia_y` and `inertia_z`, or `torsion: 1` and weld a body to the tip";
-            self.diagnostics.error_with_help(extent, message, help);
-            return None;
-        }
         let stretches = given.get("stretch").is_some();
         if torsion + y + z == 0 && !stretches {
             let message = "this beam has no coordinates: it is rigid";

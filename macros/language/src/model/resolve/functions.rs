@@ -31,7 +31,7 @@ enum Needs {
 use Needs::{Arguments, Places, Rates, Solution};
 
 /// Every function with its arguments.
-const SIGNATURES: [(&str, &[&str], Needs); 25] = [
+const SIGNATURES: [(&str, &[&str], Needs); 27] = [
     ("sqrt", &["x"], Arguments),
     ("sin", &["angle"], Arguments),
     ("cos", &["angle"], Arguments),
@@ -55,6 +55,8 @@ const SIGNATURES: [(&str, &[&str], Needs); 25] = [
     ("reaction", &["constraint"], Solution),
     ("curvature", &["point"], Solution),
     ("moment", &["point"], Solution),
+    ("strain", &["point"], Solution),
+    ("inner_force", &["point"], Solution),
     ("kinetic_energy", &[], Solution),
     ("potential_energy", &[], Solution),
 ];

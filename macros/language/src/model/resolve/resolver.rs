@@ -1,5 +1,7 @@
 //! The data that the steps of resolution share; each step is a file that adds its methods.
 
+use std::collections::BTreeSet;
+
 use super::beams::declared::{Stations, number_of};
 use super::beams::table::Properties;
 use super::coordinates::{self, Declared};
@@ -36,6 +38,8 @@ pub(super) struct Resolver<'a> {
     pub(super) parts: Vec<Option<Vec<Part>>>,
     pub(super) materials: Vec<(String, Option<Properties>)>,
     pub(super) stations: Stations,
+    /// Points at which the force inside a beam is asked for.
+    pub(super) cut_open: BTreeSet<String>,
     /// How many coordinates every component of a beam gets beyond those declared.
     pub(super) more: usize,
     pub(super) given_inertias: Vec<GivenInertia>,
@@ -70,6 +74,7 @@ impl<'a> Resolver<'a> {
             parts: Vec::new(),
             materials: Vec::new(),
             stations: Stations::default(),
+            cut_open: BTreeSet::new(),
             more: 0,
             given_inertias: Vec::new(),
             requirements: Vec::new(),

@@ -1,7 +1,5 @@
 //! Places along beams to which something is attached.
 
-use std::collections::BTreeSet;
-
 use proc_macro2::Ident;
 
 use super::super::coordinates;
@@ -85,6 +83,12 @@ impl Resolver<'_> {
 
     pub(in crate::model::resolve) fn is_beam(&self, name: &Ident) -> bool {
         self.stations.beams.iter().any(|(own, _)| own == name)
+    }
+
+    /// Whether a beam stretches or shears by coordinates of its own; `None` if it is wrong.
+    pub(in crate::model::resolve) fn strains(&self, name: &Ident) -> Option<bool> {
+        let (_, beam) = self.stations.beams.iter().find(|(own, _)| own == name)?;
+        Some(beam.as_ref()?.strains != [0; 3])
     }
 
     fn items_that(&self, is: fn(&ItemKind) -> bool) -> usize {
@@ -250,10 +254,10 @@ impl Resolver<'_> {
         }
     }
 
-    /// The bodies on which loads stand: those with a joint, or with a point that a force, a constraint or an excitation
-    /// names.
+    /// The bodies on which loads stand: those with a joint, with a point that a force, a constraint or an excitation
+    /// names, or with one at which the force inside is asked for.
     fn loaded(&self, joints: &[Joint], points: &[Point]) -> Vec<Frame> {
-        let mut names = BTreeSet::new();
+        let mut names = self.cut_open.clone();
         for item in &self.ast.items {
             let call = match &item.kind {
                 ItemKind::Force(force) => &force.law,

@@ -9,7 +9,7 @@ use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
-use crate::syntax::ast::{ItemKind, Value, ValueKind};
+use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
 
 /// Force laws whose stored energy is unknown.
 const WITHOUT_ENERGY: [&str; 3] = ["tension", "generalized", "bushing"];
@@ -47,7 +47,9 @@ impl Resolver<'_> {
             }
             ("reaction_force" | "reaction_moment", [joint]) => self.reaction_vector(name, joint)?,
             ("reaction", [constraint]) => self.reaction_number(constraint)?,
-            ("curvature" | "moment", [point]) => self.bent(name, point)?,
+            ("curvature" | "moment" | "strain" | "inner_force", [point]) => {
+                self.bent(name, point)?
+            }
             ("kinetic_energy", []) => Typed::Scalar(Expr::KineticEnergy, energy),
             ("potential_energy", []) => {
                 self.energy_is_known(function)?;
@@ -98,15 +100,13 @@ impl Resolver<'_> {
         None
     }
 
-    /// Curvature or moment of a beam at a point of it.
+    /// Curvature, moment, strain or force of a beam at a point of it.
     fn bent(&mut self, function: &str, point: &Value) -> Option<Typed> {
         let name = self.name_of(point, "point")?;
         let id = self.point_named(name)?;
-        let mut points = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Point(point) if point.name == *name => Some(&point.frame),
-            _ => None,
-        });
-        if !points.next().is_some_and(|frame| self.is_beam(frame)) {
+        let point = self.declared_point(name);
+        if !point.is_some_and(|point| self.is_beam(&point.frame)) {
+            let function = function.replace('_', " ");
             let message = format!("`{name}` is not on a beam: it has no {function}");
             let help = "declare a point of the beam: `point gauge: blade at 0.3 length;`";
             self.diagnostics.error_with_help(name, message, help);
@@ -114,10 +114,57 @@ impl Resolver<'_> {
         }
         let (first, dimension) = match function {
             "curvature" => (0, Dimension::new(-1, 0, 0)),
-            _ => (3, Dimension::MOMENT),
+            "moment" => (3, Dimension::MOMENT),
+            "strain" => {
+                self.strains_at(name)?;
+                (6, Dimension::NONE)
+            }
+            _ => {
+                self.cut_open_at(name)?;
+                (9, Dimension::FORCE)
+            }
         };
         let components = [0, 1, 2].map(|axis| Expr::Bent(id, first + axis));
         Some(Typed::Vector(components, Quantity::Of(dimension)))
+    }
+
+    /// The declaration of a point.
+    fn declared_point(&self, name: &Ident) -> Option<&ast::Point> {
+        self.ast.items.iter().find_map(|item| match &item.kind {
+            ItemKind::Point(point) if point.name == *name => Some(point),
+            _ => None,
+        })
+    }
+
+    /// Requires that the sections of a beam stretch or shear by coordinates.
+    fn strains_at(&mut self, name: &Ident) -> Option<()> {
+        let beam = self.declared_point(name)?.frame.clone();
+        if self.strains(&beam)? {
+            return Some(());
+        }
+        let message = format!("`{beam}` neither stretches nor shears by coordinates of its own");
+        let help = "give the beam `stretch: 2` or `shear: 5`, or ask for `curvature`";
+        self.diagnostics.error_with_help(name, message, help);
+        None
+    }
+
+    /// The force inside a beam is what its outer part transmits: the beam ends there, and another continues it.
+    fn cut_open_at(&mut self, name: &Ident) -> Option<()> {
+        let placement = self.declared_point(name)?.placement.as_ref();
+        let place = placement.and_then(|own| own.offset.as_ref());
+        let is_inside = place.is_some_and(|place| match &place.kind {
+            ValueKind::Fraction(fraction) => *fraction > 0.0,
+            ValueKind::Name(word) => word == "tip",
+            _ => false,
+        });
+        if !is_inside {
+            let message = "the force inside a beam is known behind its root only";
+            let help = "at the root, write `reaction_force` of the joint that holds the beam";
+            self.diagnostics.error_with_help(name, message, help);
+            return None;
+        }
+        self.cut_open.insert(name.to_string());
+        Some(())
     }
 
     fn position_of(&mut self, point: &Value) -> Option<Vector> {
