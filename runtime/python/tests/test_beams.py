@@ -56,20 +56,27 @@ def by_elements(count, speed, radius, tip):
 
 
 def timed(function):
-    function()
-    start = time.perf_counter()
-    found = function()
-    return found, 1e3 * (time.perf_counter() - start)
+    """What a function gives, and the shortest of some times it takes, ms."""
+    times = []
+    for _ in range(5):
+        start = time.perf_counter()
+        found = function()
+        times.append(1e3 * (time.perf_counter() - start))
+    return found, min(times)
 
 
 @pytest.mark.parametrize("tip", [0.0, 0.5])
-@pytest.mark.parametrize("speed", [0.0, 15.0, 60.0])
+@pytest.mark.parametrize("speed", [0.0, 15.0, 40.0])
 def test_a_beam_has_the_frequencies_of_its_finite_elements(speed, tip, capsys):
     radius = 0.2
-    study = eigentol.Study(
-        eigentol.Mechanism.from_text(declaration(10, tip)), inputs={"omega": speed}, design={"radius": radius}
-    )
-    ours, own_time = timed(lambda: np.sort(study.modes().eigenvalues.imag)[:3])
+    mechanism = eigentol.Mechanism.from_text(declaration(10, tip))
+
+    def by_beam():
+        # A study remembers what it has found.
+        study = eigentol.Study(mechanism, inputs={"omega": speed}, design={"radius": radius})
+        return np.sort(study.modes().eigenvalues.imag)[:3]
+
+    ours, own_time = timed(by_beam)
     theirs, their_time = timed(lambda: by_elements(64, speed, radius, tip))
     # Elements converge with the fourth power of their length from above.
     coarse = by_elements(32, speed, radius, tip)
@@ -77,7 +84,7 @@ def test_a_beam_has_the_frequencies_of_its_finite_elements(speed, tip, capsys):
     error = theirs / limit - 1
     own_error = ours / limit - 1
     with capsys.disabled():
-        print(f"\nspeed {speed}, tip {tip}: 64 elements {their_time:.1f} ms, errors {error};", end=" ")
-        print(f"10 coordinates {own_time:.1f} ms, errors {own_error}")
+        print(f"\nspeed {speed}, tip {tip}: 64 elements {their_time:.2f} ms, errors {error};", end=" ")
+        print(f"10 coordinates {own_time:.2f} ms, errors {own_error}")
     assert (np.abs(ours / theirs - 1) <= 1.2 * error + 2e-9).all()
-    assert (np.abs(ours / theirs - 1)[:2] <= 1e-6).all()
+    assert (np.abs(ours / theirs - 1) <= 1e-6).all()

@@ -27,7 +27,8 @@ impl Machine {
         let tokens = text
             .parse()
             .unwrap_or_else(|error| panic!("{error}\n{text}"));
-        let compiled = compile(tokens, Limits::NONE).map_err(|mistakes| mistakes.to_string())?;
+        let compiled =
+            compile(tokens, Limits::default()).map_err(|mistakes| mistakes.to_string())?;
         Ok(Self {
             compiled,
             text: text.to_owned(),

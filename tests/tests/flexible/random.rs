@@ -1,5 +1,7 @@
 //! Beams at random places of random machines, with special cases on purpose.
 
+use std::thread;
+
 use eigentol_oracle::random::Random;
 
 use crate::judged::{Machine, judge};
@@ -494,24 +496,54 @@ impl Writer {
 /// What a random machine may be refused for: an element between two places of one rigid piece.
 const REASON: &str = "both ends of this element are fixed in";
 
+/// What occurs in many of the machines.
+const OFTEN: [&str; 7] = [
+    "shear: static",
+    "shear: 1",
+    "stretch: ",
+    "lag: ",
+    "twist: ",
+    "spinning at",
+    "distributed(",
+];
+
+/// Judges the machine of a number, and gives its text if it is accepted.
+fn judged(seed: u64) -> Option<String> {
+    let text = Writer::new(seed).machine();
+    let machine = match Machine::new(&text) {
+        Ok(machine) => machine,
+        Err(mistakes) => {
+            assert!(mistakes.contains(REASON), "seed {seed}: {mistakes}\n{text}");
+            return None;
+        }
+    };
+    let mut random = Random::new(seed);
+    for round in 0..2 {
+        let state = machine.state(&mut random);
+        judge(&format!("seed {seed}, {round}"), &machine, &state);
+    }
+    Some(text)
+}
+
 #[test]
 fn random_beams_obey_lagrange() {
-    let mut accepted = 0;
-    for seed in 0..120 {
-        let text = Writer::new(seed).machine();
-        let machine = match Machine::new(&text) {
-            Ok(machine) => machine,
-            Err(mistakes) => {
-                assert!(mistakes.contains(REASON), "seed {seed}: {mistakes}\n{text}");
-                continue;
-            }
+    let accepted: Vec<String> = thread::scope(|scope| {
+        let half = |parity| {
+            scope.spawn(move || {
+                (0..60_u64)
+                    .filter_map(|k| judged(2 * k + parity))
+                    .collect::<Vec<_>>()
+            })
         };
-        accepted += 1;
-        let mut random = Random::new(seed);
-        for round in 0..2 {
-            let state = machine.state(&mut random);
-            judge(&format!("seed {seed}, {round}"), &machine, &state);
-        }
+        let halves = [0, 1].map(half);
+        let joined = halves
+            .into_iter()
+            .map(|half| half.join().expect("no machine is wrong"));
+        joined.flatten().collect()
+    });
+    assert!(accepted.len() > 100, "{}", accepted.len());
+    for what in OFTEN {
+        let count = accepted.iter().filter(|text| text.contains(what)).count();
+        assert!(count >= 10, "{what}: {count}");
     }
-    assert!(accepted > 100, "{accepted}");
 }
