@@ -8,6 +8,8 @@
 mod bars;
 #[path = "beams/bent.rs"]
 mod bent;
+#[path = "beams/buckled.rs"]
+mod buckled;
 #[path = "beams/compared.rs"]
 mod compared;
 #[path = "beams/composed.rs"]
@@ -28,6 +30,8 @@ mod poses;
 mod required;
 #[path = "beams/rotating.rs"]
 mod rotating;
+#[path = "beams/sampled.rs"]
+mod sampled;
 #[path = "beams/strained.rs"]
 mod strained;
 #[path = "beams/twisted.rs"]
