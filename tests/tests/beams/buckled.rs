@@ -10,8 +10,9 @@ fn a_narrow_cantilever_buckles_sideways_at_the_load_of_prandtl() {
         let strip = study(
             "mechanism Strip {
                 input load: N;
-                body strip: beam(length: 1.3 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_z: 4 N*m^2,
-                    torsion_stiffness: 7 N*m^2, inertia_y: 1e-3 kg*m, inertia_z: 1e-3 kg*m, bending_z: 7, torsion: 7);
+                body strip: beam(length: 1.3 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: 4e5 N*m^2,
+                    stiffness_z: 4 N*m^2, torsion_stiffness: 7 N*m^2, inertia_y: 1e-3 kg*m, inertia_z: 1e-3 kg*m, bending: 6,
+                    torsion: 6);
                 joint clamp: fixed from ground to strip;
                 point end: strip at tip;
                 force weight: load(at: end, force: [0, 0, -load]);

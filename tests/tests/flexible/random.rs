@@ -303,9 +303,7 @@ impl Writer {
         if section.shears {
             extra += &self.strains();
         }
-        // see `the_shear_of_a_spinning_shaft_lags_with_its_material`
-        let known = !(spins && extra.contains("shear"));
-        if known && self.random.chance(0.4) {
+        if self.random.chance(0.4) {
             extra += &format!(", lag: {:?} s", self.number(0.01, 0.1));
         }
         if self.random.chance(0.3) {

@@ -141,7 +141,6 @@ fn a_spinning_shaft_is_a_beam_on_a_spinning_hub() {
 /// Strain of shear is fixed in the material like that of bending: where the material spins, its rate has a part from the
 /// spin.
 #[test]
-#[ignore = "the equations leave out the part of the spin in the rate of shear"]
 fn the_shear_of_a_spinning_shaft_lags_with_its_material() {
     for strains in [", shear: 2", ", shear: static"] {
         spins_like_on_a_hub(strains);

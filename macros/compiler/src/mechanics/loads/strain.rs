@@ -14,6 +14,10 @@ struct Strain {
     stiffness: Vec<ExprId>,
 }
 
+/// Places of what strains along the second and the third axis.
+const BENDING: (usize, usize) = (1, 2);
+const SHEAR: (usize, usize) = (4, 5);
+
 fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>) -> Vec<Strain> {
     let beam = &context.mechanism.beams[id.index()];
     let values = context.values;
@@ -93,10 +97,12 @@ fn stressed(g: &mut Graph, context: &Context, id: BeamId) -> Vec<(Strain, Vec<Ex
             if !g.is(lag, 0.0) {
                 let mut rates = derivatives_along(g, &strain.values, &moving);
                 // material that spins beside its section sees the strain turn backwards
-                let [y, z] = [strain.values[1], strain.values[2]];
-                let (forwards, backwards) = (g.mul(spin, z), g.mul(spin, y));
-                rates[1] = g.add(rates[1], forwards);
-                rates[2] = g.sub(rates[2], backwards);
+                for (y, z) in [BENDING, SHEAR] {
+                    let (along_y, along_z) = (strain.values[y], strain.values[z]);
+                    let (forwards, backwards) = (g.mul(spin, along_z), g.mul(spin, along_y));
+                    rates[y] = g.add(rates[y], forwards);
+                    rates[z] = g.sub(rates[z], backwards);
+                }
                 for (k, rate) in rates.into_iter().enumerate() {
                     let stress = g.mul(strain.stiffness[k], rate);
                     let stress = g.mul(lag, stress);
