@@ -16,6 +16,8 @@ mod converged;
 mod damped;
 #[path = "beams/inside.rs"]
 mod inside;
+#[path = "beams/offset.rs"]
+mod offset;
 #[path = "beams/poses.rs"]
 mod poses;
 #[path = "beams/required.rs"]

@@ -5,6 +5,8 @@
 mod judged;
 #[path = "flexible/objective.rs"]
 mod objective;
+#[path = "flexible/offset.rs"]
+mod offset;
 #[path = "flexible/outputs.rs"]
 mod outputs;
 #[path = "flexible/random.rs"]

@@ -73,8 +73,10 @@ impl Beam {
 pub struct Section {
     /// Mass, kg/m.
     pub mass: Expr,
-    /// Mass times squared distance from the second and from the third axis, kg m.
+    /// Mass times squared distance from the second and from the third axis through its centre, kg m.
     pub inertia: [Expr; 2],
+    /// Centre of mass along the second and the third axis, m.
+    pub center: [Expr; 2],
     /// Stiffness against twist, and against bending about the second and the third axis, N m^2.
     pub stiffness: [Expr; 3],
     /// Stiffness against stretch, and against shear along the second and the third axis, N; zero if not known.

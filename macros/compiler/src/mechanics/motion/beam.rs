@@ -3,7 +3,7 @@
 use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3, derivatives_along};
 use crate::base::ids::BeamId;
 use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, Section};
 
 use super::bend::{bend, bend_change, bend_powers, factor, only_axis};
 use super::frame::FrameMotion;
@@ -16,6 +16,8 @@ pub(crate) struct BeamMotion {
     /// At the places of quadrature.
     pub(crate) sections: Vec<SectionMotion>,
     pub(crate) directions: Vec<DirectionMotion>,
+    /// From the axis to the centre of mass, m, of the sections that have it elsewhere.
+    pub(crate) offsets: Vec<(usize, DirectionMotion)>,
     pub(crate) stations: Vec<StationMotion>,
 }
 
@@ -104,6 +106,14 @@ impl BeamMotion {
         let directions: Vec<DirectionMotion> = directions
             .map(|(section, heading)| DirectionMotion::new(g, root, section, heading))
             .collect();
+        let mut offsets = Vec::new();
+        for (k, (_, _, section)) in beam.sections.iter().enumerate() {
+            let offset = offset(g, values, section);
+            if !offset.is_zero(g) {
+                let offset = Heading::fixed(g, offset);
+                offsets.push((k, DirectionMotion::new(g, root, &sections[k], &offset)));
+            }
+        }
         let length = values.scalar(g, &beam.length);
         let rule = beam.quadrature();
         let stations = beam.stations.iter().zip(ends).map(|(station, section)| {
@@ -118,8 +128,24 @@ impl BeamMotion {
             stations: stations.collect(),
             sections,
             directions,
+            offsets,
         }
     }
+
+    /// The directions, then the offsets, with the numbers of their sections.
+    pub(crate) fn arms(&self) -> impl Iterator<Item = (usize, &DirectionMotion)> {
+        let offsets = self.offsets.iter().map(|(k, arm)| (*k, arm));
+        self.directions.iter().enumerate().chain(offsets)
+    }
+}
+
+/// From the axis to the centre of mass of a section, along the axes that it has without twist.
+pub(crate) fn offset(g: &mut Graph, values: &Values, section: &Section) -> Vector3 {
+    let [y, z] = section.center.each_ref().map(|own| values.scalar(g, own));
+    let along = Matrix3::identity(g).0[0];
+    let twist = values.scalar(g, &section.twist);
+    let own = Vector3([g.zero(), y, z]);
+    Matrix3::rotation(g, along, twist).apply(g, own)
 }
 
 impl DirectionMotion {

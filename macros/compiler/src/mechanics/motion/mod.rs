@@ -12,7 +12,7 @@ mod tree;
 mod turned;
 mod wrench;
 
-pub(super) use beam::BeamMotion;
+pub(super) use beam::{BeamMotion, offset};
 pub(super) use bend::{bend, bend_powers};
 pub(super) use frame::{FrameMotion, second_rate};
 pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};

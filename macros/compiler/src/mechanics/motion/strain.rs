@@ -22,6 +22,19 @@ pub(crate) struct Heading {
     pub(crate) slopes: Vec<(usize, Vector3)>,
 }
 
+impl Heading {
+    /// A vector that only turns.
+    pub(super) fn fixed(g: &mut Graph, value: Vector3) -> Self {
+        let zero = Vector3::zero(g);
+        Self {
+            value,
+            rate: zero,
+            second: zero,
+            slopes: Vec::new(),
+        }
+    }
+}
+
 /// The directions at the sections of a beam, in terms of the sections' own symbols.
 pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool) -> Vec<Heading> {
     let sections = context.sections;

@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Formatter};
 
+use super::super::expression::Expr;
 use super::super::mechanism::{Beam, Section};
 use super::Names;
 
@@ -28,6 +29,7 @@ impl Names<'_> {
             let Section {
                 mass,
                 inertia,
+                center,
                 stiffness,
                 against_strain,
                 twist,
@@ -37,12 +39,17 @@ impl Names<'_> {
             let [axial, shear_y, shear_z] = against_strain.each_ref().map(|own| self.scalar(own));
             let [width, height] = size.each_ref().map(|own| self.scalar(own));
             let [inertia_y, inertia_z] = inertia.each_ref().map(|own| self.scalar(own));
-            writeln!(
+            write!(
                 f,
                 "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {} size {width} {height}",
                 self.scalar(mass),
                 self.scalar(twist)
             )?;
+            if *center != [Expr::Number(0.0), Expr::Number(0.0)] {
+                let [y, z] = center.each_ref().map(|own| self.scalar(own));
+                write!(f, " center {y} {z}")?;
+            }
+            writeln!(f)?;
         }
         for station in &beam.stations {
             let body = &self.0.bodies[station.body.index()].name;

@@ -241,6 +241,8 @@ impl Resolver<'_> {
             "is not round"
         } else if declared.twist != Expr::Number(0.0) {
             "is twisted"
+        } else if declared.table.is_off_axis() {
+            "has mass off its axis"
         } else {
             return Some(());
         };

@@ -44,6 +44,8 @@ static KINDS: [Signature<Kind>; 4] = [
         "EA",
         "GAy",
         "GAz",
+        "center_y",
+        "center_z",
     ]),
 ];
 
@@ -96,9 +98,11 @@ impl Resolver<'_> {
                         .error_with_help(value.extent, message, help);
                     return None;
                 };
-                self.shaped(name, word, calls, material?)
+                let center = self.center(given)?;
+                self.shaped(name, word, calls, (material?, center))
             }
             (None, Some(_)) => {
+                let center = self.center(given)?;
                 let ends = self.numbers(given, by_numbers)?;
                 if matches!(ends[0], Expr::Number(0.0)) {
                     let message = "`beam` needs `mass_per_length`";
@@ -110,6 +114,7 @@ impl Resolver<'_> {
                     kind: Kind::Numbers,
                     ends: [ends.clone(), ends],
                     material: Properties::default(),
+                    centers: [center.clone(), center],
                     is_flat: false,
                 })
             }
@@ -148,12 +153,34 @@ impl Resolver<'_> {
         all.into_iter().collect()
     }
 
+    /// The centre of mass off the axis.
+    fn center(&mut self, given: &Arguments<'_>) -> Option<[Expr; 2]> {
+        let [y, z] = ["center_y", "center_z"].map(|name| match given.get(name) {
+            Some(value) => self.scalar_of(value, Dimension::LENGTH, &format!("`{name}`")),
+            None => Some(Expr::Number(0.0)),
+        });
+        Some([y?, z?])
+    }
+
+    /// The centre of mass given for the whole beam, which its sections must not give again.
+    fn only_center(&mut self, given: &Arguments<'_>, whole: &[Expr; 2]) -> Option<[Expr; 2]> {
+        let again = ["center_y", "center_z"].into_iter();
+        let Some(value) = again.filter_map(|name| given.get(name)).next() else {
+            return Some(whole.clone());
+        };
+        let message = "the centre of mass is given for the section and for the whole beam";
+        let help = "give it once: within `section(...)` it may change along the beam";
+        self.diagnostics
+            .error_with_help(value.extent, message, help);
+        None
+    }
+
     fn shaped(
         &mut self,
         name: &Ident,
         word: &Ident,
         calls: &[NamedCall],
-        material: Properties,
+        (material, center): (Properties, [Expr; 2]),
     ) -> Option<Table> {
         let [root, .., tip] = &match calls {
             [only] => [only, only],
@@ -174,11 +201,16 @@ impl Resolver<'_> {
         }
         let signature = self.signature(root, "section", &KINDS, &SYNONYMS)?;
         let kind = signature.read;
-        let mut ends = Vec::new();
+        let (mut ends, mut centers) = (Vec::new(), Vec::new());
         for end in calls {
             let arguments = self.arguments(end, signature);
             ends.push(self.dimensions(name, kind, &arguments));
+            centers.push(match &center {
+                [Expr::Number(0.0), Expr::Number(0.0)] => self.center(&arguments),
+                whole => self.only_center(&arguments, whole),
+            });
         }
+        let centers: Vec<[Expr; 2]> = centers.into_iter().collect::<Option<_>>()?;
         let ends: Vec<Vec<Expr>> = ends.into_iter().collect::<Option<_>>()?;
         if kind != Kind::Numbers {
             let missing = match (&material.density, &material.modulus) {
@@ -200,6 +232,7 @@ impl Resolver<'_> {
             kind,
             ends: [first, last],
             material,
+            centers: [centers.first()?.clone(), centers.last()?.clone()],
             is_flat,
         })
     }

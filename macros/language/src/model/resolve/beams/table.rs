@@ -30,6 +30,8 @@ pub(in crate::model::resolve) struct Table {
     /// The dimensions at the root and at the tip.
     pub(super) ends: [Vec<Expr>; 2],
     pub(super) material: Properties,
+    /// The centre of mass off the axis, at the root and at the tip.
+    pub(super) centers: [[Expr; 2]; 2],
     /// Whether a rectangle is wider than high at the nominal design.
     pub(super) is_flat: bool,
 }
@@ -76,6 +78,9 @@ impl Table {
 
     /// Whether the sections have inertia about the axis of the beam.
     pub(super) fn resists_turning(&self) -> bool {
+        if self.is_off_axis() {
+            return true;
+        }
         match self.kind {
             Kind::Numbers => self.ends[0][4..6]
                 .iter()
@@ -84,20 +89,20 @@ impl Table {
         }
     }
 
+    /// Whether mass is off the axis.
+    pub(super) fn is_off_axis(&self) -> bool {
+        self.centers
+            .as_flattened()
+            .iter()
+            .any(|own| *own != Expr::Number(0.0))
+    }
+
     /// The section at a fraction of the length.
     pub(super) fn section(&self, place: f64, twist: &Expr) -> Section {
         let [root, tip] = &self.ends;
-        let at: Vec<Expr> = root
-            .iter()
-            .zip(tip)
-            .map(|(root, tip)| match root == tip {
-                true => root.clone(),
-                false => add(
-                    multiply(Expr::Number(1.0 - place), root.clone()),
-                    multiply(Expr::Number(place), tip.clone()),
-                ),
-            })
-            .collect();
+        let both = root.iter().zip(tip);
+        let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, place)).collect();
+        let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], place));
         let twist = multiply(Expr::Number(place), twist.clone());
         if let [
             mass,
@@ -113,6 +118,7 @@ impl Table {
             return Section {
                 mass: mass.clone(),
                 inertia: [inertia_y.clone(), inertia_z.clone()],
+                center,
                 stiffness: [torsion.clone(), about_y.clone(), about_z.clone()],
                 against_strain: [axial.clone(), shear_y.clone(), shear_z.clone()],
                 twist,
@@ -139,6 +145,7 @@ impl Table {
             against_strain: [of(modulus, area.clone()), shear.clone(), shear],
             mass: of(density, area),
             inertia: [of(density, second_y.clone()), of(density, second_z.clone())],
+            center,
             stiffness: [
                 of(shear_modulus, torsion),
                 of(modulus, second_y),
@@ -233,6 +240,17 @@ impl Table {
                 (zero.clone(), [zero.clone(), zero.clone()], zero)
             }
         }
+    }
+}
+
+/// What changes linearly from the root to the tip.
+fn between(root: &Expr, tip: &Expr, place: f64) -> Expr {
+    match root == tip {
+        true => root.clone(),
+        false => add(
+            multiply(Expr::Number(1.0 - place), root.clone()),
+            multiply(Expr::Number(place), tip.clone()),
+        ),
     }
 }
 

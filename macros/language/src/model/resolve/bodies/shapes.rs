@@ -120,6 +120,8 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     "axial_stiffness",
     "shear_stiffness_y",
     "shear_stiffness_z",
+    "center_y",
+    "center_z",
     "bending",
     "bending_y",
     "bending_z",
