@@ -12,6 +12,8 @@ mod compared;
 mod composed;
 #[path = "beams/converged.rs"]
 mod converged;
+#[path = "beams/curved.rs"]
+mod curved;
 #[path = "beams/damped.rs"]
 mod damped;
 #[path = "beams/inside.rs"]

@@ -78,14 +78,17 @@ fn weight_twists() {
             body bar: beam(length: 0.7 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: 1e5 N*m^2,
                 stiffness_z: 1e5 N*m^2, torsion_stiffness: 4000 N*m^2, center_y: 50 mm, bending: 3);
             joint clamp: fixed from ground to bar;
-            point left: bar at tip at [0, 1 m, 0];
-            point right: bar at tip at [0, -1 m, 0];
+            body cross: massless;
+            joint weld: fixed from bar at tip to cross;
+            point left: cross at [0, 1 m, 0];
+            point right: cross at [0, -1 m, 0];
             output turn = (position(left).z - position(right).z) / 2 m;
             output moment = reaction_moment(clamp).x;
         }",
         None,
     );
-    let [turn, moment] = study.outputs().expect("outputs").values[..] else {
+    let values = study.outputs().expect("outputs").values;
+    let [turn, moment] = values[..] else {
         panic!("two outputs");
     };
     let about_axis = 9.81 * 0.05 * 0.7;

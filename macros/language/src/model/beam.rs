@@ -19,7 +19,7 @@ pub struct Beam {
     pub body: BodyId,
     /// Length, m.
     pub length: Expr,
-    /// Unit vectors in the frame of the root: along the beam, and across it, by which its sections are described.
+    /// Unit vectors in the frame of the root: along the beam there, and across it, by which its sections are described.
     pub axes: [Vector; 3],
     /// For each axis, the coordinates by which sections turn about it.
     pub coordinates: [Vec<CoordinateId>; 3],
@@ -83,6 +83,8 @@ pub struct Section {
     pub against_strain: [Expr; 3],
     /// The angle by which its axes are turned about the beam before it bends, rad.
     pub twist: Expr,
+    /// The angles by which the axis of the beam is turned about the second and the third axis before it bends, rad.
+    pub prebend: [Expr; 2],
     /// Extent along the second and along the third axis, m; zero if only numbers are known.
     pub size: [Expr; 2],
 }

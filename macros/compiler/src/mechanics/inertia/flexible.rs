@@ -10,7 +10,7 @@
 
 use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3};
 use crate::base::ids::BeamId;
-use crate::mechanics::motion::{BeamMotion, FrameMotion, offset, turned};
+use crate::mechanics::motion::{BeamMotion, FrameMotion, curved, offset, turned};
 use crate::mechanics::setup::{Context, Sections, weighted_sum};
 
 /// The mass distribution of a beam over the directions of its sections.
@@ -132,11 +132,9 @@ impl BeamInertia {
             this.spin.push(momentum);
             let about = [about_y, about_z].map(|own| g.mul(share, own));
             let [yy, yz, zz] = turned(g, about, twist);
-            this.turning.push(Matrix3([
-                Vector3([inertia, zero, zero]),
-                Vector3([zero, yy, yz]),
-                Vector3([zero, yz, zz]),
-            ]));
+            let own = [[inertia, zero, zero], [zero, yy, yz], [zero, yz, zz]];
+            let along_root = curved(g, values, section).turn_symmetric(g, own);
+            this.turning.push(Matrix3(along_root.map(Vector3)));
         }
         this
     }

@@ -28,6 +28,8 @@ fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>)
         .zip(stretched)
         .map(|((((_, weight, section), turn), slope), stretched)| {
             let bent = bend(g, Vector3(*turn), Vector3(*slope));
+            let back = motion::curved(g, values, section).transpose();
+            let bent = back.apply(g, bent);
             let twist = values.scalar(g, &section.twist);
             let [_, shear_y, shear_z] = stretched;
             let [bent_y, bent_z] = along_own_axes(g, [bent.0[1], bent.0[2]], twist);
@@ -135,10 +137,12 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
             let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
             let own: Vec<usize> = own.copied().collect();
             let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
-            let twist = context.values.scalar(g, &beam.sections[k].2.twist);
+            let section = &beam.sections[k].2;
+            let twist = context.values.scalar(g, &section.twist);
             let back = g.neg(twist);
             let [y, z] = along_own_axes(g, [stresses[1], stresses[2]], back);
-            let moment = Vector3([stresses[0], y, z]);
+            let curved = motion::curved(g, context.values, section);
+            let moment = curved.apply(g, Vector3([stresses[0], y, z]));
             let [turn, slope] = [&turns.rotations[k], &turns.slopes[k]].map(|own| Vector3(*own));
             let powers = bend_powers(g, turn, slope, moment);
             let turning = rows.rotations[k].iter().chain(&rows.slopes[k]);
@@ -189,11 +193,14 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
         .stiffness
         .each_ref()
         .map(|own| values.scalar(g, own));
+    let curved = motion::curved(g, values, &section);
+    let [x, y, z] = curved.transpose().apply(g, Vector3([x, y, z])).0;
     let own = along_own_axes(g, [y, z], twist);
     let own = [g.mul(about_y, own[0]), g.mul(about_z, own[1])];
     let back = g.neg(twist);
     let [my, mz] = along_own_axes(g, own, back);
     let mx = g.mul(against_twist, x);
+    let [mx, my, mz] = curved.apply(g, Vector3([mx, my, mz])).0;
     [bent[0], bent[1], bent[2], mx, my, mz]
 }
 

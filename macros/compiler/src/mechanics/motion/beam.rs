@@ -3,12 +3,13 @@
 use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3, derivatives_along};
 use crate::base::ids::BeamId;
 use crate::mechanics::setup::{CoordinateMotion, OfBeam, Values};
-use crate::model::mechanism::{Mechanism, Section};
+use crate::model::mechanism::Mechanism;
 
 use super::bend::{bend, bend_change, bend_powers, factor, only_axis};
 use super::frame::FrameMotion;
 use super::strain::Heading;
 use super::turned::Turned;
+use super::unbent::offset;
 
 /// Motion of the sections of a beam, in the axes of the motion of its root.
 #[derive(Clone, Debug)]
@@ -137,15 +138,6 @@ impl BeamMotion {
         let offsets = self.offsets.iter().map(|(k, arm)| (*k, arm));
         self.directions.iter().enumerate().chain(offsets)
     }
-}
-
-/// From the axis to the centre of mass of a section, along the axes that it has without twist.
-pub(crate) fn offset(g: &mut Graph, values: &Values, section: &Section) -> Vector3 {
-    let [y, z] = section.center.each_ref().map(|own| values.scalar(g, own));
-    let along = Matrix3::identity(g).0[0];
-    let twist = values.scalar(g, &section.twist);
-    let own = Vector3([g.zero(), y, z]);
-    Matrix3::rotation(g, along, twist).apply(g, own)
 }
 
 impl DirectionMotion {

@@ -10,9 +10,10 @@ mod step_axis;
 mod strain;
 mod tree;
 mod turned;
+mod unbent;
 mod wrench;
 
-pub(super) use beam::{BeamMotion, offset};
+pub(super) use beam::BeamMotion;
 pub(super) use bend::{bend, bend_powers};
 pub(super) use frame::{FrameMotion, second_rate};
 pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};
@@ -20,4 +21,5 @@ pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zer
 pub(super) use step_axis::StepAxis;
 pub(super) use strain::{strains, turned};
 pub(super) use tree::Tree;
+pub(super) use unbent::{curved, offset, unbent};
 pub(super) use wrench::Wrench;

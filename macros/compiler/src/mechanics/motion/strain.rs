@@ -11,8 +11,9 @@ use crate::base::ids::BeamId;
 use crate::mechanics::setup::{Context, OfBeam};
 
 use super::bend::{bend, bend_change};
+use super::unbent::curved;
 
-/// The direction of a beam at a section, along the axes of the section.
+/// The direction of a beam at a section, along the axes that the section has without twist and prebend.
 #[derive(Clone, Debug)]
 pub(crate) struct Heading {
     pub(crate) value: Vector3,
@@ -49,7 +50,9 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
         let sum = g.add(squares[0], squares[1]);
         let half = g.scale(0.5, sum);
         let longer = g.add(one, stretch);
-        let value = Vector3([g.sub(longer, half), across, up]);
+        let own = Vector3([g.sub(longer, half), across, up]);
+        let section = &context.mechanism.beams[id.index()].sections[k].2;
+        let value = curved(g, context.values, section).apply(g, own);
         let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
         let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
         let own: Vec<usize> = own.copied().collect();

@@ -33,6 +33,7 @@ impl Names<'_> {
                 stiffness,
                 against_strain,
                 twist,
+                prebend,
                 size,
             } = section;
             let [twisting, about_y, about_z] = stiffness.each_ref().map(|own| self.scalar(own));
@@ -48,6 +49,10 @@ impl Names<'_> {
             if *center != [Expr::Number(0.0), Expr::Number(0.0)] {
                 let [y, z] = center.each_ref().map(|own| self.scalar(own));
                 write!(f, " center {y} {z}")?;
+            }
+            if *prebend != [Expr::Number(0.0), Expr::Number(0.0)] {
+                let [y, z] = prebend.each_ref().map(|own| self.scalar(own));
+                write!(f, " prebend {y} {z}")?;
             }
             writeln!(f)?;
         }

@@ -98,12 +98,13 @@ impl Table {
     }
 
     /// The section at a fraction of the length.
-    pub(super) fn section(&self, place: f64, twist: &Expr) -> Section {
+    pub(super) fn section(&self, place: f64, turned: (&Expr, &[Expr; 2])) -> Section {
         let [root, tip] = &self.ends;
         let both = root.iter().zip(tip);
         let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, place)).collect();
         let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], place));
-        let twist = multiply(Expr::Number(place), twist.clone());
+        let share = |whole: &Expr| multiply(Expr::Number(place), whole.clone());
+        let (twist, prebend) = (share(turned.0), turned.1.each_ref().map(share));
         if let [
             mass,
             about_y,
@@ -122,6 +123,7 @@ impl Table {
                 stiffness: [torsion.clone(), about_y.clone(), about_z.clone()],
                 against_strain: [axial.clone(), shear_y.clone(), shear_z.clone()],
                 twist,
+                prebend,
                 size: [Expr::Number(0.0), Expr::Number(0.0)],
             };
         }
@@ -152,6 +154,7 @@ impl Table {
                 of(modulus, second_z),
             ],
             twist,
+            prebend,
             size: self.size(&at),
         }
     }

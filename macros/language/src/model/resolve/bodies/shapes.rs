@@ -129,6 +129,8 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     "shear",
     "stretch",
     "twist",
+    "prebend_y",
+    "prebend_z",
     "lag",
     "points",
 ])
