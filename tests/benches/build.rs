@@ -92,6 +92,7 @@ fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
         declaration,
         Limits {
             explicit_partials,
+            partial_operations: usize::MAX,
             motion_linear: 0,
         },
     )

@@ -6,6 +6,8 @@
 
 #[path = "beams/bent.rs"]
 mod bent;
+#[path = "beams/buckled.rs"]
+mod buckled;
 #[path = "beams/compared.rs"]
 mod compared;
 #[path = "beams/composed.rs"]
@@ -26,6 +28,8 @@ mod poses;
 mod required;
 #[path = "beams/rotating.rs"]
 mod rotating;
+#[path = "beams/sampled.rs"]
+mod sampled;
 #[path = "beams/strained.rs"]
 mod strained;
 #[path = "beams/twisted.rs"]

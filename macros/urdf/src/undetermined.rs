@@ -11,6 +11,7 @@ use crate::write::declaration;
 /// Leaves out everything that only a solver needs.
 const LIMITS: Limits = Limits {
     explicit_partials: 0,
+    partial_operations: usize::MAX,
     motion_linear: 0,
 };
 

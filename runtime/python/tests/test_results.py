@@ -299,6 +299,7 @@ ELSEWHERE = {
         "flutter_onsets": "flutter_onsets",
     },
     "Branches": {"branches": "branches"},
+    "Convergence": {"changes.answer": "names", "changes.value": "values", "changes.relative": "changes"},
     "Branch": {
         "points.equilibrium": "equilibria",
         "points.tangent": "tangents",

@@ -64,6 +64,7 @@ impl Machine {
         // The compiler omits the partial derivatives of large mechanisms; none are used here.
         let limits = Limits {
             explicit_partials: 0,
+            partial_operations: usize::MAX,
             motion_linear: 0,
         };
         let compilation = compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes}"));

@@ -27,6 +27,7 @@ impl Compiled {
         let tokens = text.parse().expect("tokens");
         let none = Limits {
             explicit_partials: 0,
+            partial_operations: usize::MAX,
             motion_linear: 0,
         };
         let found = compile(tokens, none).map_err(|mistakes| {

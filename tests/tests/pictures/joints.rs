@@ -135,6 +135,7 @@ fn outputs(
     text.insert_str(end, &outputs.collect::<String>());
     let limits = Limits {
         explicit_partials: 0,
+        partial_operations: usize::MAX,
         motion_linear: 0,
     };
     let mut compilation = compile_text(&text, limits).ok()?;

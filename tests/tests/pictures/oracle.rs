@@ -200,6 +200,7 @@ fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
 fn compiled(model: &Model, seed: u64) -> Option<(Compilation, Case)> {
     let limits = Limits {
         explicit_partials: 0,
+        partial_operations: usize::MAX,
         motion_linear: 0,
     };
     let mut compilation = compile_text(&declaration(model), limits).ok()?;

@@ -35,6 +35,7 @@ fn imported(text: &str, options: &Options) -> Result<(Import, usize), ImportErro
     let tokens = import.declaration.parse().expect("tokens");
     let limits = Limits {
         explicit_partials: 0,
+        partial_operations: usize::MAX,
         motion_linear: 0,
     };
     let compiled = compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes}"));

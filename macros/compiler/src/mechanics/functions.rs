@@ -86,6 +86,9 @@ pub struct Limits {
     /// matrices are written out. Larger mechanisms compute them column by column from directional derivatives, because
     /// the generated code would grow with the cube of their size.
     pub explicit_partials: usize,
+    /// Maximum number of operations of these, for the same reason: a beam with ten coordinates in space takes 160,000, a
+    /// chain of 16 bodies 16,000.
+    pub partial_operations: usize,
     /// Maximum number of operations up to which the three matrices linearised along any motion are written out; a robot
     /// with 32 joints takes 40,000. Above this limit they are differentiated one column at a time.
     pub motion_linear: usize,
@@ -95,6 +98,7 @@ impl Limits {
     /// No limit: everything is written out.
     pub const NONE: Self = Self {
         explicit_partials: usize::MAX,
+        partial_operations: usize::MAX,
         motion_linear: usize::MAX,
     };
 }
@@ -103,6 +107,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             explicit_partials: 8192,
+            partial_operations: 30_000,
             motion_linear: 50_000,
         }
     }

@@ -1,6 +1,6 @@
 //! The kernels of the runtime's contract: the expressions that each returns, and their order.
 
-use crate::algebra::{Array, ExprId, Function, Graph, Parameter, substitute};
+use crate::algebra::{Array, ExprId, Function, Graph, Parameter, cost, substitute};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::Limits;
 use crate::mechanics::kernel_name::KernelName;
@@ -54,6 +54,10 @@ pub(crate) fn kernels(
             .iter()
             .flat_map(|list| linear.partials(g, n, list))
             .collect()
+    });
+    let partials = partials.filter(|arrays| {
+        let all: Vec<ExprId> = arrays.iter().flat_map(|own| own.values.clone()).collect();
+        cost(g, &all).operations <= limits.partial_operations
     });
     let mode_functional = mode_functional(g, s, e);
     let mode_gradient = state_gradient(g, s, mode_functional);

@@ -2,10 +2,10 @@
 //!
 //! # Explicit partials are written out only for small mechanisms
 //!
-//! Their number grows with the cube of the size. Beyond `Limits::explicit_partials` entries the trait's own method
-//! takes them one direction at a time from `linear_along`; large mechanisms run on the adjoint anyway. `motion_linear`
-//! grows only with the square, and slowly for trees of many branches; its limit is an operation count, so a walking
-//! robot of 32 joints has it.
+//! Their number grows with the cube of the size. Beyond `Limits::explicit_partials` entries or
+//! `Limits::partial_operations` the trait's own method takes them one direction at a time from `linear_along`; large
+//! mechanisms run on the adjoint anyway. `motion_linear` grows only with the square, and slowly for trees of many
+//! branches; its limit is an operation count, so a walking robot of 32 joints has it.
 
 mod adjoint;
 mod conditions;
