@@ -14,6 +14,8 @@ mod compared;
 mod composed;
 #[path = "beams/converged.rs"]
 mod converged;
+#[path = "beams/coupled.rs"]
+mod coupled;
 #[path = "beams/curved.rs"]
 mod curved;
 #[path = "beams/damped.rs"]

@@ -32,6 +32,7 @@ impl Names<'_> {
                 center,
                 stiffness,
                 against_strain,
+                coupling,
                 twist,
                 prebend,
                 size,
@@ -53,6 +54,9 @@ impl Names<'_> {
             if *prebend != [Expr::Number(0.0), Expr::Number(0.0)] {
                 let [y, z] = prebend.each_ref().map(|own| self.scalar(own));
                 write!(f, " prebend {y} {z}")?;
+            }
+            for (i, j, own) in coupling {
+                write!(f, " couples {i} {j} by {}", self.scalar(own))?;
             }
             writeln!(f)?;
         }

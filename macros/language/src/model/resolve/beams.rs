@@ -2,6 +2,7 @@
 
 pub(super) mod declared;
 mod materials;
+mod matrix;
 mod sections;
 mod stations;
 pub(super) mod table;
@@ -252,7 +253,10 @@ impl Resolver<'_> {
             let [_, about_y, about_z] = &section.stiffness;
             let [_, shear_y, shear_z] = &section.against_strain;
             let [inertia_y, inertia_z] = &section.inertia;
-            about_y == about_z && shear_y == shear_z && inertia_y == inertia_z
+            !declared.table.is_coupled()
+                && about_y == about_z
+                && shear_y == shear_z
+                && inertia_y == inertia_z
         });
         let [_, y, z] = declared.counts;
         let problem = if y != z {
@@ -274,12 +278,17 @@ impl Resolver<'_> {
         None
     }
 
-    /// Shear that follows from the moments is derived for a beam that was straight.
+    /// Shear that follows from the moments is derived for straight beams of sections that couple no strains.
     fn require_unsheared(&mut self, given: &Arguments<'_>, declared: &Declared) -> Option<()> {
-        if !declared.static_shear || !declared.is_curved().contains(&true) {
+        let message = if !declared.static_shear {
             return Some(());
-        }
-        let message = "`shear: static` takes a beam that is straight before it is loaded";
+        } else if declared.is_curved().contains(&true) {
+            "`shear: static` takes a beam that is straight before it is loaded"
+        } else if declared.table.is_coupled() {
+            "`shear: static` takes a section whose strains are not coupled"
+        } else {
+            return Some(());
+        };
         let help = "give shear coordinates of its own: `shear: 4`";
         let at = given.get("shear")?;
         self.diagnostics.error_with_help(at.extent, message, help);

@@ -32,6 +32,8 @@ pub(in crate::model::resolve) struct Table {
     pub(super) material: Properties,
     /// The centre of mass off the axis, at the root and at the tip.
     pub(super) centers: [[Expr; 2]; 2],
+    /// Stiffness that couples strains, at the root and at the tip; see [`Section::coupling`].
+    pub(super) coupling: [Vec<(usize, usize, Expr)>; 2],
     /// Whether a rectangle is wider than high at the nominal design.
     pub(super) is_flat: bool,
 }
@@ -65,6 +67,9 @@ impl Table {
             "shear stiffness along z" => ["shear_stiffness_z", "GAz"],
             _ => ["mass_per_length", "mass"],
         };
+        if self.is_coupled() {
+            return "it is on the diagonal of `stiffness`".to_owned();
+        }
         format!("give `{argument}`, or `{short}` within `section(...)`")
     }
 
@@ -89,6 +94,11 @@ impl Table {
         }
     }
 
+    /// Whether the stiffness is a matrix.
+    pub(super) fn is_coupled(&self) -> bool {
+        self.coupling.iter().any(|end| !end.is_empty())
+    }
+
     /// Whether mass is off the axis.
     pub(super) fn is_off_axis(&self) -> bool {
         self.centers
@@ -103,6 +113,11 @@ impl Table {
         let both = root.iter().zip(tip);
         let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, place)).collect();
         let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], place));
+        let pairs = self.coupling[0].iter().zip(&self.coupling[1]);
+        let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, place)));
+        let coupling = pairs
+            .filter(|(.., own)| *own != Expr::Number(0.0))
+            .collect();
         let share = |whole: &Expr| multiply(Expr::Number(place), whole.clone());
         let (twist, prebend) = (share(turned.0), turned.1.each_ref().map(share));
         if let [
@@ -122,6 +137,7 @@ impl Table {
                 center,
                 stiffness: [torsion.clone(), about_y.clone(), about_z.clone()],
                 against_strain: [axial.clone(), shear_y.clone(), shear_z.clone()],
+                coupling,
                 twist,
                 prebend,
                 size: [Expr::Number(0.0), Expr::Number(0.0)],
@@ -153,6 +169,7 @@ impl Table {
                 of(modulus, second_y),
                 of(modulus, second_z),
             ],
+            coupling,
             twist,
             prebend,
             size: self.size(&at),

@@ -120,6 +120,7 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     "axial_stiffness",
     "shear_stiffness_y",
     "shear_stiffness_z",
+    "stiffness",
     "center_y",
     "center_z",
     "bending",
