@@ -31,17 +31,25 @@ pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) ->
         .collect();
     let bodies = mechanism.bodies.iter().map(|body| fixing.body(body));
     let mut bodies: Vec<Body> = bodies.collect();
+    let mut sections = Vec::new();
+    let mut spins = Vec::new();
     for (index, beam) in mechanism.beams.iter().enumerate() {
-        for slice in fixing.slices(beam) {
-            let (from, to) = (Frame::Body(beam.body.index()), Frame::Body(bodies.len()));
-            joints.push(Joint {
-                flexure: Some(Flexure {
-                    beam: index,
-                    place: slice.0,
-                }),
-                ..Joint::new("slice", Word::Fixed, Vec::new(), from, to)
-            });
-            bodies.push(slice.1);
+        let (own, spin) = fixing.slices(index, beam, &mut bodies, &mut joints, &mut speeds);
+        sections.push(own);
+        spins.push(spin);
+    }
+    let points = mechanism.points.iter().map(|point| fixing.point(point));
+    let mut points: Vec<Point> = points.collect();
+    let mut forces = Vec::new();
+    for force in &mechanism.forces {
+        match &force.law {
+            declared::ForceLaw::Distributed { .. } => {
+                fixing.distribute(force, &sections, &mut points, &mut forces);
+            }
+            law => forces.push(Force {
+                name: force.name.to_string(),
+                law: fixing.law(law),
+            }),
         }
     }
     let inputs = (0..speeds.len())
@@ -59,26 +67,12 @@ pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) ->
         beams: mechanism
             .beams
             .iter()
-            .map(|beam| fixing.beam(beam))
+            .zip(spins)
+            .map(|(beam, spin)| fixing.beam(beam, spin))
             .collect(),
         joints,
-        points: mechanism
-            .points
-            .iter()
-            .map(|point| Point {
-                name: point.name.to_string(),
-                frame: frame(point.frame),
-                placement: fixing.placement(&point.placement),
-            })
-            .collect(),
-        forces: mechanism
-            .forces
-            .iter()
-            .map(|force| Force {
-                name: force.name.to_string(),
-                law: fixing.law(&force.law),
-            })
-            .collect(),
+        points,
+        forces,
     };
     (model, speeds)
 }
@@ -267,71 +261,190 @@ impl Fixing<'_> {
         }
     }
 
+    fn point(&self, point: &declared::Point) -> Point {
+        Point {
+            name: point.name.to_string(),
+            frame: frame(point.frame),
+            placement: self.placement(&point.placement),
+        }
+    }
+
     /// The coordinates of a beam, as steps of the joint to its first station.
     fn bends(&self, beam: &declared::Beam) -> Vec<Step> {
         let about = |axis: usize| {
             let axes = self.numbers(&beam.axes[axis]);
             beam.coordinates[axis].iter().map(move |id| (axes, id))
         };
-        let steps = (0..3).flat_map(about).map(|(axis, id)| {
+        let along = |axis: usize| {
+            let axes = self.numbers(&beam.axes[axis]);
+            beam.strains[axis].iter().map(move |id| (axes, id))
+        };
+        let all = (0..3).flat_map(about).chain((0..3).flat_map(along));
+        let steps = all.map(|(axis, id)| {
             let name = &self.mechanism.coordinates[id.index()].name;
             Step::new(Motion::Turn, axis).named(&name.to_string())
         });
         steps.collect()
     }
 
-    fn beam(&self, beam: &declared::Beam) -> Beam {
+    fn beam(&self, beam: &declared::Beam, spin: Option<Coordinate>) -> Beam {
         let section = |(place, weight, section): &(f64, f64, declared::Section)| Section {
             place: *place,
             weight: *weight,
             twist: self.value(&section.twist),
             stiffness: self.vector(&section.stiffness),
+            against_strain: self.vector(&section.against_strain),
         };
         Beam {
             name: self.mechanism.bodies[beam.body.index()].name.to_string(),
             joint: beam.stations[0].joint.index(),
             counts: beam.coordinates.each_ref().map(Vec::len),
+            strains: beam.strains.each_ref().map(Vec::len),
+            static_shear: beam.static_shear,
             length: self.value(&beam.length),
             axes: beam.axes.each_ref().map(|axis| self.numbers(axis)),
             sections: beam.sections.iter().map(section).collect(),
             lag: self.value(&beam.lag),
+            spin,
         }
     }
 
-    /// The mass of each section at a point of quadrature, as a flat body across the beam, and its place.
-    fn slices(&self, beam: &declared::Beam) -> Vec<(f64, Body)> {
+    /// Adds the mass of each section at a point of quadrature, as a flat body across the beam. If the beam spins, the section
+    /// is a massless body that does not, and the flat body turns on it. Gives the bodies that are sections, and one of the
+    /// coordinates of spinning.
+    fn slices(
+        &self,
+        index: usize,
+        beam: &declared::Beam,
+        bodies: &mut Vec<Body>,
+        joints: &mut Vec<Joint>,
+        speeds: &mut Vec<f64>,
+    ) -> (Vec<usize>, Option<Coordinate>) {
+        let (mut sections, mut spin) = (Vec::new(), None);
+        let turns = self.number(&beam.spin) != 0.0;
+        let axis = self.numbers(&beam.axes[0]);
+        for (place, weight, section) in &beam.sections {
+            let carrier = bodies.len();
+            sections.push(carrier);
+            let flexure = Flexure {
+                beam: index,
+                place: *place,
+            };
+            joints.push(Joint {
+                flexure: Some(flexure),
+                ..Joint::new(
+                    "section",
+                    Word::Fixed,
+                    Vec::new(),
+                    Frame::Body(beam.body.index()),
+                    Frame::Body(carrier),
+                )
+            });
+            if turns {
+                bodies.push(Body {
+                    name: "section".to_owned(),
+                    parts: Vec::new(),
+                });
+                spin = spin.or(Some(Coordinate {
+                    joint: joints.len(),
+                    step: 0,
+                }));
+                let step = Step::new(Motion::Turn, axis).driven(speeds.len(), 1.0);
+                speeds.push(self.number(&beam.spin));
+                joints.push(Joint::new(
+                    "spin",
+                    Word::Revolute,
+                    vec![step],
+                    Frame::Body(carrier),
+                    Frame::Body(bodies.len()),
+                ));
+            }
+            bodies.push(self.slice(beam, *weight, section));
+        }
+        (sections, spin)
+    }
+
+    fn slice(&self, beam: &declared::Beam, weight: f64, section: &declared::Section) -> Body {
         let axes = beam.axes.each_ref().map(|axis| self.numbers(axis));
         let length = self.number(&beam.length);
-        let slice = |(place, weight, section): &(f64, f64, declared::Section)| {
-            let [second, third] = section.inertia.each_ref().map(|own| self.number(own));
-            let about = [second + third, second, third];
-            let inertia = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| {
-                let terms = axes.iter().zip(about).map(|(e, own)| own * e[i] * e[j]);
-                Value::Number(length * weight * terms.sum::<f64>())
-            });
-            let [y, z] = section.center.each_ref().map(|own| self.number(own));
-            let shape = Shape::Rigid {
-                mass: Value::Number(length * weight * self.number(&section.mass)),
-                center: [0, 1, 2].map(|i| Value::Number(y * axes[1][i] + z * axes[2][i])),
-                inertia,
-                about: None,
-            };
-            let placement = Placement {
-                offset: ORIGIN,
-                rotations: vec![(axes[0], self.value(&section.twist))],
-            };
-            let part = Part {
-                hole: false,
-                shape,
-                placement,
-            };
-            let body = Body {
-                name: "slice".to_owned(),
-                parts: vec![part],
-            };
-            (*place, body)
+        let [second, third] = section.inertia.each_ref().map(|own| self.number(own));
+        let about = [second + third, second, third];
+        let inertia = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| {
+            let terms = axes.iter().zip(about).map(|(e, own)| own * e[i] * e[j]);
+            Value::Number(length * weight * terms.sum::<f64>())
+        });
+        let [y, z] = section.center.each_ref().map(|own| self.number(own));
+        let shape = Shape::Rigid {
+            mass: Value::Number(length * weight * self.number(&section.mass)),
+            center: [0, 1, 2].map(|i| Value::Number(y * axes[1][i] + z * axes[2][i])),
+            inertia,
+            about: None,
         };
-        beam.sections.iter().map(slice).collect()
+        let placement = Placement {
+            offset: ORIGIN,
+            rotations: vec![(axes[0], self.value(&section.twist))],
+        };
+        let part = Part {
+            hole: false,
+            shape,
+            placement,
+        };
+        Body {
+            name: "slice".to_owned(),
+            parts: vec![part],
+        }
+    }
+
+    /// Adds forces per length as a sum of forces at the points of quadrature.
+    fn distribute(
+        &self,
+        force: &declared::Force,
+        sections: &[Vec<usize>],
+        points: &mut Vec<Point>,
+        forces: &mut Vec<Force>,
+    ) {
+        let declared::ForceLaw::Distributed {
+            on,
+            force: fixed,
+            follower,
+            damping,
+        } = &force.law
+        else {
+            return;
+        };
+        let beams = self.mechanism.beams.iter().zip(sections);
+        for (beam, own) in beams.filter(|(beam, _)| beam.whole == *on) {
+            let axes = beam.axes.each_ref().map(|axis| self.numbers(axis));
+            let along = self.numbers(follower);
+            let following = std::array::from_fn(|i| (0..3).map(|k| along[k] * axes[k][i]).sum());
+            for ((_, weight, _), &body) in beam.sections.iter().zip(own) {
+                let share = weight * self.number(&beam.length);
+                let scaled = |force: [f64; 3]| force.map(|own| Value::Number(share * own));
+                let load = |force, following| ForceLaw::Load {
+                    point: points.len(),
+                    force: scaled(force),
+                    moment: ORIGIN,
+                    following,
+                };
+                let drag = ForceLaw::Drag {
+                    point: points.len(),
+                    damping: Value::Number(share * self.number(damping)),
+                    turning_damping: Value::Number(0.0),
+                };
+                let laws = [
+                    load(self.numbers(fixed), false),
+                    load(following, true),
+                    drag,
+                ];
+                let name = || force.name.to_string();
+                forces.extend(laws.map(|law| Force { name: name(), law }));
+                points.push(Point {
+                    name: name(),
+                    frame: Frame::Body(body),
+                    placement: Placement::NONE,
+                });
+            }
+        }
     }
 
     fn coordinate(&self, id: CoordinateId) -> Coordinate {
@@ -339,7 +452,10 @@ impl Fixing<'_> {
         let declared = &self.mechanism.joints[joint];
         let steps = declared.steps.iter().map(|step| step.coordinate);
         let beam = declared.flexure.map(|(beam, _)| beam.index());
-        let bends = beam.map(|beam| self.mechanism.beams[beam].coordinates.concat());
+        let bends = beam.map(|beam| {
+            let beam = &self.mechanism.beams[beam];
+            [beam.coordinates.concat(), beam.strains.concat()].concat()
+        });
         let mut all = steps.chain(bends.unwrap_or_default());
         let step = all.position(|own| own == id).expect("its joint has it");
         Coordinate { joint, step }
@@ -427,9 +543,7 @@ impl Fixing<'_> {
                 damping: v(damping),
                 turning_damping: v(turning_damping),
             },
-            declared::ForceLaw::Distributed { .. } => {
-                unreachable!("no machine that the oracle evaluates has forces along beams")
-            }
+            declared::ForceLaw::Distributed { .. } => unreachable!("it is many laws"),
         }
     }
 

@@ -4,6 +4,8 @@
 //! The reference values are those of `tests/truth/flexible`. With ten coordinates the lowest modes are exact to rounding
 //! and each higher one is less so; the bars say how much, mode by mode.
 
+#[path = "beams/bars.rs"]
+mod bars;
 #[path = "beams/bent.rs"]
 mod bent;
 #[path = "beams/buckled.rs"]
@@ -20,10 +22,14 @@ mod coupled;
 mod curved;
 #[path = "beams/damped.rs"]
 mod damped;
+#[path = "beams/following.rs"]
+mod following;
 #[path = "beams/inside.rs"]
 mod inside;
 #[path = "beams/offset.rs"]
 mod offset;
+#[path = "beams/orbits.rs"]
+mod orbits;
 #[path = "beams/poses.rs"]
 mod poses;
 #[path = "beams/required.rs"]

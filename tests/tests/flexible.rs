@@ -3,6 +3,8 @@
 
 #[path = "flexible/judged.rs"]
 mod judged;
+#[path = "flexible/moving.rs"]
+mod moving;
 #[path = "flexible/objective.rs"]
 mod objective;
 #[path = "flexible/offset.rs"]
@@ -13,3 +15,5 @@ mod outputs;
 mod random;
 #[path = "flexible/special.rs"]
 mod special;
+#[path = "flexible/spinning.rs"]
+mod spinning;

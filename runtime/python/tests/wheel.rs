@@ -154,6 +154,7 @@ fn the_module_passes_its_tests() {
         "scipy",
     ];
     let files = [
+        "test_beams.py",
         "test_documents.py",
         "test_equilibria.py",
         "test_forced.py",

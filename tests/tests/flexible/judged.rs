@@ -27,7 +27,8 @@ impl Machine {
         let tokens = text
             .parse()
             .unwrap_or_else(|error| panic!("{error}\n{text}"));
-        let compiled = compile(tokens, Limits::NONE).map_err(|mistakes| mistakes.to_string())?;
+        let compiled =
+            compile(tokens, Limits::default()).map_err(|mistakes| mistakes.to_string())?;
         Ok(Self {
             compiled,
             text: text.to_owned(),
@@ -44,7 +45,7 @@ impl Machine {
         unknowns.map(|unknown| unknown.role).collect()
     }
 
-    /// Random: beams turn by half a radian or less per coordinate.
+    /// Random: beams turn by half a radian or less per coordinate, and stretch and shear by a tenth.
     pub(crate) fn state(&self, random: &mut Random) -> State {
         let mechanism = &self.compiled.mechanism;
         let n = self.roles().len();
@@ -53,10 +54,13 @@ impl Machine {
             .iter()
             .flat_map(|beam| beam.coordinates.concat())
             .collect();
+        let strains = mechanism.beams.iter().map(|beam| beam.strains.concat());
+        let strains: Vec<_> = strains.flatten().collect();
         let mut all = |limit: f64| (0..n).map(|_| random.between(-limit, limit)).collect();
         let (acceleration, velocity): (Vec<f64>, Vec<f64>) = (all(3.0), all(2.0));
         let q = self.roles().into_iter().map(|role| match role {
             Role::Position(id) if beams.contains(&id) => random.between(-0.5, 0.5),
+            Role::Position(id) if strains.contains(&id) => random.between(-0.1, 0.1),
             _ => random.between(-0.9, 0.9),
         });
         let q = q.collect();

@@ -6,12 +6,13 @@ use eigentol_oracle::random::Random;
 use crate::judged::{Machine, assert_close, judge};
 
 const SECTIONS: &str = "section: section(mass: 0.6 kg/m, EIy: 9 N*m^2, EIz: 16 N*m^2, GJ: 5 N*m^2, inertia_y: 0.01 kg*m,
-        inertia_z: 0.02 kg*m, center_y: c, center_z: -0.04 m)
+        inertia_z: 0.02 kg*m, EA: 90 N, GAy: 50 N, GAz: 70 N, center_y: c, center_z: -0.04 m)
     to section(mass: 0.4 kg/m, EIy: 6 N*m^2, EIz: 11 N*m^2, GJ: 4 N*m^2, inertia_y: 0.01 kg*m, inertia_z: 0.01 kg*m,
-        center_y: 0.01 m)";
+        EA: 80 N, GAy: 40 N, GAz: 60 N, center_y: 0.01 m)";
 
-/// In space, in one plane, only in torsion.
-const WAYS: [&str; 3] = [
+/// In space, with strains, in one plane, only in torsion.
+const WAYS: [&str; 4] = [
+    "bending: 2, torsion: 1, shear: 1, stretch: 1, lag: 0.02 s",
     "bending: 2, torsion: 1, twist: 0.5 rad",
     "bending_y: 3",
     "torsion: 2, bending_y: 0, bending_z: 0, twist: 0.3 rad",

@@ -8,9 +8,10 @@ use eigentol_oracle::energy;
 use eigentol_oracle::kernels::Kernels;
 use eigentol_oracle::model::Model;
 use eigentol_oracle::random::Random;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use crate::judged::{Machine, State, assert_close, judge, largest};
+use crate::moving::rate;
 
 const SPATIAL: &str = "mass_per_length: 0.6 kg/m, stiffness_y: 9 N*m^2, stiffness_z: 16 N*m^2, \
     torsion_stiffness: 5 N*m^2, inertia_y: 0.01 kg*m, inertia_z: 0.02 kg*m, bending: 2, torsion: 1, twist: 0.5 rad";
@@ -123,15 +124,6 @@ fn consistent(text: &str) {
     }
 }
 
-fn accelerations(machine: &Machine, state: &State) -> Vec<f64> {
-    let found = machine.evaluate("motion", &[&state.velocity, &state.q, &state.u, &state.b]);
-    let n = state.q.len();
-    let mass = DMatrix::from_row_slice(n, n, &found[0]);
-    let force = DVector::from_column_slice(&found[1]);
-    let solved = mass.cholesky().expect("a mass matrix").solve(&force);
-    solved.as_slice().to_vec()
-}
-
 /// Momentum along a direction in which the whole machine can slide: what a unit of its speed adds to the energy.
 fn momentum(model: &Model, motion: [&[f64]; 2], slide: usize) -> f64 {
     let kinetic = |velocity: &[f64]| energy::energies(model, [velocity, motion[1]], &[], &[])[0];
@@ -140,28 +132,6 @@ fn momentum(model: &Model, motion: [&[f64]; 2], slide: usize) -> f64 {
     let mut alone = vec![0.0; slid.len()];
     alone[slide] = 1.0;
     kinetic(&slid) - kinetic(motion[0]) - kinetic(&alone)
-}
-
-/// The rate along the motion that the machine's own accelerations give.
-fn rate(machine: &Machine, state: &State, model: &Model, of: impl Fn([&[f64]; 2]) -> f64) -> f64 {
-    let acceleration = accelerations(machine, state);
-    let at = |h: f64| {
-        let (mut velocity, mut q) = (state.velocity.clone(), state.q.clone());
-        for k in 0..q.len() {
-            q[k] += h * state.velocity[k] + h * h * acceleration[k] / 2.0;
-            velocity[k] += h * acceleration[k];
-        }
-        let ordered = |values: &[f64]| {
-            let mut list = vec![0.0; values.len()];
-            for (k, place) in machine.order(model).into_iter().enumerate() {
-                list[place] = values[k];
-            }
-            list
-        };
-        of([&ordered(&velocity), &ordered(&q)])
-    };
-    let central = |h: f64| (at(h) - at(-h)) / (2.0 * h);
-    (4.0 * central(1e-4) - central(2e-4)) / 3.0
 }
 
 #[test]

@@ -6,20 +6,80 @@ use super::poses::{Four, Poses, get, index, multiply, quaternion, translation, t
 use crate::matrices::Scalar;
 use crate::model::{Beam, Coordinate, Model, Section};
 
-/// The frame of a section in that of the root: turned, and moved along the integral of the turned axis of the beam.
+/// The frame of a section in that of the root: turned, and moved along the integral of the direction of the beam.
 pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> Four<D> {
     let length = get(beam.length, design);
     let mut position = [D::zero(); 3];
-    for (own, weight) in beam.sections.iter().zip(beam.weights_to(place)) {
+    let points = beam.sections.iter().zip(beam.weights_to(place));
+    for (k, (own, weight)) in points.enumerate() {
         let turned = rotation(beam, beam.turn(q, own.place));
-        for (row, sum) in position.iter_mut().enumerate() {
-            for (entry, component) in turned[row].iter().zip(beam.axes[0]) {
-                *sum += length * *entry * (component * weight);
+        let heading = heading(beam, q, k, design);
+        let direction: [D; 3] =
+            std::array::from_fn(|i| (0..3).map(|c| heading[c] * beam.axes[c][i]).sum());
+        for (sum, row) in position.iter_mut().zip(&turned) {
+            for (entry, component) in row.iter().zip(direction) {
+                *sum += length * *entry * component * weight;
             }
         }
     }
     let turned = rotation(beam, beam.turn(q, place));
     multiply(&translation(position), &turned)
+}
+
+/// The direction of the beam along the axes of a section: `(1 + e - |g|^2 / 2, g2, g3)`.
+fn heading<D: Scalar>(beam: &Beam, q: &[D], k: usize, design: &[D]) -> [D; 3] {
+    let [stretch, second, third] = stretch_and_shear(beam, q, k, design);
+    let shortening = (second * second + third * third) * 0.5;
+    [stretch + 1.0 - shortening, second, third]
+}
+
+/// Stretch, and shear along the second and the third axis of the beam, at a point of quadrature.
+fn stretch_and_shear<D: Scalar>(beam: &Beam, q: &[D], k: usize, design: &[D]) -> [D; 3] {
+    let section = &beam.sections[k];
+    let own = beam.strain(q, section.place);
+    if !beam.static_shear {
+        return own;
+    }
+    let length = get(beam.length, design);
+    let bent = curvature(beam, q, section.place, design);
+    let [now, change] = [bent.map(|own| own.re), bent.map(|own| own.eps)];
+    // the derivative of D k, with D between the points of quadrature the polynomial through its values there
+    let mut moment = moments(section, change, design);
+    for (other, share) in beam.sections.iter().zip(beam.slopes_at(section.place)) {
+        for (sum, part) in moment.iter_mut().zip(moments(other, now, design)) {
+            *sum += part * share;
+        }
+    }
+    // shear forces are the change of the moments, (-M3', M2'); what has no stiffness is not to shear
+    let force = [-moment[1] / length, moment[0] / length];
+    let twist = get(section.twist, design);
+    let mut own_shear = turned_back(force, twist);
+    for (shear, &stiffness) in own_shear.iter_mut().zip(&section.against_strain[1..]) {
+        let stiffness = get(stiffness, design);
+        *shear = match stiffness.re() {
+            0.0 => D::zero(),
+            _ => *shear / stiffness,
+        };
+    }
+    let [second, third] = turned_back(own_shear, -twist);
+    [own[0], second, third]
+}
+
+/// Bending moments about the second and the third axis of the beam.
+fn moments<D: Scalar>(section: &Section, bent: [D; 3], design: &[D]) -> [D; 2] {
+    let twist = get(section.twist, design);
+    let [second, third] = turned_back([bent[1], bent[2]], twist);
+    let [_, about_second, about_third] = section.stiffness.map(|k| get(k, design));
+    turned_back([about_second * second, about_third * third], -twist)
+}
+
+/// Components along axes that are turned by an angle.
+fn turned_back<D: Scalar>([second, third]: [D; 2], angle: D) -> [D; 2] {
+    let (sine, cosine) = angle.sin_cos();
+    [
+        cosine * second + sine * third,
+        cosine * third - sine * second,
+    ]
 }
 
 /// Rotation by an angle in a plane; in space by the quaternion `(1, turn / 2)` over its norm.
@@ -42,20 +102,21 @@ fn rotation<D: Scalar>(beam: &Beam, turn: [D; 3]) -> Four<D> {
     quaternion(w, [x, y, z])
 }
 
-/// `1/2 k . D k` per unit of length, summed over all beams, of any three numbers `k` per section along its own axes.
+/// `1/2 k . D k` per unit of length, summed over all beams, of any six numbers `k` per section along its own axes.
 fn half_forms<D: Scalar>(
     poses: &Poses<D>,
     factor: impl Fn(&Beam) -> D,
-    strain: impl Fn(&Beam, &Section) -> [D; 3],
+    strain: impl Fn(&Beam, usize) -> [D; 6],
 ) -> D {
     let mut total = D::zero();
     for beam in &poses.model.beams {
         let length = get(beam.length, &poses.design);
-        for section in &beam.sections {
-            let form: D = strain(beam, section)
+        for (k, section) in beam.sections.iter().enumerate() {
+            let stiffness = section.stiffness.iter().chain(&section.against_strain);
+            let form: D = strain(beam, k)
                 .iter()
-                .zip(section.stiffness)
-                .map(|(&k, stiffness)| get(stiffness, &poses.design) * k * k)
+                .zip(stiffness)
+                .map(|(&k, &stiffness)| get(stiffness, &poses.design) * k * k)
                 .sum();
             total += factor(beam) * length * form * (0.5 * section.weight);
         }
@@ -65,43 +126,60 @@ fn half_forms<D: Scalar>(
 
 /// The energy of the strain.
 pub(super) fn elastic<D: Scalar>(poses: &Poses<D>) -> D {
-    half_forms(
-        poses,
-        |_| D::one(),
-        |beam, section| strain(poses, beam, section),
-    )
+    half_forms(poses, |_| D::one(), |beam, k| strain(poses, beam, k))
 }
 
-/// Rayleigh's dissipation function of the lag: the same form of the rates of strain, times the lag.
+/// Rayleigh's dissipation function of the lag: the same form of the rates of strain, times the lag. The axes along which
+/// strain is taken turn with the material, so that a spinning beam dissipates what its material feels.
 pub(super) fn dissipated<D: Scalar>(poses: &Poses<D>, moving: &Poses<Dual<D>>) -> D {
     half_forms(
         poses,
         |beam| get(beam.lag, &poses.design),
-        |beam, section| strain(moving, beam, section).map(|strain| strain.eps),
+        |beam, k| strain(moving, beam, k).map(|strain| strain.eps),
     )
 }
 
-/// Twist and curvatures along the axes of the section: `[k]x = R^T dR/ds`, `R` with the twist before bending left out,
-/// whose own rate is not strain.
-fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, section: &Section) -> [D; 3] {
+/// Twist and curvatures, stretch and shear along the axes of the material.
+fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, k: usize) -> [D; 6] {
+    let section = &beam.sections[k];
     let q = of_beam(poses.model, beam, &poses.coordinates);
-    let (turn, slope) = (beam.turn(q, section.place), beam.slope(q, section.place));
-    let along: [Dual<D>; 3] = std::array::from_fn(|k| Dual::new(turn[k], slope[k]));
+    let bent = curvature(beam, q, section.place, &poses.design).map(|own| own.re);
+    let strained = stretch_and_shear(beam, q, k, &poses.design);
+    let mut angle = get(section.twist, &poses.design);
+    if let Some(spin) = beam.spin {
+        angle += poses.coordinate(spin);
+    }
+    let [second, third] = turned_back([bent[1], bent[2]], angle);
+    let [shear_second, shear_third] = turned_back([strained[1], strained[2]], angle);
+    [
+        bent[0],
+        second,
+        third,
+        strained[0],
+        shear_second,
+        shear_third,
+    ]
+}
+
+/// Twist and curvatures along the axes of the beam as they turn with the section, and their derivatives by the place as a
+/// fraction of the length: `[k]x = R^T dR/ds`, `R` with the twist before bending left out, whose own rate is not strain.
+fn curvature<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> [Dual<D>; 3] {
+    let (turn, slope) = (beam.turn(q, place), beam.slope(q, place));
+    let curl = beam.curl(q, place);
+    let along: [Dual<Dual<D>>; 3] = std::array::from_fn(|k| {
+        Dual::new(Dual::new(turn[k], slope[k]), Dual::new(slope[k], curl[k]))
+    });
     let turned = rotation(beam, along);
     let now = turned.map(|row| row.map(|entry| entry.re));
     let change = turned.map(|row| row.map(|entry| entry.eps));
     let spin = multiply(&transpose(&now), &change);
     let vector = [spin[2][1], spin[0][2], spin[1][0]];
-    let length = get(beam.length, &poses.design);
-    let along =
-        |axis: [f64; 3]| -> D { vector.iter().zip(axis).map(|(&v, a)| v * a).sum::<D>() / length };
-    let [first, second, third] = beam.axes.map(along);
-    let (sine, cosine) = get(section.twist, &poses.design).sin_cos();
-    [
-        first,
-        cosine * second + sine * third,
-        cosine * third - sine * second,
-    ]
+    let length = Dual::from_re(get(beam.length, design));
+    let along = |axis: [f64; 3]| -> Dual<D> {
+        let components = vector.iter().zip(axis).map(|(&v, a)| v * a);
+        components.sum::<Dual<D>>() / length
+    };
+    beam.axes.map(along)
 }
 
 /// The coordinates of a beam among all.

@@ -30,25 +30,31 @@ fn factor<D: Scalar>(psi: Vector<D>) -> D {
     (psi.dot(psi) * 0.25 + 1.0).recip()
 }
 
-/// The pose of a section in the frame of the root: `r = L integral R e1`.
+/// The pose of a section in the frame of the root: `r = L integral R t`, with the direction
+/// `t = (1 + e - |g|^2 / 2, g2, g3)` along the axes of the section.
 fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> Pose<D> {
-    let first = Vector::constant(beam.axes[0]);
+    let length = value(beam.length, design);
     let points = beam.sections.iter().zip(beam.weights_to(place));
     let mean = points.fold(Vector::zero(), |sum, (own, weight)| {
-        let direction = turned(beam, beam.turn(q, own.place)) * first;
+        let Vector([stretch, second, third]) = strain(beam, q, own, design);
+        let shortening = (second * second + third * third) * 0.5;
+        let heading = [stretch + 1.0 - shortening, second, third];
+        let axes = beam.axes.iter().zip(heading);
+        let direction = axes.fold(Vector::zero(), |sum, (&axis, own)| {
+            sum + Vector::constant(axis).scaled(own)
+        });
+        let direction = turned(beam, beam.turn(q, own.place)) * direction;
         sum + direction.scaled(D::from(weight))
     });
     Pose {
         rotation: turned(beam, beam.turn(q, place)),
-        origin: mean.scaled(value(beam.length, design)),
+        origin: mean.scaled(length),
     }
 }
 
 /// Twist and curvatures along the axes of the beam: `f (psi' - psi x psi' / 2) / L`; in a plane, the slope of the
 /// angle.
-fn strain<D: Scalar>(beam: &Beam, q: &[D], section: &Section, length: D) -> Vector<D> {
-    let psi = Vector(beam.turn(q, section.place));
-    let slope = Vector(beam.slope(q, section.place));
+fn curvature<D: Scalar>(beam: &Beam, psi: Vector<D>, slope: Vector<D>, length: D) -> Vector<D> {
     let strain = match beam.plane() {
         Some(_) => slope,
         None => (slope - psi.cross(slope).scaled(D::from(0.5))).scaled(factor(psi)),
@@ -56,13 +62,74 @@ fn strain<D: Scalar>(beam: &Beam, q: &[D], section: &Section, length: D) -> Vect
     strain.scaled(length.recip())
 }
 
-/// The stiffness of a section along the axes of the beam: that along its own, turned by the twist.
-fn stiffness<D: Scalar>(section: &Section, design: &[D]) -> Matrix<D> {
-    let [first, second, third] = section.stiffness.map(|k| value(k, design));
+fn curvature_at<D: Scalar>(beam: &Beam, q: &[D], place: f64, length: D) -> Vector<D> {
+    let [psi, slope] = [beam.turn(q, place), beam.slope(q, place)];
+    curvature(beam, Vector(psi), Vector(slope), length)
+}
+
+/// Stretch and shear along the axes of the beam: coordinates, or shear as in statics,
+/// `g = (kGA)^-1 (-(D kappa)3', (D kappa)2') / L`. The stiffness `D` between the points of quadrature is the polynomial
+/// through its values there.
+fn strain<D: Scalar>(beam: &Beam, q: &[D], own: &Section, design: &[D]) -> Vector<D> {
+    let coordinates = beam.strain(q, own.place);
+    if !beam.static_shear {
+        return Vector(coordinates);
+    }
+    let length = value(beam.length, design);
+    let [psi, slope, curl] = [
+        beam.turn(q, own.place),
+        beam.slope(q, own.place),
+        beam.curl(q, own.place),
+    ];
+    let advanced = |at: [D; 3], by: [D; 3]| Vector([0, 1, 2].map(|i| Dual::new(at[i], by[i])));
+    let kappa = curvature(
+        beam,
+        advanced(psi, slope),
+        advanced(slope, curl),
+        Dual::from_re(length),
+    );
+    let points = beam.sections.iter().zip(beam.slopes_at(own.place));
+    let growth = points.fold(Matrix::constant([[0.0; 3]; 3]), |sum, (other, share)| {
+        sum + bending(other, design).scaled(D::from(share))
+    });
+    let change = bending(own, design) * kappa.rate() + growth * kappa.now();
+    let Vector([_, second, third]) = change.scaled(length.recip());
+    let force = Vector([D::zero(), -third, second]);
+    let [_, shear_second, shear_third] = own.against_strain.map(|k| value(k, design));
+    // what has no stiffness is not to shear
+    let compliance = |stiffness: D| match stiffness.re() {
+        0.0 => stiffness,
+        _ => stiffness.recip(),
+    };
+    let compliances = [D::zero(), compliance(shear_second), compliance(shear_third)];
+    let shear = twisted(own, compliances, design) * force;
+    Vector([coordinates[0], shear.0[1], shear.0[2]])
+}
+
+/// A tensor with these values along the axes of a section, along those of the beam: turned by the twist.
+fn twisted<D: Scalar>(
+    section: &Section,
+    [first, second, third]: [D; 3],
+    design: &[D],
+) -> Matrix<D> {
     let o = D::zero();
     let own = Matrix([[first, o, o], [o, second, o], [o, o, third]]);
     let twist = rotation([1.0, 0.0, 0.0], value(section.twist, design));
     twist * own * twist.transpose()
+}
+
+/// Stiffness against twist and bending.
+fn bending<D: Scalar>(section: &Section, design: &[D]) -> Matrix<D> {
+    twisted(section, section.stiffness.map(|k| value(k, design)), design)
+}
+
+/// Stiffness against stretch and shear.
+fn shearing<D: Scalar>(section: &Section, design: &[D]) -> Matrix<D> {
+    twisted(
+        section,
+        section.against_strain.map(|k| value(k, design)),
+        design,
+    )
 }
 
 impl Oracle<'_> {
@@ -120,7 +187,8 @@ impl Oracle<'_> {
         (here, axes)
     }
 
-    /// By coordinate of a beam, minus the work that the moment `D (k + lag kdot)` does: `-L sum w moment . dk/dq`.
+    /// By coordinate of a beam, minus the work of the strain: `-L sum w moment . dkappa/dq`, with the moment
+    /// `D (kappa + lag (kappadot - spin e1 x kappa))`, and the same for stretch and shear.
     pub(super) fn elastic<D: Scalar>(
         &self,
         beam: &Beam,
@@ -131,15 +199,27 @@ impl Oracle<'_> {
         let (driven, drives) = moving.driven;
         let q = self.of_beam(beam, &moving.state.position, driven);
         let speeds = self.of_beam(beam, &moving.state.velocity, drives);
+        let spin = match beam.spin {
+            Some(spin) => self.coordinate(spin, &moving.state.velocity, drives),
+            None => D::zero(),
+        };
+        let axis = Vector([spin, D::zero(), D::zero()]);
+        let lagging = |strain: Vector<Dual<D>>| {
+            let now = strain.now();
+            now + (strain.rate() - axis.cross(now)).scaled(lag)
+        };
+        let fixed = still(design);
         let mut efforts = vec![D::zero(); q.len()];
         for section in &beam.sections {
-            let strain = |q: &[Dual<D>]| strain(beam, q, section, Dual::from_re(length));
-            let now = strain(&along(&q, &speeds));
-            let strained = now.now() + now.rate().scaled(lag);
-            let moment = stiffness(section, design) * strained;
+            let bent = |q: &[Dual<D>]| curvature_at(beam, q, section.place, Dual::from_re(length));
+            let strained = |q: &[Dual<D>]| strain(beam, q, section, &fixed);
+            let now = along(&q, &speeds);
+            let moment = bending(section, design) * lagging(bent(&now));
+            let force = shearing(section, design) * lagging(strained(&now));
             for (step, effort) in efforts.iter_mut().enumerate() {
-                let change = strain(&seeded(&q, step)).rate();
-                *effort -= length * moment.dot(change) * section.weight;
+                let seeded = seeded(&q, step);
+                let work = moment.dot(bent(&seeded).rate()) + force.dot(strained(&seeded).rate());
+                *effort -= length * work * section.weight;
             }
         }
         let joint = beam.joint;

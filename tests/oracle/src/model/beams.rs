@@ -2,17 +2,23 @@
 
 use num_dual::DualNum;
 
+use super::joints::Coordinate;
 use super::values::{Value, Values};
 
-/// A rod that keeps its length. Its mass is that of slices, bodies of the model, each with a flexure for a joint.
+/// A rod. Its mass is that of slices, bodies of the model, each with a flexure for a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
     /// Declared name.
     pub name: String,
-    /// The joint whose steps are its coordinates: those of twist, of bending about the second and the third axis.
+    /// The joint whose steps are its coordinates: those of twist, of bending about the second and the third axis, of
+    /// stretch, and of shear along the second and the third axis.
     pub joint: usize,
-    /// The number of coordinates of each kind.
+    /// The number of coordinates of twist and bending.
     pub counts: [usize; 3],
+    /// The number of coordinates of stretch and shear.
+    pub strains: [usize; 3],
+    /// Whether sections shear as the change of the bending moments requires.
+    pub static_shear: bool,
     /// Length.
     pub length: Value,
     /// Perpendicular unit vectors in the frame of its root, the first along the beam.
@@ -21,6 +27,9 @@ pub struct Beam {
     pub sections: Vec<Section>,
     /// Time by which the rate of strain counts like strain.
     pub lag: Value,
+    /// A driven coordinate by which its round material turns about its bent axis, beside its sections, which carry what is
+    /// attached. The slices have such a coordinate each; this is one of them.
+    pub spin: Option<Coordinate>,
 }
 
 /// The elasticity of a section at a point of quadrature.
@@ -34,6 +43,8 @@ pub struct Section {
     pub twist: Value,
     /// Stiffness against twist and against bending about its two axes.
     pub stiffness: Values,
+    /// Stiffness against stretch and against shear along its two axes.
+    pub against_strain: Values,
 }
 
 /// The motion from the root of a beam to one of its sections.
@@ -48,7 +59,7 @@ pub struct Flexure {
 impl Beam {
     /// The number of coordinates.
     pub fn coordinates(&self) -> usize {
-        self.counts.iter().sum()
+        self.counts.iter().chain(&self.strains).sum()
     }
 
     /// The axis about which all sections turn, if there is only one.
@@ -63,35 +74,30 @@ impl Beam {
     /// The angle of a section in a plane, or the vector by which it turns in space, along the axes of the beam:
     /// `sum q_j I_j(x)`.
     pub fn turn<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
-        self.combined(q, |order| integral(order, place))
+        combined(self.counts, q, |order| integral(order, place))
     }
 
     /// Its derivative by the place as a fraction of the length: `sum q_j P_j(x)`.
     pub fn slope<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
-        self.combined(q, |order| legendre(order, place))
+        combined(self.counts, q, |order| legendre(order, place))
     }
 
-    fn combined<D: DualNum<Primitive = f64> + Copy>(
-        &self,
-        q: &[D],
-        shape: impl Fn(usize) -> f64,
-    ) -> [D; 3] {
-        let mut rest = q;
-        self.counts.map(|count| {
-            let (own, others) = rest.split_at(count);
-            rest = others;
-            let terms = own.iter().enumerate();
-            terms.map(|(order, &q)| q * shape(order)).sum()
-        })
+    /// Its second derivative: `sum q_j P_j'(x)`.
+    pub fn curl<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
+        combined(self.counts, q, |order| derivative(order, place))
+    }
+
+    /// Stretch, and shear along the second and the third axis, if they are coordinates: `sum q_j P_j(x)`.
+    pub fn strain<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
+        let turns: usize = self.counts.iter().sum();
+        combined(self.strains, &q[turns..], |order| legendre(order, place))
     }
 
     /// What each point of quadrature counts in an integral from the root to a place: the integral of Lagrange's
     /// polynomial of that point.
     pub fn weights_to(&self, place: f64) -> Vec<f64> {
         let lagrange = |k: usize, x: f64| -> f64 {
-            let at = self.sections[k].place;
-            let others = self.sections.iter().enumerate().filter(|(i, _)| *i != k);
-            let factors = others.map(|(_, other)| (x - other.place) / (at - other.place));
+            let factors = self.others(k).map(|(_, factor)| factor(x));
             factors.product()
         };
         let weight = |k| -> f64 {
@@ -101,6 +107,48 @@ impl Beam {
         };
         (0..self.sections.len()).map(weight).collect()
     }
+
+    /// What each point of quadrature counts in the derivative at a place: the derivative of Lagrange's polynomial of that
+    /// point.
+    pub fn slopes_at(&self, place: f64) -> Vec<f64> {
+        let without = |k: usize, left_out: usize| -> f64 {
+            let factors = self.others(k).filter(|(i, _)| *i != left_out);
+            factors.map(|(_, factor)| factor(place)).product()
+        };
+        let slope = |k: usize| -> f64 {
+            let at = self.sections[k].place;
+            let terms = self.others(k);
+            let terms = terms.map(|(i, _)| without(k, i) / (at - self.sections[i].place));
+            terms.sum()
+        };
+        (0..self.sections.len()).map(slope).collect()
+    }
+
+    /// The factors `(x - x_i) / (x_k - x_i)` of Lagrange's polynomial of point `k`.
+    fn others(&self, k: usize) -> impl Iterator<Item = (usize, impl Fn(f64) -> f64)> {
+        let at = self.sections[k].place;
+        let others = self
+            .sections
+            .iter()
+            .enumerate()
+            .filter(move |(i, _)| *i != k);
+        others.map(move |(i, other)| (i, move |x: f64| (x - other.place) / (at - other.place)))
+    }
+}
+
+/// Sums of coordinates of three kinds, one kind after the other, times the shape of their order.
+fn combined<D: DualNum<Primitive = f64> + Copy>(
+    counts: [usize; 3],
+    q: &[D],
+    shape: impl Fn(usize) -> f64,
+) -> [D; 3] {
+    let mut rest = q;
+    counts.map(|count| {
+        let (own, others) = rest.split_at(count);
+        rest = others;
+        let terms = own.iter().enumerate();
+        terms.map(|(order, &q)| q * shape(order)).sum()
+    })
 }
 
 /// Coefficient of `x^k` in the Legendre polynomial of `[0, 1]`: `(-1)^(n + k) (n over k) (n + k over k)`.
@@ -115,6 +163,11 @@ fn coefficient(n: usize, k: usize) -> f64 {
 
 fn legendre(n: usize, x: f64) -> f64 {
     let terms = (0..=n).map(|k| coefficient(n, k) * x.powi(k as i32));
+    terms.sum()
+}
+
+fn derivative(n: usize, x: f64) -> f64 {
+    let terms = (1..=n).map(|k| coefficient(n, k) * k as f64 * x.powi(k as i32 - 1));
     terms.sum()
 }
 
