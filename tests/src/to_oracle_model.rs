@@ -373,9 +373,10 @@ impl Fixing<'_> {
             let terms = axes.iter().zip(about).map(|(e, own)| own * e[i] * e[j]);
             Value::Number(length * weight * terms.sum::<f64>())
         });
+        let [y, z] = section.center.each_ref().map(|own| self.number(own));
         let shape = Shape::Rigid {
             mass: Value::Number(length * weight * self.number(&section.mass)),
-            center: ORIGIN,
+            center: [0, 1, 2].map(|i| Value::Number(y * axes[1][i] + z * axes[2][i])),
             inertia,
             about: None,
         };

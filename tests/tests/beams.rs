@@ -16,12 +16,18 @@ mod compared;
 mod composed;
 #[path = "beams/converged.rs"]
 mod converged;
+#[path = "beams/coupled.rs"]
+mod coupled;
+#[path = "beams/curved.rs"]
+mod curved;
 #[path = "beams/damped.rs"]
 mod damped;
 #[path = "beams/following.rs"]
 mod following;
 #[path = "beams/inside.rs"]
 mod inside;
+#[path = "beams/offset.rs"]
+mod offset;
 #[path = "beams/orbits.rs"]
 mod orbits;
 #[path = "beams/poses.rs"]

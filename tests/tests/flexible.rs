@@ -7,6 +7,8 @@ mod judged;
 mod moving;
 #[path = "flexible/objective.rs"]
 mod objective;
+#[path = "flexible/offset.rs"]
+mod offset;
 #[path = "flexible/outputs.rs"]
 mod outputs;
 #[path = "flexible/random.rs"]

@@ -19,7 +19,7 @@ pub struct Beam {
     pub body: BodyId,
     /// Length, m.
     pub length: Expr,
-    /// Unit vectors in the frame of the root: along the beam, and across it, by which its sections are described.
+    /// Unit vectors in the frame of the root: along the beam there, and across it, by which its sections are described.
     pub axes: [Vector; 3],
     /// For each axis, the coordinates by which sections turn about it.
     pub coordinates: [Vec<CoordinateId>; 3],
@@ -73,14 +73,21 @@ impl Beam {
 pub struct Section {
     /// Mass, kg/m.
     pub mass: Expr,
-    /// Mass times squared distance from the second and from the third axis, kg m.
+    /// Mass times squared distance from the second and from the third axis through its centre, kg m.
     pub inertia: [Expr; 2],
+    /// Centre of mass along the second and the third axis, m.
+    pub center: [Expr; 2],
     /// Stiffness against twist, and against bending about the second and the third axis, N m^2.
     pub stiffness: [Expr; 3],
     /// Stiffness against stretch, and against shear along the second and the third axis, N; zero if not known.
     pub against_strain: [Expr; 3],
+    /// What couples the strains of two numbers, lower first: twist, bending about the second and the third axis, stretch and
+    /// shear along the second and the third axis are 0 to 5. In N m^2, N m and N.
+    pub coupling: Vec<(usize, usize, Expr)>,
     /// The angle by which its axes are turned about the beam before it bends, rad.
     pub twist: Expr,
+    /// The angles by which the axis of the beam is turned about the second and the third axis before it bends, rad.
+    pub prebend: [Expr; 2],
     /// Extent along the second and along the third axis, m; zero if only numbers are known.
     pub size: [Expr; 2],
 }

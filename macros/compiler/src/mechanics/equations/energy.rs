@@ -70,8 +70,8 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
         let inertia = BeamInertia::new(g, context, BeamId::new(index));
         let position = kinematics.of(beam.body).frame.position;
         let mut first = position.scale(g, inertia.mass);
-        let directions = kinematics.beams[index].directions.iter();
-        for (arm, &share) in directions.zip(&inertia.first) {
+        let arms = kinematics.beams[index].arms();
+        for ((_, arm), &share) in arms.zip(&inertia.first) {
             let share = arm.vector.scale(g, share);
             first = first.add(g, share);
         }

@@ -3,19 +3,20 @@
 //! A beam's sections are at `r_a = L sum_k W_ak d_k` from the root, with the directions `d_k` of the beam at the places
 //! of quadrature and the numbers `W_ak` of integration up to place `a`. So its integrals of `rho` and `rho rho^T` have
 //! the form of those of a rigid body, `sum_k first_k d_k` and `sum_kj second_kj d_k d_j^T`, with constant `first` and
-//! `second`; only the arms `d_k` do not turn together. Each arm needs the force `S_k = first_k a_O + sum_j second_kj
+//! `second`; only the arms `d_k` do not turn together. A centre of mass off the axis is one more arm `o_k`, with `first =
+//! m_k w_k L`, with this also as `second` with itself, and with `first L W_kj` as `second` with `d_j`. Each arm needs the force `S_k = first_k a_O + sum_j second_kj
 //! d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is the moment that turns its section. The moment
 //! of its own inertia, `J w' + w x J w`, is written along its axes.
 
 use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3};
 use crate::base::ids::BeamId;
-use crate::mechanics::motion::{BeamMotion, FrameMotion, turned};
+use crate::mechanics::motion::{BeamMotion, FrameMotion, curved, offset, turned};
 use crate::mechanics::setup::{Context, Sections, weighted_sum};
 
 /// The mass distribution of a beam over the directions of its sections.
 pub(crate) struct BeamInertia {
     pub(crate) mass: ExprId,
-    /// By section.
+    /// By arm: the sections in order, then those with mass off the axis.
     pub(crate) first: Vec<ExprId>,
     second: Vec<Vec<ExprId>>,
     /// By section: inertia against turning, along its axes.
@@ -45,8 +46,8 @@ pub(crate) struct BeamLoad {
     of_stations: Vec<Vector3>,
     /// By section: the moment that its rotary inertia requires, along its axes.
     of_sections: Vec<Vector3>,
-    /// By section: the force on its direction.
-    on_directions: Vec<Vector3>,
+    /// By arm: the force on it.
+    on_arms: Vec<Vector3>,
 }
 
 impl BeamInertia {
@@ -102,6 +103,22 @@ impl BeamInertia {
                 this.second[j][k] = second;
             }
         }
+        for (k, (_, weight, section)) in beam.sections.iter().enumerate() {
+            if offset(g, values, section).is_zero(g) {
+                continue;
+            }
+            let share = g.scale(*weight, length);
+            let own = g.mul(masses[k], share);
+            let by_length = g.mul(own, length);
+            let mut row: Vec<ExprId> = reach[k].iter().map(|x| g.scale(*x, by_length)).collect();
+            row.resize(this.first.len(), zero);
+            for (others, second) in this.second.iter_mut().zip(&row) {
+                others.push(*second);
+            }
+            row.push(own);
+            this.first.push(own);
+            this.second.push(row);
+        }
         for (_, weight, section) in &beam.sections {
             let [about_y, about_z] =
                 [&section.inertia[0], &section.inertia[1]].map(|value| values.scalar(g, value));
@@ -115,11 +132,9 @@ impl BeamInertia {
             this.spin.push(momentum);
             let about = [about_y, about_z].map(|own| g.mul(share, own));
             let [yy, yz, zz] = turned(g, about, twist);
-            this.turning.push(Matrix3([
-                Vector3([inertia, zero, zero]),
-                Vector3([zero, yy, yz]),
-                Vector3([zero, yz, zz]),
-            ]));
+            let own = [[inertia, zero, zero], [zero, yy, yz], [zero, yz, zz]];
+            let along_root = curved(g, values, section).turn_symmetric(g, own);
+            this.turning.push(Matrix3(along_root.map(Vector3)));
         }
         this
     }
@@ -145,12 +160,12 @@ impl BeamInertia {
             terms.push(section.spin.dot(g, momentum));
             terms.push(g.mul(own, section.spin.0[0]));
         }
-        let arms = motion.directions.iter().zip(&self.first);
-        for ((arm, first), second) in arms.zip(&self.second) {
+        let arms = motion.arms().zip(&self.first);
+        for (((_, arm), first), second) in arms.zip(&self.second) {
             let along = v.dot(g, arm.rate);
             let double = g.scale(2.0, *first);
             terms.push(g.mul(double, along));
-            for (&second, other) in second.iter().zip(&motion.directions) {
+            for (&second, (_, other)) in second.iter().zip(motion.arms()) {
                 let product = arm.rate.dot(g, other.rate);
                 terms.push(g.mul(second, product));
             }
@@ -172,16 +187,18 @@ impl BeamInertia {
             moment: zero,
             of_stations: from.moments.clone(),
             of_sections: Vec::new(),
-            on_directions: Vec::new(),
+            on_arms: Vec::new(),
         };
-        for (k, (arm, second)) in motion.directions.iter().zip(&self.second).enumerate() {
+        for (k, ((_, arm), second)) in motion.arms().zip(&self.second).enumerate() {
             let mut bracket = root.acceleration.scale(g, self.first[k]);
-            for (&second, other) in second.iter().zip(&motion.directions) {
+            for (&second, (_, other)) in second.iter().zip(motion.arms()) {
                 let share = other.second_rate.scale(g, second);
                 bracket = bracket.add(g, share);
             }
-            bracket = bracket.add(g, from.brackets[k]);
-            load.on_directions.push(bracket);
+            if let Some(passed) = from.brackets.get(k) {
+                bracket = bracket.add(g, *passed);
+            }
+            load.on_arms.push(bracket);
             let share = arm.second_rate.scale(g, self.first[k]);
             load.force = load.force.add(g, share);
             let moment = arm.vector.cross(g, bracket);
@@ -249,7 +266,7 @@ impl FromStations {
             moment,
             of_stations: self.moments.clone(),
             of_sections: Vec::new(),
-            on_directions: self.brackets.clone(),
+            on_arms: self.brackets.clone(),
         }
     }
 }
@@ -269,7 +286,7 @@ impl BeamLoad {
         let zero = g.zero();
         let rate_of = |row: &Option<usize>| row.map_or(zero, |row| rates[row]);
         let mut terms = Vec::new();
-        for (own, force) in motion.directions.iter().zip(&self.on_directions) {
+        for ((_, own), force) in motion.arms().zip(&self.on_arms) {
             terms.push(own.power(g, *force, &direction));
         }
         let turns = motion.sections.iter().zip(&rows.rotations);
@@ -302,10 +319,9 @@ impl BeamLoad {
                 }
             }
         };
-        let directions = motion.directions.iter().zip(&rows.rotations);
-        for ((direction, rows), force) in directions.zip(&self.on_directions) {
-            let (powers, strains) = direction.project(g, *force);
-            add(g, rows, &powers);
+        for ((k, arm), force) in motion.arms().zip(&self.on_arms) {
+            let (powers, strains) = arm.project(g, *force);
+            add(g, &rows.rotations[k], &powers);
             for (row, power) in strains {
                 add(g, &[Some(row)], &[power]);
             }

@@ -14,7 +14,7 @@
 use crate::algebra::{Array, ExprId, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{BeamId, JointId, PointId};
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero};
+use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero, unbent};
 use crate::mechanics::picture::{
     Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind,
 };
@@ -196,12 +196,10 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// The pose of a section, from the axes it would have without twist.
+    /// The pose of a section, from the axes it would have without twist and prebend.
     fn section(&mut self, g: &mut Graph, (position, axes): (Vector3, Matrix3), section: &Section) {
-        let twist = self.values.scalar(g, &section.twist);
-        let along = Matrix3::identity(g).0[0];
-        let twisted = Matrix3::rotation(g, along, twist);
-        self.pose(position, axes.multiply(g, twisted));
+        let own = unbent(g, self.values, section);
+        self.pose(position, axes.multiply(g, own));
     }
 
     /// A declared beam, from its parts between loads.

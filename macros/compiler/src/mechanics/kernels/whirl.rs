@@ -148,7 +148,8 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
     let rule = beam.quadrature();
     let sections = beam.sections.iter().zip(&motion.sections);
     sections
-        .map(|((place, weight, section), moving)| {
+        .enumerate()
+        .map(|(k, ((place, weight, section), moving))| {
             let share = g.scale(*weight, length);
             let mass = values.scalar(g, &section.mass);
             let inertia = section.inertia.each_ref().map(|own| values.scalar(g, own));
@@ -158,6 +159,9 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
                 let reach = g.scale(reach, length);
                 let own = direction.rate.scale(g, reach);
                 velocity = velocity.add(g, own);
+            }
+            for (_, offset) in motion.offsets.iter().filter(|(own, _)| *own == k) {
+                velocity = velocity.add(g, offset.rate);
             }
             Slice {
                 mass: g.mul(mass, share),

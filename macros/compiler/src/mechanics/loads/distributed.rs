@@ -2,7 +2,7 @@
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::BeamId;
-use crate::mechanics::motion::Wrench;
+use crate::mechanics::motion::{Wrench, curved};
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Frame;
 
@@ -47,7 +47,9 @@ impl AppliedForces {
         };
         for (a, (&place, &weight)) in rule.points.iter().zip(&rule.weights).enumerate() {
             let share = g.scale(weight, length);
-            let along = motion.sections[a].frame.orientation.axes.apply(g, own);
+            let along_root = curved(g, values, &beam.sections[a].2).apply(g, own);
+            let axes = motion.sections[a].frame.orientation.axes;
+            let along = axes.apply(g, along_root);
             let mut force = fixed.add(g, along);
             let reach: Vec<_> = rule
                 .integrals_to(place)

@@ -7,11 +7,15 @@ use crate::base::ids::{BeamId, PointId};
 use crate::mechanics::motion::{self, bend, bend_powers};
 use crate::mechanics::setup::{Context, OfBeam, Sections};
 
+use super::strained_at::strained_at;
+
 /// What strains at a section, and the stiffness against it: curvatures along its own axes times the length, stretch and
-/// shear, each with the stiffness that gives energy over the length that the section stands for.
+/// shear, each with the stiffness that gives energy over the length that the section stands for, and stiffness that
+/// couples two of them.
 struct Strain {
     values: Vec<ExprId>,
     stiffness: Vec<ExprId>,
+    coupling: Vec<(usize, usize, ExprId)>,
 }
 
 /// Places of what strains along the second and the third axis.
@@ -32,6 +36,8 @@ fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>)
         .zip(stretched)
         .map(|((((_, weight, section), turn), slope), stretched)| {
             let bent = bend(g, Vector3(*turn), Vector3(*slope));
+            let back = motion::curved(g, values, section).transpose();
+            let bent = back.apply(g, bent);
             let twist = values.scalar(g, &section.twist);
             let [_, shear_y, shear_z] = stretched;
             let [bent_y, bent_z] = along_own_axes(g, [bent.0[1], bent.0[2]], twist);
@@ -39,6 +45,7 @@ fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>)
             let mut strain = Strain {
                 values: vec![bent.0[0], bent_y, bent_z, stretched[0], shear_y, shear_z],
                 stiffness: Vec::new(),
+                coupling: Vec::new(),
             };
             for stiffness in &section.stiffness {
                 let stiffness = values.scalar(g, stiffness);
@@ -49,6 +56,16 @@ fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>)
                 let stiffness = values.scalar(g, stiffness);
                 let share = g.scale(*weight, stiffness);
                 strain.stiffness.push(g.mul(share, length));
+            }
+            for (i, j, stiffness) in &section.coupling {
+                let stiffness = values.scalar(g, stiffness);
+                let share = g.scale(*weight, stiffness);
+                let coupled = match (*i < 3, *j < 3) {
+                    (true, true) => g.div(share, length),
+                    (false, false) => g.mul(share, length),
+                    _ => share,
+                };
+                strain.coupling.push((*i, *j, coupled));
             }
             strain
         })
@@ -74,7 +91,26 @@ impl Strain {
                 g.scale(0.5, twice)
             })
             .collect();
-        g.sum(terms)
+        let mut energy = g.sum(terms);
+        for &(i, j, stiffness) in &self.coupling {
+            let product = g.mul(self.values[i], self.values[j]);
+            let share = g.mul(stiffness, product);
+            energy = g.add(energy, share);
+        }
+        energy
+    }
+
+    /// Stresses of strains of any values.
+    fn stresses(&self, g: &mut Graph, values: &[ExprId]) -> Vec<ExprId> {
+        let pairs = values.iter().zip(&self.stiffness);
+        let mut stresses: Vec<ExprId> = pairs.map(|(&a, &b)| g.mul(a, b)).collect();
+        for &(i, j, stiffness) in &self.coupling {
+            for (on, by) in [(i, j), (j, i)] {
+                let share = g.mul(stiffness, values[by]);
+                stresses[on] = g.add(stresses[on], share);
+            }
+        }
+        stresses
     }
 }
 
@@ -92,8 +128,7 @@ fn stressed(g: &mut Graph, context: &Context, id: BeamId) -> Vec<(Strain, Vec<Ex
     strains
         .into_iter()
         .map(|strain| {
-            let pairs = strain.values.iter().zip(&strain.stiffness);
-            let mut stresses: Vec<ExprId> = pairs.map(|(&a, &b)| g.mul(a, b)).collect();
+            let mut stresses = strain.stresses(g, &strain.values);
             if !g.is(lag, 0.0) {
                 let mut rates = derivatives_along(g, &strain.values, &moving);
                 // material that spins beside its section sees the strain turn backwards
@@ -103,10 +138,10 @@ fn stressed(g: &mut Graph, context: &Context, id: BeamId) -> Vec<(Strain, Vec<Ex
                     rates[y] = g.add(rates[y], forwards);
                     rates[z] = g.sub(rates[z], backwards);
                 }
-                for (k, rate) in rates.into_iter().enumerate() {
-                    let stress = g.mul(strain.stiffness[k], rate);
-                    let stress = g.mul(lag, stress);
-                    stresses[k] = g.add(stresses[k], stress);
+                let lagging = strain.stresses(g, &rates);
+                for (stress, lagging) in stresses.iter_mut().zip(lagging) {
+                    let lagging = g.mul(lag, lagging);
+                    *stress = g.add(*stress, lagging);
                 }
             }
             (strain, stresses)
@@ -141,10 +176,12 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
             let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
             let own: Vec<usize> = own.copied().collect();
             let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
-            let twist = context.values.scalar(g, &beam.sections[k].2.twist);
+            let section = &beam.sections[k].2;
+            let twist = context.values.scalar(g, &section.twist);
             let back = g.neg(twist);
             let [y, z] = along_own_axes(g, [stresses[1], stresses[2]], back);
-            let moment = Vector3([stresses[0], y, z]);
+            let curved = motion::curved(g, context.values, section);
+            let moment = curved.apply(g, Vector3([stresses[0], y, z]));
             let [turn, slope] = [&turns.rotations[k], &turns.slopes[k]].map(|own| Vector3(*own));
             let powers = bend_powers(g, turn, slope, moment);
             let turning = rows.rotations[k].iter().chain(&rows.slopes[k]);
@@ -195,11 +232,35 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
         .stiffness
         .each_ref()
         .map(|own| values.scalar(g, own));
+    let curved = motion::curved(g, values, section);
+    let [x, y, z] = curved.transpose().apply(g, Vector3([x, y, z])).0;
     let own = along_own_axes(g, [y, z], twist);
-    let own = [g.mul(about_y, own[0]), g.mul(about_z, own[1])];
+    let strains = strained_at(g, context, point);
+    let rates = derivatives_along(g, &strains, &moving);
+    let [stretch, shear_y, shear_z] = [0, 1, 2].map(|k| {
+        let lagging = g.mul(lag, rates[k]);
+        g.add(strains[k], lagging)
+    });
+    let [shear_y, shear_z] = along_own_axes(g, [shear_y, shear_z], twist);
+    let all = [x, own[0], own[1], stretch, shear_y, shear_z];
+    let mut moments = [
+        g.mul(against_twist, x),
+        g.mul(about_y, own[0]),
+        g.mul(about_z, own[1]),
+    ];
+    for (i, j, stiffness) in &section.coupling {
+        let stiffness = values.scalar(g, stiffness);
+        for (on, by) in [(*i, *j), (*j, *i)] {
+            if let Some(moment) = moments.get_mut(on) {
+                let share = g.mul(stiffness, all[by]);
+                *moment = g.add(*moment, share);
+            }
+        }
+    }
+    let [mx, my, mz] = moments;
     let back = g.neg(twist);
-    let [my, mz] = along_own_axes(g, own, back);
-    let mx = g.mul(against_twist, x);
+    let [my, mz] = along_own_axes(g, [my, mz], back);
+    let [mx, my, mz] = curved.apply(g, Vector3([mx, my, mz])).0;
     [bent[0], bent[1], bent[2], mx, my, mz]
 }
 

@@ -9,6 +9,7 @@ use super::bend::{bend, bend_change, bend_powers, factor, only_axis};
 use super::frame::FrameMotion;
 use super::strain::Heading;
 use super::turned::Turned;
+use super::unbent::offset;
 
 /// Motion of the sections of a beam, in the axes of the motion of its root.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub(crate) struct BeamMotion {
     /// At the places of quadrature.
     pub(crate) sections: Vec<SectionMotion>,
     pub(crate) directions: Vec<DirectionMotion>,
+    /// From the axis to the centre of mass, m, of the sections that have it elsewhere.
+    pub(crate) offsets: Vec<(usize, DirectionMotion)>,
     pub(crate) stations: Vec<StationMotion>,
 }
 
@@ -104,6 +107,14 @@ impl BeamMotion {
         let directions: Vec<DirectionMotion> = directions
             .map(|(section, heading)| DirectionMotion::new(g, root, section, heading))
             .collect();
+        let mut offsets = Vec::new();
+        for (k, (_, _, section)) in beam.sections.iter().enumerate() {
+            let offset = offset(g, values, section);
+            if !offset.is_zero(g) {
+                let offset = Heading::fixed(g, offset);
+                offsets.push((k, DirectionMotion::new(g, root, &sections[k], &offset)));
+            }
+        }
         let length = values.scalar(g, &beam.length);
         let rule = beam.quadrature();
         let stations = beam.stations.iter().zip(ends).map(|(station, section)| {
@@ -118,7 +129,14 @@ impl BeamMotion {
             stations: stations.collect(),
             sections,
             directions,
+            offsets,
         }
+    }
+
+    /// The directions, then the offsets, with the numbers of their sections.
+    pub(crate) fn arms(&self) -> impl Iterator<Item = (usize, &DirectionMotion)> {
+        let offsets = self.offsets.iter().map(|(k, arm)| (*k, arm));
+        self.directions.iter().enumerate().chain(offsets)
     }
 }
 

@@ -105,6 +105,7 @@ impl Kinematics {
         let nothing = BeamMotion {
             sections: Vec::new(),
             directions: Vec::new(),
+            offsets: Vec::new(),
             stations: Vec::new(),
         };
         let mut this = Self {

@@ -10,6 +10,7 @@ mod step_axis;
 mod strain;
 mod tree;
 mod turned;
+mod unbent;
 mod wrench;
 
 pub(super) use beam::BeamMotion;
@@ -20,4 +21,5 @@ pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zer
 pub(super) use step_axis::StepAxis;
 pub(super) use strain::{strains, turned};
 pub(super) use tree::Tree;
+pub(super) use unbent::{curved, offset, unbent};
 pub(super) use wrench::Wrench;

@@ -11,8 +11,9 @@ use crate::base::ids::BeamId;
 use crate::mechanics::setup::{Context, OfBeam};
 
 use super::bend::{bend, bend_change};
+use super::unbent::curved;
 
-/// The direction of a beam at a section, along the axes of the section.
+/// The direction of a beam at a section, along the axes that the section has without twist and prebend.
 #[derive(Clone, Debug)]
 pub(crate) struct Heading {
     pub(crate) value: Vector3,
@@ -20,6 +21,19 @@ pub(crate) struct Heading {
     pub(crate) second: Vector3,
     /// Derivatives by rows of the sections.
     pub(crate) slopes: Vec<(usize, Vector3)>,
+}
+
+impl Heading {
+    /// A vector that only turns.
+    pub(super) fn fixed(g: &mut Graph, value: Vector3) -> Self {
+        let zero = Vector3::zero(g);
+        Self {
+            value,
+            rate: zero,
+            second: zero,
+            slopes: Vec::new(),
+        }
+    }
 }
 
 /// The directions at the sections of a beam, in terms of the sections' own symbols.
@@ -36,7 +50,9 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
         let sum = g.add(squares[0], squares[1]);
         let half = g.scale(0.5, sum);
         let longer = g.add(one, stretch);
-        let value = Vector3([g.sub(longer, half), across, up]);
+        let own = Vector3([g.sub(longer, half), across, up]);
+        let section = &context.mechanism.beams[id.index()].sections[k].2;
+        let value = curved(g, context.values, section).apply(g, own);
         let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
         let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
         let own: Vec<usize> = own.copied().collect();

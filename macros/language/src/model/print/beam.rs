@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Formatter};
 
+use super::super::expression::Expr;
 use super::super::mechanism::{Beam, Section};
 use super::Names;
 
@@ -28,21 +29,36 @@ impl Names<'_> {
             let Section {
                 mass,
                 inertia,
+                center,
                 stiffness,
                 against_strain,
+                coupling,
                 twist,
+                prebend,
                 size,
             } = section;
             let [twisting, about_y, about_z] = stiffness.each_ref().map(|own| self.scalar(own));
             let [axial, shear_y, shear_z] = against_strain.each_ref().map(|own| self.scalar(own));
             let [width, height] = size.each_ref().map(|own| self.scalar(own));
             let [inertia_y, inertia_z] = inertia.each_ref().map(|own| self.scalar(own));
-            writeln!(
+            write!(
                 f,
                 "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {} size {width} {height}",
                 self.scalar(mass),
                 self.scalar(twist)
             )?;
+            if *center != [Expr::Number(0.0), Expr::Number(0.0)] {
+                let [y, z] = center.each_ref().map(|own| self.scalar(own));
+                write!(f, " center {y} {z}")?;
+            }
+            if *prebend != [Expr::Number(0.0), Expr::Number(0.0)] {
+                let [y, z] = prebend.each_ref().map(|own| self.scalar(own));
+                write!(f, " prebend {y} {z}")?;
+            }
+            for (i, j, own) in coupling {
+                write!(f, " couples {i} {j} by {}", self.scalar(own))?;
+            }
+            writeln!(f)?;
         }
         for station in &beam.stations {
             let body = &self.0.bodies[station.body.index()].name;

@@ -2,6 +2,7 @@
 
 pub(super) mod declared;
 mod materials;
+mod matrix;
 mod sections;
 mod stations;
 pub(super) mod table;
@@ -73,6 +74,10 @@ impl Resolver<'_> {
             Some(value) => self.scalar_of(value, Expected::angle(), "`twist`"),
             None => Some(Expr::Number(0.0)),
         };
+        let prebend = ["prebend_y", "prebend_z"].map(|name| match given.get(name) {
+            Some(value) => self.scalar_of(value, Expected::angle(), &format!("`{name}`")),
+            None => Some(Expr::Number(0.0)),
+        });
         let lag = match given.get("lag") {
             Some(value) => self.scalar_of(value, Dimension::TIME, "`lag`"),
             None => Some(Expr::Number(0.0)),
@@ -90,6 +95,10 @@ impl Resolver<'_> {
             points: points?,
             table,
             twist,
+            prebend: {
+                let [y, z] = prebend;
+                [y?, z?]
+            },
             spin: spin?,
             lag: lag?,
             positive: Vec::new(),
@@ -98,8 +107,20 @@ impl Resolver<'_> {
         if let Some(value) = &body.spinning {
             self.require_round(value, &declared)?;
         }
+        self.require_unsheared(given, &declared)?;
         self.require_sections(name, word, given, &declared)?;
         declared.positive = positive(name, &self.requirements[before..], &declared.table);
+        if declared.is_curved() == [true; 2] {
+            // the direction about which the axis is curved
+            let square = {
+                let [y, z] = &declared.prebend;
+                let turn = [Expr::Number(0.0), y.clone(), z.clone()];
+                simplify::dot(&turn, &turn)
+            };
+            declared
+                .positive
+                .push((format!("prebend of {name}"), square));
+        }
         Some(declared)
     }
 
@@ -232,7 +253,10 @@ impl Resolver<'_> {
             let [_, about_y, about_z] = &section.stiffness;
             let [_, shear_y, shear_z] = &section.against_strain;
             let [inertia_y, inertia_z] = &section.inertia;
-            about_y == about_z && shear_y == shear_z && inertia_y == inertia_z
+            !declared.table.is_coupled()
+                && about_y == about_z
+                && shear_y == shear_z
+                && inertia_y == inertia_z
         });
         let [_, y, z] = declared.counts;
         let problem = if y != z {
@@ -241,11 +265,32 @@ impl Resolver<'_> {
             "is not round"
         } else if declared.twist != Expr::Number(0.0) {
             "is twisted"
+        } else if declared.table.is_off_axis() {
+            "has mass off its axis"
+        } else if declared.is_curved().contains(&true) {
+            "is curved before it is loaded"
         } else {
             return Some(());
         };
         let message = format!("a beam that spins and {problem} has no steady motion");
         let help = "use a `circle` or a `tube`, or the same number for both planes, with the same `bending`";
+        self.diagnostics.error_with_help(at.extent, message, help);
+        None
+    }
+
+    /// Shear that follows from the moments is derived for straight beams of sections that couple no strains.
+    fn require_unsheared(&mut self, given: &Arguments<'_>, declared: &Declared) -> Option<()> {
+        let message = if !declared.static_shear {
+            return Some(());
+        } else if declared.is_curved().contains(&true) {
+            "`shear: static` takes a beam that is straight before it is loaded"
+        } else if declared.table.is_coupled() {
+            "`shear: static` takes a section whose strains are not coupled"
+        } else {
+            return Some(());
+        };
+        let help = "give shear coordinates of its own: `shear: 4`";
+        let at = given.get("shear")?;
         self.diagnostics.error_with_help(at.extent, message, help);
         None
     }
@@ -277,15 +322,29 @@ impl Resolver<'_> {
     ) -> Option<()> {
         // Dimensions change linearly: what is positive at both ends is so between them.
         let ends = [0.0, 1.0].map(|place| declared.section(place));
-        let [torsion, about_y, about_z] = declared.counts;
+        let counts = declared.counts;
+        let [curved_y, curved_z] = declared.is_curved();
+        let mut used = counts;
+        // what turns a section in one way strains it in another, where the axis has turned
+        let mixed = [
+            (curved_z, 0, 1),
+            (curved_y, 0, 2),
+            (curved_y && curved_z, 1, 2),
+        ];
+        for (_, a, b) in mixed.iter().filter(|(is_mixed, ..)| *is_mixed) {
+            let sum = used[*a] + used[*b];
+            (used[*a], used[*b]) = (sum, sum);
+        }
+        let [torsion, about_y, about_z] = used;
         let shears = |strains: usize, bends: usize| match declared.static_shear {
             true => bends,
             false => strains,
         };
+        let [_, bends_y, bends_z] = counts;
         let bending = Dimension::new(3, 1, -2);
         let force = Dimension::FORCE;
         let [stretch, shear_y, shear_z] = declared.strains;
-        let (shear_y, shear_z) = (shears(shear_y, about_z), shears(shear_z, about_y));
+        let (shear_y, shear_z) = (shears(shear_y, bends_z), shears(shear_z, bends_y));
         type Of = fn(&Section) -> &Expr;
         type Asked = &'static [&'static str];
         let demands: [(&str, Dimension, usize, Asked, Of); 7] = [

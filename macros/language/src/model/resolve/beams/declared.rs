@@ -19,6 +19,8 @@ pub(in crate::model::resolve) struct Declared {
     pub(super) points: usize,
     pub(super) table: Table,
     pub(super) twist: Expr,
+    /// The angles by which the axis at the tip is turned before the beam bends.
+    pub(super) prebend: [Expr; 2],
     pub(super) spin: Expr,
     pub(super) lag: Expr,
     /// What must be positive in any design, and its values.
@@ -37,7 +39,12 @@ impl Declared {
     }
 
     pub(super) fn section(&self, place: f64) -> Section {
-        self.table.section(place, &self.twist)
+        self.table.section(place, (&self.twist, &self.prebend))
+    }
+
+    /// Whether the axis is curved about the second and about the third axis before the beam bends.
+    pub(super) fn is_curved(&self) -> [bool; 2] {
+        self.prebend.each_ref().map(|own| *own != Expr::Number(0.0))
     }
 
     /// The sections of a part of it: their places within the part, their weights, and what they are.

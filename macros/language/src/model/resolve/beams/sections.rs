@@ -4,11 +4,15 @@ use proc_macro2::Ident;
 
 use super::super::arguments::{Arguments, Signature};
 use super::super::resolver::Resolver;
+use super::matrix::Stiffness;
 use super::table::{Kind, Properties, Table};
 use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;
 use crate::model::rules::physical::Demand;
 use crate::syntax::ast::{NamedCall, ValueKind};
+
+/// Dimensions or numbers, and what couples strains.
+type Numbers = (Vec<Expr>, Vec<(usize, usize, Expr)>);
 
 /// How many numbers describe a section.
 const NUMBERS: usize = 9;
@@ -44,6 +48,9 @@ static KINDS: [Signature<Kind>; 4] = [
         "EA",
         "GAy",
         "GAz",
+        "center_y",
+        "center_z",
+        "stiffness",
     ]),
 ];
 
@@ -77,8 +84,9 @@ impl Resolver<'_> {
             "shear_stiffness_y",
             "shear_stiffness_z",
         ];
-        let numbers = by_numbers
-            .iter()
+        let numbers = by_numbers.iter().chain(&["stiffness"]);
+        let numbers = numbers
+            .clone()
             .find_map(|name| Some((name, given.get(name)?)));
         match (given.get("section"), numbers) {
             (Some(_), Some((name, value))) => {
@@ -96,10 +104,12 @@ impl Resolver<'_> {
                         .error_with_help(value.extent, message, help);
                     return None;
                 };
-                self.shaped(name, word, calls, material?)
+                let center = self.center(given)?;
+                self.shaped(name, word, calls, (material?, center))
             }
             (None, Some(_)) => {
-                let ends = self.numbers(given, by_numbers)?;
+                let center = self.center(given)?;
+                let (ends, coupling) = self.numbers(given, by_numbers)?;
                 if matches!(ends[0], Expr::Number(0.0)) {
                     let message = "`beam` needs `mass_per_length`";
                     let help = "write `mass_per_length: 0.5 kg/m`";
@@ -110,6 +120,8 @@ impl Resolver<'_> {
                     kind: Kind::Numbers,
                     ends: [ends.clone(), ends],
                     material: Properties::default(),
+                    centers: [center.clone(), center],
+                    coupling: [coupling.clone(), coupling],
                     is_flat: false,
                 })
             }
@@ -124,8 +136,8 @@ impl Resolver<'_> {
     }
 
     /// Mass, stiffness about y, about z and against twist, the two inertias, stiffness against stretch and against shear
-    /// along y and z; zero if not given.
-    fn numbers(&mut self, given: &Arguments<'_>, names: [&str; NUMBERS]) -> Option<Vec<Expr>> {
+    /// along y and z; zero if not given. And what couples them, if the stiffness is a matrix.
+    fn numbers(&mut self, given: &Arguments<'_>, names: [&str; NUMBERS]) -> Option<Numbers> {
         let dimensions = [
             Dimension::LINE_DENSITY,
             BENDING,
@@ -145,7 +157,46 @@ impl Resolver<'_> {
                 None => Some(Expr::Number(0.0)),
             })
             .collect();
-        all.into_iter().collect()
+        let mut all: Vec<Expr> = all.into_iter().collect::<Option<_>>()?;
+        let Some(value) = given.get("stiffness") else {
+            return Some((all, Vec::new()));
+        };
+        let stiffnesses = [1, 2, 3, 6, 7, 8];
+        let again = stiffnesses.iter().find(|k| given.get(names[**k]).is_some());
+        if let Some(again) = again {
+            let message = format!("`stiffness` and `{}` say the same", names[*again]);
+            let help = "give the matrix, or its diagonal by names";
+            self.diagnostics
+                .error_with_help(value.extent, message, help);
+            return None;
+        }
+        let Stiffness { diagonal, coupling } = self.stiffness_matrix(value)?;
+        let [twist, about_y, about_z, strains @ ..] = diagonal;
+        (all[1], all[2], all[3]) = (about_y, about_z, twist);
+        all[6..].clone_from_slice(&strains);
+        Some((all, coupling))
+    }
+
+    /// The centre of mass off the axis.
+    fn center(&mut self, given: &Arguments<'_>) -> Option<[Expr; 2]> {
+        let [y, z] = ["center_y", "center_z"].map(|name| match given.get(name) {
+            Some(value) => self.scalar_of(value, Dimension::LENGTH, &format!("`{name}`")),
+            None => Some(Expr::Number(0.0)),
+        });
+        Some([y?, z?])
+    }
+
+    /// The centre of mass given for the whole beam, which its sections must not give again.
+    fn only_center(&mut self, given: &Arguments<'_>, whole: &[Expr; 2]) -> Option<[Expr; 2]> {
+        let again = ["center_y", "center_z"].into_iter();
+        let Some(value) = again.filter_map(|name| given.get(name)).next() else {
+            return Some(whole.clone());
+        };
+        let message = "the centre of mass is given for the section and for the whole beam";
+        let help = "give it once: within `section(...)` it may change along the beam";
+        self.diagnostics
+            .error_with_help(value.extent, message, help);
+        None
     }
 
     fn shaped(
@@ -153,7 +204,7 @@ impl Resolver<'_> {
         name: &Ident,
         word: &Ident,
         calls: &[NamedCall],
-        material: Properties,
+        (material, center): (Properties, [Expr; 2]),
     ) -> Option<Table> {
         let [root, .., tip] = &match calls {
             [only] => [only, only],
@@ -174,12 +225,18 @@ impl Resolver<'_> {
         }
         let signature = self.signature(root, "section", &KINDS, &SYNONYMS)?;
         let kind = signature.read;
-        let mut ends = Vec::new();
+        let (mut all, mut centers) = (Vec::new(), Vec::new());
         for end in calls {
             let arguments = self.arguments(end, signature);
-            ends.push(self.dimensions(name, kind, &arguments));
+            all.push(self.dimensions(name, kind, &arguments));
+            centers.push(match &center {
+                [Expr::Number(0.0), Expr::Number(0.0)] => self.center(&arguments),
+                whole => self.only_center(&arguments, whole),
+            });
         }
-        let ends: Vec<Vec<Expr>> = ends.into_iter().collect::<Option<_>>()?;
+        let centers: Vec<[Expr; 2]> = centers.into_iter().collect::<Option<_>>()?;
+        let all: Vec<Numbers> = all.into_iter().collect::<Option<_>>()?;
+        let (ends, coupling): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         if kind != Kind::Numbers {
             let missing = match (&material.density, &material.modulus) {
                 (None, _) => Some("`density`"),
@@ -200,11 +257,13 @@ impl Resolver<'_> {
             kind,
             ends: [first, last],
             material,
+            coupling: both_ends(coupling.first()?, coupling.last()?),
+            centers: [centers.first()?.clone(), centers.last()?.clone()],
             is_flat,
         })
     }
 
-    fn dimensions(&mut self, name: &Ident, kind: Kind, given: &Arguments<'_>) -> Option<Vec<Expr>> {
+    fn dimensions(&mut self, name: &Ident, kind: Kind, given: &Arguments<'_>) -> Option<Numbers> {
         let names: &[&str] = match kind {
             Kind::Rectangle => &["width", "height"],
             Kind::Circle => &["radius"],
@@ -242,11 +301,17 @@ impl Resolver<'_> {
                     extent: at.extent,
                 });
         }
-        lengths.into_iter().map(|(length, _)| length).collect()
+        let lengths = lengths.into_iter().map(|(length, _)| length);
+        Some((lengths.collect::<Option<_>>()?, Vec::new()))
     }
 
     /// Whether one value is above another at the nominal design.
     fn nominal_above(&self, a: &Expr, b: &Expr) -> bool {
+        self.nominal_of(a) > self.nominal_of(b)
+    }
+
+    /// A value at the nominal design, with all inputs one.
+    pub(super) fn nominal_of(&self, value: &Expr) -> f64 {
         let design: Vec<f64> = self
             .design
             .iter()
@@ -254,6 +319,24 @@ impl Resolver<'_> {
             .collect();
         let inputs = vec![1.0; self.inputs.len()];
         let values = crate::model::evaluate::Values::new(&self.constants, &inputs, &design);
-        values.of(a) > values.of(b)
+        values.of(value)
     }
+}
+
+/// The same entries at both ends: where only one couples its strains, zero at the other.
+fn both_ends(
+    root: &[(usize, usize, Expr)],
+    tip: &[(usize, usize, Expr)],
+) -> [Vec<(usize, usize, Expr)>; 2] {
+    let missing = |own: &[(usize, usize, Expr)], other: &[(usize, usize, Expr)]| {
+        let mut all = own.to_vec();
+        for (i, j, _) in other {
+            if !own.iter().any(|(a, b, _)| (a, b) == (i, j)) {
+                all.push((*i, *j, Expr::Number(0.0)));
+            }
+        }
+        all.sort_by_key(|(i, j, _)| (*i, *j));
+        all
+    };
+    [missing(root, tip), missing(tip, root)]
 }

@@ -30,6 +30,10 @@ pub(in crate::model::resolve) struct Table {
     /// The dimensions at the root and at the tip.
     pub(super) ends: [Vec<Expr>; 2],
     pub(super) material: Properties,
+    /// The centre of mass off the axis, at the root and at the tip.
+    pub(super) centers: [[Expr; 2]; 2],
+    /// Stiffness that couples strains, at the root and at the tip; see [`Section::coupling`].
+    pub(super) coupling: [Vec<(usize, usize, Expr)>; 2],
     /// Whether a rectangle is wider than high at the nominal design.
     pub(super) is_flat: bool,
 }
@@ -63,6 +67,9 @@ impl Table {
             "shear stiffness along z" => ["shear_stiffness_z", "GAz"],
             _ => ["mass_per_length", "mass"],
         };
+        if self.is_coupled() {
+            return "it is on the diagonal of `stiffness`".to_owned();
+        }
         format!("give `{argument}`, or `{short}` within `section(...)`")
     }
 
@@ -76,6 +83,9 @@ impl Table {
 
     /// Whether the sections have inertia about the axis of the beam.
     pub(super) fn resists_turning(&self) -> bool {
+        if self.is_off_axis() {
+            return true;
+        }
         match self.kind {
             Kind::Numbers => self.ends[0][4..6]
                 .iter()
@@ -84,21 +94,32 @@ impl Table {
         }
     }
 
-    /// The section at a fraction of the length.
-    pub(super) fn section(&self, place: f64, twist: &Expr) -> Section {
-        let [root, tip] = &self.ends;
-        let at: Vec<Expr> = root
+    /// Whether the stiffness is a matrix.
+    pub(super) fn is_coupled(&self) -> bool {
+        self.coupling.iter().any(|end| !end.is_empty())
+    }
+
+    /// Whether mass is off the axis.
+    pub(super) fn is_off_axis(&self) -> bool {
+        self.centers
+            .as_flattened()
             .iter()
-            .zip(tip)
-            .map(|(root, tip)| match root == tip {
-                true => root.clone(),
-                false => add(
-                    multiply(Expr::Number(1.0 - place), root.clone()),
-                    multiply(Expr::Number(place), tip.clone()),
-                ),
-            })
+            .any(|own| *own != Expr::Number(0.0))
+    }
+
+    /// The section at a fraction of the length.
+    pub(super) fn section(&self, place: f64, turned: (&Expr, &[Expr; 2])) -> Section {
+        let [root, tip] = &self.ends;
+        let both = root.iter().zip(tip);
+        let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, place)).collect();
+        let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], place));
+        let pairs = self.coupling[0].iter().zip(&self.coupling[1]);
+        let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, place)));
+        let coupling = pairs
+            .filter(|(.., own)| *own != Expr::Number(0.0))
             .collect();
-        let twist = multiply(Expr::Number(place), twist.clone());
+        let share = |whole: &Expr| multiply(Expr::Number(place), whole.clone());
+        let (twist, prebend) = (share(turned.0), turned.1.each_ref().map(share));
         if let [
             mass,
             about_y,
@@ -113,9 +134,12 @@ impl Table {
             return Section {
                 mass: mass.clone(),
                 inertia: [inertia_y.clone(), inertia_z.clone()],
+                center,
                 stiffness: [torsion.clone(), about_y.clone(), about_z.clone()],
                 against_strain: [axial.clone(), shear_y.clone(), shear_z.clone()],
+                coupling,
                 twist,
+                prebend,
                 size: [Expr::Number(0.0), Expr::Number(0.0)],
             };
         }
@@ -139,12 +163,15 @@ impl Table {
             against_strain: [of(modulus, area.clone()), shear.clone(), shear],
             mass: of(density, area),
             inertia: [of(density, second_y.clone()), of(density, second_z.clone())],
+            center,
             stiffness: [
                 of(shear_modulus, torsion),
                 of(modulus, second_y),
                 of(modulus, second_z),
             ],
+            coupling,
             twist,
+            prebend,
             size: self.size(&at),
         }
     }
@@ -233,6 +260,17 @@ impl Table {
                 (zero.clone(), [zero.clone(), zero.clone()], zero)
             }
         }
+    }
+}
+
+/// What changes linearly from the root to the tip.
+fn between(root: &Expr, tip: &Expr, place: f64) -> Expr {
+    match root == tip {
+        true => root.clone(),
+        false => add(
+            multiply(Expr::Number(1.0 - place), root.clone()),
+            multiply(Expr::Number(place), tip.clone()),
+        ),
     }
 }
 

@@ -120,6 +120,9 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     "axial_stiffness",
     "shear_stiffness_y",
     "shear_stiffness_z",
+    "stiffness",
+    "center_y",
+    "center_z",
     "bending",
     "bending_y",
     "bending_z",
@@ -127,6 +130,8 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     "shear",
     "stretch",
     "twist",
+    "prebend_y",
+    "prebend_z",
     "lag",
     "points",
 ])
