@@ -14,6 +14,7 @@ use crate::second_order::{
 use crate::{Error, Quantity};
 
 /// Second-order models of responses, those of one mode from the same derivatives of its eigenvalue.
+#[doc(hidden)]
 pub struct QuadraticModels<'a> {
     mechanism: &'a dyn CurvatureKernels,
     responses: &'a Responses<'a>,
@@ -21,6 +22,7 @@ pub struct QuadraticModels<'a> {
 }
 
 /// The second-order model of a response.
+#[doc(hidden)]
 pub struct QuadraticModel {
     /// The model over the design variables.
     pub quadratic: Quadratic,
@@ -29,7 +31,7 @@ pub struct QuadraticModel {
 }
 
 impl<'a> QuadraticModels<'a> {
-    /// QuadraticModels of responses of `mechanism`.
+    /// For responses of `mechanism`.
     pub fn new(mechanism: &'a dyn CurvatureKernels, responses: &'a Responses<'a>) -> Self {
         Self {
             mechanism,

@@ -220,7 +220,8 @@ impl Visitor for Columns {
 fn large_machines_get_their_partials_column_by_column() {
     let mut columns = Columns { machines: 0 };
     visit(&mut columns);
-    assert_eq!(columns.machines, 1);
+    // One has too many entries, a beam too many operations.
+    assert_eq!(columns.machines, 2);
 }
 
 /// Writes partial derivatives into a result that held those of other states.

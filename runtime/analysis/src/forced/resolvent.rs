@@ -30,6 +30,7 @@ const MOST: usize = 6;
 const STEPS: usize = 3;
 
 /// The vibration of all outputs at one harmonic, for designs near that of an equilibrium.
+#[doc(hidden)]
 pub struct Resolvent<'a> {
     mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,

@@ -4,9 +4,9 @@
 //! of quadrature and the numbers `W_ak` of integration up to place `a`. So its integrals of `rho` and `rho rho^T` have
 //! the form of those of a rigid body, `sum_k first_k d_k` and `sum_kj second_kj d_k d_j^T`, with constant `first` and
 //! `second`; only the arms `d_k` do not turn together. A centre of mass off the axis is one more arm `o_k`, with `first =
-//! m_k w_k L`, with this also as `second` with itself, and with `first L W_kj` as `second` with `d_j`. Each arm needs the force `S_k = first_k a_O + sum_j second_kj
-//! d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is the moment that turns its section. The moment
-//! of its own inertia, `J w' + w x J w`, is written along its axes.
+//! m_k w_k L`, with this also as `second` with itself, and with `first L W_kj` as `second` with `d_j`. Each arm needs the
+//! force `S_k = first_k a_O + sum_j second_kj d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is the moment
+//! that turns its section. The moment of its own inertia, `J w' + w x J w`, is written along its axes.
 
 use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3};
 use crate::base::ids::BeamId;
