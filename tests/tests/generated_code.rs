@@ -6,6 +6,8 @@ mod agreement;
 mod constraints;
 #[path = "generated_code/scalars.rs"]
 mod scalars;
+#[path = "generated_code/side_by_side.rs"]
+mod side_by_side;
 
 use eigentol::Kernels;
 use rand_chacha::ChaCha8Rng;

@@ -7,7 +7,7 @@ use eigentol_interpreter::Interpreted;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng as _, SeedableRng as _};
 
-const ROTOR: &str = "mechanism Rotor {
+pub(super) const ROTOR: &str = "mechanism Rotor {
     input w: rad/s;
     design m = 12 kg +/- 3 %;
     design k = 1.9e6 N/m +/- 6 %;

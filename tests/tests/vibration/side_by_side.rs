@@ -6,20 +6,7 @@ use eigentol::tolerance::Sampling;
 use eigentol::{Excitation, Output, Quantity, Study};
 use eigentol_interpreter::Interpreted;
 
-const ROTOR: &str = "mechanism Rotor {
-    input w: rad/s;
-    design m = 12 kg +/- 3 %;
-    design k = 1.9e6 N/m +/- 6 %;
-    design c = 310 N*s/m +/- 30 % uniform;
-    design e = 4e-5 m +/- 50 %;
-    body hub: massless;
-    body disk: disk(mass: m, radius: 20 cm, axis: z);
-    joint x: prismatic(x) from ground to hub;
-    joint spin: revolute(z) from hub to disk, driven at w;
-    every displacement: spring_damper(stiffness: k, damping: c);
-    unbalance u: on disk, eccentricity: e;
-    output shake = x;
-}";
+use super::exceedance::ROTOR;
 
 /// Hangs out under the spin, so that the equilibrium moves with the design; undamped.
 const PENDULUM: &str = "mechanism Pendulum {
@@ -80,4 +67,22 @@ fn vibrations_of_designs_in_vectors_are_those_of_designs_one_by_one() {
             assert!(sigma.value > 1e-4 * scale);
         }
     }
+}
+
+/// More points than are shared out at a time, for any number of threads.
+#[test]
+fn a_sweep_has_the_same_bits_for_any_number_of_threads() {
+    let machine = Interpreted::from_text(ROTOR).expect("a declaration");
+    let study = Study::new(machine);
+    let speed = study.find_input("w").expect("an input");
+    let speeds: Vec<f64> = (0..600).map(|k| 100.0 + f64::from(k)).collect();
+    let swept = |threads| {
+        let study = study.clone().input(speed, 100.0).threads(threads);
+        study.bode(speed, &speeds).expect("a sweep")
+    };
+    let alone = swept(1);
+    assert_eq!(alone.points.len(), 600);
+    let places = alone.points.iter().map(|point| point.value);
+    assert!(places.eq(speeds.iter().copied()));
+    assert!(alone == swept(3));
 }
