@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use eigentol::Study;
+use eigentol::{Kernels as _, Study};
 use eigentol_interpreter::Interpreted;
 
 use crate::compared::study;
@@ -171,7 +171,7 @@ fn arcs_in_series() {
     assert_alike(&frequencies(&one), &frequencies(&two), 1e-8);
 }
 
-/// Derivatives by the prebend are those of the whole.
+/// Derivatives by the prebend are those of the whole, those of a beam that is straight in the nominal design too.
 #[test]
 fn prebend_as_a_design() {
     let of = |[y, z]: [f64; 2]| {
@@ -189,7 +189,7 @@ fn prebend_as_a_design() {
             None,
         )
     };
-    for turns in [[0.5, -0.8], [0.0, 0.6]] {
+    for turns in [[0.5, -0.8], [0.0, 0.6], [0.0, 0.0], [-2.5, 1.5]] {
         let sensitivities = of(turns).sensitivities().expect("derivatives");
         for (j, h) in [[1e-4, 0.0], [0.0, 1e-4]].into_iter().enumerate() {
             let at = |sign: f64| frequencies(&of([0, 1].map(|k| turns[k] + sign * h[k])));
@@ -203,4 +203,32 @@ fn prebend_as_a_design() {
             }
         }
     }
+}
+
+/// A straight axis whose straightness has a tolerance in both planes is the straight beam, and a full turn is too much.
+#[test]
+fn straightness_as_a_tolerance() {
+    let text = |prebend: &str| {
+        format!(
+            "mechanism Straight {{
+                gravity 9.81 m/s^2 along -z;
+                design y = 0 rad +/- 1 deg; design z = 0 rad +/- 1 deg;
+                body arc: beam(length: {LENGTH} m, along: x, up: z, {}, {STRAINED}, bending: 3, torsion: 2, twist: 20 deg{prebend});
+                joint clamp: fixed from ground to arc;
+            }}",
+            section()
+        )
+    };
+    let curved = study(&text(", prebend_y: y, prebend_z: z"), None);
+    let straight = study(&text(""), None);
+    assert_alike(&frequencies(&curved), &frequencies(&straight), 1e-12);
+    let spread = curved.first_order().expect("spread");
+    assert!(spread.modes.iter().any(|mode| mode.lambda.sigma > 1e-6));
+    let turned = |design: &[f64]| {
+        let found = curved.mechanism().violation(&[], design);
+        found.map(|own| own.quantity.to_string())
+    };
+    assert_eq!(turned(&[5.0, 3.6]), None);
+    let rest = "rest of a full turn beside the prebend of arc, squared";
+    assert_eq!(turned(&[5.0, -4.0]).as_deref(), Some(rest));
 }

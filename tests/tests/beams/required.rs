@@ -69,6 +69,34 @@ fn tubes_need_a_wall_and_numbers_must_be_positive() {
     );
 }
 
+/// Entries beside the diagonal can make a section give way although its diagonal is positive.
+#[test]
+fn a_matrix_of_stiffness_must_be_positive_definite() {
+    let text = "mechanism Blade {
+        design both = 1 N*m^2; design axial = 5 N;
+        body blade: beam(length: 1 m, along: x, up: z, mass_per_length: 1 kg/m, inertia_y: 1 g*m, inertia_z: 2 g*m,
+            bending: 2, torsion: 1,
+            stiffness: [[axial, 0, 0, 0, 1 N*m, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0],
+                [0, 0, 0, 1, both, 0], [1 N*m, 0, 0, both, 2, 0], [0, 0, 0, 0, 0, 3]]);
+        joint clamp: fixed from ground to blade;
+    }";
+    let bending =
+        "stiffness of blade against bending about y with the strains of earlier rows free";
+    let axial = "stiffness of blade against stretch with the strains of earlier rows free";
+    // about y 2 - 1 / axial - both^2 is left
+    let cases = [
+        ([1.0, 5.0], None),
+        ([-1.3, 5.0], None),
+        ([1.35, 5.0], Some(bending)),
+        ([-1.35, 5.0], Some(bending)),
+        ([1.0, 0.9], Some(bending)),
+        ([1.0, -5.0], Some(axial)),
+    ];
+    for (design, expected) in cases {
+        assert_eq!(broken(text, &design).as_deref(), expected, "{design:?}");
+    }
+}
+
 /// Without inertia about the axis the default has no torsion, so the machine has modes.
 #[test]
 fn torsion_by_default_needs_inertia() {

@@ -71,6 +71,34 @@ fn a_straight_blade_is_tapered_and_twisted_about_its_axis() {
     );
 }
 
+/// What is known by numbers is drawn as large as it is said to be, its mass off the axis or not.
+#[test]
+fn sections_by_numbers_have_the_size_that_is_given() {
+    let numbers =
+        "inertia_y: 1 g*m, inertia_z: 2 g*m, EIy: 2 N*m^2, EIz: 5 N*m^2, GJ: 1 N*m^2, mass: 1 kg/m";
+    let text = format!(
+        "mechanism Blade {{
+            body blade: beam(length: 2 m, along: x, up: z, bending: 2, torsion: 1, center_y: 5 mm, section:
+                section({numbers}, width: 60 mm, height: 30 mm) to section({numbers}, width: 20 mm, height: 10 mm));
+            joint clamp: fixed from ground to blade;
+        }}"
+    );
+    let scene = scene(&machine(&text), &[0.0; 5], &[], &[]).expect("a picture");
+    let [blade] = &scene.beams[..] else {
+        panic!("{:?}", scene.beams)
+    };
+    for section in &blade.sections {
+        let share = section.pose.position[0] / 2.0;
+        let expected = [0.06 - 0.04 * share, 0.03 - 0.02 * share];
+        let apart = section
+            .size
+            .iter()
+            .zip(expected)
+            .map(|(a, b)| (a - b).abs());
+        assert!(apart.fold(0.0, f64::max) < 1e-15, "{:?}", section.size);
+    }
+}
+
 /// A constant curvature bends the centre line into an arc of a circle.
 #[test]
 fn a_bent_centre_line_is_an_arc() {

@@ -5,6 +5,7 @@ use quote::{quote, quote_spanned};
 
 use super::tolerance;
 use crate::mechanics::{self, Damping, Functions, Role, Unknown};
+use crate::model::exchanged::Exchanged;
 use crate::model::mechanism::{Mechanism, Unit};
 use crate::program::Program;
 
@@ -172,18 +173,23 @@ fn unit(unit: &Unit) -> TokenStream {
     quote! { ::eigentol::Unit { symbol: ::eigentol::Shared::Static(#symbol), scale: #scale } }
 }
 
-/// An unread local variable for every design variable that nothing refers to: rustc warns at its declaration, and the
-/// usual attributes silence the warning. The functions shadow constants of the same names, which `let` would otherwise
-/// match.
-pub(super) fn unused(mechanism: &Mechanism) -> TokenStream {
+/// What rustc warns of at the declaration: an unread local variable for every design variable that nothing refers to, and
+/// the use of a deprecated constant for every beam whose stiffness seems to be exchanged. The usual attributes silence
+/// both. The functions shadow constants of the same names, which `let` would otherwise match.
+pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
     let unused = mechanism.unused_design();
     let names: Vec<_> = unused.map(|variable| &variable.name).collect();
-    if names.is_empty() {
+    let exchanged = mechanism.exchanged();
+    if names.is_empty() && exchanged.is_empty() {
         return TokenStream::new();
     }
-    let hidden = names
+    let hide = |name: &Ident| Ident::new(&name.to_string(), Span::call_site());
+    let hidden = names.iter().map(|name| hide(name));
+    let beams: Vec<_> = exchanged.iter().map(|own| &own.beam).collect();
+    let constants = beams.iter().map(|name| hide(name));
+    let notes = exchanged
         .iter()
-        .map(|name| Ident::new(&name.to_string(), Span::call_site()));
+        .map(|own| format!("{}; {}", own.message, Exchanged::HELP));
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&syn::Attribute| levels.iter().any(|level| a.path().is_ident(level));
     let levels = mechanism.attributes.iter().filter(is_level);
@@ -197,6 +203,8 @@ pub(super) fn unused(mechanism: &Mechanism) -> TokenStream {
         const _: () = {
             #(#[allow(dead_code, non_snake_case)] fn #hidden() {})*
             #(#[allow(non_snake_case)] let #names = 0;)*
+            #(#[allow(non_upper_case_globals)] #[deprecated(note = #notes)] const #constants: () = ();)*
+            #(let _ = #beams;)*
         };
     }
 }

@@ -89,7 +89,7 @@ pub fn emit<E: Debug>(
     } = mechanism;
     let handles = description::handles(mechanism, functions);
     let description = description::description(mechanism, functions, program);
-    let unused = description::unused(mechanism);
+    let warnings = description::warnings(mechanism);
     let picture = picture::info(&functions.picture);
     let pictured = functions.picture.computed.len();
     let (coordinates, inputs) = (functions.unknowns.len(), mechanism.inputs.len());
@@ -110,7 +110,7 @@ pub fn emit<E: Debug>(
             #handles
         }
 
-        #unused
+        #warnings
 
         #(#conditions)*
         const _: () = {

@@ -4,6 +4,7 @@ pub mod beam;
 pub mod constraint;
 pub mod elements;
 pub mod evaluate;
+pub mod exchanged;
 pub mod excitation;
 pub mod expression;
 pub mod inertia;

@@ -3,12 +3,13 @@
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Meta, Token};
 
+use super::exchanged::Exchanged;
 use super::mechanism::Mechanism;
 use crate::mistakes::{Mistake, mistake};
 
 impl Mechanism {
-    /// The warnings that rustc gives if the declaration is written in a macro: design variables that nothing refers to.
-    /// A leading underscore or an attribute marks such a variable as intended.
+    /// The warnings that rustc gives if the declaration is written in a macro: design variables that nothing refers to, and
+    /// beams whose stiffness seems to be [exchanged](Exchanged). A leading underscore or an attribute marks what is meant.
     ///
     /// ```
     /// use eigentol_language::mistakes::{Mistakes, tokens};
@@ -22,29 +23,37 @@ impl Mechanism {
     /// # Ok::<(), Mistakes>(())
     /// ```
     pub fn warnings(&self) -> Vec<Mistake> {
-        if is_allowed(&self.attributes) {
-            return Vec::new();
-        }
-        let unused = self.unused_design().map(|variable| {
+        let unused = self.unused_design().filter_map(|variable| {
             let name = variable.name.to_string();
             let (plain, span) = (name.trim_start_matches("r#"), variable.name.span());
             let message = format!("unused variable: `{name}`");
             let help = format!("if this is intentional, prefix it with an underscore: `_{plain}`");
             (!plain.starts_with('_')).then(|| mistake((span, span), message, Some(help)))
         });
-        unused.flatten().collect()
+        let exchanged = self.exchanged().into_iter().map(|own| {
+            let span = own.beam.span();
+            mistake((span, span), own.message, Some(Exchanged::HELP.to_owned()))
+        });
+        let told = |lints: &[&str]| !is_allowed(&self.attributes, lints);
+        let unused = unused.filter(|_| told(&UNUSED));
+        unused
+            .chain(exchanged.filter(|_| told(&DEPRECATED)))
+            .collect()
     }
 }
 
 /// Lints that cover unused variables.
 const UNUSED: [&str; 3] = ["unused_variables", "unused", "warnings"];
 
-/// Whether the last attribute about unused variables allows them.
-fn is_allowed(attributes: &[Attribute]) -> bool {
+/// Lints that cover all else that rustc warns of in the name of a macro.
+const DEPRECATED: [&str; 2] = ["deprecated", "warnings"];
+
+/// Whether the last attribute about some lints allows them.
+fn is_allowed(attributes: &[Attribute], lints: &[&str]) -> bool {
     let is_meant = |attribute: &&Attribute| {
-        let lints = attribute.parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated);
-        let mut lints = lints.into_iter().flatten();
-        lints.any(|lint| UNUSED.iter().any(|name| lint.path().is_ident(name)))
+        let named = attribute.parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated);
+        let mut named = named.into_iter().flatten();
+        named.any(|lint| lints.iter().any(|name| lint.path().is_ident(name)))
     };
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&Attribute| levels.iter().any(|level| a.path().is_ident(level));

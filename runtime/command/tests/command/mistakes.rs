@@ -81,6 +81,63 @@ warning: unused variable: `µ_bar`
     }
 }
 
+/// What a section by numbers says of its extent against what it says of its stiffness.
+#[test]
+fn stiffness_in_the_wrong_plane_is_warned_of() {
+    let warning = |attribute: &str, section: &str| {
+        let text = format!(
+            "{attribute}mechanism A {{
+    body arm: beam(length: 1 m, along: x, up: z, section: section(mass: 1 kg/m, {section}), bending: 3, torsion: 0);
+    joint clamp: fixed from ground to arm;
+    point mid: arm at 0.5 length;
+    force pull: load(at: mid, force: [0, 0, 1] N);
+}}
+"
+        );
+        let run = run_with_input(&["check", "-"], &text);
+        assert_eq!(run.code, 0, "{}", run.err);
+        run.err
+    };
+    let wide = "width: 40 mm, height: 10 mm";
+    let expected = "\
+warning: `arm` is stiffer about y, although its width is greater than its height
+ --> standard input:2:10
+  |
+2 |     body arm: beam(length: 1 m, along: x, up: z, section: section(mass: 1 kg/m, EIy: 9 N*m^2, EIz: 2 N*m^2, width: 40 mm, height: 10 mm), bending...
+  |          ^^^
+  |
+  = help: bending about y moves the beam along `up`: its stiffness takes the height to the third power. Exchange the stiffnesses, or write \
+`#[allow(deprecated)]` above the mechanism if they are meant
+
+";
+    let wrong = format!("EIy: 9 N*m^2, EIz: 2 N*m^2, {wide}");
+    assert_eq!(warning("", &wrong), expected);
+    assert_eq!(warning("#[allow(deprecated)] ", &wrong), "");
+    let said = [
+        (
+            "EIy: 2 N*m^2, EIz: 9 N*m^2, width: 40 mm, height: 50 mm",
+            "`arm` is stiffer about z, although its height is greater than its width",
+        ),
+        (
+            "EIy: 2 N*m^2, EIz: 9 N*m^2, inertia_y: 3 g*m, inertia_z: 2 g*m",
+            "`arm` is stiffer about z, although `inertia_y` is greater than `inertia_z`",
+        ),
+    ];
+    for (section, message) in said {
+        assert!(warning("", section).contains(message), "{section}");
+    }
+    let right = [
+        format!("EIy: 2 N*m^2, EIz: 9 N*m^2, {wide}"),
+        "EIy: 2 N*m^2, EIz: 9 N*m^2, inertia_y: 2 g*m, inertia_z: 3 g*m".to_owned(),
+        format!("EIy: 2 N*m^2, EIz: 2 N*m^2, {wide}"),
+        "EIy: 9 N*m^2, EIz: 2 N*m^2, width: 20 mm, height: 20 mm".to_owned(),
+        "EIy: 9 N*m^2, EIz: 2 N*m^2".to_owned(),
+    ];
+    for section in right {
+        assert_eq!(warning("", &section), "", "{section}");
+    }
+}
+
 /// A truncated declaration gives a message and no panic, wherever it is cut off.
 #[test]
 fn a_truncated_declaration_is_refused_wherever_it_ends() {

@@ -7,6 +7,8 @@ mod sections;
 mod stations;
 pub(super) mod table;
 
+use std::f64::consts::TAU;
+
 use proc_macro2::Ident;
 
 use self::declared::Declared;
@@ -111,15 +113,7 @@ impl Resolver<'_> {
         self.require_sections(name, word, given, &declared)?;
         declared.positive = positive(name, &self.requirements[before..], &declared.table);
         if declared.is_curved() == [true; 2] {
-            // the direction about which the axis is curved
-            let square = {
-                let [y, z] = &declared.prebend;
-                let turn = [Expr::Number(0.0), y.clone(), z.clone()];
-                simplify::dot(&turn, &turn)
-            };
-            declared
-                .positive
-                .push((format!("prebend of {name}"), square));
+            self.require_less_than_a_turn((name, word), &mut declared)?;
         }
         Some(declared)
     }
@@ -309,6 +303,27 @@ impl Resolver<'_> {
             demand: Demand::Positive(dimension),
             extent: at.extent,
         });
+    }
+
+    /// The series of a curved axis hold up to a full turn.
+    fn require_less_than_a_turn(
+        &mut self,
+        (name, word): (&Ident, &Ident),
+        declared: &mut Declared,
+    ) -> Option<()> {
+        let [y, z] = declared.prebend.clone();
+        let square = |own: Expr| simplify::power_integer(own, 2);
+        let turned = simplify::add(square(y), square(z));
+        let rest = simplify::subtract(Expr::Number(TAU * TAU), turned);
+        if matches!(rest, Expr::Number(rest) if rest <= 0.0) {
+            let message = "the axis of this beam turns by a full turn or more";
+            let help = "put two beams in series, each with its part of the turn";
+            self.diagnostics.error_with_help(word, message, help);
+            return None;
+        }
+        let quantity = format!("rest of a full turn beside the prebend of {name}, squared");
+        declared.positive.push((quantity, rest));
+        Some(())
     }
 
     /// Mass and stiffness must be given, and if they are numbers positive all along the beam, also within the

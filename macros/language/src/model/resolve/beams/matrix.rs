@@ -1,14 +1,29 @@
 //! The stiffness of a section as a matrix, as VABS and BECAS write it.
 
+use proc_macro2::Ident;
+
 use super::super::resolver::Resolver;
 use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
+use crate::model::evaluate::Dependence;
 use crate::model::expression::Expr;
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::simplify::{divide, multiply, subtract};
 use crate::syntax::ast::{Value, ValueKind};
 
 /// Where the rows of a matrix are in the order of [`Section::coupling`](crate::model::mechanism::Section): stretch, shear
 /// along y and z, twist, bending about y and z.
 const ORDER: [usize; 6] = [3, 4, 5, 0, 1, 2];
+
+/// The strains, in the order of the rows.
+const STRAINS: [&str; 6] = [
+    "stretch",
+    "shear along y",
+    "shear along z",
+    "twist",
+    "bending about y",
+    "bending about z",
+];
 
 /// Share of the geometric mean of two entries of the diagonal by which the two entries beside it may differ.
 const ROUNDING: f64 = 1e-9;
@@ -21,7 +36,7 @@ pub(super) struct Stiffness {
 
 impl Resolver<'_> {
     /// Six rows of six entries, each with its unit or a plain number in units of the SI.
-    pub(super) fn stiffness_matrix(&mut self, value: &Value) -> Option<Stiffness> {
+    pub(super) fn stiffness_matrix(&mut self, name: &Ident, value: &Value) -> Option<Stiffness> {
         let rows: Vec<&[Value]> = rows_of(value)
             .filter(|rows| rows.len() == 6 && rows.iter().all(|row| row.len() == 6))
             .or_else(|| {
@@ -55,12 +70,26 @@ impl Resolver<'_> {
                 }
             }
         }
-        if let Some(row) = first_not_positive(&numbers) {
-            let message = "`stiffness` is not positive definite: some strain would take no work";
-            let help = "leave out strains that nothing resists by rows of zeros";
-            let extent = rows[row][row].extent;
-            self.diagnostics.error_with_help(extent, message, help);
-            return None;
+        let on_inputs = Dependence::on_inputs(&self.constants);
+        for (k, pivot) in pivots(&entries) {
+            let extent = rows[k][k].extent;
+            let number = self.nominal_of(&pivot);
+            if !on_inputs.of(&pivot) && (number.is_nan() || number <= 0.0) {
+                let message =
+                    "`stiffness` is not positive definite: some strain would take no work";
+                let help = "leave out strains that nothing resists by rows of zeros";
+                self.diagnostics.error_with_help(extent, message, help);
+                return None;
+            }
+            self.requirements.push(Requirement {
+                what: format!(
+                    "the stiffness of `{name}` against {} with the strains of earlier rows free",
+                    STRAINS[k]
+                ),
+                values: vec![pivot],
+                demand: Demand::Positive(Dimension::new(if k < 3 { 1 } else { 3 }, 1, -2)),
+                extent,
+            });
         }
         let mut diagonal = [0; 6].map(|_| Expr::Number(0.0));
         let mut coupling = Vec::new();
@@ -95,24 +124,25 @@ fn rows_of(value: &Value) -> Option<Vec<&[Value]>> {
     entries.collect()
 }
 
-/// The first row at which Cholesky's decomposition fails; rows of zeros are left out.
-fn first_not_positive(numbers: &[f64]) -> Option<usize> {
-    let mut lower = [[0.0; 6]; 6];
-    for i in 0..6 {
-        let row = &numbers[6 * i..6 * i + 6];
-        if row.iter().all(|own| *own == 0.0) {
+/// Rows whose strain something resists, with what must be positive for the matrix to be positive definite: the pivots of
+/// Gauss's elimination, each the stiffness against one strain where those of earlier rows are free.
+fn pivots(entries: &[Expr]) -> Vec<(usize, Expr)> {
+    let mut rest = entries.to_vec();
+    let mut list = Vec::new();
+    for k in 0..6 {
+        let row = rest[6 * k..6 * k + 6].to_vec();
+        if row.iter().all(|own| *own == Expr::Number(0.0)) {
             continue;
         }
-        for j in 0..=i {
-            let known: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
-            let rest = row[j] - known;
-            lower[i][j] = match i == j {
-                true if rest > 0.0 => rest.sqrt(),
-                true => return Some(i),
-                false if lower[j][j] == 0.0 => 0.0,
-                false => rest / lower[j][j],
-            };
+        let pivot = row[k].clone();
+        for i in k + 1..6 {
+            let share = divide(row[i].clone(), pivot.clone());
+            for j in k + 1..6 {
+                let less = multiply(share.clone(), row[j].clone());
+                rest[6 * i + j] = subtract(rest[6 * i + j].clone(), less);
+            }
         }
+        list.push((k, pivot));
     }
-    None
+    list
 }

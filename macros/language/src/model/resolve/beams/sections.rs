@@ -15,7 +15,7 @@ use crate::syntax::ast::{NamedCall, ValueKind};
 type Numbers = (Vec<Expr>, Vec<(usize, usize, Expr)>);
 
 /// How many numbers describe a section.
-const NUMBERS: usize = 9;
+const NUMBERS: usize = 11;
 const BENDING: Dimension = Dimension::new(3, 1, -2);
 const INERTIA: Dimension = Dimension::new(1, 1, 0);
 
@@ -51,6 +51,8 @@ static KINDS: [Signature<Kind>; 4] = [
         "center_y",
         "center_z",
         "stiffness",
+        "width",
+        "height",
     ]),
 ];
 
@@ -83,11 +85,11 @@ impl Resolver<'_> {
             "axial_stiffness",
             "shear_stiffness_y",
             "shear_stiffness_z",
+            "width",
+            "height",
         ];
-        let numbers = by_numbers.iter().chain(&["stiffness"]);
-        let numbers = numbers
-            .clone()
-            .find_map(|name| Some((name, given.get(name)?)));
+        let mut numbers = by_numbers.iter().chain(&["stiffness"]);
+        let numbers = numbers.find_map(|name| Some((name, given.get(name)?)));
         match (given.get("section"), numbers) {
             (Some(_), Some((name, value))) => {
                 let message = format!("a beam takes `section` or `{name}`, not both");
@@ -109,7 +111,7 @@ impl Resolver<'_> {
             }
             (None, Some(_)) => {
                 let center = self.center(given)?;
-                let (ends, coupling) = self.numbers(given, by_numbers)?;
+                let (ends, coupling) = self.numbers(name, given, by_numbers)?;
                 if matches!(ends[0], Expr::Number(0.0)) {
                     let message = "`beam` needs `mass_per_length`";
                     let help = "write `mass_per_length: 0.5 kg/m`";
@@ -123,6 +125,7 @@ impl Resolver<'_> {
                     centers: [center.clone(), center],
                     coupling: [coupling.clone(), coupling],
                     is_flat: false,
+                    is_matrix: given.get("stiffness").is_some(),
                 })
             }
             (None, None) => {
@@ -136,8 +139,13 @@ impl Resolver<'_> {
     }
 
     /// Mass, stiffness about y, about z and against twist, the two inertias, stiffness against stretch and against shear
-    /// along y and z; zero if not given. And what couples them, if the stiffness is a matrix.
-    fn numbers(&mut self, given: &Arguments<'_>, names: [&str; NUMBERS]) -> Option<Numbers> {
+    /// along y and z, width and height; zero if not given. And what couples them, if the stiffness is a matrix.
+    fn numbers(
+        &mut self,
+        name: &Ident,
+        given: &Arguments<'_>,
+        names: [&str; NUMBERS],
+    ) -> Option<Numbers> {
         let dimensions = [
             Dimension::LINE_DENSITY,
             BENDING,
@@ -148,16 +156,32 @@ impl Resolver<'_> {
             Dimension::FORCE,
             Dimension::FORCE,
             Dimension::FORCE,
+            Dimension::LENGTH,
+            Dimension::LENGTH,
         ];
         let all: Vec<Option<Expr>> = names
             .into_iter()
             .zip(dimensions)
-            .map(|(name, dimension)| match given.get(name) {
-                Some(value) => self.scalar_of(value, dimension, &format!("`{name}`")),
-                None => Some(Expr::Number(0.0)),
+            .map(|(argument, dimension)| {
+                let Some(value) = given.get(argument) else {
+                    return Some(Expr::Number(0.0));
+                };
+                let own = self.scalar_of(value, dimension, &format!("`{argument}`"))?;
+                if dimension == Dimension::LENGTH {
+                    self.require_of_beam(name, argument, &own, dimension, value);
+                }
+                Some(own)
             })
             .collect();
         let mut all: Vec<Expr> = all.into_iter().collect::<Option<_>>()?;
+        let sizes = ["width", "height"].map(|size| Some((size, given.get(size)?)));
+        if let [Some((size, value)), None] | [None, Some((size, value))] = sizes {
+            let message = format!("`{size}` alone is not the size of a section");
+            let help = "give `width` and `height`, which pictures show, or neither";
+            self.diagnostics
+                .error_with_help(value.extent, message, help);
+            return None;
+        }
         let Some(value) = given.get("stiffness") else {
             return Some((all, Vec::new()));
         };
@@ -170,10 +194,10 @@ impl Resolver<'_> {
                 .error_with_help(value.extent, message, help);
             return None;
         }
-        let Stiffness { diagonal, coupling } = self.stiffness_matrix(value)?;
+        let Stiffness { diagonal, coupling } = self.stiffness_matrix(name, value)?;
         let [twist, about_y, about_z, strains @ ..] = diagonal;
         (all[1], all[2], all[3]) = (about_y, about_z, twist);
-        all[6..].clone_from_slice(&strains);
+        all[6..9].clone_from_slice(&strains);
         Some((all, coupling))
     }
 
@@ -226,8 +250,10 @@ impl Resolver<'_> {
         let signature = self.signature(root, "section", &KINDS, &SYNONYMS)?;
         let kind = signature.read;
         let (mut all, mut centers) = (Vec::new(), Vec::new());
+        let mut is_matrix = false;
         for end in calls {
             let arguments = self.arguments(end, signature);
+            is_matrix |= arguments.get("stiffness").is_some();
             all.push(self.dimensions(name, kind, &arguments));
             centers.push(match &center {
                 [Expr::Number(0.0), Expr::Number(0.0)] => self.center(&arguments),
@@ -260,6 +286,7 @@ impl Resolver<'_> {
             coupling: both_ends(coupling.first()?, coupling.last()?),
             centers: [centers.first()?.clone(), centers.last()?.clone()],
             is_flat,
+            is_matrix,
         })
     }
 
@@ -279,8 +306,10 @@ impl Resolver<'_> {
                     "EA",
                     "GAy",
                     "GAz",
+                    "width",
+                    "height",
                 ];
-                return self.numbers(given, order);
+                return self.numbers(name, given, order);
             }
         };
         let mut lengths = Vec::new();

@@ -36,6 +36,8 @@ pub(in crate::model::resolve) struct Table {
     pub(super) coupling: [Vec<(usize, usize, Expr)>; 2],
     /// Whether a rectangle is wider than high at the nominal design.
     pub(super) is_flat: bool,
+    /// Whether the stiffness is given as a matrix.
+    pub(super) is_matrix: bool,
 }
 
 impl Table {
@@ -67,7 +69,7 @@ impl Table {
             "shear stiffness along z" => ["shear_stiffness_z", "GAz"],
             _ => ["mass_per_length", "mass"],
         };
-        if self.is_coupled() {
+        if self.is_matrix && stiffness != "mass per length" {
             return "it is on the diagonal of `stiffness`".to_owned();
         }
         format!("give `{argument}`, or `{short}` within `section(...)`")
@@ -94,7 +96,7 @@ impl Table {
         }
     }
 
-    /// Whether the stiffness is a matrix.
+    /// Whether strains are coupled.
     pub(super) fn is_coupled(&self) -> bool {
         self.coupling.iter().any(|end| !end.is_empty())
     }
@@ -127,9 +129,12 @@ impl Table {
             torsion,
             inertia_y,
             inertia_z,
-            against_strain @ ..,
+            axial,
+            shear_y,
+            shear_z,
+            width,
+            height,
         ] = &at[..]
-            && let [axial, shear_y, shear_z] = against_strain
         {
             return Section {
                 mass: mass.clone(),
@@ -140,7 +145,7 @@ impl Table {
                 coupling,
                 twist,
                 prebend,
-                size: [Expr::Number(0.0), Expr::Number(0.0)],
+                size: [width.clone(), height.clone()],
             };
         }
         let (area, [second_y, second_z], torsion) = self.moments(&at);

@@ -121,6 +121,8 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     "shear_stiffness_y",
     "shear_stiffness_z",
     "stiffness",
+    "width",
+    "height",
     "center_y",
     "center_z",
     "bending",
