@@ -77,7 +77,9 @@ fn curved_beams_and_coupled_strains() {
             let machine = machine(sections[(k + j) % 3], &format!("{way}{curve}"));
             let state = machine.state(&mut random);
             judge(way, &machine, &state);
-            let (model, speeds) = machine.model(&state);
+            let (mut model, speeds) = machine.model(&state);
+            // loads have no part in the output
+            model.forces.clear();
             let [_, _, q] = machine.motion(&model, &state);
             let still = vec![0.0; q.len()];
             let expected = energy::energies(&model, [&still, &q], &speeds, &[]);
