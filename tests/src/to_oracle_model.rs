@@ -11,8 +11,8 @@ use eigentol_compiler::model::mechanism as declared;
 
 use eigentol_oracle::model::{
     Amount, Beam, Body, Coordinate, Curve, Drive, Expr, Flexure, Force, ForceLaw, Frame, Input,
-    Joint, Model, Motion, ORIGIN, Part, Placement, Point, Section, Shape, Step, Unit, Value,
-    Values, Word,
+    Joint, Model, Motion, ORIGIN, Part, Placement, Point, Prebend, Section, Shape, Step, Unit,
+    Value, Values, Word,
 };
 
 /// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which
@@ -292,8 +292,7 @@ impl Fixing<'_> {
             place: *place,
             weight: *weight,
             twist: self.value(&section.twist),
-            stiffness: self.vector(&section.stiffness),
-            against_strain: self.vector(&section.against_strain),
+            stiffness: self.stiffness(section),
         };
         Beam {
             name: self.mechanism.bodies[beam.body.index()].name.to_string(),
@@ -303,10 +302,50 @@ impl Fixing<'_> {
             static_shear: beam.static_shear,
             length: self.value(&beam.length),
             axes: beam.axes.each_ref().map(|axis| self.numbers(axis)),
+            prebend: self.prebend(beam),
             sections: beam.sections.iter().map(section).collect(),
             lag: self.value(&beam.lag),
             spin,
         }
+    }
+
+    fn stiffness(&self, section: &declared::Section) -> [[Value; 6]; 6] {
+        let strains = section.against_strain.iter();
+        let mut matrix = [[Value::Number(0.0); 6]; 6];
+        for (k, own) in strains.chain(&section.stiffness).enumerate() {
+            matrix[k][k] = self.value(own);
+        }
+        // twist and bending come first there
+        let place = |k: usize| (k + 3) % 6;
+        for (i, j, own) in &section.coupling {
+            let (i, j) = (place(*i), place(*j));
+            (matrix[i][j], matrix[j][i]) = (self.value(own), self.value(own));
+        }
+        matrix
+    }
+
+    fn prebend(&self, beam: &declared::Beam) -> Prebend {
+        let tip = beam.stations.last().map(|station| &station.section);
+        let [root, [y, z]] = [&beam.root, tip.expect("every beam has one at its tip")]
+            .map(|section| section.prebend.each_ref().map(|own| self.number(own)));
+        let angle = |[y, z]: [f64; 2]| Value::Number(y.hypot(z));
+        let is_straight = y == 0.0 && z == 0.0;
+        Prebend {
+            about: if is_straight { [1.0, 0.0] } else { [y, z] },
+            angles: [angle(root), angle([y, z])],
+        }
+    }
+
+    /// The rotation from the root to a place of an unloaded beam, without its twist.
+    fn curved(&self, beam: &declared::Beam, place: f64) -> ([f64; 3], Value) {
+        let Prebend { about, angles } = self.prebend(beam);
+        let [_, second, third] = beam.axes.each_ref().map(|axis| self.numbers(axis));
+        let axis = [0, 1, 2].map(|i| about[0] * second[i] + about[1] * third[i]);
+        let [root, tip] = angles.map(|own| match own {
+            Value::Number(angle) => angle,
+            Value::Design { .. } => unreachable!("every value is fixed"),
+        });
+        (axis, Value::Number(root + (tip - root) * place))
     }
 
     /// Adds the mass of each section at a point of quadrature, as a flat body across the beam. If the beam spins, the section
@@ -359,12 +398,17 @@ impl Fixing<'_> {
                     Frame::Body(bodies.len()),
                 ));
             }
-            bodies.push(self.slice(beam, *weight, section));
+            bodies.push(self.slice(beam, (*place, *weight), section));
         }
         (sections, spin)
     }
 
-    fn slice(&self, beam: &declared::Beam, weight: f64, section: &declared::Section) -> Body {
+    fn slice(
+        &self,
+        beam: &declared::Beam,
+        (place, weight): (f64, f64),
+        section: &declared::Section,
+    ) -> Body {
         let axes = beam.axes.each_ref().map(|axis| self.numbers(axis));
         let length = self.number(&beam.length);
         let [second, third] = section.inertia.each_ref().map(|own| self.number(own));
@@ -382,7 +426,10 @@ impl Fixing<'_> {
         };
         let placement = Placement {
             offset: ORIGIN,
-            rotations: vec![(axes[0], self.value(&section.twist))],
+            rotations: vec![
+                self.curved(beam, place),
+                (axes[0], self.value(&section.twist)),
+            ],
         };
         let part = Part {
             hole: false,
@@ -417,7 +464,7 @@ impl Fixing<'_> {
             let axes = beam.axes.each_ref().map(|axis| self.numbers(axis));
             let along = self.numbers(follower);
             let following = std::array::from_fn(|i| (0..3).map(|k| along[k] * axes[k][i]).sum());
-            for ((_, weight, _), &body) in beam.sections.iter().zip(own) {
+            for ((place, weight, _), &body) in beam.sections.iter().zip(own) {
                 let share = weight * self.number(&beam.length);
                 let scaled = |force: [f64; 3]| force.map(|own| Value::Number(share * own));
                 let load = |force, following| ForceLaw::Load {
@@ -441,7 +488,10 @@ impl Fixing<'_> {
                 points.push(Point {
                     name: name(),
                     frame: Frame::Body(body),
-                    placement: Placement::NONE,
+                    placement: Placement {
+                        offset: ORIGIN,
+                        rotations: vec![self.curved(beam, *place)],
+                    },
                 });
             }
         }

@@ -1,6 +1,8 @@
 //! Beams against the oracle, which knows them as slices on flexures and differentiates their kinematics in dual numbers,
 //! and against what must hold whatever the equations are.
 
+#[path = "flexible/curved.rs"]
+mod curved;
 #[path = "flexible/judged.rs"]
 mod judged;
 #[path = "flexible/moving.rs"]

@@ -21,6 +21,7 @@ struct Section {
     twists: bool,
     shears: bool,
     round: bool,
+    couples: bool,
 }
 
 /// A place to which something can be attached: what precedes `to` in a joint, and what follows the name of a point.
@@ -178,8 +179,9 @@ impl Writer {
             twists: true,
             shears: true,
             round: false,
+            couples: false,
         };
-        match self.random.below(7) {
+        match self.random.below(9) {
             0 => {
                 let values = [
                     self.quantity(0.3, 1.0, "kg/m"),
@@ -235,6 +237,34 @@ impl Writer {
                 round: true,
                 ..section("section: circle(radius: 10 mm), density: 7850 kg/m^3, modulus: 210 MPa")
             },
+            6 => {
+                let mass = self.quantity(0.3, 1.0, "kg/m");
+                let stiffness = self.stiffness();
+                Section {
+                    couples: true,
+                    ..section(&format!(
+                        "mass_per_length: {mass}, stiffness: {stiffness}, inertia_y: 0.01 kg*m, inertia_z: 0.03 kg*m"
+                    ))
+                }
+            }
+            7 => {
+                let inertia = "inertia_y: 0.01 kg*m, inertia_z: 0.02 kg*m";
+                let root = self.stiffness();
+                let tip = match self.random.chance(0.3) {
+                    true => {
+                        "EA: 30 N, GAy: 40 N, GAz: 25 N, GJ: 7 N*m^2, EIy: 6 N*m^2, EIz: 9 N*m^2"
+                            .to_owned()
+                    }
+                    false => format!("stiffness: {}", self.stiffness()),
+                };
+                Section {
+                    couples: true,
+                    ..section(&format!(
+                        "section: section(mass: 0.5 kg/m, stiffness: {root}, {inertia}) \
+                         to section(mass: 0.3 kg/m, {tip}, {inertia})"
+                    ))
+                }
+            }
             // a stubby shaft
             _ => {
                 let values = [
@@ -256,10 +286,71 @@ impl Writer {
         }
     }
 
+    /// A matrix of stiffness that couples all strains a little, or some strongly. What couples two is well below the
+    /// geometric mean of their own, also where design variables change.
+    fn stiffness(&mut self) -> String {
+        let own = [60.0, 40.0, 20.0, 9.0, 5.0, 15.0].map(|own| own * self.number(0.8, 1.2));
+        let all = [
+            (0, 3),
+            (0, 4),
+            (0, 5),
+            (1, 2),
+            (1, 3),
+            (1, 5),
+            (2, 4),
+            (3, 4),
+            (3, 5),
+            (4, 5),
+        ];
+        let some = [(); 2].map(|()| self.random.of(&all));
+        let is_full = self.random.chance(0.5);
+        let mut rows = [(); 6].map(|()| [(); 6].map(|()| String::new()));
+        for i in 0..6 {
+            for j in 0..=i {
+                let share = match i == j {
+                    true => 1.0,
+                    false if is_full => self.number(-0.15, 0.15),
+                    false if some.contains(&(j, i)) => self.random.signed(0.38),
+                    false => 0.0,
+                };
+                let unit = ["N", "N*m", "N*m^2"][i / 3 + j / 3];
+                let entry = self.entry(share * (own[i] * own[j]).sqrt(), unit);
+                (rows[i][j], rows[j][i]) = (entry.clone(), entry);
+            }
+        }
+        let rows = rows.map(|row| format!("[{}]", row.join(", ")));
+        format!("[{}]", rows.join(", "))
+    }
+
+    /// A number without its unit, or a design variable with its sign.
+    fn entry(&mut self, number: f64, unit: &str) -> String {
+        if number == 0.0 || self.random.chance(0.9) {
+            return format!("{number:?}");
+        }
+        let name = self.name("b");
+        let (size, sign) = (number.abs(), if number < 0.0 { "-" } else { "" });
+        self.lines.push(format!("design {name} = {size:?} {unit};"));
+        format!("{sign}{name}")
+    }
+
+    /// Angles by which the axis is turned at the tip, as further arguments.
+    fn prebend(&mut self) -> String {
+        let which = self.random.below(3);
+        let mut text = String::new();
+        for (k, name) in [(0, "prebend_y"), (1, "prebend_z")] {
+            if which == k || which == 2 {
+                let sign = self.random.of(&["", "-"]);
+                let angle = self.quantity(0.2, 1.1, "rad");
+                text += &format!(", {name}: {sign}{angle}");
+            }
+        }
+        text
+    }
+
     /// Coordinates of strain, as further arguments.
-    fn strains(&mut self) -> String {
+    fn strains(&mut self, may_be_static: bool) -> String {
         let mut text = match self.random.below(4) {
-            0 => ", shear: static".to_owned(),
+            0 if may_be_static => ", shear: static".to_owned(),
             1 => format!(", shear: {}", 1 + self.random.below(2)),
             _ => String::new(),
         };
@@ -300,8 +391,15 @@ impl Writer {
         if !spins && self.random.chance(0.4) {
             extra += ", twist: -0.6 rad";
         }
+        let is_curved = !spins && section.twists && self.random.chance(0.4);
+        if is_curved {
+            extra += &self.prebend();
+        }
+        if !spins && self.random.chance(0.3) {
+            extra += ", center_y: 0.03 m, center_z: -0.02 m";
+        }
         if section.shears {
-            extra += &self.strains();
+            extra += &self.strains(!is_curved && !section.couples);
         }
         if self.random.chance(0.4) {
             extra += &format!(", lag: {:?} s", self.number(0.01, 0.1));
@@ -494,15 +592,29 @@ impl Writer {
 /// What a random machine may be refused for: an element between two places of one rigid piece.
 const REASON: &str = "both ends of this element are fixed in";
 
-/// What occurs in many of the machines.
-const OFTEN: [&str; 7] = [
-    "shear: static",
-    "shear: 1",
-    "stretch: ",
-    "lag: ",
-    "twist: ",
-    "spinning at",
-    "distributed(",
+/// What occurs in many of the machines, together if it is more than one.
+const OFTEN: [&[&str]; 21] = [
+    &["shear: static"],
+    &["shear: 1"],
+    &["stretch: "],
+    &["lag: "],
+    &["twist: "],
+    &["center_y: "],
+    &["spinning at"],
+    &["distributed("],
+    &["prebend_y: "],
+    &["prebend_z: "],
+    &["prebend_y: ", "prebend_z: "],
+    &["prebend", "twist: "],
+    &["prebend", "center_y: "],
+    &["prebend", "shear: "],
+    &["prebend", "stretch: "],
+    &["prebend", "lag: "],
+    &["prebend", "distributed("],
+    &["stiffness: [["],
+    &["stiffness: [[", "to section("],
+    &["stiffness: [[", "prebend"],
+    &["stiffness: [[", "stretch: "],
 ];
 
 /// Judges the machine of a number, and gives its text if it is accepted.
@@ -541,7 +653,8 @@ fn random_beams_obey_lagrange() {
     });
     assert!(accepted.len() > 100, "{}", accepted.len());
     for what in OFTEN {
-        let count = accepted.iter().filter(|text| text.contains(what)).count();
-        assert!(count >= 10, "{what}: {count}");
+        let has = |text: &&String| what.iter().all(|own| text.contains(own));
+        let count = accepted.iter().filter(has).count();
+        assert!(count >= 10, "{what:?}: {count}");
     }
 }

@@ -216,8 +216,14 @@ fn lag_takes_energy_away() {
 /// Every kernel, outputs included, is what the equations of motion say.
 #[test]
 fn kernels_of_beams_are_consistent() {
+    let curved = "section: section(mass: 0.6 kg/m, inertia_y: 0.01 kg*m, inertia_z: 0.02 kg*m, center_y: ratio * 0.1 m,
+            stiffness: [[90, 0, 0, 3, -4, 0], [0, 50, 0, 0, 0, 6], [0, 0, 70, 5, 0, 0], [3, 0, 5, 12, 10 * ratio, 0],
+                [-4, 0, 0, 10 * ratio, 9, 0], [0, 6, 0, 0, 0, 16]])
+            to section(mass: 0.5 kg/m, EA: 60 N, GAy: 40 N, GAz: 50 N, GJ: 7 N*m^2, EIy: 5 N*m^2, EIz: 8 N*m^2),
+        prebend_y: -0.7 rad, prebend_z: 2 rad * ratio, twist: ratio * 1 rad, bending: 2, torsion: 1, shear: 1, stretch: 1";
     for section in [
         SPATIAL,
+        curved,
         "mass_per_length: 0.6 kg/m, stiffness_z: 9 N*m^2, bending_z: 3",
     ] {
         consistent(&format!(

@@ -2,7 +2,10 @@
 
 use num_dual::Dual;
 
-use super::poses::{Four, Poses, get, index, multiply, quaternion, translation, transpose};
+use super::poses::{
+    Four, Poses, get, index, lift, multiply, quaternion, quaternion_rotation, translation,
+    transpose,
+};
 use crate::matrices::Scalar;
 use crate::model::{Beam, Coordinate, Model, Section};
 
@@ -12,7 +15,8 @@ pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D])
     let mut position = [D::zero(); 3];
     let points = beam.sections.iter().zip(beam.weights_to(place));
     for (k, (own, weight)) in points.enumerate() {
-        let turned = rotation(beam, beam.turn(q, own.place));
+        let unloaded = unloaded(beam, D::from(own.place), design);
+        let turned = multiply(&rotation(beam, beam.turn(q, own.place)), &unloaded);
         let heading = heading(beam, q, k, design);
         let direction: [D; 3] =
             std::array::from_fn(|i| (0..3).map(|c| heading[c] * beam.axes[c][i]).sum());
@@ -24,6 +28,14 @@ pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D])
     }
     let turned = rotation(beam, beam.turn(q, place));
     multiply(&translation(position), &turned)
+}
+
+/// The rotation of the axes of the beam from the root to a place along the arc.
+fn unloaded<D: Scalar>(beam: &Beam, place: D, design: &[D]) -> Four<D> {
+    let [second, third] = beam.prebend.about;
+    let about = [0, 1, 2].map(|i| second * beam.axes[1][i] + third * beam.axes[2][i]);
+    let [root, tip] = beam.prebend.angles.map(|own| get(own, design));
+    quaternion_rotation(about, root + (tip - root) * place)
 }
 
 /// The direction of the beam along the axes of a section: `(1 + e - |g|^2 / 2, g2, g3)`.
@@ -54,8 +66,8 @@ fn stretch_and_shear<D: Scalar>(beam: &Beam, q: &[D], k: usize, design: &[D]) ->
     let force = [-moment[1] / length, moment[0] / length];
     let twist = get(section.twist, design);
     let mut own_shear = turned_back(force, twist);
-    for (shear, &stiffness) in own_shear.iter_mut().zip(&section.against_strain[1..]) {
-        let stiffness = get(stiffness, design);
+    for (along, shear) in (1..).zip(&mut own_shear) {
+        let stiffness = get(section.stiffness[along][along], design);
         *shear = match stiffness.re() {
             0.0 => D::zero(),
             _ => *shear / stiffness,
@@ -69,7 +81,7 @@ fn stretch_and_shear<D: Scalar>(beam: &Beam, q: &[D], k: usize, design: &[D]) ->
 fn moments<D: Scalar>(section: &Section, bent: [D; 3], design: &[D]) -> [D; 2] {
     let twist = get(section.twist, design);
     let [second, third] = turned_back([bent[1], bent[2]], twist);
-    let [_, about_second, about_third] = section.stiffness.map(|k| get(k, design));
+    let [about_second, about_third] = [4, 5].map(|k| get(section.stiffness[k][k], design));
     turned_back([about_second * second, about_third * third], -twist)
 }
 
@@ -102,7 +114,8 @@ fn rotation<D: Scalar>(beam: &Beam, turn: [D; 3]) -> Four<D> {
     quaternion(w, [x, y, z])
 }
 
-/// `1/2 k . D k` per unit of length, summed over all beams, of any six numbers `k` per section along its own axes.
+/// `1/2 e . C e` per unit of length, summed over all beams, of any six numbers `e` per section along its own axes, with the
+/// stiffness `C`.
 fn half_forms<D: Scalar>(
     poses: &Poses<D>,
     factor: impl Fn(&Beam) -> D,
@@ -112,12 +125,13 @@ fn half_forms<D: Scalar>(
     for beam in &poses.model.beams {
         let length = get(beam.length, &poses.design);
         for (k, section) in beam.sections.iter().enumerate() {
-            let stiffness = section.stiffness.iter().chain(&section.against_strain);
-            let form: D = strain(beam, k)
-                .iter()
-                .zip(stiffness)
-                .map(|(&k, &stiffness)| get(stiffness, &poses.design) * k * k)
-                .sum();
+            let strain = strain(beam, k);
+            let mut form = D::zero();
+            for (row, one) in section.stiffness.iter().zip(strain) {
+                for (stiffness, other) in row.iter().zip(strain) {
+                    form += get(*stiffness, &poses.design) * one * other;
+                }
+            }
             total += factor(beam) * length * form * (0.5 * section.weight);
         }
     }
@@ -139,7 +153,7 @@ pub(super) fn dissipated<D: Scalar>(poses: &Poses<D>, moving: &Poses<Dual<D>>) -
     )
 }
 
-/// Twist and curvatures, stretch and shear along the axes of the material.
+/// Stretch and shear, twist and bending along the axes of the material.
 fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, k: usize) -> [D; 6] {
     let section = &beam.sections[k];
     let q = of_beam(poses.model, beam, &poses.coordinates);
@@ -152,34 +166,46 @@ fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, k: usize) -> [D; 6] {
     let [second, third] = turned_back([bent[1], bent[2]], angle);
     let [shear_second, shear_third] = turned_back([strained[1], strained[2]], angle);
     [
-        bent[0],
-        second,
-        third,
         strained[0],
         shear_second,
         shear_third,
+        bent[0],
+        second,
+        third,
     ]
 }
 
-/// Twist and curvatures along the axes of the beam as they turn with the section, and their derivatives by the place as a
-/// fraction of the length: `[k]x = R^T dR/ds`, `R` with the twist before bending left out, whose own rate is not strain.
+/// Twist and bending along the axes of the beam as they turn with the section, and their derivatives by the place as a
+/// fraction of the length: what `[k]x = T^T dT/ds` has grown by since `T` was the arc without load. The twist before bending
+/// is left out of `T`: its own rate is not strain.
 fn curvature<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> [Dual<D>; 3] {
     let (turn, slope) = (beam.turn(q, place), beam.slope(q, place));
     let curl = beam.curl(q, place);
     let along: [Dual<Dual<D>>; 3] = std::array::from_fn(|k| {
         Dual::new(Dual::new(turn[k], slope[k]), Dual::new(slope[k], curl[k]))
     });
-    let turned = rotation(beam, along);
-    let now = turned.map(|row| row.map(|entry| entry.re));
-    let change = turned.map(|row| row.map(|entry| entry.eps));
-    let spin = multiply(&transpose(&now), &change);
-    let vector = [spin[2][1], spin[0][2], spin[1][0]];
+    let here = Dual::new(D::from(place), D::one());
+    let arc = unloaded(
+        beam,
+        Dual::new(here, Dual::from_re(D::one())),
+        &lift(&lift(design)),
+    );
+    let turned = multiply(&rotation(beam, along), &arc);
     let length = Dual::from_re(get(beam.length, design));
-    let along = |axis: [f64; 3]| -> Dual<D> {
-        let components = vector.iter().zip(axis).map(|(&v, a)| v * a);
+    let [loaded, before] = [turned, arc].map(|pose| spin(&pose));
+    beam.axes.map(|axis| {
+        let grown = loaded.iter().zip(before).zip(axis);
+        let components = grown.map(|((&now, before), a)| (now - before) * a);
         components.sum::<Dual<D>>() / length
-    };
-    beam.axes.map(along)
+    })
+}
+
+/// `v` of `[v]x = R^T R'`.
+fn spin<D: Scalar>(rotation: &Four<Dual<D>>) -> [D; 3] {
+    let now = rotation.map(|row| row.map(|entry| entry.re));
+    let change = rotation.map(|row| row.map(|entry| entry.eps));
+    let spin = multiply(&transpose(&now), &change);
+    [spin[2][1], spin[0][2], spin[1][0]]
 }
 
 /// The coordinates of a beam among all.

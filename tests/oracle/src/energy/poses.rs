@@ -141,7 +141,7 @@ pub(super) fn translation<D: Scalar>(offset: [D; 3]) -> Four<D> {
 }
 
 /// Rotation by the unit quaternion `(w, v) = (cos(angle/2), sin(angle/2) axis)`.
-fn quaternion_rotation<D: Scalar>(axis: [f64; 3], angle: D) -> Four<D> {
+pub(super) fn quaternion_rotation<D: Scalar>(axis: [f64; 3], angle: D) -> Four<D> {
     let half = angle * 0.5;
     let sine = half.sin() / norm(axis);
     quaternion(half.cos(), axis.map(|component| sine * component))

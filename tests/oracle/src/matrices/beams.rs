@@ -30,7 +30,14 @@ fn factor<D: Scalar>(psi: Vector<D>) -> D {
     (psi.dot(psi) * 0.25 + 1.0).recip()
 }
 
-/// The pose of a section in the frame of the root: `r = L integral R t`, with the direction
+/// The rotation from the root to a place of the unloaded beam, along the axes of the root.
+fn curved<D: Scalar>(beam: &Beam, place: f64, design: &[D]) -> Matrix<D> {
+    let [second, third] = beam.prebend.about;
+    let [root, tip] = beam.prebend.angles.map(|own| value(own, design));
+    rotation([0.0, second, third], root * (1.0 - place) + tip * place)
+}
+
+/// The pose of a section in the frame of the root: `r = L integral R A t`, with the rotation `A` of the arc and the direction
 /// `t = (1 + e - |g|^2 / 2, g2, g3)` along the axes of the section.
 fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> Pose<D> {
     let length = value(beam.length, design);
@@ -38,8 +45,9 @@ fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> Pose<D>
     let mean = points.fold(Vector::zero(), |sum, (own, weight)| {
         let Vector([stretch, second, third]) = strain(beam, q, own, design);
         let shortening = (second * second + third * third) * 0.5;
-        let heading = [stretch + 1.0 - shortening, second, third];
-        let axes = beam.axes.iter().zip(heading);
+        let heading = Vector([stretch + 1.0 - shortening, second, third]);
+        let heading = curved(beam, own.place, design) * heading;
+        let axes = beam.axes.iter().zip(heading.0);
         let direction = axes.fold(Vector::zero(), |sum, (&axis, own)| {
             sum + Vector::constant(axis).scaled(own)
         });
@@ -90,46 +98,53 @@ fn strain<D: Scalar>(beam: &Beam, q: &[D], own: &Section, design: &[D]) -> Vecto
     );
     let points = beam.sections.iter().zip(beam.slopes_at(own.place));
     let growth = points.fold(Matrix::constant([[0.0; 3]; 3]), |sum, (other, share)| {
-        sum + bending(other, design).scaled(D::from(share))
+        sum + stiffness(beam, other, BENDING, design).scaled(D::from(share))
     });
-    let change = bending(own, design) * kappa.rate() + growth * kappa.now();
-    let Vector([_, second, third]) = change.scaled(length.recip());
-    let force = Vector([D::zero(), -third, second]);
-    let [_, shear_second, shear_third] = own.against_strain.map(|k| value(k, design));
+    let bending = stiffness(beam, own, BENDING, design);
+    let change = bending * kappa.rate() + growth * kappa.now();
+    let Vector([_, about_second, about_third]) = change.scaled(length.recip());
+    let force = Vector([D::zero(), -about_third, about_second]);
+    let [shear_second, shear_third] = [1, 2].map(|k| value(own.stiffness[k][k], design));
     // what has no stiffness is not to shear
     let compliance = |stiffness: D| match stiffness.re() {
         0.0 => stiffness,
         _ => stiffness.recip(),
     };
-    let compliances = [D::zero(), compliance(shear_second), compliance(shear_third)];
-    let shear = twisted(own, compliances, design) * force;
+    let o = D::zero();
+    let (second, third) = (compliance(shear_second), compliance(shear_third));
+    let compliances = Matrix([[o, o, o], [o, second, o], [o, o, third]]);
+    let shear = turned_with(beam, own, compliances, design) * force;
     Vector([coordinates[0], shear.0[1], shear.0[2]])
 }
 
-/// A tensor with these values along the axes of a section, along those of the beam: turned by the twist.
-fn twisted<D: Scalar>(
+/// A tensor along the axes of an unloaded section, along those of the root: turned by the arc, and by the twist about it.
+fn turned_with<D: Scalar>(
+    beam: &Beam,
     section: &Section,
-    [first, second, third]: [D; 3],
+    own: Matrix<D>,
     design: &[D],
 ) -> Matrix<D> {
-    let o = D::zero();
-    let own = Matrix([[first, o, o], [o, second, o], [o, o, third]]);
     let twist = rotation([1.0, 0.0, 0.0], value(section.twist, design));
-    twist * own * twist.transpose()
+    let axes = curved(beam, section.place, design) * twist;
+    axes * own * axes.transpose()
 }
 
-/// Stiffness against twist and bending.
-fn bending<D: Scalar>(section: &Section, design: &[D]) -> Matrix<D> {
-    twisted(section, section.stiffness.map(|k| value(k, design)), design)
-}
+/// Where blocks of the stiffness start: of forces by stretch and shear, of forces by twist and bending, and of moments by
+/// these.
+const SHEARING: [usize; 2] = [0, 0];
+const COUPLING: [usize; 2] = [0, 3];
+const BENDING: [usize; 2] = [3, 3];
 
-/// Stiffness against stretch and shear.
-fn shearing<D: Scalar>(section: &Section, design: &[D]) -> Matrix<D> {
-    twisted(
-        section,
-        section.against_strain.map(|k| value(k, design)),
-        design,
-    )
+/// A block of the stiffness of a section, along the axes of the root.
+fn stiffness<D: Scalar>(
+    beam: &Beam,
+    section: &Section,
+    [row, column]: [usize; 2],
+    design: &[D],
+) -> Matrix<D> {
+    let entry = |i: usize, j: usize| value(section.stiffness[row + i][column + j], design);
+    let own = Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))));
+    turned_with(beam, section, own, design)
 }
 
 impl Oracle<'_> {
@@ -187,8 +202,10 @@ impl Oracle<'_> {
         (here, axes)
     }
 
-    /// By coordinate of a beam, minus the work of the strain: `-L sum w moment . dkappa/dq`, with the moment
-    /// `D (kappa + lag (kappadot - spin e1 x kappa))`, and the same for stretch and shear.
+    /// By coordinate of a beam, minus the work of the strain: `-L sum w (moment . dkappa/dq + force . dgamma/dq)`, with the
+    /// moment `D kappa + B^T gamma`, the force `A gamma + B kappa` and in both for `kappa`
+    /// `kappa + lag (kappadot - spin e1 x kappa)`, and the same for stretch and shear `gamma`, all along the axes of the
+    /// root as they turn.
     pub(super) fn elastic<D: Scalar>(
         &self,
         beam: &Beam,
@@ -212,10 +229,14 @@ impl Oracle<'_> {
         let mut efforts = vec![D::zero(); q.len()];
         for section in &beam.sections {
             let bent = |q: &[Dual<D>]| curvature_at(beam, q, section.place, Dual::from_re(length));
-            let strained = |q: &[Dual<D>]| strain(beam, q, section, &fixed);
+            let arc = curved(beam, section.place, &fixed);
+            let strained = |q: &[Dual<D>]| arc * strain(beam, q, section, &fixed);
             let now = along(&q, &speeds);
-            let moment = bending(section, design) * lagging(bent(&now));
-            let force = shearing(section, design) * lagging(strained(&now));
+            let (kappa, gamma) = (lagging(bent(&now)), lagging(strained(&now)));
+            let [shearing, coupling, bending] =
+                [SHEARING, COUPLING, BENDING].map(|block| stiffness(beam, section, block, design));
+            let moment = bending * kappa + coupling.transpose() * gamma;
+            let force = shearing * gamma + coupling * kappa;
             for (step, effort) in efforts.iter_mut().enumerate() {
                 let seeded = seeded(&q, step);
                 let work = moment.dot(bent(&seeded).rate()) + force.dot(strained(&seeded).rate());

@@ -3,7 +3,7 @@
 use num_dual::DualNum;
 
 use super::joints::Coordinate;
-use super::values::{Value, Values};
+use super::values::Value;
 
 /// A rod. Its mass is that of slices, bodies of the model, each with a flexure for a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,12 +17,15 @@ pub struct Beam {
     pub counts: [usize; 3],
     /// The number of coordinates of stretch and shear.
     pub strains: [usize; 3],
-    /// Whether sections shear as the change of the bending moments requires.
+    /// Whether sections shear as the change of the bending moments requires. Only of a straight beam whose sections
+    /// couple no strains.
     pub static_shear: bool,
     /// Length.
     pub length: Value,
     /// Perpendicular unit vectors in the frame of its root, the first along the beam.
     pub axes: [[f64; 3]; 3],
+    /// How it is curved before it is loaded.
+    pub prebend: Prebend,
     /// The sections at the points of quadrature.
     pub sections: Vec<Section>,
     /// Time by which the rate of strain counts like strain.
@@ -30,6 +33,15 @@ pub struct Beam {
     /// A driven coordinate by which its round material turns about its bent axis, beside its sections, which carry what is
     /// attached. The slices have such a coordinate each; this is one of them.
     pub spin: Option<Coordinate>,
+}
+
+/// An arc of a circle: the direction of the beam turns evenly about one direction across it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prebend {
+    /// The direction about which it turns, along the second and the third axis of the beam; not zero.
+    pub about: [f64; 2],
+    /// The angles by which it has turned at the root and at the tip. It has at the root if the beam is a part of another.
+    pub angles: [Value; 2],
 }
 
 /// The elasticity of a section at a point of quadrature.
@@ -41,10 +53,8 @@ pub struct Section {
     pub weight: f64,
     /// The angle of its axes about the beam before it bends.
     pub twist: Value,
-    /// Stiffness against twist and against bending about its two axes.
-    pub stiffness: Values,
-    /// Stiffness against stretch and against shear along its two axes.
-    pub against_strain: Values,
+    /// Stiffness against stretch, shear along its two axes, twist, and bending about its two axes: a symmetric matrix.
+    pub stiffness: [[Value; 6]; 6],
 }
 
 /// The motion from the root of a beam to one of its sections.

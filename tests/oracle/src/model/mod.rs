@@ -9,7 +9,7 @@ mod forces;
 mod joints;
 mod values;
 
-pub use beams::{Beam, Flexure, Section};
+pub use beams::{Beam, Flexure, Prebend, Section};
 pub use bodies::{Amount, Body, Part, Shape};
 pub use curves::Curve;
 pub use forces::{Expr, Force, ForceLaw};
