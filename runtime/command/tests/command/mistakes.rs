@@ -103,7 +103,7 @@ fn stiffness_in_the_wrong_plane_is_warned_of() {
 warning: `arm` is stiffer about y, although its width is greater than its height
  --> standard input:2:10
   |
-2 |     body arm: beam(length: 1 m, along: x, up: z, section: section(mass: 1 kg/m, EIy: 9 N*m^2, EIz: 2 N*m^2, width: 40 mm, height: 10 mm), bending...
+2 |     body arm: beam(length: 1 m, along: x, up: z, section: section(mass: 1 kg/m, EIy: 9 N*m^2, EIz: 2 N*m^2, width: 40 mm, height: 10 ...
   |          ^^^
   |
   = help: bending about y moves the beam along `up`: its stiffness takes the height to the third power. Exchange the stiffnesses, or write \
