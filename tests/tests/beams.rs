@@ -24,6 +24,8 @@ mod curved;
 mod damped;
 #[path = "beams/following.rs"]
 mod following;
+#[path = "beams/framed.rs"]
+mod framed;
 #[path = "beams/inside.rs"]
 mod inside;
 #[path = "beams/offset.rs"]

@@ -65,6 +65,39 @@ fn the_force_inside_a_spinning_beam_is_the_pull_of_its_outer_part() {
     assert_close(outputs(text)[0], exact, 1e-10 * exact);
 }
 
+/// What is inside is along the beam, across it and up, however these lie in its frame.
+#[test]
+fn what_is_inside_has_the_axes_of_the_section() {
+    let inside = |along: &str, up: &str, load: &str| {
+        outputs(&format!(
+            "mechanism Arm {{
+                body arm: beam(length: 1 m, along: {along}, up: {up}, mass_per_length: 1 kg/m, stiffness_y: 2 N*m^2,
+                    stiffness_z: 3 N*m^2, torsion_stiffness: 1 N*m^2, inertia_y: 1 g*m, inertia_z: 1 g*m, axial_stiffness: 900 N,
+                    shear_stiffness_y: 300 N, shear_stiffness_z: 400 N, bending: 3, torsion: 2, stretch: 2, shear: 2);
+                joint clamp: fixed from ground to arm;
+                point end: arm at tip; point q: arm at 0.4 length;
+                force pull: load(at: end, force: {load} mN);
+                output a = inner_force(q).x; output b = inner_force(q).y; output c = inner_force(q).z;
+                output d = moment(q).y; output e = moment(q).z; output f = strain(q).x; output g = strain(q).y;
+                output h = curvature(q).y;
+            }}"
+        ))
+    };
+    let expected = inside("x", "z", "[1, 2, 3]");
+    assert_close(expected[0], 1e-3, 1e-5);
+    assert_close(expected[2], 3e-3, 1e-5);
+    for (along, up, load) in [
+        ("-x", "z", "[-1, -2, 3]"),
+        ("y", "x", "[3, 1, 2]"),
+        ("z", "x", "[3, -2, 1]"),
+        ("-z", "-y", "[2, -3, -1]"),
+    ] {
+        for (found, expected) in inside(along, up, load).iter().zip(&expected) {
+            assert_close(*found, *expected, 1e-9 * expected.abs());
+        }
+    }
+}
+
 #[test]
 fn stretch_and_shear_follow_the_force_inside() {
     let hanging = "mechanism Rope {

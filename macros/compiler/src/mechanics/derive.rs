@@ -8,8 +8,8 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, poses, properties, require_determinate_motion, require_harmonic,
-    require_steady_state, requirements,
+    Unsteady, free_directions, notes_on_beams, poses, properties, require_determinate_motion,
+    require_harmonic, require_steady_state, requirements,
 };
 use super::equations::{Equations, excited};
 use super::functions::{Functions, Limits, Role, Unknown};
@@ -52,15 +52,7 @@ pub fn derive(
             }
         }
     };
-    for beam in &mechanism.beams {
-        if beam.whole != beam.name {
-            let root = &mechanism.bodies[beam.body.index()].name;
-            functions.free.notes.push(format!(
-                "`{}` carries loads between its ends, so it is split there: `{}` starts at `{root}`",
-                beam.whole, beam.name
-            ));
-        }
-    }
+    functions.free.notes.extend(notes_on_beams(mechanism));
     if !standing.is_empty() {
         functions.free.notes.push(format!(
             "slip depends on {}: no coasting, only standing still, so free like other coordinates",

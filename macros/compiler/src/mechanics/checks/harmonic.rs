@@ -13,6 +13,8 @@ use crate::mechanics::motion::in_common_frame;
 use crate::mechanics::setup::{Context, at_rest, by_symbol, columns, vanish};
 use crate::model::mechanism::{Excitation, ExcitationLaw, Frame, JointStep, StepMotion};
 
+use super::beams::is_on_spinning;
+
 /// The coordinates that turn an unbalance, each with its direction, by excitation; empty for other excitations.
 pub(crate) type Turning = Vec<Vec<(CoordinateId, f64)>>;
 
@@ -98,6 +100,10 @@ fn turned(
         let forces: Vec<ExprId> = forces.copied().collect();
         let acts = vanish(g, context, &forces).into_iter().any(|zero| !zero);
         let (problem, help) = match (is_turned(context, excitation), acts) {
+            (false, _) if is_on_spinning_beam(context, excitation) => (
+                "shakes nothing: the frames along a beam that is `spinning` do not turn with its material",
+                "put it on a disk that turns: `joint seat: revolute(x) from shaft at 0.5 length to disk, driven at` the same speed",
+            ),
             (false, _) => (
                 "shakes nothing: no drive turns its body",
                 "an unbalance is on a body that a driven or coasting coordinate turns; an eccentric body that does not turn is a `body` with its `center`",
@@ -114,6 +120,12 @@ fn turned(
         mistakes.error_with_help(name.span(), format!("`{name}` {problem}"), help);
     }
     turning
+}
+
+/// Whether the body of an unbalance is a section of a beam that spins.
+fn is_on_spinning_beam(context: &Context, excitation: &Excitation) -> bool {
+    let law = &excitation.law;
+    matches!(law, ExcitationLaw::Unbalance { body, .. } if is_on_spinning(context.mechanism, *body))
 }
 
 /// Whether a running coordinate turns the body of an unbalance.

@@ -6,6 +6,7 @@
 //! rounding error; a fixed relative tolerance misjudges deep trees. Computed constants keep their bound, or the
 //! remainder of a cancelling sum would pass for a number.
 
+mod beams;
 mod determinacy;
 mod freedom;
 mod harmonic;
@@ -14,6 +15,7 @@ mod properties;
 mod requirements;
 mod steady_state;
 
+pub(super) use beams::notes_on_beams;
 pub(super) use determinacy::require_determinate_motion;
 pub(super) use freedom::free_directions;
 pub(super) use harmonic::{Turning, require_harmonic};

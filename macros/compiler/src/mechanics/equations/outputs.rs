@@ -212,18 +212,26 @@ fn bent_beams(
     all
 }
 
-/// The force that the outer part of a beam exerts on the inner one at a point where it is divided.
+/// The force that the outer part of a beam exerts on the inner one at a point where it is divided, along the beam, across
+/// it and up.
 fn force_inside(
     g: &mut Graph,
     context: &Context,
     kinematics: &Kinematics,
     (point, carried): (PointId, &[Wrench]),
 ) -> Vector3 {
-    let Frame::Body(body) = context.mechanism.points[point.index()].frame else {
+    let mechanism = context.mechanism;
+    let frame = mechanism.points[point.index()].frame;
+    let (Frame::Body(body), Some((beam, ..))) = (frame, mechanism.section_at(point)) else {
         return Vector3::zero(g);
     };
     let axes = kinematics.of(body).frame.orientation.axes.transpose();
-    axes.apply(g, carried[body.index()].force).neg(g)
+    let force = axes.apply(g, carried[body.index()].force).neg(g);
+    let own = beam
+        .axes
+        .each_ref()
+        .map(|axis| context.values.vector(g, axis));
+    Vector3(own.map(|axis| axis.dot(g, force)))
 }
 
 /// What each force element exerts; only where an output asks for it, zeros elsewhere.

@@ -5,7 +5,7 @@
 //! negative of the value that must vanish, `Phi = -value`. Then `mu` is the load that the `from` side exerts on the
 //! `to` side, as for the reaction of a joint, and the residual of an equation has the direction of its reaction.
 
-use crate::algebra::{ExprId, Graph, gradient, substitute};
+use crate::algebra::{ExprId, Graph, Node, Operator, gradient, substitute};
 use crate::base::ids::ConstraintId;
 use crate::census::taken;
 use crate::mechanics::motion::{Kinematics, Wrench, in_common_frame, in_common_frame_at_zero};
@@ -44,7 +44,7 @@ pub(crate) fn constraint_rows(g: &mut Graph, context: &Context) -> Vec<Row> {
             continue;
         };
         for (component, demand) in pair.demands.iter().enumerate() {
-            if vanish(g, context, &[demand.value])[0] {
+            if always_holds(g, context, demand.value) {
                 taken(|| "closing: holds whatever moves".into());
                 continue;
             }
@@ -63,6 +63,18 @@ pub(crate) fn constraint_rows(g: &mut Graph, context: &Context) -> Vec<Row> {
     }
     rows.sort_by_key(|row| row.of_velocities);
     rows
+}
+
+/// Whether a demand holds wherever things move. Of an angle it is enough that its sine vanishes, unless it is always half
+/// a turn: `b` then turns in one plane through `a`, and the other angles of its constraint, which keep it in that plane,
+/// leave it no opposite direction.
+fn always_holds(g: &mut Graph, context: &Context, value: ExprId) -> bool {
+    let Node::Binary(Operator::Atan2, sine, cosine) = g.node(value) else {
+        return vanish(g, context, &[value])[0];
+    };
+    let one = g.constant(1.0);
+    let beside_opposite = g.add(cosine, one);
+    vanish(g, context, &[sine, beside_opposite]) == [true, false]
 }
 
 /// Arbitrary positions of the running coordinates, but zero for those driven at zero speed. An equation that holds only

@@ -253,21 +253,28 @@ impl Resolver<'_> {
                 && inertia_y == inertia_z
         });
         let [_, y, z] = declared.counts;
-        let problem = if y != z {
-            "bends in one plane more than in the other"
+        let round = "use a `circle` or a `tube`, or the same numbers for both planes";
+        let straight = "the material turns about the bent axis, along which it must be the same all round: leave it out";
+        let (problem, help) = if y != z {
+            (
+                "bends in one plane more than in the other",
+                "give both planes the same number of coordinates: `bending: 4`",
+            )
         } else if !is_round {
-            "is not round"
+            ("is not round", round)
         } else if declared.twist != Expr::Number(0.0) {
-            "is twisted"
+            ("is twisted", straight)
         } else if declared.table.is_off_axis() {
-            "has mass off its axis"
+            (
+                "has mass off its axis",
+                "put an `unbalance` on a disk that a joint `driven at` the same speed turns on it",
+            )
         } else if declared.is_curved().contains(&true) {
-            "is curved before it is loaded"
+            ("is curved before it is loaded", straight)
         } else {
             return Some(());
         };
         let message = format!("a beam that spins and {problem} has no steady motion");
-        let help = "use a `circle` or a `tube`, or the same number for both planes, with the same `bending`";
         self.diagnostics.error_with_help(at.extent, message, help);
         None
     }
@@ -340,11 +347,12 @@ impl Resolver<'_> {
         let counts = declared.counts;
         let [curved_y, curved_z] = declared.is_curved();
         let mut used = counts;
-        // what turns a section in one way strains it in another, where the axis has turned
+        let is_twisted = declared.twist != Expr::Number(0.0);
+        // what turns a section in one way strains it in another, where its axes have turned
         let mixed = [
             (curved_z, 0, 1),
             (curved_y, 0, 2),
-            (curved_y && curved_z, 1, 2),
+            (is_twisted || (curved_y && curved_z), 1, 2),
         ];
         for (_, a, b) in mixed.iter().filter(|(is_mixed, ..)| *is_mixed) {
             let sum = used[*a] + used[*b];
@@ -359,7 +367,11 @@ impl Resolver<'_> {
         let bending = Dimension::new(3, 1, -2);
         let force = Dimension::FORCE;
         let [stretch, shear_y, shear_z] = declared.strains;
-        let (shear_y, shear_z) = (shears(shear_y, bends_z), shears(shear_z, bends_y));
+        let (mut shear_y, mut shear_z) = (shears(shear_y, bends_z), shears(shear_z, bends_y));
+        if is_twisted {
+            let sum = shear_y + shear_z;
+            (shear_y, shear_z) = (sum, sum);
+        }
         type Of = fn(&Section) -> &Expr;
         type Asked = &'static [&'static str];
         let demands: [(&str, Dimension, usize, Asked, Of); 7] = [

@@ -186,7 +186,7 @@ impl Resolver<'_> {
                     self.diagnostics.error(&force.law.word, message);
                     return None;
                 }
-                let value = self.coefficient(&arguments, name, Some(dimension))?;
+                let value = self.amplitude(&arguments, name, dimension)?;
                 Some(ExcitationLaw::Generalized { coordinate, value })
             }
             _ => {

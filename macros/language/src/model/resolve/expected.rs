@@ -36,6 +36,10 @@ impl Expected {
         Self::named(Dimension::MOMENT, "an energy", "J")
     }
 
+    pub(super) fn force_per_length() -> Self {
+        Self::named(Dimension::STIFFNESS, "a force per length", "N/m")
+    }
+
     pub(super) fn ratio() -> Self {
         Self::named(Dimension::NONE, "a plain number", "1")
     }

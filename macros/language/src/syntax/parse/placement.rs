@@ -28,19 +28,33 @@ pub(super) fn placement(tokens: &mut Tokens) -> Parsed<Option<Placement>> {
     }))
 }
 
-/// Reads a vector, `tip`, or a fraction of a beam such as `0.4 length`.
+/// Reads a vector, `tip`, or a fraction of a beam such as `0.4 length` or `1/3 length`.
 pub(super) fn place(tokens: &mut Tokens) -> Parsed<Value> {
-    let mut ahead = *tokens;
-    let fraction = ahead
-        .literal()
-        .and_then(|literal| literal.to_string().parse().ok());
-    let Some(fraction) = fraction.filter(|_| ahead.peek_word("length")) else {
-        return value(tokens);
-    };
     let start = Extent::from(tokens.span());
-    tokens.literal();
-    let end = tokens.expect_word("length")?;
-    Ok(Value::new(ValueKind::Fraction(fraction), start.to(end)))
+    let mut ahead = *tokens;
+    match fraction(&mut ahead) {
+        Some(fraction) if ahead.peek_word("length") => {
+            *tokens = ahead;
+            let end = tokens.expect_word("length")?;
+            Ok(Value::new(ValueKind::Fraction(fraction), start.to(end)))
+        }
+        _ => value(tokens),
+    }
+}
+
+fn fraction(tokens: &mut Tokens) -> Option<f64> {
+    let sign = if tokens.sign('-').is_some() {
+        -1.0
+    } else {
+        1.0
+    };
+    let number = |tokens: &mut Tokens| tokens.literal()?.to_string().parse().ok();
+    let above: f64 = number(tokens)?;
+    let below = match tokens.sign('/') {
+        Some(_) => number(tokens)?,
+        None => 1.0,
+    };
+    Some(sign * above / below)
 }
 
 fn rotation(tokens: &mut Tokens) -> Parsed<(Value, Value)> {

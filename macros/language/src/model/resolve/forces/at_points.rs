@@ -32,9 +32,9 @@ impl Resolver<'_> {
                 None
             }
         });
-        let per_length = Dimension::STIFFNESS;
-        let force = self.vector_or_zero(arguments, "force", per_length);
-        let follower = self.vector_or_zero(arguments, "follower", per_length);
+        let per_length = Expected::force_per_length;
+        let force = self.vector_or_zero(arguments, "force", per_length());
+        let follower = self.vector_or_zero(arguments, "follower", per_length());
         let damping = Some(Dimension::new(-1, 1, -1).into());
         let damping = self.coefficient_or_zero(arguments, "damping", damping);
         Some(ForceLaw::Distributed {

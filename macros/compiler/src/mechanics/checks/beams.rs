@@ -1,0 +1,63 @@
+//! What is worth knowing about beams that are right.
+
+use crate::base::ids::BodyId;
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Beam, Frame, Mechanism};
+
+/// Notes on beams that loads split, that twist without bending in both planes, or that spin and carry what does not.
+pub(crate) fn notes_on_beams(mechanism: &Mechanism) -> Vec<String> {
+    let mut notes = Vec::new();
+    for beam in &mechanism.beams {
+        let [torsion, about_y, about_z] = beam.coordinates.each_ref().map(|own| !own.is_empty());
+        let root = &mechanism.bodies[beam.body.index()].name;
+        if beam.whole != beam.name {
+            notes.push(format!(
+                "`{}` carries loads between its ends, so it is split there: `{}` starts at `{root}`",
+                beam.whole, beam.name
+            ));
+        }
+        if torsion && about_y != about_z && beam.whole == *root {
+            notes.push(format!(
+                "`{}` twists and bends in one plane only: right as long as it is nearly straight",
+                beam.whole
+            ));
+        }
+        for own in carried(mechanism, beam) {
+            notes.push(format!(
+                "`{}` is fixed to `{}` and does not spin with its material; what does is held by a joint driven at the same speed",
+                mechanism.bodies[own.index()].name,
+                beam.whole
+            ));
+        }
+    }
+    notes
+}
+
+/// Whether a body is the root or a station of a beam that spins.
+pub(crate) fn is_on_spinning(mechanism: &Mechanism, body: BodyId) -> bool {
+    let spinning = mechanism.beams.iter().filter(|beam| spins(beam));
+    spinning.into_iter().any(|beam| has(beam, body))
+}
+
+fn spins(beam: &Beam) -> bool {
+    beam.spin != Expr::Number(0.0)
+}
+
+fn has(beam: &Beam, body: BodyId) -> bool {
+    beam.body == body || beam.stations.iter().any(|station| station.body == body)
+}
+
+/// Bodies with a mass that are welded to a beam that spins.
+fn carried(mechanism: &Mechanism, beam: &Beam) -> Vec<BodyId> {
+    let welds = mechanism
+        .joints
+        .iter()
+        .filter(|joint| joint.steps.is_empty() && spins(beam));
+    let others = welds.filter_map(|joint| match (joint.from, joint.to) {
+        (Frame::Body(from), Frame::Body(to)) if has(beam, from) => Some(to),
+        _ => None,
+    });
+    others
+        .filter(|own| !mechanism.bodies[own.index()].parts.is_empty())
+        .collect()
+}
