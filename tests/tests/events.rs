@@ -244,6 +244,35 @@ fn flutter_turns_into_divergence_and_back() {
     }
 }
 
+/// Beck's column flutters at a load in proportion to its stiffness. Which of the two modes that merge grows is a matter of
+/// rounding; the onset is the first one's.
+#[test]
+fn an_onset_is_of_the_first_of_two_modes_that_merge() {
+    let load = |coordinates: usize, stiffness: f64| {
+        let study = study(&format!(
+            "mechanism Beck {{ input p: N;
+             body b: beam(length: 1 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: {stiffness} N*m^2, bending_y: {coordinates});
+             joint c: fixed from ground to b; point e: b at tip; force f: follower(at: e, force: [-p, 0, 0]); }}"
+        ));
+        let found = study.campbell(Input::new(0), &[0.0, 30.0], &[] as &[f64]);
+        let found = found.expect("a diagram");
+        let [onset] = &found.flutter_onsets[..] else {
+            panic!("{stiffness}: {found}");
+        };
+        let words = "onset of flutter of mode 1";
+        assert!(found.to_string().contains(words), "{stiffness}: {found}");
+        onset.value / stiffness
+    };
+    for coordinates in 3..7 {
+        let expected = load(coordinates, 1.0);
+        assert!((expected / 20.0509 - 1.0).abs() < 2e-2, "{expected}");
+        for share in 190..=210 {
+            let found = load(coordinates, 0.005 * f64::from(share));
+            assert!((found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
+        }
+    }
+}
+
 /// Damping that touches zero from either side without passing it.
 #[test]
 fn growth_that_touches_zero() {

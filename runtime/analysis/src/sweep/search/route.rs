@@ -14,7 +14,9 @@ use crate::branches::{
 use crate::equilibrium::{Held, OperatingPoint, Policy, equilibrium_into};
 use crate::error::NotFound;
 use crate::kernels::DirectionalKernels;
-use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
+use crate::modes::{
+    CLUSTER_GAP, Family, Mode, match_with_assurance, merged, near_another, position,
+};
 use crate::sweep::condition::{Change, Condition, Crossing, Line};
 use crate::sweep::points::{CriticalState, SweepPoint};
 use crate::sweep::range::Range;
@@ -392,13 +394,13 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     value,
                     condition,
                     node,
-                    mode,
+                    modes,
                     change,
                     merging,
                 } => {
                     let ends = (t == 0.0 && self.route.points.len() <= 1, t == 1.0 && closes);
                     if counts(condition, change, &node, ends)
-                        && self.crossing((value, condition, change), (&node, mode, merging))
+                        && self.crossing((value, condition, change), (&node, modes, merging))
                     {
                         next = Some(Next::Done);
                     }
@@ -533,19 +535,24 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     fn crossing(
         &mut self,
         (value, condition, change): (f64, Condition, Change),
-        (node, mode, merging): (&Node, usize, bool),
+        (node, pair, merging): (&Node, [usize; 2], bool),
     ) -> bool {
         let modes = self.labelled(node);
-        let own = &node.modes.modes[mode];
-        let found =
-            (modes.modes.iter()).position(|other| other.s == own.s && other.shape == own.shape);
+        let places = pair.map(|k| {
+            let own = &node.modes.modes[k];
+            let same = |other: &Mode| other.s == own.s && other.shape == own.shape;
+            modes.modes.iter().position(same).unwrap_or(k)
+        });
+        // Of two that merge, each could pass for either: the event is the first one's.
+        let label = |place: &usize| modes.modes[*place].label;
+        let mode = places.into_iter().min_by_key(label).unwrap_or(pair[0]);
         let crossing = Crossing {
             input: self.events.input,
             value,
             condition,
             change,
             merging,
-            mode: found.unwrap_or(mode),
+            mode,
             equilibrium: node.point.equilibrium.clone(),
             modes,
         };

@@ -42,8 +42,8 @@ pub(super) enum Event {
         condition: Condition,
         /// The state there, or next to it where two eigenvalues merge.
         node: Rc<Node>,
-        /// Position of the mode at the node.
-        mode: usize,
+        /// Positions of the mode at the node, and of the one that it merges with.
+        modes: [usize; 2],
         change: Change,
         /// Whether two eigenvalues merge.
         merging: bool,
@@ -285,11 +285,11 @@ impl<'a, 'b> Step<'a, 'b> {
         }
         let node = found?;
         let value = value.unwrap_or(node.point.place.p);
-        let [mode, other] = pick(wanted, kind, &node.spectrum, near)?.positions;
-        let mode = mode.min(other);
+        let pair = pick(wanted, kind, &node.spectrum, near)?.positions;
+        let first = pair[0].min(pair[1]);
         let met = match kind {
             Kind::Merging | Kind::Turning => true,
-            _ => condition.is_met(&node.modes.modes[mode], node.spectrum.input[0]),
+            _ => condition.is_met(&node.modes.modes[first], node.spectrum.input[0]),
         };
         let change = match (kind, zero.passage) {
             (_, Passage::Touches) => Change::Touch,
@@ -305,7 +305,7 @@ impl<'a, 'b> Step<'a, 'b> {
                 value,
                 condition,
                 node,
-                mode,
+                modes: pair,
                 change,
                 merging: matches!(kind, Kind::Merging | Kind::Turning),
             },
