@@ -71,7 +71,7 @@ fn a_straight_blade_is_tapered_and_twisted_about_its_axis() {
     );
 }
 
-/// What is known by numbers is drawn as large as it is said to be, its mass off the axis or not.
+/// What is known by numbers is drawn as large as it is said to be, about its centre of mass.
 #[test]
 fn sections_by_numbers_have_the_size_that_is_given() {
     let numbers =
@@ -96,6 +96,8 @@ fn sections_by_numbers_have_the_size_that_is_given() {
             .zip(expected)
             .map(|(a, b)| (a - b).abs());
         assert!(apart.fold(0.0, f64::max) < 1e-15, "{:?}", section.size);
+        let [x, y, z] = section.pose.position;
+        close([x, y, z], [x, 5e-3, 0.0], 1e-15);
     }
 }
 

@@ -136,7 +136,7 @@ pub struct Beam {
     pub name: Text,
     /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
     pub round: bool,
-    /// Sections from the root to the tip; their centres are places of the centre line. Two are where a load splits it.
+    /// Sections from the root to the tip; their centres of mass are places of the centre line. Two are where a load splits it.
     pub sections: Vec<Section>,
 }
 
@@ -144,7 +144,7 @@ pub struct Beam {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Section {
-    /// Its centre and its axes: along the beam, and across it in the directions of its width and its height.
+    /// Its centre of mass and its axes: along the beam, and across it in the directions of its width and its height.
     pub pose: Pose,
     /// Width and height, m; of a round section the diameter twice; zero if the section is known by numbers only.
     pub size: [f64; 2],

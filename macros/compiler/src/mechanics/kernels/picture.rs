@@ -14,7 +14,7 @@
 use crate::algebra::{Array, ExprId, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{BeamId, JointId, PointId};
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero, unbent};
+use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero, offset, unbent};
 use crate::mechanics::picture::{
     Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind,
 };
@@ -196,10 +196,14 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// The pose of a section, from the axes it would have without twist and prebend.
-    fn section(&mut self, g: &mut Graph, (position, axes): (Vector3, Matrix3), section: &Section) {
+    /// The pose of a section at its centre of mass, from its place on the axis and the axes it would have without twist and
+    /// prebend.
+    fn section(&mut self, g: &mut Graph, (place, axes): (Vector3, Matrix3), section: &Section) {
+        let arm = offset(g, self.values, section);
+        let arm = axes.apply(g, arm);
+        let center = place.add(g, arm);
         let own = unbent(g, self.values, section);
-        self.pose(position, axes.multiply(g, own));
+        self.pose(center, axes.multiply(g, own));
     }
 
     /// A declared beam, from its parts between loads.
