@@ -22,4 +22,5 @@ mod starter;
 mod strangers;
 mod streams;
 mod subcommands;
+mod vibration;
 mod walkthrough;
