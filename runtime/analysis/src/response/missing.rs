@@ -15,10 +15,7 @@ impl Responses<'_> {
         let (mechanism, at) = (self.mechanism(), self.nominal());
         let (values, start) = ((&*at.inputs, &*at.design), &at.coordinates);
         let d = &at.description;
-        let infinite = |output: Output| Error::InfiniteOutput {
-            output: d.outputs[output.index()].name.clone(),
-            coordinates: at.coordinates.to_vec(),
-        };
+        let name = |output: Output| d.outputs[output.index()].name.clone();
         match response {
             Response::Mode { mode, quantity } => {
                 let own = self.modes().modes.get(mode)?;
@@ -30,10 +27,15 @@ impl Responses<'_> {
                 let kernels: &dyn Kernels = mechanism;
                 let found = kernels.outputs(&at.coordinates, &at.inputs, &at.design);
                 let finite = found.get(output.index())?.is_finite();
-                (!finite).then(|| infinite(output))
+                (!finite).then(|| Error::InfiniteOutput {
+                    output: name(output),
+                    coordinates: at.coordinates.to_vec(),
+                })
             }
             Response::Vibration(vibration) => match forced::response(mechanism, at) {
-                Ok(found) => (vibration.of(&found).is_none()).then(|| infinite(vibration.output)),
+                Ok(found) => (vibration.of(&found).is_none()).then(|| Error::NotSmooth {
+                    output: name(vibration.output),
+                }),
                 Err(error) => Some(error),
             },
             Response::Peak {
@@ -52,7 +54,7 @@ impl Responses<'_> {
                 let (following, what) = (Following::default(), (mode, condition));
                 match first_crossing(mechanism, values, start, following, range, what) {
                     Ok(Some(_)) => None,
-                    Ok(None) => Some(range.without(name(condition), d)),
+                    Ok(None) => Some(range.without(met(condition), d)),
                     Err(error) => Some(error),
                 }
             }
@@ -60,7 +62,7 @@ impl Responses<'_> {
     }
 }
 
-fn name(of: Condition) -> &'static str {
+fn met(of: Condition) -> &'static str {
     match of {
         Condition::Line(_) => "crossing",
         Condition::FlutterOnset => "onset of flutter",

@@ -188,3 +188,38 @@ fn peaks_name_their_vibration() {
         "{text}"
     );
 }
+
+/// The length of a vector has no derivative where it is zero: the error names the output.
+#[test]
+fn an_output_without_a_derivative_is_named() {
+    let folder = folder("unsmooth");
+    let text = std::fs::read_to_string(rotor(&folder)).unwrap();
+    let text = text.replace(
+        "output lean",
+        "point p: hub; output far = norm(position(p)); output lean",
+    );
+    let file = file(&folder, "unsmooth.mechanism", &text);
+    let sweep = ["--sweep", "omega=20..200rad/s"];
+    for more in [
+        &["--set", "omega=50rad/s"][..],
+        &["--set", "omega=50rad/s", "--bands"],
+        &[sweep[0], sweep[1], "--peaks", "--of", "shake"],
+    ] {
+        let found = run(&[&["response", &file][..], more].concat());
+        assert_eq!(found.code, 1, "{more:?}: {}", found.err);
+        assert!(
+            found
+                .err
+                .contains("output `far` has a value here but no derivative"),
+            "{}",
+            found.err
+        );
+    }
+    let at = ["probability", &file, "--set", "omega=50rad/s", "--require"];
+    let far = run(&[&at[..], &["vibration far <= 1 mm"]].concat());
+    assert!(
+        far.code == 1 && far.err.contains("output `far` has a value"),
+        "{}",
+        far.err
+    );
+}

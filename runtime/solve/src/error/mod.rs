@@ -77,6 +77,15 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
     },
+    /// An output has a value at an equilibrium but no derivative, so nothing says how it vibrates.
+    #[error(
+        "output `{output}` has a value here but no derivative, like the length of a vector that is zero, so it has no \
+         amplitude of vibration: leave it out, or make outputs of the components"
+    )]
+    NotSmooth {
+        /// Name of the output.
+        output: Text,
+    },
     /// No equilibrium was found from the start value.
     #[error(
         "no equilibrium found after {iterations} iterations ({reason}); last state q = {coordinates:?}, \
