@@ -71,6 +71,13 @@ impl Response {
         };
         let number = samples(self.samples, &question.file)?;
         question.study = question.study.samples(number);
+        if self.orbit.is_some() && self.sweep.range_if_any(&question)?.is_some() {
+            let message = "an orbit is drawn at one operating point, not along an input";
+            return Err(Failure::usage(
+                message,
+                "leave out the sweep, and set the input",
+            ));
+        }
         let Some(range) = self.sweep.range_alone(&question)? else {
             self.points.refuse_without_sweep()?;
             if self.peaks {
@@ -86,13 +93,6 @@ impl Response {
             }
             return self.at_point(&question, &wanted);
         };
-        if self.orbit.is_some() {
-            let message = "an orbit is drawn at one operating point, not along an input";
-            return Err(Failure::usage(
-                message,
-                "leave out the sweep, and set the input",
-            ));
-        }
         if self.peaks {
             return self.peaks_in(&question.study, &range, &wanted);
         }
