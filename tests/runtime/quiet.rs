@@ -46,7 +46,10 @@ fn what_has_no_influence_is_named_and_not_listed() {
         "{slopes}"
     );
     let shift = study.equilibrium_shift().unwrap().to_string();
-    assert!(shift.contains("Zero: theta [rad]"), "{shift}");
+    assert!(
+        shift.contains("All derivatives zero: theta [rad]"),
+        "{shift}"
+    );
     let spread = study.first_order().unwrap().to_string();
     assert!(
         spread.contains("share of l") && !spread.contains("share of m"),

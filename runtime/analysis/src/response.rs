@@ -1,6 +1,8 @@
 //! Responses of a mechanism at designs near the nominal one: quantities of modes, outputs and critical values of an
 //! input, with exact total derivatives.
 
+mod missing;
+
 use crate::algebra::Vector;
 use crate::along::name_of;
 use crate::clusters::common_slopes;
@@ -70,6 +72,19 @@ impl Response {
             self,
             Self::Mode { .. } | Self::Output(_) | Self::Vibration(_)
         )
+    }
+
+    /// Whether it is a size, which is never below zero: a frequency or an amplitude.
+    #[must_use]
+    pub fn never_negative(&self) -> bool {
+        match self {
+            Self::Mode { quantity, .. } => {
+                matches!(quantity, Quantity::Frequency | Quantity::NaturalFrequency)
+            }
+            Self::Vibration(_) => true,
+            Self::Peak { quantity, .. } => *quantity == PeakQuantity::Height,
+            Self::Output(_) | Self::Critical(_) | Self::Crossing { .. } => false,
+        }
     }
 
     /// Its name in texts and tables, for example `frequency 1` or `critical speed`.
@@ -495,9 +510,7 @@ impl<'a> Responses<'a> {
             return None;
         }
         let values = (&**inputs, design);
-        peaks::highest(self.mechanism, values, start, what)
-            .ok()
-            .flatten()
+        peaks::highest(self.mechanism, values, start, what).ok()
     }
 
     /// The first crossing that a [`Response::Crossing`] asks for.

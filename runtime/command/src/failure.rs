@@ -8,6 +8,7 @@ use eigentol::Error;
 use eigentol_interpreter::{Mistakes, RefineError};
 use thiserror::Error as ThisError;
 
+use crate::advice;
 use crate::mistake::Mistake;
 use crate::nearby::nearby;
 
@@ -103,6 +104,7 @@ impl Failure {
             Self::Usage(_, help) | Self::Value { help, .. } => help.clone(),
             Self::UnknownName { help, .. } => Some(help.clone()),
             Self::Read { path, source } => nearby(path, source.kind()),
+            Self::Analysis(error) => advice::on(error),
             Self::Exists { .. } => Some("choose another name, or remove it".to_owned()),
             _ => None,
         }

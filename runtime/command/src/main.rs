@@ -1,5 +1,6 @@
 //! The command `eigentol`: reads a declaration from a file, runs an analysis of the library and prints the answer.
 
+mod advice;
 mod answer;
 mod arguments;
 mod color;

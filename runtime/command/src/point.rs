@@ -13,6 +13,7 @@ use eigentol_compiler::Compilation;
 use eigentol_compiler::base::nearest::nearest;
 use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value};
 
+use crate::advice;
 use crate::declaration::Declaration;
 use crate::ends::with_unit_of;
 use crate::failure::Failure;
@@ -137,7 +138,9 @@ impl Point {
         };
         let declaration = Declaration::read(path)?;
         let compilation = declaration.compiled()?;
-        let mut study = Study::new(Interpreted::new(&compilation));
+        let machine = Interpreted::new(&compilation);
+        advice::remember(&machine);
+        let mut study = Study::new(machine);
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
             study = study.sigma_level(positive_level(level)?);
         }

@@ -52,14 +52,21 @@ pub(crate) struct Range {
 
 impl Sweep {
     pub(crate) fn range(&self, question: &Question) -> Result<Range, Failure> {
-        let found = self.range_if_any(question)?;
-        let found = found.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))?;
+        let found = self.range_alone(question)?;
+        found.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
+    }
+
+    /// The range, if there is one, of an answer along it alone: a value of its input would have no effect.
+    pub(crate) fn range_alone(&self, question: &Question) -> Result<Option<Range>, Failure> {
+        let Some(found) = self.range_if_any(question)? else {
+            return Ok(None);
+        };
         let name = &question.study.description().inputs[found.input.index()].name;
         if question.set.iter().any(|set| **set == **name) {
             let message = format!("`--set {name}=...` has no effect: the sweep sets `{name}`");
             return Err(Failure::usage(message, "leave one of them out"));
         }
-        Ok(found)
+        Ok(Some(found))
     }
 
     /// The range; `None` if neither the command line nor a study file gives one.
@@ -67,6 +74,12 @@ impl Sweep {
         let text = self.sweep.as_ref().or(question.file.sweep.as_ref());
         text.map(|text| range(&question.study, text)).transpose()
     }
+}
+
+/// The mistake of an option that means nothing without a range.
+pub(crate) fn unswept(option: &str) -> Failure {
+    let message = format!("no input to sweep is given for `{option}`");
+    Failure::usage(message, HELP)
 }
 
 /// Parses a range.
@@ -98,6 +111,14 @@ pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Fai
 }
 
 impl Points {
+    /// Refuses a number of values of no range.
+    pub(crate) fn refuse_without_sweep(&self) -> Result<(), Failure> {
+        match self.points {
+            None => Ok(()),
+            Some(_) => Err(unswept("--points")),
+        }
+    }
+
     /// The values, SI.
     pub(crate) fn values(&self, range: &Range, question: &Question) -> Result<Vec<f64>, Failure> {
         let count = self.points.or(question.file.points).unwrap_or(POINTS);
@@ -124,10 +145,7 @@ impl Orders {
         let Some(range) = range else {
             return match self.orders.is_empty() {
                 true => Ok(Vec::new()),
-                false => Err(Failure::usage(
-                    "no input to sweep is given for `--order`",
-                    HELP,
-                )),
+                false => Err(unswept("--order")),
             };
         };
         let file = question.file.orders.as_deref().unwrap_or_default();

@@ -179,6 +179,7 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
         | Error::NotOscillating { .. }
         | Error::ClusteredMode { .. }
         | Error::Defective { .. }
+        | Error::NotSmooth { .. }
         | Error::NoSensitivity { .. } => Kind::NoDerivative,
         Error::NotInRange { .. } => Kind::NotInRange,
         _ => Kind::Error,

@@ -14,7 +14,7 @@ displayed!(ForcedResponse, ForcedSensitivities);
 
 /// What every amplitude and phase means.
 pub(crate) const CONVENTIONS: &str =
-    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.";
+    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).";
 
 const fn unit(symbol: &'static str) -> Unit {
     Unit {

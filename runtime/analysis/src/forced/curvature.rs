@@ -11,7 +11,7 @@ use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_res
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
 use crate::sensitivity::{
-    ComplexGradient, Direction, Slopes, directions, form_gradient_along, outside_domain, subtract,
+    ComplexGradient, Direction, Slopes, directions, form_gradient_along, subtract,
 };
 use crate::{Complex, Equilibrium, Error, Output};
 
@@ -136,7 +136,7 @@ pub fn second_derivatives(
             outputs: own.outputs.iter().zip(adjoints).map(of_output).collect(),
         };
         if !own.finite() {
-            return Err(outside_domain(at));
+            return Err(solved.not_finite());
         }
         harmonics.push(own);
     }

@@ -7,7 +7,7 @@ use super::response::Solved;
 use crate::error::NoDerivative;
 use crate::kernels::{CurvatureKernels, Linear};
 use crate::second_order::{Adjoint, joined};
-use crate::sensitivity::{Slopes, directions, outside_domain};
+use crate::sensitivity::{Slopes, directions};
 use crate::{Complex, Equilibrium, Error, Output};
 
 /// A number, its total derivatives by every variable, and the derivatives of these along one input.
@@ -79,7 +79,7 @@ pub(crate) fn along_input(
     let y = vibration.harmonic.outputs[output.index()];
     let slopes = joined(&total).map(|value| -value);
     if !(slopes.iter().chain(row.iter())).all(|value| value.is_finite()) {
-        return Err(outside_domain(at));
+        return Err(solved.not_finite());
     }
     let w = &frequency;
     let by_input = (w.slopes.by_input[input], slopes.by_input[input]);

@@ -9,7 +9,7 @@ use crate::algebra::{Matrix, Vector, largest, product_complex};
 use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::modes::modes;
-use crate::sensitivity::check_state;
+use crate::sensitivity::{check_state, outside_domain};
 use crate::{Complex, Description, Equilibrium, Error, Excitation, Output, Shared};
 
 /// The steady vibration under all excitations: of each output and unknown, `Re(y e^{i w t})`, by harmonic.
@@ -169,6 +169,20 @@ impl<'a> Solved<'a> {
             seen,
             vibrations,
         })
+    }
+
+    /// Why derivatives are not finite: an output without a first derivative is in the way of all.
+    pub(super) fn not_finite(&self) -> Error {
+        let smooth =
+            |own: &Vibration, output: usize| own.seen[output].iter().all(|value| value.is_finite());
+        let mut outputs = self.at.description.outputs.iter().enumerate();
+        let rough = outputs.find(|(k, _)| self.vibrations.iter().any(|own| !smooth(own, *k)));
+        match rough {
+            Some((_, info)) => Error::NotSmooth {
+                output: info.name.clone(),
+            },
+            None => outside_domain(self.at),
+        }
     }
 
     pub(super) fn response(self) -> ForcedResponse {

@@ -6,7 +6,7 @@ use super::response::{ForcedResponse, Harmonic, Solved};
 use crate::algebra::{Matrix, Vector, add_to};
 use crate::kernels::Kernels;
 use crate::scalar::Real as _;
-use crate::sensitivity::{EquilibriumShift, Slopes, depends, equilibrium_shift, outside_domain};
+use crate::sensitivity::{EquilibriumShift, Slopes, depends, equilibrium_shift};
 use crate::{Complex, Equilibrium, Error, Output};
 
 /// A forced response and its total first derivatives: equilibrium and frequency follow the variables.
@@ -147,7 +147,7 @@ pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensi
             frequency: slopes(at, |j| row[0][j]),
         };
         if !own.finite() {
-            return Err(outside_domain(at));
+            return Err(solved.not_finite());
         }
         harmonics.push(own);
     }

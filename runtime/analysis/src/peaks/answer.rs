@@ -1,8 +1,10 @@
 //! Peaks along an input as text and tables.
 
-use eigentol_results::numbers::{converted, given, number, rough, short};
+use std::slice;
+
+use eigentol_results::numbers::{converted, given, heading, number, rough, short};
 use eigentol_results::title::title_along;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, Listed, Subject, Table, displayed};
 
 use super::{HalfPower, Moving, Peak, Peaks};
 use crate::along::{name_of, value_of, varied};
@@ -11,11 +13,14 @@ use crate::{Text, Unit};
 
 displayed!(Peaks);
 
+/// A peak of a vibration, and its number among those of the vibration.
+type Row<'a> = (&'a Peaks, usize, &'a Peak);
+
 /// A number of a peak.
 type Part = fn(&Peak) -> Option<&Moving>;
 
-/// `peaks`: a row for each; `derivatives of peaks`: a row for each quantity of each peak and each design variable, in its
-/// unit per `unit` of the variable.
+/// `peaks`: a row for each, heights in `unit`; `derivatives of peaks`: a row for each quantity of each peak and each design
+/// variable, in its unit per `per` of the variable.
 impl Answer for Peaks {
     const KIND: &'static str = "peaks";
 
@@ -25,57 +30,68 @@ impl Answer for Peaks {
     }
 
     fn findings(&self) -> Findings {
-        let (d, input) = (&self.description, self.range.input);
-        let name = self.vibration.name(d);
-        let title = title_along(d, &self.inputs, input);
-        let mut said = Findings::titled(format!("{title}: peaks of the vibration, {name}"));
-        let units = self.units();
-        let sigma = |of: Option<&Moving>| Some(of?.spread.as_ref()?.sigma);
-        let spread = self.sigma_level.is_some();
-        let mut table = Columns::new("peaks", &self.peaks);
-        varied(&mut table, d, input, number, &|peak| peak.place.value);
-        let half = |peak: &Peak, k: usize| Some(peak.half_power[k].place()?.value);
-        let columns: [(&str, &Unit, Part); 4] = [
-            ("place", &units[0], |peak| Some(&peak.place)),
-            ("frequency", &units[1], |peak| Some(&peak.frequency)),
-            ("height", &units[2], |peak| Some(&peak.height)),
-            ("amplification", &units[3], |peak| {
-                peak.amplification.as_ref()
-            }),
-        ];
-        for (k, (what, unit, of)) in columns.into_iter().enumerate() {
-            if k > 0 {
-                let value = |peak: &Peak| Some(of(peak)?.value);
-                table.measured(what, unit, &value).digits(number);
-            }
-            let column = table.measured(&format!("sigma of {what}"), unit, &|peak| sigma(of(peak)));
-            if spread {
-                column.digits(rough);
-            }
+        <Self as Listed>::findings(slice::from_ref(self))
+    }
+}
+
+/// The tables of one, with the rows of all vibrations.
+impl Listed for Peaks {
+    const KIND: &'static str = "peaks of vibrations";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Answer::subject(self)
+    }
+
+    fn findings(all: &[Self]) -> Findings {
+        let mut said = match all {
+            [] => Findings::titled("no peaks".to_owned()),
+            _ => Findings::default(),
+        };
+        for own in all {
+            own.say(&mut said);
         }
-        table
-            .number("phase", "deg", &|peak| Some(peak.phase.to_degrees()))
-            .digits(short);
-        for (k, what) in ["half power before", "half power after"]
-            .into_iter()
-            .enumerate()
-        {
-            table
-                .measured(what, &units[0], &|peak| half(peak, k))
-                .digits(number);
-            table.words(&format!("{what} missing"), &|peak| {
-                Some(missing(&peak.half_power[k])?.to_owned())
-            });
+        let rows: Vec<Row<'_>> = all.iter().flat_map(Peaks::rows).collect();
+        if let Some(first) = all.first() {
+            said.data(first.columns(&rows).finish().0);
+            said.data(derivatives(&rows));
+            said.note(CONVENTIONS);
         }
-        said.columns(table);
-        self.derivatives(&mut said, &units);
-        if self.peaks.is_empty() {
-            said.note("No peak in the range.");
-        }
-        self.reasons(&mut said);
-        said.note(CONVENTIONS);
         said
     }
+}
+
+/// The derivatives of all numbers of these peaks.
+fn derivatives(all: &[Row<'_>]) -> Table {
+    let mut rows = Vec::new();
+    for row @ (of, _, peak) in all {
+        let units = of.units();
+        let all = [
+            ("place", &units[0], Some(&peak.place)),
+            ("frequency", &units[1], Some(&peak.frequency)),
+            ("height", &units[2], Some(&peak.height)),
+            ("half power before", &units[0], peak.half_power[0].place()),
+            ("half power after", &units[0], peak.half_power[1].place()),
+            ("amplification", &units[3], peak.amplification.as_ref()),
+        ];
+        for (what, unit, moving) in all {
+            let Some(moving) = moving else { continue };
+            let design = of.description.design.iter().enumerate();
+            rows.extend(
+                design.map(|(k, by)| (row, what, unit.clone(), (by, moving.by_design.get(k)))),
+            );
+        }
+    }
+    let mut table = Columns::new("derivatives of peaks", &rows);
+    table.words("vibration", &|row| Some(row.0.0.name()));
+    table.whole("peak", &|row| Some(row.0.1));
+    table.words("quantity", &|row| Some(row.1.to_owned()));
+    table.words("unit", &|row| Some(row.2.symbol.to_string()));
+    table.words("by", &|row| Some(row.3.0.name.to_string()));
+    table.words("per", &|row| Some(row.3.0.unit.symbol.to_string()));
+    table.number("derivative", "", &|(_, _, unit, (by, slope))| {
+        Some(converted(*slope.as_ref()? * by.unit.scale, unit))
+    });
+    table.finish().0
 }
 
 impl Peaks {
@@ -95,34 +111,79 @@ impl Peaks {
         ]
     }
 
-    fn derivatives(&self, said: &mut Findings, units: &[Unit; 4]) {
-        let d = &self.description;
-        let mut rows = Vec::new();
-        for (number, peak) in self.peaks.iter().enumerate() {
-            let all = [
-                ("place", &units[0], Some(&peak.place)),
-                ("frequency", &units[1], Some(&peak.frequency)),
-                ("height", &units[2], Some(&peak.height)),
-                ("half power before", &units[0], peak.half_power[0].place()),
-                ("half power after", &units[0], peak.half_power[1].place()),
-                ("amplification", &units[3], peak.amplification.as_ref()),
-            ];
-            for (what, unit, of) in all {
-                let Some(of) = of else { continue };
-                rows.extend((0..d.design.len()).map(|k| (number + 1, what, unit, of, k)));
-            }
+    pub(super) fn name(&self) -> String {
+        self.vibration.name(&self.description)
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        let each = self.peaks.iter().enumerate();
+        each.map(move |(k, peak)| (self, k + 1, peak))
+    }
+
+    /// The text about the peaks of one vibration.
+    fn say(&self, said: &mut Findings) {
+        let title = title_along(&self.description, &self.inputs, self.range.input);
+        said.join(Findings::titled(format!(
+            "{title}: peaks of the vibration, {}",
+            self.name()
+        )));
+        let rows: Vec<Row<'_>> = self.rows().collect();
+        said.text(self.columns(&rows).finish().1);
+        if self.peaks.is_empty() {
+            said.note("No peak in the range.");
         }
-        let mut table = Columns::new("derivatives of peaks", &rows);
-        table.whole("peak", &|row| Some(row.0));
-        table.words("quantity", &|row| Some(row.1.to_owned()));
-        table.words("unit", &|row| Some(row.2.symbol.to_string()));
-        table.words("by", &|row| Some(d.design[row.4].name.to_string()));
-        table.words("per", &|row| Some(d.design[row.4].unit.symbol.to_string()));
-        table.number("derivative", "", &|row| {
-            let slope = row.3.by_design.get(row.4)? * d.design[row.4].unit.scale;
-            Some(converted(slope, row.2))
-        });
-        said.data(table.finish().0);
+        self.reasons(said);
+    }
+
+    /// The columns about peaks along the same input. Vibrations have units of their own, which the text says in the
+    /// headings: its rows are those of one.
+    fn columns<'a>(&self, rows: &'a [Row<'a>]) -> Columns<'a, Row<'a>> {
+        let (d, input, units) = (&self.description, self.range.input, self.units());
+        let mut table = Columns::new("peaks", rows);
+        table.words("vibration", &|row| Some(row.0.name()));
+        varied(&mut table, d, input, number, &|row| row.2.place.value);
+        let columns: [(&str, usize, Part); 4] = [
+            ("place", 0, |peak| Some(&peak.place)),
+            ("frequency", 1, |peak| Some(&peak.frequency)),
+            ("height", 2, |peak| Some(&peak.height)),
+            ("amplification", 3, |peak| peak.amplification.as_ref()),
+        ];
+        for (what, k, of) in columns {
+            let is_height = what == "height";
+            if is_height {
+                table.words("unit", &|row| Some(row.0.units()[k].symbol.to_string()));
+            }
+            let mut add = |name: &str,
+                           form: Option<fn(f64) -> String>,
+                           value: &dyn Fn(&Moving) -> Option<f64>| {
+                let value = |row: &Row<'_>| Some(converted(value(of(row.2)?)?, &row.0.units()[k]));
+                let unit = if is_height { "" } else { &units[k].symbol };
+                let column = table.number(name, unit, &value);
+                if let Some(form) = form {
+                    column.digits(form).headed(&heading(name, &units[k]));
+                }
+            };
+            if k > 0 {
+                add(what, Some(number), &|own| Some(own.value));
+            }
+            let form = self.sigma_level.map(|_| rough as fn(f64) -> String);
+            add(&format!("sigma of {what}"), form, &|own| {
+                Some(own.spread.as_ref()?.sigma)
+            });
+        }
+        let phase = |row: &Row<'_>| Some(row.2.phase.to_degrees());
+        table.number("phase", "deg", &phase).digits(short);
+        for (k, what) in ["half power before", "half power after"]
+            .into_iter()
+            .enumerate()
+        {
+            let place = |row: &Row<'_>| Some(row.2.half_power[k].place()?.value);
+            table.measured(what, &units[0], &place).digits(number);
+            table.words(&format!("{what} missing"), &|row| {
+                Some(missing(&row.2.half_power[k])?.to_owned())
+            });
+        }
+        table
     }
 
     /// Why numbers are missing.

@@ -19,19 +19,23 @@ pub enum PeakQuantity {
     Place,
 }
 
-/// A quantity and its total derivatives by the design, which an amplitude of zero does not have; `None` without a peak
-/// whose place is asked for, and if the range has a stretch without an equilibrium or a vibration.
+/// A quantity and its total derivatives by the design, which an amplitude of zero does not have.
+///
+/// # Errors
+/// [`Error::NotInRange`] without a peak whose place is asked for; the reason for a stretch of the range without an
+/// equilibrium or a vibration.
 pub(crate) fn highest(
     mechanism: &dyn CurvatureKernels,
     values: (&[f64], &[f64]),
     start: &[f64],
     (vibration, range, quantity): (Vibration, Range, PeakQuantity),
-) -> Result<Option<(f64, Option<Vector>)>, Error> {
+) -> Result<(f64, Option<Vector>), Error> {
     let along = Along::new(mechanism, values, Following::default(), (range, vibration))?;
     let found = scan(&along, &range, start)?;
-    if !found.gaps.is_empty() {
-        return Ok(None);
+    if let Some(gap) = found.gaps.first() {
+        return Err(gap.reason.clone());
     }
+    let none = || range.without("peak", &mechanism.description());
     let search = Search {
         along: &along,
         scan: &found,
@@ -43,20 +47,17 @@ pub(crate) fn highest(
     let (value, slopes) = match quantity {
         PeakQuantity::Height => {
             let ends = [found.states.first(), found.states.last()];
-            let Some(own) = tops.chain(ends.into_iter().flatten()).max_by(lower) else {
-                return Ok(None);
-            };
+            let all = tops.chain(ends.into_iter().flatten());
+            let own = all.max_by(lower).ok_or_else(none)?;
             (own.square().value.sqrt(), own.modulus_by_design())
         }
         PeakQuantity::Place => {
-            let Some(own) = tops.max_by(lower) else {
-                return Ok(None);
-            };
+            let own = tops.max_by(lower).ok_or_else(none)?;
             (own.value, own.place_by_design())
         }
     };
     let smooth = slopes.iter().all(|own| own.is_finite());
-    Ok(Some((value, smooth.then_some(slopes))))
+    Ok((value, smooth.then_some(slopes)))
 }
 
 fn lower(a: &&State, b: &&State) -> core::cmp::Ordering {

@@ -1,8 +1,10 @@
 //! How far peaks keep from a range of operation, in the manner of API 617.
 
-use eigentol_results::numbers::{number, percent, rough};
+use std::slice;
+
+use eigentol_results::numbers::{converted, heading, number, percent, rough};
 use eigentol_results::title::title_along;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 
 use super::{Moving, Peak, Peaks};
 use crate::along::varied;
@@ -80,50 +82,92 @@ fn margin(peak: &Peak, [low, high]: [f64; 2]) -> SeparationMargin {
     }
 }
 
-/// `separation margins`: a row for each peak.
+/// `separation margins`: a row for each peak, amplitudes in `unit`.
 impl Answer for Separation {
     const KIND: &'static str = "separation margins";
 
     fn subject(&self) -> Option<Subject<'_>> {
-        self.peaks.subject()
+        Answer::subject(&self.peaks)
     }
 
     fn findings(&self) -> Findings {
-        let (d, input) = (&self.peaks.description, self.peaks.range.input);
-        let title = title_along(d, &self.peaks.inputs, input);
-        let mut said = Findings::titled(format!(
-            "{title}: separation margins, in the manner of API 617"
-        ));
-        let rows: Vec<(&Peak, &SeparationMargin)> =
-            self.peaks.peaks.iter().zip(&self.margins).collect();
-        let mut table = Columns::new("separation margins", &rows);
-        varied(&mut table, d, input, number, &|row| row.0.place.value);
-        table
-            .number("amplification factor", "", &|row| {
-                Some(row.0.amplification.as_ref()?.value)
-            })
-            .digits(number);
-        table
-            .number("separation margin", "", &|row| Some(row.1.actual.value))
-            .digits(percent);
-        table
-            .number("sigma of margin", "", &|row| {
-                Some(row.1.actual.spread.as_ref()?.sigma)
-            })
-            .digits(percent);
-        table
-            .number("required margin", "", &|row| row.1.required)
-            .digits(percent);
-        table.flag("sufficient", &|row| row.1.sufficient()).shown();
-        if self.peaks.vibration.measure == Measure::Displacement {
-            table
-                .number("peak to peak", "", &|row| Some(2.0 * row.0.height.value))
-                .digits(rough);
+        <Self as Listed>::findings(slice::from_ref(self))
+    }
+}
+
+/// The table of one, with the rows of all vibrations.
+impl Listed for Separation {
+    const KIND: &'static str = "separation margins of vibrations";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        Answer::subject(self)
+    }
+
+    fn findings(all: &[Self]) -> Findings {
+        let mut said = match all {
+            [] => Findings::titled("no separation margins".to_owned()),
+            _ => Findings::default(),
+        };
+        for own in all {
+            let of = &own.peaks;
+            let title = title_along(&of.description, &of.inputs, of.range.input);
+            said.join(Findings::titled(format!(
+                "{title}: separation margins of {}, in the manner of API 617",
+                of.name()
+            )));
+            let rows: Vec<Row<'_>> = own.rows().collect();
+            said.text(own.columns(&rows).finish().1);
         }
-        said.columns(table);
-        said.note("The formulas are those commonly quoted of API 617; the standard decides.");
+        let rows: Vec<Row<'_>> = all.iter().flat_map(Separation::rows).collect();
+        if let Some(first) = all.first() {
+            said.data(first.columns(&rows).finish().0);
+            said.note("The formulas are those commonly quoted of API 617; the standard decides.");
+        }
         said
     }
 }
 
 displayed!(Separation);
+
+/// A peak of a vibration and its margin.
+type Row<'a> = (&'a Peaks, &'a Peak, &'a SeparationMargin);
+
+impl Separation {
+    fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        let each = self.peaks.peaks.iter().zip(&self.margins);
+        each.map(|(peak, margin)| (&self.peaks, peak, margin))
+    }
+
+    /// The columns about peaks along the same input.
+    fn columns<'a>(&self, rows: &'a [Row<'a>]) -> Columns<'a, Row<'a>> {
+        let (d, input) = (&self.peaks.description, self.peaks.range.input);
+        let mut table = Columns::new("separation margins", rows);
+        table.words("vibration", &|row| Some(row.0.name()));
+        varied(&mut table, d, input, number, &|row| row.1.place.value);
+        let factor = |row: &Row<'_>| Some(row.1.amplification.as_ref()?.value);
+        table
+            .number("amplification factor", "", &factor)
+            .digits(number);
+        let margin = |row: &Row<'_>| Some(row.2.actual.value);
+        table
+            .number("separation margin", "", &margin)
+            .digits(percent);
+        let sigma = |row: &Row<'_>| Some(row.2.actual.spread.as_ref()?.sigma);
+        table.number("sigma of margin", "", &sigma).digits(percent);
+        let required = |row: &Row<'_>| row.2.required;
+        table
+            .number("required margin", "", &required)
+            .digits(percent);
+        table.flag("sufficient", &|row| row.2.sufficient()).shown();
+        if self.peaks.vibration.measure == Measure::Displacement {
+            let unit = |row: &Row<'_>| row.0.vibration.unit(&row.0.description);
+            table.words("unit", &|row| Some(unit(row)?.symbol.to_string()));
+            let doubled = |row: &Row<'_>| Some(converted(2.0 * row.1.height.value, &unit(row)?));
+            let column = table.number("peak to peak", "", &doubled).digits(rough);
+            if let Some(own) = self.peaks.vibration.unit(d) {
+                column.headed(&heading("peak to peak", &own));
+            }
+        }
+        table
+    }
+}

@@ -50,7 +50,6 @@ pub fn critical_state(
     if let Some(state) = found {
         return Ok(state);
     }
-    let input = &description.inputs[range.input.index()];
     let escapes = |error: &Error| {
         let reason = NotFound::Escape;
         matches!(error, Error::BranchLost { reason: own, .. } if *own == reason)
@@ -58,12 +57,6 @@ pub fn critical_state(
     let gap = events.searched.gaps.into_iter().next();
     match gap.map(|gap| gap.reason).filter(|error| !escapes(error)) {
         Some(error) => Err(error),
-        None => Err(Error::NotInRange {
-            what: "critical value",
-            input: input.name.clone(),
-            low: range.low,
-            high: range.high,
-            unit: input.unit.clone(),
-        }),
+        None => Err(range.without("critical value", &description)),
     }
 }

@@ -48,6 +48,18 @@ impl<M> Range<M> {
 }
 
 impl Range {
+    /// The error of a range in which there is no such thing.
+    pub(crate) fn without(&self, what: &'static str, description: &Description) -> Error {
+        let input = &description.inputs[self.input.index()];
+        Error::NotInRange {
+            what,
+            input: input.name.clone(),
+            low: self.low,
+            high: self.high,
+            unit: input.unit.clone(),
+        }
+    }
+
     pub(crate) fn check(&self, description: &Description) -> Result<(), Error> {
         check_input(self.input, description)?;
         let refused = if !(self.low.is_finite() && self.high.is_finite()) {

@@ -56,7 +56,10 @@ impl Report {
         let range = self.sweep.range_if_any(&question)?;
         let values = match &range {
             Some(range) => self.points.values(range, &question)?,
-            None => Vec::new(),
+            None => {
+                self.points.refuse_without_sweep()?;
+                Vec::new()
+            }
         };
         self.check_names(&question, range.is_some())?;
         let file = &question.file;

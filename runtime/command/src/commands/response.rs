@@ -1,8 +1,9 @@
 //! Forced vibration.
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use eigentol::Study;
 use eigentol::bode::Bode;
+use eigentol::peaks::Peaks;
 use eigentol::response::Vibration;
 use eigentol_figures as figures;
 use eigentol_interpreter::Interpreted;
@@ -13,7 +14,7 @@ use crate::picture::Picture;
 use crate::point::{Point, Question, samples, whole};
 use crate::progress;
 use crate::requirements::{named_orbit, named_vibration};
-use crate::sweep::{Points, Range, Sweep, range};
+use crate::sweep::{Points, Range, Sweep, range, unswept};
 use crate::verdict::Verdict;
 
 /// Number of designs solved anew for each band, unless it is given.
@@ -21,6 +22,7 @@ const CHECKED: usize = 64;
 
 /// Vibration under the declared excitations: amplitudes and phases, their derivatives and their bands under tolerances
 #[derive(Args, Debug)]
+#[command(group = ArgGroup::new("detail").args(["bands", "peaks", "figure"]).multiple(true))]
 pub(crate) struct Response {
     #[command(flatten)]
     point: Point,
@@ -32,13 +34,13 @@ pub(crate) struct Response {
     #[arg(long)]
     bands: bool,
     /// Number of samples of a band [default: 3000]
-    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true, requires = "bands")]
     samples: Option<usize>,
-    /// Number of designs solved anew to check each band [default: 64]
+    /// Number of designs solved anew to check each band along an input [default: 64]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true, requires = "bands")]
     checked: Option<usize>,
     /// The peaks of every amplitude in the range of `--sweep`, with their half-power points and spreads
-    #[arg(long, conflicts_with_all = ["bands", "figure"])]
+    #[arg(long, conflicts_with_all = ["bands", "figure", "points"])]
     peaks: bool,
     /// Speeds of operation, for separation margins in the manner of API 617: `speed=4000..6000rpm`
     #[arg(long, value_name = "NAME=FROM..TO", requires = "peaks")]
@@ -48,7 +50,7 @@ pub(crate) struct Response {
     #[command(flatten)]
     picture: Picture,
     /// Only this vibration among bands, peaks and in the figure: `shake`, or `shake under u`
-    #[arg(long, value_name = "VIBRATION")]
+    #[arg(long, value_name = "VIBRATION", requires = "detail")]
     of: Option<String>,
     /// The figure is a polar plot: the path of the complex amplitude along the input of `--sweep`
     #[arg(long, requires = "figure")]
@@ -69,7 +71,21 @@ impl Response {
         };
         let number = samples(self.samples, &question.file)?;
         question.study = question.study.samples(number);
-        let Some(range) = self.sweep.range_if_any(&question)? else {
+        if self.orbit.is_some() && self.sweep.range_if_any(&question)?.is_some() {
+            let message = "an orbit is drawn at one operating point, not along an input";
+            return Err(Failure::usage(
+                message,
+                "leave out the sweep, and set the input",
+            ));
+        }
+        let Some(range) = self.sweep.range_alone(&question)? else {
+            self.points.refuse_without_sweep()?;
+            if self.peaks {
+                return Err(unswept("--peaks"));
+            }
+            if self.checked.is_some() {
+                return Err(unswept("--checked"));
+            }
             if self.picture.is_wanted() && self.orbit.is_none() {
                 let message = "a Bode plot or a polar plot needs values of an input";
                 let help = "give a range, `--sweep speed=0..6000rpm`, or draw an orbit: `--orbit shake,lift`";
@@ -77,13 +93,6 @@ impl Response {
             }
             return self.at_point(&question, &wanted);
         };
-        if self.orbit.is_some() {
-            let message = "an orbit is drawn at one operating point, not along an input";
-            return Err(Failure::usage(
-                message,
-                "leave out the sweep, and set the input",
-            ));
-        }
         if self.peaks {
             return self.peaks_in(&question.study, &range, &wanted);
         }
@@ -127,21 +136,24 @@ impl Response {
             let message = "the range of operation is of another input";
             return Err(Failure::usage(message, help));
         }
+        let each = wanted.iter();
+        let each = each.map(|own| study.peaks(*own, along.input, along.low, along.high));
+        let found: Vec<Peaks> = each.collect::<Result<_, _>>()?;
         let mut answer = self.output.answer();
-        let mut number = 0;
-        for vibration in wanted {
-            let found = study.peaks(*vibration, along.input, along.low, along.high)?;
-            number += found.peaks.len();
-            answer.add(&found)?;
-            if let (Some(own), false) = (&operating, found.peaks.is_empty()) {
-                let ends = [own.low.min(own.high), own.low.max(own.high)];
-                answer.add(&found.separation(ends))?;
-            }
+        answer.add(&found)?;
+        let peaked: Vec<Peaks> = (found.into_iter())
+            .filter(|own| !own.peaks.is_empty())
+            .collect();
+        let any = !peaked.is_empty();
+        if let (Some(own), true) = (&operating, any) {
+            let ends = [own.low.min(own.high), own.low.max(own.high)];
+            let margins: Vec<_> = peaked.into_iter().map(|own| own.separation(ends)).collect();
+            answer.add(&margins)?;
         }
         self.output.write(&answer)?;
-        match number {
-            0 => Ok(Verdict::No("no amplitude has a peak".to_owned())),
-            _ => Ok(Verdict::Yes),
+        match any {
+            true => Ok(Verdict::Yes),
+            false => Ok(Verdict::No("no amplitude has a peak".to_owned())),
         }
     }
 

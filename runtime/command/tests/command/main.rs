@@ -1,6 +1,7 @@
 //! The command as a user runs it.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod beams;
 mod declarations;
 mod figures;
 mod first_minutes;
@@ -22,4 +23,5 @@ mod starter;
 mod strangers;
 mod streams;
 mod subcommands;
+mod vibration;
 mod walkthrough;

@@ -401,7 +401,7 @@ impl<'a> Course<'a> {
                 Some(self.result.input),
             ),
             format!(
-                "{}: amplitude from 0 to peak; a positive phase leads the excitation.",
+                "{}: amplitude from 0 to peak; a positive phase is ahead of cos(w t).",
                 self.name()
             ),
         ]

@@ -34,7 +34,7 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
         }
     };
     html.paragraph(
-        "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.",
+        "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).",
     );
     motion(html, content);
     let several = found.harmonics.iter().any(|own| own.shares.len() > 1);

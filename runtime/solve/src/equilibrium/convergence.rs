@@ -5,7 +5,7 @@
 //! alone is no criterion where stiffnesses of very different size meet. A finished state therefore passes both tests.
 //! The gap of a constraint is measured by motions too, and a reaction relative to the largest one.
 
-use super::operating_point::OperatingPoint;
+use super::operating_point::{OperatingPoint, gap_unit};
 use crate::algebra::{Matrix, Vector, for_size, greater, largest};
 use crate::kernels::RestParts;
 
@@ -170,13 +170,7 @@ fn relative_residual_into(
     let own = relative_to(point, parts, q, residual, stiffness);
     if own > TOLERANCE && point.motions() < q.len() {
         let forces = [&parts.inertia[..], &parts.applied];
-        own.min(relative_to_passed_on(
-            point.motions(),
-            forces,
-            q,
-            residual,
-            stiffness,
-        ))
+        own.min(relative_to_passed_on(point, forces, q, residual, stiffness))
     } else {
         own
     }
@@ -188,13 +182,14 @@ fn relative_residual_into(
 /// passes on the work of each equation by the share of the coordinate in the gap that all small motions open.
 #[cold]
 fn relative_to_passed_on(
-    motions: usize,
+    point: &OperatingPoint<'_>,
     forces: [&[f64]; 2],
     q: &[f64],
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    let n = q.len();
+    let (n, motions) = (q.len(), point.motions());
+    let gaps = relative_gaps(point, q, residual, stiffness);
     let small: Vector = q.iter().map(|q| small_motion(*q)).collect();
     let reaction = largest_of(&q[motions..]);
     let mut work = Vector::from_fn(motions, |i| {
@@ -219,6 +214,8 @@ fn relative_to_passed_on(
     (0..n).fold(0.0, |most, i| {
         let own = if i < motions {
             ratio(residual[i] * small[i], work[i])
+        } else if i < motions + gaps.len() {
+            gaps[i - motions]
         } else {
             relative(residual[i], 0.0, &q[..motions], &stiffness[i])
         };
@@ -315,9 +312,44 @@ fn small_motion(q: f64) -> f64 {
     SMALL_MOTION + ROUNDED * q.abs()
 }
 
-/// The gap of one constraint relative to what small motions open, given the row of its derivatives.
-pub(crate) fn relative_gap(gap: f64, motions: &[f64], row: &[f64]) -> f64 {
-    relative(gap, 0.0, motions, row)
+/// The gaps of the constraints on positions, each relative to what small motions open and to the rounding of the lengths
+/// that it adds up: a beam that reaches straight across hardly opens its gap.
+pub(crate) fn relative_gaps(
+    point: &OperatingPoint<'_>,
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &Matrix,
+) -> Vector {
+    let (structure, unknowns) = (point.structure, &point.description.coordinates);
+    let motions = &q[..structure.coordinates];
+    let rows = structure.position_rows();
+    // Lengths are in no coordinate; they are the arms at which rotations move what constraints compare.
+    let arm = |row: usize| {
+        let arms = motions.iter().zip(&stiffness[row]).enumerate();
+        arms.fold(0.0, |most, (j, (q, slope))| {
+            let turns = unknowns[j].unit.symbol == *"rad";
+            let size = if turns {
+                greater(1.0, q.abs())
+            } else {
+                q.abs()
+            };
+            greater(most, slope.abs() * size)
+        })
+    };
+    let kind = |row: usize| match gap_unit(&point.description, row) {
+        "m" => 0,
+        "rad" => 1,
+        _ => 2,
+    };
+    let mut arms = [0.0; 3];
+    for row in rows.clone() {
+        arms[kind(row)] = greater(arms[kind(row)], arm(row));
+    }
+    let own = |row: usize| {
+        let rounded = ROUNDED * arms[kind(row)];
+        relative(residual[row], rounded, motions, &stiffness[row])
+    };
+    rows.map(own).collect()
 }
 
 /// One equation's residual relative to `force` and the row of stiffnesses times the motions `q`; a scale that overflows

@@ -15,7 +15,7 @@
 use core::mem::swap;
 use std::borrow::Cow;
 
-use super::convergence::{TOLERANCE, relative_gap};
+use super::convergence::{TOLERANCE, largest_of, relative_gaps};
 use super::operating_point::{Failure, OperatingPoint};
 use super::scaling::weights;
 use crate::algebra::{Lu, Matrix, Vector, add_scaled, add_to, all_finite_matrix, dot, times};
@@ -256,11 +256,7 @@ pub(super) fn greatest_gap(
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    let structure = point.structure;
-    structure.position_rows().fold(0.0, |most: f64, row| {
-        let motions = &q[..structure.coordinates];
-        most.max(relative_gap(residual[row], motions, &stiffness[row]))
-    })
+    largest_of(&relative_gaps(point, q, residual, stiffness))
 }
 
 impl SearchSpace for ConstraintManifold {

@@ -77,6 +77,15 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
     },
+    /// An output has a value at an equilibrium but no derivative, so nothing says how it vibrates.
+    #[error(
+        "output `{output}` has a value here but no derivative, like the length of a vector that is zero, so it has no \
+         amplitude of vibration: leave it out, or make outputs of the components"
+    )]
+    NotSmooth {
+        /// Name of the output.
+        output: Text,
+    },
     /// No equilibrium was found from the start value.
     #[error(
         "no equilibrium found after {iterations} iterations ({reason}); last state q = {coordinates:?}, \
@@ -430,6 +439,19 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         method: Word,
     },
+    /// No design that was solved has the response that a requirement limits.
+    #[error(
+        "requirement {} cannot be judged: no design solved has a value of `{response}`{}",
+        .requirement + 1, nominally(reason.as_deref())
+    )]
+    NoDesignTells {
+        /// Position of the requirement, from 0.
+        requirement: usize,
+        /// Name of the response.
+        response: String,
+        /// Why the nominal design lacks it; `None` if that one has it.
+        reason: Option<Box<Error>>,
+    },
     /// Samples of different runs cannot be merged.
     #[error("these samples belong to another run: {what} is {own} here and {other} there")]
     OtherRun {
@@ -491,6 +513,11 @@ fn ranges(all: &[core::ops::Range<u64>]) -> String {
         .map(|range| format!("{} to below {}", range.start, range.end))
         .collect();
     each.join(", ")
+}
+
+/// Why the nominal design lacks a response.
+fn nominally(reason: Option<&Error>) -> String {
+    reason.map_or_else(String::new, |own| format!(". At the nominal design, {own}"))
 }
 
 /// The mode in resonance, counted from 1 as in all messages.

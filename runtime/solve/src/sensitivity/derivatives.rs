@@ -113,7 +113,7 @@ pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
     }
     said.text(grid);
     let exists = |of: &Derived| variables.is_empty() || !of.slopes.is_empty();
-    for (what, exist) in [("Zero", true), ("No derivative", false)] {
+    for (what, exist) in [("All derivatives zero", true), ("No derivative", false)] {
         let own = still.iter().filter(|column| exists(column.of) == exist);
         let own: Vec<String> = own.map(|column| column.of.heading()).collect();
         let own: Vec<&str> = own.iter().map(String::as_str).collect();

@@ -14,7 +14,7 @@ use crate::{Complex, Description, Error};
 
 /// What every amplitude and phase means.
 const CONVENTIONS: &str =
-    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase leads the excitation.";
+    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).";
 /// An error of a model's spread that is worth a word.
 const WORTH_SAYING: f64 = 0.01;
 

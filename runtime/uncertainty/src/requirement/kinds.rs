@@ -213,10 +213,19 @@ impl Requirement {
                 if low.is_nan() || high.is_nan() || low >= high {
                     return refuse(format!("the band from {low} to {high} is empty"));
                 }
-                if self.limits().is_empty() {
+                let limits = self.limits();
+                if limits.is_empty() {
                     return refuse("a band without a finite end asks for nothing".to_owned());
                 }
-                Ok(())
+                let band = |own: &Self| own.band(mechanism, &at.inputs, &at.design);
+                let all = |(low, high): (f64, f64)| low <= 0.0 && high == f64::INFINITY;
+                match self.response().filter(|own| own.never_negative()) {
+                    Some(response) if limits.iter().map(band).any(all) => refuse(format!(
+                        "the upper limit of `{}`, which is never below zero, must be positive",
+                        response.name(&at.description)
+                    )),
+                    _ => Ok(()),
+                }
             }
             Self::Away {
                 input,

@@ -105,7 +105,7 @@ impl<'a> LimitAt<'a> {
 fn missing(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Stable => {
-            "its equilibrium is stable, but the mode does not oscillate, or nothing happens in the range"
+            "its equilibrium is stable, but the mode does not oscillate, nothing shakes, or nothing happens in the range"
         }
         Outcome::Divergent | Outcome::Flutter => "its equilibrium is unstable",
         Outcome::Undecided => "the stability of its equilibrium is not decided",

@@ -54,7 +54,7 @@ impl FailureProbability {
         Self {
             value: judged.probability.value,
             interval: judged.interval(),
-            untold: judged.untold.value,
+            untold: judged.untold.value.min(1.0),
             by: match described {
                 true => Found::DesignPoint,
                 false => Found::Lines,
@@ -111,7 +111,8 @@ impl Requirements<'_> {
     /// more. Nothing needs to be chosen: [`FailureProbability::by`] tells which way was taken.
     ///
     /// # Errors
-    /// [`Error::Setting`] if no tolerance is declared; those of [`Self::chances`]; [`Error::Stopped`].
+    /// [`Error::Setting`] if no tolerance is declared; [`Error::NoDesignTells`] if no design that was solved has the
+    /// response of a requirement; those of [`Self::chances`]; [`Error::Stopped`].
     pub fn probabilities(&self, sampling: &Sampling<'_>) -> Result<Probabilities, Error> {
         let (deviations, state) = (self.deviations(), self.responses().nominal());
         let tolerances = deviations.tolerances();
@@ -137,7 +138,8 @@ impl Requirements<'_> {
         };
         let count = self.wanted().len();
         let sharp = |place| settled(place).is_some_and(|found| found.is_sharp());
-        let chances = match (0..=count).all(sharp) {
+        // Of lines, which are weighted, it cannot be said that none of their designs has a response.
+        let chances = match (0..=count).all(sharp) && self.nominal_has_all() {
             true => None,
             false => Some(chances_of(self, deviations, sampling)?),
         };
@@ -151,9 +153,17 @@ impl Requirements<'_> {
                 .min_by(|a, b| a.width().total_cmp(&b.width()))
                 .ok_or(Error::Stopped)
         };
+        let each: Vec<FailureProbability> = (0..count).map(one).collect::<Result<_, _>>()?;
+        let sampled = chances.iter().flat_map(|own| &own.each);
+        let nothing = |(found, tally): (&FailureProbability, &Tally)| {
+            found.value <= NEGLIGIBLE && tally.untold == tally.samples()
+        };
+        if let Some(place) = each.iter().zip(sampled).position(nothing) {
+            return Err(self.untold(place));
+        }
         Ok(Probabilities {
             wanted: self.wanted().to_vec(),
-            each: (0..count).map(one).collect::<Result<_, _>>()?,
+            each,
             any: one(count)?,
             reliability,
             chances,

@@ -22,7 +22,8 @@ pub(crate) struct Limit {
 ///
 /// A design without a stable equilibrium fails every requirement on its modes and outputs. If a design lacks a response
 /// for another reason (the mode does not oscillate, the range has no critical value, the design cannot exist), it
-/// counts as neither meeting nor failing a requirement on it, unless another requirement decides.
+/// counts as neither meeting nor failing a requirement on it, unless another requirement decides. A requirement on a
+/// response that no design has is refused where its probability is asked for ([`Requirements::probabilities`]).
 pub struct Requirements<'a> {
     wanted: Vec<Requirement>,
     responses: Responses<'a>,
@@ -33,8 +34,9 @@ impl<'a> Requirements<'a> {
     /// Requirements on designs that vary by `tolerances` about the nominal one.
     ///
     /// # Errors
-    /// [`Error::Setting`] for an empty list, an empty band, or a band that excludes nothing; the errors of
-    /// [`Responses::new`]; [`Error::WrongLength`] for tolerances of another mechanism.
+    /// [`Error::Setting`] for an empty list, an empty band, a band that excludes nothing, or an upper limit of a
+    /// frequency or an amplitude that is not positive; the errors of [`Responses::new`]; [`Error::WrongLength`] for
+    /// tolerances of another mechanism.
     pub fn new(
         mechanism: &'a dyn CurvatureKernels,
         nominal: &'a Equilibrium,
@@ -92,6 +94,24 @@ impl<'a> Requirements<'a> {
             place += usize::from(wanted.response().is_some());
         }
         limits
+    }
+
+    /// Whether the nominal design has every response.
+    pub(super) fn nominal_has_all(&self) -> bool {
+        let mut all = self.responses.wanted().iter();
+        all.all(|own| self.responses.missing(*own).is_none())
+    }
+
+    /// The error of a requirement whose response no design has.
+    pub(super) fn untold(&self, requirement: usize) -> Error {
+        let response = self.wanted[requirement].response();
+        let of = &self.responses.nominal().description;
+        let reason = response.and_then(|own| self.responses.missing(own));
+        Error::NoDesignTells {
+            requirement,
+            response: response.map_or_else(String::new, |own| own.name(of)),
+            reason: reason.map(Box::new),
+        }
     }
 
     /// Whether each requirement is met.

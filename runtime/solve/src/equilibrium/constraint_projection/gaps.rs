@@ -1,6 +1,6 @@
 //! The gaps of open loops.
 
-use super::super::convergence::relative_gap;
+use super::super::convergence::relative_gaps;
 use super::super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector};
 
@@ -9,7 +9,8 @@ pub(in crate::equilibrium) struct Gaps {
     pub(in crate::equilibrium) gaps: Vector,
     /// `Phi_q`.
     pub(in crate::equilibrium) rows: Matrix,
-    /// Largest gap relative to what small motions open.
+    /// Each gap relative to what small motions open ([`relative_gaps`]), and the largest.
+    pub(super) each: Vector,
     pub(in crate::equilibrium) relative: f64,
     pub(super) worst: usize,
 }
@@ -24,6 +25,7 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
     let mut found = Gaps {
         gaps: residual[structure.position_rows()].into(),
         rows: Matrix::zeros(structure.position_constraints, x.len()),
+        each: relative_gaps(point, x, &residual, &stiffness),
         relative: 0.0,
         worst: 0,
     };
@@ -34,10 +36,8 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
         if !finite {
             return None;
         }
-        let motions = &x[..structure.coordinates];
-        let relative = relative_gap(found.gaps[k], motions, &found.rows[k]);
-        if relative > found.relative {
-            (found.relative, found.worst) = (relative, k);
+        if found.each[k] > found.relative {
+            (found.relative, found.worst) = (found.each[k], k);
         }
     }
     Some(found)

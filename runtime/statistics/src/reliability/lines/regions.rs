@@ -44,7 +44,8 @@ impl Regions {
         all.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         let nearest = all.first().map_or(NEAR, |own| own.distance);
         let rare = -normal::quantile(0.5 * RARE / variables.len() as f64);
-        let mut expected = all.len();
+        let known = all.len();
+        let mut expected = known;
         all.extend(variables.iter().map(|k| {
             let mut direction = vec![0.0; dimension];
             direction[*k] = 1.0;
@@ -59,7 +60,7 @@ impl Regions {
             let same = |other: &Region| dot(&other.direction, &own.direction).abs() > SAME;
             if !apart.iter().any(same) {
                 apart.push(own);
-            } else if k < expected {
+            } else if k < known {
                 expected -= 1;
             }
         }
@@ -165,5 +166,8 @@ mod tests {
         let regions = Regions::new(2, &[0, 1], &[toward(3.0), toward(2.0)]);
         assert_eq!((regions.count(), regions.expected()), (2, 1));
         assert_eq!(regions.all[0].distance, 2.0);
+        let all = [3.0, 2.0, 4.0, 5.0].map(toward);
+        let regions = Regions::new(2, &[0, 1], &all);
+        assert_eq!((regions.count(), regions.expected()), (2, 1));
     }
 }

@@ -1,0 +1,70 @@
+//! Why a response does not exist.
+
+use super::{Response, Responses};
+use crate::forced;
+use crate::kernels::Kernels;
+use crate::peaks;
+use crate::sweep::{Condition, Following, critical_state, first_crossing};
+use crate::{Error, Output};
+
+impl Responses<'_> {
+    /// Why the nominal design lacks a response; `None` if it has it.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn missing(&self, response: Response) -> Option<Error> {
+        let (mechanism, at) = (self.mechanism(), self.nominal());
+        let (values, start) = ((&*at.inputs, &*at.design), &at.coordinates);
+        let d = &at.description;
+        let name = |output: Output| d.outputs[output.index()].name.clone();
+        match response {
+            Response::Mode { mode, quantity } => {
+                let own = self.modes().modes.get(mode)?;
+                let lambda = own.lambda;
+                let still = quantity.of(own).is_none();
+                still.then_some(Error::NotOscillating { mode, lambda })
+            }
+            Response::Output(output) => {
+                let kernels: &dyn Kernels = mechanism;
+                let found = kernels.outputs(&at.coordinates, &at.inputs, &at.design);
+                let finite = found.get(output.index())?.is_finite();
+                (!finite).then(|| Error::InfiniteOutput {
+                    output: name(output),
+                    coordinates: at.coordinates.to_vec(),
+                })
+            }
+            Response::Vibration(vibration) => match forced::response(mechanism, at) {
+                Ok(found) => (vibration.of(&found).is_none()).then(|| Error::NotSmooth {
+                    output: name(vibration.output),
+                }),
+                Err(error) => Some(error),
+            },
+            Response::Peak {
+                vibration,
+                range,
+                quantity,
+            } => peaks::highest(mechanism, values, start, (vibration, range, quantity)).err(),
+            Response::Critical(range) => {
+                critical_state(mechanism, values.0, values.1, start, range).err()
+            }
+            Response::Crossing {
+                mode,
+                condition,
+                range,
+            } => {
+                let (following, what) = (Following::default(), (mode, condition));
+                match first_crossing(mechanism, values, start, following, range, what) {
+                    Ok(Some(_)) => None,
+                    Ok(None) => Some(range.without(met(condition), d)),
+                    Err(error) => Some(error),
+                }
+            }
+        }
+    }
+}
+
+fn met(of: Condition) -> &'static str {
+    match of {
+        Condition::Line(_) => "crossing",
+        Condition::FlutterOnset => "onset of flutter",
+    }
+}

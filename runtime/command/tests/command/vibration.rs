@@ -1,0 +1,225 @@
+//! Forced vibration: what its requirements, options and tables refuse or say.
+
+use std::path::Path;
+
+use crate::program::{answer, file, folder, run};
+
+/// A rotor that an unbalance shakes, a length and an angle.
+fn rotor(folder: &Path) -> String {
+    let text = "mechanism Rotor {
+        input omega: rad/s; design k = 100 kN/m +/- 5%; design c = 60 N*s/m +/- 20%;
+        body frame: massless; body hub: massless;
+        body disk: cylinder(mass: 10 kg, radius: 0.1 m, length: 0.02 m, axis: z);
+        joint x: prismatic(x) from ground to frame;
+        joint tilt: revolute(y) from frame to hub;
+        joint turn: revolute(z) from hub to disk at [0, 0, 0.1 m], driven at omega;
+        force across: spring(on: x, stiffness: k); force back: spring(on: tilt, stiffness: k * 0.05 m^2);
+        force oil: damper(on: x, damping: c); force air: damper(on: tilt, damping: c * 0.05 m^2);
+        unbalance u: on disk, amount: 20 g*mm;
+        output shake = x; output lean = tilt; }";
+    file(folder, "rotor.mechanism", text)
+}
+
+/// A response that no design has is no probability of zero: the reason is that of the response itself.
+#[test]
+fn a_requirement_whose_response_no_design_has_is_refused() {
+    let file = rotor(&folder("untold"));
+    let reason = "excitation `u` has the frequency zero";
+    let response = run(&["response", &file]);
+    assert!(response.err.contains(reason), "{}", response.err);
+    for (wanted, reason) in [
+        ("vibration shake under u <= 1 mm", reason),
+        (
+            "critical omega=1..5rad/s >= 2 rad/s",
+            "no critical value in the range 1 to 5 rad/s",
+        ),
+        (
+            "flutter 1 omega=1..5rad/s >= 2 rad/s",
+            "no onset of flutter in the range",
+        ),
+        (
+            "resonance 1 omega=1..5rad/s >= 2 rad/s",
+            "no crossing in the range",
+        ),
+        (
+            "peak shake along omega=1..5rad/s >= 2 rad/s",
+            "no peak in the range",
+        ),
+    ] {
+        // Only samples: lines would take many searches.
+        let few = ["--tol", "k=one of [99, 101] kN/m", "--samples", "64"];
+        let found = run(&[&["probability", &file, "--require", wanted], &few[..]].concat());
+        assert_eq!(
+            (found.code, &*found.out),
+            (1, ""),
+            "{wanted}: {}",
+            found.err
+        );
+        assert!(
+            found.err.contains("requirement 1 cannot be judged"),
+            "{}",
+            found.err
+        );
+        assert!(found.err.contains(reason), "{wanted}: {}", found.err);
+    }
+    let found = run(&[
+        "probability",
+        &file,
+        "--require",
+        "vibration shake under u <= 1 mm",
+    ]);
+    assert!(
+        found.code == 1 && found.err.contains(reason),
+        "{}",
+        found.err
+    );
+    let moving = ["probability", &file, "--tol", "omega=1rad/s"];
+    let wanted = ["--require", "vibration shake under u <= 1 mm"];
+    let text = answer(&[&moving[..], &wanted].concat());
+    assert!(!text.contains("lack the response"), "{text}");
+}
+
+#[test]
+fn an_upper_limit_of_a_size_is_positive() {
+    let file = rotor(&folder("sizes"));
+    let at = ["probability", &file, "--set", "omega=50rad/s", "--require"];
+    for wanted in [
+        "vibration shake under u <= 0 mm",
+        "vibration shake under u <= -1 mm",
+        "vibration shake along omega=20..200rad/s <= 0 mm",
+        "vibration shake outside -1..0 mm",
+        "frequency 1 <= 0 Hz",
+    ] {
+        let found = run(&[&at[..], &[wanted]].concat());
+        if wanted.contains("outside") {
+            assert_eq!(found.code, 0, "{}", found.err);
+            continue;
+        }
+        assert_eq!(
+            (found.code, &*found.out),
+            (2, ""),
+            "{wanted}: {}",
+            found.err
+        );
+        assert!(found.err.contains("must be positive"), "{}", found.err);
+    }
+    answer(&[&at[..], &["vibration shake within 0..1 mm"]].concat());
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    let file = rotor(&folder("options"));
+    let sweep = ["--sweep", "omega=20..200rad/s"];
+    for (more, word) in [
+        (&["--peaks"][..], "no input to sweep is given for `--peaks`"),
+        (
+            &["--points", "5"],
+            "no input to sweep is given for `--points`",
+        ),
+        (
+            &["--bands", "--checked", "5"],
+            "no input to sweep is given for `--checked`",
+        ),
+        (&["--of", "shake"], "--bands|--peaks|--figure"),
+        (&["--samples", "9"], "--bands"),
+        (
+            &[sweep[0], sweep[1], "--peaks", "--points", "5"],
+            "--points",
+        ),
+        (
+            &[sweep[0], sweep[1], "--set", "omega=9rad/s"],
+            "has no effect",
+        ),
+    ] {
+        let found = run(&[&["response", &file][..], more].concat());
+        assert_eq!(
+            (found.code, &*found.out),
+            (2, ""),
+            "{more:?}: {}",
+            found.err
+        );
+        assert!(found.err.contains(word), "{more:?}: {}", found.err);
+    }
+    let report = run(&["report", &file, "--points", "5"]);
+    assert!(
+        report.code == 2 && report.err.contains("`--points`"),
+        "{}",
+        report.err
+    );
+}
+
+/// Peaks of all vibrations are one table, which names the vibration of each.
+#[test]
+fn peaks_name_their_vibration() {
+    let file = rotor(&folder("peaks"));
+    let at = [
+        "response",
+        &file,
+        "--sweep",
+        "omega=20..200rad/s",
+        "--peaks",
+    ];
+    let operating = ["--operating", "omega=110..120rad/s"];
+    let table = answer(&[&at[..], &["--csv"]].concat());
+    let rows: Vec<&str> = table.lines().collect();
+    assert!(rows[0].starts_with("vibration,omega [rad/s]") && rows[0].contains("unit,height,"));
+    for (vibration, unit) in [("shake under u", "m"), ("lean under u", "rad")] {
+        let own = |row: &&&str| row.starts_with(vibration) && row.contains(&format!(",{unit},"));
+        assert!(rows.iter().any(|row| own(&row)), "{table}");
+    }
+    for (more, start) in [
+        (&["--table", "derivatives"][..], "vibration,peak,"),
+        (
+            &["--result", "separation", operating[0], operating[1]],
+            "vibration,omega",
+        ),
+    ] {
+        let table = answer(&[&at[..], &["--csv"], more].concat());
+        assert!(
+            table.starts_with(start) && table.contains("lean under u"),
+            "{table}"
+        );
+    }
+    let json = answer(&[&at[..], &["--json"]].concat());
+    assert!(json.contains("shake under u") && json.contains("lean under u"));
+    let text = answer(&[&at[..], &operating].concat());
+    assert!(
+        text.contains("separation margins of lean under u"),
+        "{text}"
+    );
+}
+
+/// The length of a vector has no derivative where it is zero: the error names the output.
+#[test]
+fn an_output_without_a_derivative_is_named() {
+    let folder = folder("unsmooth");
+    let text = std::fs::read_to_string(rotor(&folder)).unwrap();
+    let text = text.replace(
+        "output lean",
+        "point p: hub; output far = norm(position(p)); output lean",
+    );
+    let file = file(&folder, "unsmooth.mechanism", &text);
+    let sweep = ["--sweep", "omega=20..200rad/s"];
+    for more in [
+        &["--set", "omega=50rad/s"][..],
+        &["--set", "omega=50rad/s", "--bands"],
+        &[sweep[0], sweep[1], "--peaks", "--of", "shake"],
+    ] {
+        let found = run(&[&["response", &file][..], more].concat());
+        assert_eq!(found.code, 1, "{more:?}: {}", found.err);
+        assert!(
+            found
+                .err
+                .contains("output `far` has a value here but no derivative"),
+            "{}",
+            found.err
+        );
+    }
+    let at = ["probability", &file, "--set", "omega=50rad/s", "--require"];
+    let far = run(&[&at[..], &["vibration far <= 1 mm"]].concat());
+    assert!(
+        far.code == 1 && far.err.contains("output `far` has a value"),
+        "{}",
+        far.err
+    );
+}
