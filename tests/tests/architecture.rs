@@ -111,7 +111,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         3_100,
     ),
     ("macros/symbolic", &[], 3_800),
-    ("macros/language", &["eigentol-symbolic"], 17_150),
+    ("macros/language", &["eigentol-symbolic"], 17_300),
     (
         "macros/compiler",
         &["eigentol-language", "eigentol-symbolic"],
