@@ -66,7 +66,7 @@ const STATISTICS_NOT_WRITTEN: [(&str, &str); 21] = [
     ("TensorWalk", "borrows its grid"),
 ];
 
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+pub(super) fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
