@@ -8,8 +8,8 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, notes_on_beams, poses, properties, require_determinate_motion,
-    require_harmonic, require_steady_state, requirements,
+    Unsteady, free_directions, notes_on_beams, notes_on_planes, poses, properties,
+    require_determinate_motion, require_harmonic, require_steady_state, requirements,
 };
 use super::equations::{Equations, excited};
 use super::functions::{Functions, Limits, Role, Unknown};
@@ -106,7 +106,8 @@ fn derived(
     let equations = Equations::new(g, &context);
     let jacobians = Jacobians::new(g, &context, &equations);
     let undetermined = require_determinate_motion(g, &context, &jacobians)?;
-    let free = free_directions(g, &context, &equations, &jacobians)?;
+    let mut free = free_directions(g, &context, &equations, &jacobians)?;
+    free.notes.extend(notes_on_planes(g, &context));
     let properties = properties(g, &context, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, &context);
     let excitations = Excitations::new(g, &context, &responses, &turning);

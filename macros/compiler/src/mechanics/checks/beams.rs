@@ -1,6 +1,10 @@
 //! What is worth knowing about beams that are right.
 
+use crate::algebra::{ExprId, Graph, Vector3};
 use crate::base::ids::BodyId;
+use crate::mechanics::equations::carried;
+use crate::mechanics::motion::in_common_frame;
+use crate::mechanics::setup::{Context, at_rest, vanish};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Beam, Frame, Mechanism};
 
@@ -22,12 +26,49 @@ pub(crate) fn notes_on_beams(mechanism: &Mechanism) -> Vec<String> {
                 beam.whole
             ));
         }
-        for own in carried(mechanism, beam) {
+        for own in welded_to(mechanism, beam) {
             notes.push(format!(
                 "`{}` is fixed to `{}` and does not spin with its material; what does is held by a joint driven at the same speed",
                 mechanism.bodies[own.index()].name,
                 beam.whole
             ));
+        }
+    }
+    notes
+}
+
+/// Notes on beams that carry a load where they have no coordinates to bend: at their root it has a moment there.
+pub(crate) fn notes_on_planes(g: &mut Graph, context: &Context) -> Vec<String> {
+    let mechanism = context.mechanism;
+    let is_rigid = |beam: &Beam, k: usize| beam.coordinates[k].is_empty();
+    if !mechanism
+        .beams
+        .iter()
+        .any(|beam| is_rigid(beam, 1) || is_rigid(beam, 2))
+    {
+        return Vec::new();
+    }
+    let running = &context.symbols.running.values;
+    let kinematics = in_common_frame(g, context, running);
+    let carried = carried(g, context, running, &kinematics);
+    let mut notes = Vec::new();
+    for beam in &mechanism.beams {
+        let axes = kinematics.of(beam.body).frame.orientation.axes.transpose();
+        let moment: Vector3 = axes.apply(g, carried[beam.body.index()].moment);
+        let about: Vec<ExprId> = beam.axes[1..]
+            .iter()
+            .map(|axis| context.values.vector(g, axis).dot(g, moment))
+            .collect();
+        let about = at_rest(g, context.symbols, &about);
+        let is_zero = vanish(g, context, &about);
+        for (k, name) in [(1, "bending_y"), (2, "bending_z")] {
+            let note = format!(
+                "`{}` stays straight where a load would bend it: it has no coordinates of `{name}`",
+                beam.whole
+            );
+            if is_rigid(beam, k) && !is_zero[k - 1] && !notes.contains(&note) {
+                notes.push(note);
+            }
         }
     }
     notes
@@ -48,7 +89,7 @@ fn has(beam: &Beam, body: BodyId) -> bool {
 }
 
 /// Bodies with a mass that are welded to a beam that spins.
-fn carried(mechanism: &Mechanism, beam: &Beam) -> Vec<BodyId> {
+fn welded_to(mechanism: &Mechanism, beam: &Beam) -> Vec<BodyId> {
     let welds = mechanism
         .joints
         .iter()

@@ -15,7 +15,7 @@ mod properties;
 mod requirements;
 mod steady_state;
 
-pub(super) use beams::notes_on_beams;
+pub(super) use beams::{notes_on_beams, notes_on_planes};
 pub(super) use determinacy::require_determinate_motion;
 pub(super) use freedom::free_directions;
 pub(super) use harmonic::{Turning, require_harmonic};

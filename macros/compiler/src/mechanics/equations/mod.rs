@@ -7,6 +7,6 @@ mod residual;
 mod steady_equations;
 
 pub(super) use excited::{Response, excited};
-pub(super) use outputs::outputs;
+pub(super) use outputs::{carried, outputs};
 pub(super) use residual::Residual;
 pub(super) use steady_equations::Equations;

@@ -73,7 +73,7 @@ impl State for Everything<'_> {
 
 /// What each body and everything that it carries takes to move as it does, beyond the forces on them: about its origin and
 /// in the common frame, by body id.
-fn carried(
+pub(crate) fn carried(
     g: &mut Graph,
     context: &Context,
     running: &[ExprId],
