@@ -130,10 +130,11 @@ fn pivots(entries: &[Expr]) -> Vec<(usize, Expr)> {
     let mut rest = entries.to_vec();
     let mut list = Vec::new();
     for k in 0..6 {
-        let row = rest[6 * k..6 * k + 6].to_vec();
-        if row.iter().all(|own| *own == Expr::Number(0.0)) {
+        let given = &entries[6 * k..6 * k + 6];
+        if given.iter().all(|own| *own == Expr::Number(0.0)) {
             continue;
         }
+        let row = rest[6 * k..6 * k + 6].to_vec();
         let pivot = row[k].clone();
         for i in k + 1..6 {
             let share = divide(row[i].clone(), pivot.clone());
