@@ -3,7 +3,7 @@
 #[path = "agreement/refusals.rs"]
 mod refusals;
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use eigentol_oracle::agreement::{Reference, assert_agrees};
 use eigentol_oracle::declaration::declaration;
@@ -138,20 +138,43 @@ fn rounding_is_no_disagreement() {
     });
 }
 
-/// The oracle with a small error in one entry of one returned array.
+/// The oracle with a small error in one entry of one returned array. What it said before is read from a record.
 struct Faulty<'a> {
-    oracle: Oracle<'a>,
+    oracle: &'a Oracle<'a>,
+    /// The arrays of each call.
+    record: &'a RefCell<Vec<Vec<Vec<f64>>>>,
     /// Index of the array, counted over all calls.
     target: usize,
-    call: Cell<usize>,
+    calls: Cell<usize>,
+    arrays: Cell<usize>,
     touched: Cell<bool>,
 }
 
-impl Faulty<'_> {
-    fn spoil(&self, mut array: Vec<f64>) -> Vec<f64> {
-        let call = self.call.get();
-        self.call.set(call + 1);
-        if call == self.target {
+impl<'a> Faulty<'a> {
+    fn new(oracle: &'a Oracle<'a>, record: &'a RefCell<Vec<Vec<Vec<f64>>>>, target: usize) -> Self {
+        Self {
+            oracle,
+            record,
+            target,
+            calls: Cell::new(0),
+            arrays: Cell::new(0),
+            touched: Cell::new(false),
+        }
+    }
+
+    fn answer(&self, evaluate: impl FnOnce() -> Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        let call = self.calls.replace(self.calls.get() + 1);
+        let mut record = self.record.borrow_mut();
+        if call == record.len() {
+            record.push(evaluate());
+        }
+        let mut arrays = record[call].clone();
+        arrays.iter_mut().for_each(|array| self.spoil(array));
+        arrays
+    }
+
+    fn spoil(&self, array: &mut [f64]) {
+        if self.arrays.replace(self.arrays.get() + 1) == self.target {
             // The largest entry of the array: small ones may be noise.
             let size = |i: &usize| array[*i].abs();
             let entry = (0..array.len()).max_by(|i, j| size(i).total_cmp(&size(j)));
@@ -160,92 +183,109 @@ impl Faulty<'_> {
                 self.touched.set(true);
             }
         }
+    }
+
+    fn one(&self, evaluate: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
+        let [array] = self.some(|| [evaluate()]);
         array
     }
 
-    fn spoil_linear(&self, linear: Linear<f64>) -> Linear<f64> {
-        Linear {
-            mass: self.spoil(linear.mass),
-            damping: self.spoil(linear.damping),
-            stiffness: self.spoil(linear.stiffness),
-        }
+    fn some<const N: usize>(&self, evaluate: impl FnOnce() -> [Vec<f64>; N]) -> [Vec<f64>; N] {
+        let arrays = self.answer(|| evaluate().into());
+        arrays.try_into().expect("as many as there were")
     }
 
-    fn spoil_all(&self, list: Vec<Linear<f64>>) -> Vec<Linear<f64>> {
-        list.into_iter()
-            .map(|linear| self.spoil_linear(linear))
-            .collect()
+    fn matrices(&self, evaluate: impl FnOnce() -> Linear<f64>) -> Linear<f64> {
+        joined(self.some(|| split(evaluate())))
+    }
+}
+
+fn split(linear: Linear<f64>) -> [Vec<f64>; 3] {
+    [linear.mass, linear.damping, linear.stiffness]
+}
+
+fn joined([mass, damping, stiffness]: [Vec<f64>; 3]) -> Linear<f64> {
+    Linear {
+        mass,
+        damping,
+        stiffness,
     }
 }
 
 impl Kernels for Faulty<'_> {
     fn residual(&self, at: At) -> Vec<f64> {
-        self.spoil(Kernels::residual(&self.oracle, at))
+        self.one(|| Kernels::residual(self.oracle, at))
     }
 
     fn residual_parts(&self, at: At) -> [Vec<f64>; 2] {
-        self.oracle.residual_parts(at).map(|part| self.spoil(part))
+        self.some(|| self.oracle.residual_parts(at))
     }
 
     fn motion_residual(&self, acceleration: &[f64], velocity: &[f64], at: At) -> Vec<f64> {
-        self.spoil(Kernels::motion_residual(
-            &self.oracle,
-            acceleration,
-            velocity,
-            at,
-        ))
+        self.one(|| Kernels::motion_residual(self.oracle, acceleration, velocity, at))
     }
 
     fn motion(&self, velocity: &[f64], at: At) -> [Vec<f64>; 2] {
-        Kernels::motion(&self.oracle, velocity, at).map(|part| self.spoil(part))
+        self.some(|| Kernels::motion(self.oracle, velocity, at))
     }
 
     fn residual_and_stiffness(&self, at: At) -> [Vec<f64>; 2] {
-        self.oracle
-            .residual_and_stiffness(at)
-            .map(|part| self.spoil(part))
+        self.some(|| self.oracle.residual_and_stiffness(at))
     }
 
     fn linear(&self, at: At) -> Linear<f64> {
-        self.spoil_linear(Kernels::linear(&self.oracle, at))
+        self.matrices(|| Kernels::linear(self.oracle, at))
     }
 
     fn residual_partials(&self, at: At) -> [Vec<f64>; 2] {
-        Kernels::residual_partials(&self.oracle, at).map(|part| self.spoil(part))
+        self.some(|| Kernels::residual_partials(self.oracle, at))
     }
 
     fn linear_partials(&self, at: At) -> LinearPartials {
-        let partials = Kernels::linear_partials(&self.oracle, at);
+        let mut arrays = self
+            .answer(|| {
+                let partials = Kernels::linear_partials(self.oracle, at);
+                [
+                    partials.by_coordinate,
+                    partials.by_input,
+                    partials.by_design,
+                ]
+                .into_iter()
+                .flatten()
+                .flat_map(split)
+                .collect()
+            })
+            .into_iter();
+        let mut next = || arrays.next().expect("as many as there were");
+        let [by_coordinate, by_input, by_design] = at.map(|arguments| {
+            let one = |_| joined([next(), next(), next()]);
+            (0..arguments.len()).map(one).collect()
+        });
         LinearPartials {
-            by_coordinate: self.spoil_all(partials.by_coordinate),
-            by_input: self.spoil_all(partials.by_input),
-            by_design: self.spoil_all(partials.by_design),
+            by_coordinate,
+            by_input,
+            by_design,
         }
     }
 
     fn linear_along(&self, at: At, along: At) -> Linear<f64> {
-        self.spoil_linear(Kernels::linear_along(&self.oracle, at, along))
+        self.matrices(|| Kernels::linear_along(self.oracle, at, along))
     }
 
     fn mode_gradient(&self, at: At, phi: &[f64], lambda: f64) -> Gradient {
-        self.oracle
-            .mode_gradient(at, phi, lambda)
-            .map(|part| self.spoil(part))
+        self.some(|| self.oracle.mode_gradient(at, phi, lambda))
     }
 
     fn pencil_gradient(&self, at: At, pencil: Pencil) -> Gradient {
-        let gradient = self.oracle.pencil_gradient(at, pencil);
-        gradient.map(|part| self.spoil(part))
+        self.some(|| self.oracle.pencil_gradient(at, pencil))
     }
 
     fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient {
-        self.oracle
-            .residual_gradient(at, w)
-            .map(|part| self.spoil(part))
+        self.some(|| self.oracle.residual_gradient(at, w))
     }
 
     fn whirl(&self, at: At, real: &[f64], imaginary: &[f64]) -> Vec<f64> {
-        self.spoil(Kernels::whirl(&self.oracle, at, real, imaginary))
+        self.one(|| Kernels::whirl(self.oracle, at, real, imaginary))
     }
 
     fn mode_gradient_along(
@@ -255,8 +295,7 @@ impl Kernels for Faulty<'_> {
         along: At,
         mode_along: (&[f64], f64),
     ) -> Gradient {
-        let gradient = self.oracle.mode_gradient_along(at, mode, along, mode_along);
-        gradient.map(|part| self.spoil(part))
+        self.some(|| self.oracle.mode_gradient_along(at, mode, along, mode_along))
     }
 
     fn pencil_gradient_along(
@@ -266,14 +305,14 @@ impl Kernels for Faulty<'_> {
         along: At,
         pencil_along: Pencil,
     ) -> Gradient {
-        let oracle = &self.oracle;
-        let gradient = oracle.pencil_gradient_along(at, pencil, along, pencil_along);
-        gradient.map(|part| self.spoil(part))
+        self.some(|| {
+            let oracle = self.oracle;
+            oracle.pencil_gradient_along(at, pencil, along, pencil_along)
+        })
     }
 
     fn residual_gradient_along(&self, at: At, w: &[f64], along: At, dw: &[f64]) -> Gradient {
-        let gradient = self.oracle.residual_gradient_along(at, w, along, dw);
-        gradient.map(|part| self.spoil(part))
+        self.some(|| self.oracle.residual_gradient_along(at, w, along, dw))
     }
 }
 
@@ -299,15 +338,10 @@ fn every_fault_is_found_on(bodies: usize) {
     };
     let model = plan.model();
     let reference = Reference::new(&model, 5);
+    let (oracle, record) = (Oracle::new(&model), RefCell::default());
     let mut found = 0;
     for target in 0.. {
-        let oracle = Oracle::new(&model);
-        let faulty = Faulty {
-            oracle,
-            target,
-            call: Cell::new(0),
-            touched: Cell::new(false),
-        };
+        let faulty = Faulty::new(&oracle, &record, target);
         let report = reference.compare(&faulty);
         assert_eq!(
             report.is_err(),
@@ -315,7 +349,7 @@ fn every_fault_is_found_on(bodies: usize) {
             "array {target}: {report:?}"
         );
         found += usize::from(report.is_err());
-        if target >= faulty.call.get() {
+        if target >= faulty.arrays.get() {
             break;
         }
     }
@@ -332,13 +366,8 @@ fn a_report_names_the_kernel_the_entry_and_the_declaration() {
         seed: 11,
     };
     let model = plan.model();
-    let oracle = Oracle::new(&model);
-    let faulty = Faulty {
-        oracle,
-        target: 0,
-        call: Cell::new(0),
-        touched: Cell::new(false),
-    };
+    let (oracle, record) = (Oracle::new(&model), RefCell::default());
+    let faulty = Faulty::new(&oracle, &record, 0);
     let report = Reference::new(&model, 5)
         .compare(&faulty)
         .expect_err("a fault");

@@ -48,14 +48,24 @@ fn sampled(
     monte_carlo(&deviating, &at, &modes, &tolerances, &sampling).unwrap()
 }
 
-/// Far above the critical speed, 3.836 rad/s, and near it, where samples hang or have left the vertical.
 #[test]
 fn monte_carlo_matches_quadrature() {
+    samples_match_quadrature(15_000);
+}
+
+#[test]
+#[ignore = "ten seconds"]
+fn much_monte_carlo_matches_quadrature() {
+    samples_match_quadrature(60_000);
+}
+
+/// Far above the critical speed, 3.836 rad/s, and near it, where samples hang or have left the vertical.
+fn samples_match_quadrature(samples: usize) {
     let best = Some(Instructions::best());
     for (speed, sigma) in [(6.0, 0.2), (5.0, 0.1), (4.0, 0.1), (3.836, 0.02)] {
         let (mean, deviation) = moments(speed, sigma, frequency);
         for (machine, vectors) in [(&Pendulum as &dyn BatchKernels, None), (&Single, best)] {
-            let run = sampled(machine, speed, sigma, vectors, 60_000);
+            let run = sampled(machine, speed, sigma, vectors, samples);
             assert_eq!(run.counts.stable, run.samples);
             assert_eq!(run.side_by_side, vectors.is_some() && speed >= 5.0);
             let found = run.modes[0].as_ref().unwrap();
@@ -68,9 +78,10 @@ fn monte_carlo_matches_quadrature() {
                 .unwrap()
                 .iter()
                 .map(|one| one.frequencies[0].unwrap());
-            let fourth = own.map(|x| (x - found.mean).powi(4)).sum::<f64>() / 60_000.0;
+            let count = samples as f64;
+            let fourth = own.map(|x| (x - found.mean).powi(4)).sum::<f64>() / count;
             let spread = found.sigma.unwrap();
-            let error = ((fourth - spread.powi(4)) / 60_000.0).sqrt() / (2.0 * spread);
+            let error = ((fourth - spread.powi(4)) / count).sqrt() / (2.0 * spread);
             assert!(
                 (spread - deviation).abs() < 4.0 * error,
                 "{speed}: sigma {spread} is not {deviation} within {error}"

@@ -5,12 +5,12 @@ use eigentol::forced::{Measure, response};
 use eigentol::peaks::{HalfPower, Moving, Peaks, peaks};
 use eigentol::response::Vibration;
 use eigentol::sweep::Range;
-use eigentol::{Any, Error, Excitation, Forcing, Input, Output, Policy, Real, Shared, Tolerances};
+use eigentol::{Any, Error, Excitation, Input, Output, Policy, Tolerances};
+use eigentol_interpreter::Interpreted;
 
-use super::models::{Jeffcott, Shaken, described, excitation, output};
+use super::models::{Jeffcott, Shaken};
 use super::truth::{near, numbers, truth};
-use crate::common::derived::{Derived, Excited, Model};
-use crate::common::{NUMBER, SPEED, coordinate, design, input, sizes};
+use crate::common::derived::Derived;
 
 fn vibration(o: usize) -> Vibration {
     Vibration::new(Output::<Any>::new(o), Excitation::<Any>::new(0))
@@ -107,84 +107,34 @@ fn an_undamped_mode_has_no_highest_amplitude() {
 
 /// Seven masses in a row between walls, with a force on the first; one spring and one mass differ, so that two pairs of
 /// frequencies are close. Outputs: the first and the last position.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Row;
-
-impl Model for Row {
-    sizes!(7, 1, 3, 2, 1);
-
-    const DESCRIPTION: eigentol::Description = described!(
-        "Row",
-        [
-            coordinate("a", NUMBER),
-            coordinate("b", NUMBER),
-            coordinate("c", NUMBER),
-            coordinate("d", NUMBER),
-            coordinate("e", NUMBER),
-            coordinate("f", NUMBER),
-            coordinate("g", NUMBER),
-        ],
-        [input("w", SPEED)],
-        [
-            design("damping", NUMBER, 0.02, 0.0),
-            design("link", NUMBER, 3.0, 0.0),
-            design("mass", NUMBER, 1.1, 0.0),
-        ],
-        [output("first", NUMBER), output("last", NUMBER)],
-        [excitation("force", 0)],
+fn row() -> Interpreted {
+    let mut text = String::from(
+        "mechanism Row { input w: rad/s;
+         design damping = 0.02 N*s/m; design link = 3 N/m; design mass = 1.1 kg;
+         point p0: ground; point p8: ground at [8 m, 0, 0];
+         force push: harmonic(at: p1, force: [1, 0, 0] N, frequency: w);
+         output first = x1; output last = x7;",
     );
-
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 7],
-        _: &[T; 7],
-        _: &[T; 7],
-        _: &[T; 1],
-        b: &[T; 3],
-    ) -> [T; 7] {
-        let mut own = *a;
-        own[6] = b[2] * own[6];
-        own
+    for k in 1..8 {
+        let mass = if k == 7 { "mass" } else { "1 kg" };
+        text += &format!(
+            "body m{k}: point(mass: {mass}); point p{k}: m{k};
+             joint x{k}: prismatic(x) from ground to m{k} at [{k} m, 0, 0];"
+        );
     }
-
-    fn applied<T: Real>(&self, v: &[T; 7], q: &[T; 7], _: &[T; 1], b: &[T; 3]) -> [T; 7] {
-        let mut sum = [T::constant(0.0); 7];
-        for k in 0..8_usize {
-            let stiffness = if k == 4 { b[1] } else { T::constant(100.0) };
-            let at = |x: &[T; 7], i: usize| if i < 7 { x[i] } else { T::constant(0.0) };
-            let (i, j) = (k.wrapping_sub(1), k);
-            let force = stiffness * (at(q, j) - at(q, i)) + b[0] * (at(v, j) - at(v, i));
-            if i < 7 {
-                sum[i] = sum[i] + force;
-            }
-            if j < 7 {
-                sum[j] = sum[j] - force;
-            }
-        }
-        sum
+    for k in 0..8 {
+        let stiffness = if k == 4 { "link" } else { "100 N/m" };
+        text += &format!(
+            "force s{k}: spring_damper(from: p{k}, to: p{}, stiffness: {stiffness}, damping: damping, length: 1 m);",
+            k + 1
+        );
     }
-
-    fn outputs<T: Real>(&self, q: &[T; 7], _: &[T; 1], _: &[T; 3]) -> [T; 2] {
-        [q[0], q[6]]
-    }
-
-    fn forcing<T: Real>(&self, _: &[T; 7], u: &[T; 1], _: &[T; 3]) -> Excited<Self, T> {
-        let none = T::constant(0.0);
-        let mut cosine = [none; 7];
-        cosine[0] = T::constant(1.0);
-        Forcing {
-            cosine: [cosine],
-            frequency: [u[0]],
-            direct_cosine: [[none; 2]],
-            sine: [[none; 7]],
-            direct_sine: [[none; 2]],
-        }
-    }
+    Interpreted::from_text(&(text + "}")).unwrap()
 }
 
 #[test]
 fn the_poles_decide_how_many_peaks_there_are() {
-    let model = Derived(Row);
+    let model = row();
     for (damping, grid) in [(1e-5, 0), (0.02, 8_000), (1.0, 1_000), (8.0, 500)] {
         let design = [damping, 3.0, 1.1];
         for (o, measure) in [(0, Measure::Displacement), (1, Measure::Velocity)] {

@@ -149,6 +149,7 @@ impl Turns {
 }
 
 /// Six coordinates of a `free` joint, and their derivatives by the coordinates of the joint it replaces.
+#[derive(Clone)]
 pub(crate) struct Embedding {
     pub(crate) turns: Turns,
     pub(crate) value: [f64; 6],
