@@ -61,6 +61,22 @@ fn one_coordinate() {
     assert!((heavy[0].re + 1e-9).abs() < 1e-24 && (heavy[1].re + 1e9).abs() < 1e-6);
 }
 
+/// Four roots of size 2, of three coordinates that nothing couples.
+#[test]
+fn roots_of_one_size_are_in_order_of_their_parts() {
+    let diagonal = |d: [f64; 3]| Matrix::from_fn(3, 3, |i, j| if i == j { d[i] } else { 0.0 });
+    let mass = diagonal([1.0; 3]);
+    let stiffness = diagonal([4.0, 4.0, -4.0]);
+    let roots = solved(&linear(mass, diagonal([0.8, 2.4, 0.0]), stiffness));
+    let expected = [
+        Complex64::new(-2.0, 0.0),
+        Complex64::new(2.0, 0.0),
+        Complex64::new(-1.2, 1.6),
+        Complex64::new(-0.4, 3.84_f64.sqrt()),
+    ];
+    close(&values(&roots), &expected, 1e-14);
+}
+
 /// With `C = a M + b K` each mode keeps its shape and has `s^2 + (a + b lambda) s + lambda = 0`.
 #[test]
 fn proportional_damping() {
