@@ -218,7 +218,7 @@ fn branches_are_kept_as_far_as_they_came() {
         "pub mechanism Chain {\n input omega: rad/s;\n gravity 9.81 m/s^2 along -z;\n body b0: massless;\n\
          joint spin: revolute(z) from ground to b0, driven at omega;\n",
     );
-    for k in 1..=16 {
+    for k in 1..=32 {
         let place = if k == 1 { "" } else { " at [0, 0, -1 m]" };
         chain += &format!(
             " body b{k}: rod(mass: 1 kg, length: 1 m, along: -z);\n joint q{k}: revolute(y) from b{} to b{k}{place};\n",
