@@ -55,7 +55,7 @@ fn monte_carlo_matches_quadrature() {
 
 #[test]
 #[ignore = "ten seconds"]
-fn much_monte_carlo_matches_quadrature() {
+fn monte_carlo_of_many_samples_matches_quadrature() {
     samples_match_quadrature(60_000);
 }
 
