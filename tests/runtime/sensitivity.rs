@@ -8,6 +8,7 @@ use crate::common::close;
 use crate::common::derived::Derived;
 use crate::common::models::{Pair, Plate, Spring};
 use crate::common::pendulum::{Pendulum, W};
+use crate::common::priced::{Priced, Source};
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{DirectionalKernels, MotionKernels};
 use eigentol::modes::{modes, undamped_modes};
@@ -21,7 +22,7 @@ use eigentol::sensitivity::{
 use eigentol::shapes::shape_sensitivity;
 use eigentol::sweep::{Range, critical_state, crossings};
 use eigentol::sweep::{critical_sensitivity, crossing_sensitivity};
-use eigentol::{Error, Family, Input, Policy, Vector};
+use eigentol::{DampingKind, Error, Family, Input, Policy, Vector};
 
 const BAR: [f64; 2] = [3.0, 1.0];
 
@@ -94,10 +95,37 @@ fn frozen_equilibrium_is_minus_half_of_the_truth_above() {
     assert!(frozen.to_string().contains("NOT"));
 }
 
+const BARS: [f64; 4] = [0.8, 1.1, 2.5, 3.7];
+
+/// Partial derivatives of the matrices, of the residual alone, or reverse differentiation: [`chains_match_references`]
+/// proves one of them.
+#[test]
+fn every_source_of_gradients_follows_the_equilibrium() {
+    let expected = all_ways(&DOUBLE, &[3.2], &BARS, &[1.0; 2]);
+    for damping in [DampingKind::Zero, DampingKind::General] {
+        for from in [Source::Partials, Source::ResidualPartials, Source::Reverse] {
+            let machine = Priced {
+                machine: &DOUBLE,
+                from,
+                damping,
+            };
+            let at = equilibrium(&machine, &[3.2], &BARS, &[1.0; 2], Policy::Stable).unwrap();
+            let rates = sensitivities(&machine, &at, &modes(&at).unwrap()).unwrap();
+            for (mode, (by_input, by_design)) in rates.modes.iter().zip(&expected) {
+                let slopes = mode.frequency().unwrap();
+                let actual = slopes.by_input.iter().chain(&slopes.by_design);
+                for (actual, expected) in actual.zip(by_input.iter().chain(by_design)) {
+                    close(*actual, *expected, 1e-11);
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn chains_match_references() {
     // From 50-digit arithmetic (mpmath): d omega / d (lengths, masses), including the equilibrium shift.
-    let double = all_ways(&DOUBLE, &[3.2], &[0.8, 1.1, 2.5, 3.7], &[1.0; 2]);
+    let double = all_ways(&DOUBLE, &[3.2], &BARS, &[1.0; 2]);
     let expected = [
         [
             1.588_094_273_217_023_7,
@@ -193,7 +221,7 @@ fn critical_speed_and_crossing_move_with_the_length() {
         1e-10,
     );
 
-    let bars = [0.8, 1.1, 2.5, 3.7];
+    let bars = BARS;
     let value = |b: &[f64; 4]| critical_state(&DOUBLE, &[0.0], b, &[1.0; 2], range).unwrap();
     let exact = critical_sensitivity(&DOUBLE, &value(&bars)).unwrap();
     for j in 0..4 {
@@ -330,7 +358,7 @@ fn clustered_modes_are_flagged() {
 #[test]
 fn accelerations_solve_the_equation_of_motion() {
     let (q, v) = ([0.4, -0.9], [1.5, -2.5]);
-    let (u, b) = ([2.0], [0.8, 1.1, 2.5, 3.7]);
+    let (u, b) = ([2.0], BARS);
     let a = accelerations(&DOUBLE, &v, &q, &u, &b).unwrap();
     let rest = (&DOUBLE as &dyn MotionKernels).motion_residual(&a, &v, &q, &u, &b);
     assert!(rest.iter().all(|value| value.abs() < 1e-12));

@@ -27,6 +27,7 @@ pub mod derived;
 pub mod dual;
 pub mod models;
 pub mod pendulum;
+pub mod priced;
 
 use eigentol::response::Response;
 use eigentol::{
